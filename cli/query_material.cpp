@@ -12,6 +12,7 @@
 #include "materials/interface/film_thickness.h"
 #include "materials/interface/fresnel.h"
 #include "materials/interface/prism.h"
+#include "materials/interface/surface_index.h"
 #include "sampling/angle.h"
 
 namespace abbe::cli {
@@ -112,14 +113,10 @@ struct ReflectedFromAir {
   FresnelPower<double> power;
   FilmReflection<double> amplitudes;
 };
-// Light comes from what the catalogued index is relative to; to a coated surface from air, as its layers may
-// be catalogued against another.
 ReflectedFromAir reflect_from_air(const RefractiveIndex& index, const Coating& coating, double nm,
                                   double angle_deg) {
   const double cos_i = angle_deg == 90 ? 0 : std::cos(angle_deg * kDegree);
-  const bool bare = coating.layers.empty();
-  const double n = bare ? index.catalogued_n(nm) : index.n(nm);
-  const double k = bare ? index.catalogued_k(nm) : index.k(nm);
+  const auto [n, k] = surface_index(index, coating, nm);
   return {coated_power(coating, nm, n, k, cos_i, false), coated_reflection(coating, nm, n, k, cos_i, false)};
 }
 

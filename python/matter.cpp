@@ -9,6 +9,7 @@
 #include "materials/interface/coating.h"
 #include "materials/interface/film_thickness.h"
 #include "materials/interface/prism.h"
+#include "materials/interface/surface_index.h"
 #include "python/arrays.h"
 #include "python/errors.h"
 #include "python/query.h"
@@ -86,14 +87,12 @@ py::tuple reflectance(const std::string& name, const Numbers& wavelengths_nm, co
   Numbers rp = alike(nm);
   double* const s = rs.mutable_data();
   double* const p = rp.mutable_data();
-  const bool bare = coating.layers.empty();
   {
     const py::gil_scoped_release released;
     for (std::size_t i = 0; i < all(nm).size(); ++i) {
       const double at = all(nm)[i];
       const double cos_i = all(angle)[i] == 90 ? 0 : std::cos(all(angle)[i] * kDegree);
-      const double n = bare ? matter.index.catalogued_n(at) : matter.index.n(at);
-      const double k = bare ? matter.index.catalogued_k(at) : matter.index.k(at);
+      const auto [n, k] = surface_index(matter.index, coating, at);
       const FresnelPower<double> power = coated_power(coating, at, n, k, cos_i, false);
       s[i] = power.Rs;
       p[i] = power.Rp;

@@ -177,7 +177,7 @@ class Pass {
   std::vector<Stage> stages_;
   std::uint32_t items_ = 0;  // of all stages
   bool sample_by_sample_;
-  std::optional<std::uint32_t> left_by_;  // the sample of the pass whose paths from lights have left one of
+  std::optional<std::uint32_t> left_by_;  // the sample of the pass whose paths from lights have left these:
   std::optional<PhotonCloud> cloud_;
   LightPaths light_paths_;
   std::uint64_t photons_;

@@ -74,7 +74,8 @@ void step_over(int, siginfo_t* info, void* context) {
   auto& machine = static_cast<ucontext_t*>(context)->uc_mcontext;
   record(static_cast<const std::uint8_t*>(info->si_addr), info->si_code);
   set_traps(*machine.fpregs, false);
-  if (++steps < kMostSteps && ++steps_of_all < kMostStepsOfAll) machine.gregs[REG_EFL] |= static_cast<greg_t>(kSingleStep);
+  if (++steps < kMostSteps && ++steps_of_all < kMostStepsOfAll)
+    machine.gregs[REG_EFL] |= static_cast<greg_t>(kSingleStep);
 }
 
 void watch_again(int, siginfo_t*, void* context) {
