@@ -82,21 +82,31 @@ constexpr std::array<Kind, 7> kKinds{{{kMaterial, index_names},
                                       {kFilter, names_in<kFilter>},
                                       {kObserver, names_in<kObserver>}}};
 
-// Adds where each material of a list holds and who measured it, as lists beside their names.
+// Adds where n and k of each material of a list hold and who measured them, as lists beside their names; null
+// where no k is measured.
 void describe_matter(Json& answer, const std::string& kind) {
   Diagnostics diagnostics;
   for (const auto& name : Json(answer[kind])) {
     const NamedIndex matter = accepted(load_index(name, {}, diagnostics), diagnostics);
+    const auto& k = matter.index.k_range();
     answer["low_nm"].push_back(matter.index.low_nm());
     answer["high_nm"].push_back(matter.index.high_nm());
+    answer["k_low_nm"].push_back(k ? Json(k->low_nm) : Json());
+    answer["k_high_nm"].push_back(k ? Json(k->high_nm) : Json());
     answer["source"].push_back(matter.source);
   }
 }
 
-// The same of one of them, for reading; a tab ends the name.
+// The same of one of them, for reading; a tab ends the name. The range of k is told where it is not that of
+// n.
 std::string described(const Json& answer, std::size_t i) {
-  return fmt::format("\t{:g}-{:g} nm\t{}", answer["low_nm"][i].get<double>(),
-                     answer["high_nm"][i].get<double>(), answer["source"][i].get_ref<const std::string&>());
+  const auto range = [&](const char* low, const char* high) {
+    return fmt::format("{:g}-{:g} nm", answer[low][i].get<double>(), answer[high][i].get<double>());
+  };
+  const std::string n = range("low_nm", "high_nm");
+  const std::string k = answer["k_low_nm"][i].is_null() ? "unknown" : range("k_low_nm", "k_high_nm");
+  return fmt::format("\t{}{}\t{}", n, k == n ? "" : fmt::format(" (k {})", k),
+                     answer["source"][i].get_ref<const std::string&>());
 }
 
 int judge_camera(const std::vector<Channel>& channels, bool json) {

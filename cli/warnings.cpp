@@ -46,7 +46,7 @@ std::optional<std::string> held_index(const Scene& scene, const RayTree& tree, d
   for (const RayBranch& branch : tree.branches)
     for (const TraceEvent& event : branch.trace.events) {
       if (!event.passage) continue;
-      const Material& material = scene.materials[scene.shapes[event.shape].material];
+      const Material& material = material_of(scene, event.shape);
       if (auto held = held_index(material, wavelength_nm)) return held;
     }
   return std::nullopt;

@@ -19,7 +19,7 @@ constexpr double kWider = 1.02;          // than the rim found at some points an
 constexpr double kInwards = 0.99;        // of cosines, likewise
 constexpr double kLeastForward = 0.052;  // cosine of 87 degrees
 constexpr int kPlanes = 65;              // that the disc in front may lie in
-constexpr int kBisections = 6;           // towards where light ends between two points of the image
+constexpr int kEdgeBisections = 6;       // towards where light ends between two points of the image
 
 // The pupil as a point of the image sees it, at all wavelengths; no points where no light comes.
 struct SeenFrom {
@@ -57,7 +57,7 @@ class Findings {
     V2d lit = a.is_lit() ? a.image : b.image;
     V2d dark = a.is_lit() ? b.image : a.image;
     std::vector<SeenFrom> rim;
-    for (int i = 0; i < kBisections; ++i) {
+    for (int i = 0; i < kEdgeBisections; ++i) {
       SeenFrom middle = seen_from((lit + dark) / 2);
       (middle.is_lit() ? lit : dark) = middle.image;
       if (middle.is_lit()) rim = {std::move(middle)};

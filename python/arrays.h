@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <span>
 #include <string>
 #include <utility>
@@ -16,6 +17,12 @@ using Numbers = pybind11::array_t<double, pybind11::array::c_style | pybind11::a
 
 [[nodiscard]] inline std::span<const double> all(const Numbers& numbers) {
   return {numbers.data(), static_cast<std::size_t>(numbers.size())};
+}
+
+/// A number, or None for one that is not finite, as errors are until they are measured.
+[[nodiscard]] inline pybind11::object known(double value) {
+  return std::isfinite(value) ? pybind11::object(pybind11::float_(value))
+                              : pybind11::object(pybind11::none());
 }
 
 /// A new array of the shape of another.

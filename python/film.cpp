@@ -1,7 +1,6 @@
 #include "python/film.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -15,6 +14,7 @@
 #include "io/picture.h"
 #include "io/text.h"
 #include "python/arguments.h"
+#include "python/arrays.h"
 #include "python/errors.h"
 #include "python/picture.h"
 #include "sensor/film/film_planes.h"
@@ -135,11 +135,6 @@ FilmHandle merge_films(const py::sequence& films, bool partial) {
   RenderPart sum = empty_part(whole);
   for (const Given& one : all) one.add_to(sum);
   return FilmHandle(std::move(sum));
-}
-
-// Errors are infinite until they are measured, which costs a pilot that only `error` and `progress` ask for.
-py::object known(double error) {
-  return std::isfinite(error) ? py::object(py::float_(error)) : py::object(py::none());
 }
 
 py::object stats(const FilmHandle& film) {

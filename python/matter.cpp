@@ -56,6 +56,9 @@ py::dict material(const std::string& name) {
   told["medium"] = matter.index.medium() == IndexMedium::vacuum ? "vacuum" : "air";
   told["low_nm"] = matter.index.low_nm();
   told["high_nm"] = matter.index.high_nm();
+  const auto& k = matter.index.k_range();
+  told["k_low_nm"] = k ? py::object(py::float_(k->low_nm)) : py::none();
+  told["k_high_nm"] = k ? py::object(py::float_(k->high_nm)) : py::none();
   return told;
 }
 
@@ -133,7 +136,8 @@ void add_matter(py::module_& module) {
   module.def(
       "material", material, py::arg("name"),
       "Returns a dict of what is known of a material: its full name, the source of its data, the medium its "
-      "index is relative to, and the wavelengths between which it holds.");
+      "index is relative to, and the wavelengths between which n (`low_nm`, `high_nm`) and k (`k_low_nm`, "
+      "`k_high_nm`, None where no k is measured) hold.");
   module.def(
       "reflectance", reflectance, py::arg("name"), py::arg("wavelengths_nm"), py::arg("angle_deg") = 0.0,
       py::arg("coating") = std::vector<std::pair<std::string, double>>(),

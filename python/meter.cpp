@@ -1,4 +1,3 @@
-#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -12,6 +11,7 @@
 #include "film/measure_meter.h"
 #include "film/rendered_film.h"
 #include "python/arguments.h"
+#include "python/arrays.h"
 #include "python/errors.h"
 #include "python/job.h"
 #include "python/json.h"
@@ -29,10 +29,6 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 double error_of(const Film::Average& value) {
   return value.degrees_of_freedom > 0 ? value.standard_error : kUnknown;
-}
-
-py::object known(double value) {
-  return std::isfinite(value) ? py::object(py::float_(value)) : py::object(py::none());
 }
 
 py::dict figure(const Film::Average& value, const char* unit) {

@@ -11,10 +11,6 @@
 namespace abbe {
 namespace {
 
-const Material& material_of(const Scene& scene, std::uint32_t shape) {
-  return scene.materials[scene.shapes[shape].material];
-}
-
 bool is_sheet(const Material& material) {
   return !opaque(material) && !encloses_medium(material);
 }

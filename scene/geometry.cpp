@@ -281,9 +281,7 @@ bool Geometry::wall_within_rounding(const Scene& scene, const SurfaceHit& hit, c
   const auto start = static_cast<double>(hit.spread + 1.25F * offset_length(hit.point));  // rounding too
   const auto near = static_cast<double>(hit.spread + 2 * offset_length(hit.point));
   const double reach = 32 * near;
-  const auto wall = [&](const SurfaceHit& met) {
-    return opaque(scene.materials[scene.shapes[met.shape].material]);
-  };
+  const auto wall = [&](const SurfaceHit& met) { return opaque(material_of(scene, met.shape)); };
   const auto near_wall = [&](const SurfaceHit& met) {
     const Imath::V3d facing(met.normal);
     const bool parallel = std::abs(facing.dot(normal)) > TouchingSurfaces::kParallel;

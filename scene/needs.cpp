@@ -24,10 +24,6 @@ namespace {
 // less than one in 250 directions.
 constexpr double kSmallLight_sr = 0.05;
 
-const Material& material_of(const Scene& scene, const ShapeInstance& instance) {
-  return scene.materials[instance.material];
-}
-
 constexpr std::array<NeedName, 15> kNeeds{{
     {"dispersion", &Needs::dispersion, "a refractive index varies with wavelength"},
     {"media", &Needs::media, "matter absorbs along the path"},
@@ -70,7 +66,7 @@ const ShapeInstance* nested_shape(const Scene& scene) {
   // In a scene so full that the most pairs do not tell, matter is taken to touch somewhere.
   std::vector<Boxed> all;
   for (const ShapeInstance& instance : scene.shapes) {
-    const Material& material = material_of(scene, instance);
+    const Material& material = scene.materials[instance.material];
     if (depends_on_outside(material) || is_boundary(material))
       all.push_back({bounds(instance.shape), &instance, interior(material) != nullptr});
   }
@@ -95,7 +91,7 @@ void analyse_matter(const Scene& scene, Needs& needs) {
   const ShapeInstance* specular = nullptr;
   bool scattering = false;
   for (const ShapeInstance& instance : scene.shapes) {
-    const Material& material = material_of(scene, instance);
+    const Material& material = scene.materials[instance.material];
     const RefractiveIndex* inside = interior(material);
     require(needs, &Needs::dispersion, is_dispersive(material), "shape", instance.name);
     const Medium* filling = medium(material);

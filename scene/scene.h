@@ -256,4 +256,9 @@ struct ExactHit {
 [[nodiscard]] std::optional<ExactHit> intersect_exact(const Scene& scene, const BasicRay<double>& ray,
                                                       double t_min);
 
+/// The material of a shape of the scene, by its number.
+[[nodiscard]] inline const Material& material_of(const Scene& scene, std::uint32_t shape) {
+  return scene.materials[scene.shapes[shape].material];
+}
+
 }  // namespace abbe

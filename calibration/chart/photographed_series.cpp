@@ -155,7 +155,7 @@ struct Code {
 };
 
 // The mean of a patch and its standard error; an end of the scale where a pixel has reached it.
-Code code_of(const PatchChannel& patch, const Scale& scale) {
+Code patch_code(const PatchChannel& patch, const Scale& scale) {
   const double range = scale.full - scale.black;
   if (patch.lowest <= scale.black) return {0, 0};
   if (patch.highest >= scale.full) return {1, 0};
@@ -200,7 +200,7 @@ void add(const Image& image, const std::optional<RawScale>& told, const std::vec
   const std::vector<PatchValues> patches = measure_patches(image, planes, outlines);
   for (std::size_t i = 0; i < patches.size(); ++i)
     for (std::size_t k = 0; k < patches[i].channels.size(); ++k) {
-      const Code code = code_of(patches[i].channels[k], scale);
+      const Code code = patch_code(patches[i].channels[k], scale);
       all.series[k].codes[i].push_back(code.value);
       all.series[k].deviations[i].push_back(code.deviation);
     }

@@ -238,7 +238,7 @@ def ior(name: str, wavelengths_nm: ArrayLike) -> typing.Any:
 
 
 def material(name: str) -> dict:
-    """Returns a dict of what is known of a material: its full name, the source of its data, the medium its index is relative to, and the wavelengths between which it holds."""
+    """Returns a dict of what is known of a material: its full name, the source of its data, the medium its index is relative to, and the wavelengths between which n (`low_nm`, `high_nm`) and k (`k_low_nm`, `k_high_nm`, None where no k is measured) hold."""
 
 
 def measure(scene: Scene, film: Film, reference: Film | None = None) -> list:

@@ -249,7 +249,8 @@ TEST(Locale, ChangesNothing) {
   ASSERT_EQ(shell(german + "bash -c 'printf %.1f 1,5'").out, "1,5");
   for (const std::string arguments :
        {"query ior N-BK7 --at 486.1327,587.5618 --json", "query color --illuminant D65 --observer 1931",
-        "query delta-e 50,2.6772,-79.7751 50,0,-82.7485", "calibrate --camera Nikon_D5100 --json"}) {
+        "query delta-e 50,2.6772,-79.7751 50,0,-82.7485",
+        "calibrate --camera Nikon_D5100 --objective XYZ --json"}) {
     const Outcome plain = abbe(arguments);
     ASSERT_EQ(plain.code, 0) << plain.err;
     EXPECT_EQ(shell(german + ABBE_BINARY + " " + arguments).out, plain.out);
@@ -260,7 +261,7 @@ TEST(Locale, ChangesNothing) {
                               " --quiet --threads 1 --set /render/samples=2.0e1 --set /sensor/exposure_s=1.5 "
                               "-o film.exr --display a.png "
                               "--checkpoint sums.abbepart --stats stats.json; " ABBE_BINARY
-                              " calibrate --camera Nikon_D5100 -o nikon >/dev/null");
+                              " calibrate --camera Nikon_D5100 --objective XYZ -o nikon >/dev/null");
     EXPECT_EQ(run.code, 0) << run.err;
     return to;
   };

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -89,6 +90,23 @@ TEST(QueryIor, ExtinctionThatIsNotMeasuredIsUnknownAndForbidsNoIndex) {
   options.json = false;
   EXPECT_EQ(cli::query_ior(options), 0);
   EXPECT_NE(testing::internal::GetCapturedStdout().find("k  -\n"), std::string::npos);
+}
+
+TEST(QueryList, TellsWhereExtinctionsAreMeasured) {
+  const json told = json_output(cli::query_list, {"material"});
+  const auto place = [&](const char* name) {
+    return static_cast<std::size_t>(std::ranges::find(told["material"], name) - told["material"].begin());
+  };
+  EXPECT_EQ(told["low_nm"][place("N-LASF31A")], 250);
+  EXPECT_EQ(told["k_low_nm"][place("N-LASF31A")], 334);
+  EXPECT_EQ(told["k_high_nm"][place("N-LASF31A")], 2500);
+  EXPECT_TRUE(told["k_low_nm"][place("water")].is_null());
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(cli::query_list({"material"}), 0);
+  const std::string listed = testing::internal::GetCapturedStdout();
+  EXPECT_NE(listed.find("\nN-LASF31A\t250-2500 nm (k 334-2500 nm)\t"), std::string::npos);
+  EXPECT_NE(listed.find("\nwater\t"), std::string::npos);
+  EXPECT_NE(listed.find(" nm (k unknown)\t"), std::string::npos);
 }
 
 TEST(QueryReflectance, WhereItHangsOnAnExtinctionThatIsNotMeasuredIsAnError) {

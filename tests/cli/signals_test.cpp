@@ -6,6 +6,7 @@
 #include "io/picture.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
+#include "tests/tier.h"
 
 // Signals while a render loads, runs and writes.
 
@@ -38,12 +39,13 @@ TEST(Signals, NohupIsHeard) {
   EXPECT_EQ(run.code, 0) << run.err;
 }
 
-// The pass over this film takes a thread a second or more, and its checkpoint is there before. A SIGHUP is no
-// next signal.
+// The pass over this film takes a thread half a second or more, and its checkpoint is there before. A SIGHUP
+// is no next signal.
 TEST(Signals, ALongPassIsSavedAtOnceAndTheNextSignalKills) {
   const std::string film = file("long.exr");
   const std::string saved = file("long.abbepart");
-  const std::string options = "--spp 2 --threads 1 --set /sensor/resolution=[1500,1000] -o " + film;
+  const std::string options = std::string("--spp 2 --threads 1 --set /sensor/resolution=") +
+                              (nightly() ? "[1500,1000]" : "[750,500]") + " -o " + film;
   const Outcome run =
       shell(started(options + " --checkpoint " + saved) + until("[ -e " + file(".long.exr.lock") + " ]") +
             "kill -TERM $pid" + until("[ -e " + saved + " ]") +
@@ -83,14 +85,15 @@ TEST(Signals, WhileAMeshLoadsLeaveNothing) {
 }
 
 TEST(Signals, WhileOutputsAreWrittenLoseNone) {
+  const int width = nightly() ? 1200 : 600;
   const std::string film = file("written.exr");
   const std::string picture = file("written.png");
-  const Outcome run =
-      shell(started("--spp 1 --set /sensor/resolution=[1200,800] -o " + film + " --display " + picture) +
-            "; until [ -e " + film + " ]; do :; done; kill -TERM $pid; wait $pid");
+  const Outcome run = shell(started(fmt::format("--spp 1 --set /sensor/resolution=[{},{}] -o {} --display {}",
+                                                width, width * 2 / 3, film, picture)) +
+                            "; until [ -e " + film + " ]; do :; done; kill -TERM $pid; wait $pid");
   EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_EQ(read_exr(film).width, 1200);
-  EXPECT_EQ(read_picture(picture).width, 1200);
+  EXPECT_EQ(read_exr(film).width, width);
+  EXPECT_EQ(read_picture(picture).width, width);
 }
 
 }  // namespace

@@ -15,6 +15,8 @@ contains() {  # WHAT TEXT PART
   [[ $2 == *"$3"* ]] || fail "$1 (got \"$2\", wanted \"$3\" in it)"
 }
 
+nightly() { [ -n "${ABBE_NIGHTLY:-}" ]; }  # whether there is time for all
+
 install_to() {
   cmake --install "$ABBE_BUILD" --prefix "$1" >"$scratch/install.log" || fail "cmake --install: $(tail -5 "$scratch/install.log")"
 }

@@ -16,8 +16,9 @@ while read -r sources; do
 done < <(sed -n 's/^COPY //p' <<<"$dockerfile")
 contains "what the image leaves behind" "$(last RUN)" "apt-get clean && rm -rf /var/lib/apt/lists/*"
 packages=$(grep -v '^#' .ci/packages)
-known=$(apt-cache show --no-all-versions $packages 2>/dev/null | sed -n 's/^Package: //p')
-equal "packages that Debian has not" "$(comm -23 <(sort <<<"$packages") <(sort <<<"$known") | paste -sd ' ')" ""
+absent=$(comm -23 <(sort <<<"$packages") <(dpkg-query -W -f='${Package}\n' | sort -u))  # those here are Debian's: to ask for all takes seconds
+known=$([ -z "$absent" ] || apt-cache show --no-all-versions $absent 2>/dev/null | sed -n 's/^Package: //p')
+equal "packages that Debian has not" "$(comm -23 <(printf '%s' "$absent") <(sort <<<"$known") | paste -sd ' ')" ""
 
 /usr/bin/python3 -B tests/install/manifest.py containers/job.yaml "${user%:*}" "$(last WORKDIR)" "$scratch"
 sed -n 's/^RUN \(--mount=[^ ]* \)*//p' <<<"$dockerfile" >"$scratch/run"

@@ -1,4 +1,5 @@
-# The package of Python: beside the program, in a Debian package of its own, and as pip installs it without a network; each of them renders.
+# The package of Python: beside the program, at night also in a Debian package of its own and as pip installs it without a network; each of them
+# renders.
 . "$(dirname "$0")/check.sh"
 [ -d "$ABBE_BUILD/python" ] || { echo "no package for Python in this build"; exit 77; }
 version=$(sed -n 's/^version: //p' "$ABBE_SOURCE/CITATION.cff")
@@ -19,6 +20,7 @@ install_to "$scratch/first"
 mv "$scratch/first" "$scratch/abbe"
 PYTHONPATH=$scratch/abbe/lib/python3/dist-packages works /usr/bin/python3 "$scratch/abbe/lib/python3/dist-packages"
 mv "$scratch/film.exr" "$scratch/first.exr"
+nightly || exit 0
 
 (cd "$ABBE_BUILD" && cpack -G DEB -B "$scratch" >"$scratch/cpack.log" 2>&1) || fail "cpack: $(tail -5 "$scratch/cpack.log")"
 package=$scratch/python3-abbe_${version}_amd64.deb

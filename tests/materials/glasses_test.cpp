@@ -9,6 +9,7 @@
 #include "io/table.h"
 #include "io/text.h"
 #include "tests/materials/index_of.h"
+#include "tests/tier.h"
 
 namespace abbe {
 namespace {
@@ -26,12 +27,19 @@ std::string name_of(const std::string& name) {
   return glass ? glass->name : "";
 }
 
+// By day every fourth is loaded; the numbers of all are compared below.
+bool is_skipped(std::size_t i) {
+  return !test::nightly() && i % 4 != 0;
+}
+
 TEST(Glasses, AreAllThereAndLoad) {
   const std::vector<std::string> names = glass_names();
   EXPECT_EQ(names.size(), 1634U);
   EXPECT_TRUE(std::is_sorted(names.begin(), names.end()));
   EXPECT_EQ(std::adjacent_find(names.begin(), names.end()), names.end());
-  for (const std::string& name : names) {
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::string& name = names[i];
+    if (is_skipped(i)) continue;
     EXPECT_EQ(name_of(name), name);
     EXPECT_LT(index_of(name).low_nm(), kMaxWavelengthNm) << name;
   }

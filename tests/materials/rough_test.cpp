@@ -10,6 +10,7 @@
 #include "materials/interface/fresnel.h"
 #include "tests/materials/bsdf_examples.h"
 #include "tests/materials/facet_shapes.h"
+#include "tests/tier.h"
 
 namespace abbe {
 namespace {
@@ -57,11 +58,12 @@ const auto kCosines = {1.0, 0.8, 0.5, 0.2, 0.05, 3e-3};
 
 TEST(RoughConductor, PerfectMirrorLosesNothing) {
   double worst = 0;
+  const int events = test::nightly() ? 1 << 15 : 1 << 13;
   for (const auto& facets : furnace_facets()) {
     const RoughConductorMaterial mirror("mirror", RefractiveIndex(0, 1), facets);
     const Bsdf bsdf = mirror.bsdf({packet()});
     for (const double cos : kCosines) {
-      const double albedo = leaving(bsdf, direction_at(cos, 0.5 + cos), 0, all);
+      const double albedo = leaving(bsdf, direction_at(cos, 0.5 + cos), 0, all, events);
       worst = std::max(worst, std::abs(albedo - 1));
       EXPECT_NEAR(albedo, 1, 5e-3) << facets.alpha_x << " " << facets.alpha_y << " cos " << cos;
     }
@@ -69,10 +71,17 @@ TEST(RoughConductor, PerfectMirrorLosesNothing) {
   std::printf("largest error of a mirror %.2g\n", worst);
 }
 
+// By day each of the facets has one of the indices, in turn.
+std::vector<float> indices_for(std::size_t facets) {
+  const std::vector<float> all{1.33F, 1.5F, 2.4F, 0.7F};
+  return test::nightly() ? all : std::vector{all[facets % all.size()]};
+}
+
 TEST(RoughDielectric, LosslessMatterLosesNothing) {
   double worst = 0;
+  std::size_t count = 0;
   for (const auto& facets : furnace_facets())
-    for (const float n : {1.33F, 1.5F, 2.4F, 0.7F}) {
+    for (const float n : indices_for(count++)) {
       const RoughInterface surface(facets, n, n);
       const Bsdf bsdf = RoughDielectricBsdf{SampledSpectrum(n), &surface};
       for (const double cos : {1.0, 0.6, 0.15, -1.0, -0.7, -0.3, -0.02}) {

@@ -10,6 +10,7 @@
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
 #include "tests/preview/tev_listener.h"
+#include "tests/tier.h"
 
 // A render that is watched while it runs.
 
@@ -111,7 +112,7 @@ TEST(Preview, AtTheEndPixelsAreTheFilms) {
        {R"({"resolution":[24,16],"observer":"1931"})",
         R"({"resolution":[24,16],"exposure_s":0.01,"spectral":{"from_nm":400,"to_nm":700,"step_nm":50}})"}) {
     const std::string path = file("end.exr");
-    Watched render("--time 1s --set '/sensor=" + sensor + "' -o " + path);
+    Watched render("--time 0.3s --set '/sensor=" + sensor + "' -o " + path);
     const Json state = render.wait_for([](const Json& told) { return told["ended"] == true; });
     ASSERT_FALSE(state.is_null()) << "the render said nothing of its end";
     EXPECT_EQ(state["error_samples_per_pixel"], state["samples_per_pixel"]);
@@ -131,7 +132,8 @@ TEST(Preview, AtTheEndPixelsAreTheFilms) {
 }
 
 TEST(Preview, WatchingChangesNoBit) {
-  const std::string options = "--spp 3000 --set /sensor/resolution=[48,32] -o ";
+  const std::string options =
+      std::string(nightly() ? "--spp 3000" : "--spp 1200") + " --set /sensor/resolution=[48,32] -o ";
   ASSERT_EQ(abbe("render " + ball() + " --quiet " + options + file("alone.exr")).code, 0);
   Watched render(options + file("watched.exr"));
   int pictures = 0;
@@ -179,7 +181,7 @@ TEST(Tev, IsShownTheFilmThatIsWritten) {
   TevListener viewer;
   const std::string port = std::to_string(viewer.address().port);
   const Outcome run =
-      abbe("render " + ball() + " --quiet --time 1s -o " + file("tev.exr") + " --tev " + port);
+      abbe("render " + ball() + " --quiet --time 0.3s -o " + file("tev.exr") + " --tev " + port);
   EXPECT_EQ(run.code, 0) << run.err;
   viewer.wait();
   const Image film = read_exr(file("tev.exr"));

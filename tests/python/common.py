@@ -8,6 +8,12 @@ import unittest
 DATA = pathlib.Path(os.environ["ABBE_DATA"])
 SCENES = DATA / "scenes"
 CORNELL = SCENES / "cornell.json"
+NIGHTLY = "ABBE_NIGHTLY" in os.environ  # whether there is time to do more
+
+
+def cornell_sensor(edge):
+    """The Cornell box's sensor with so many pixels each way, which sees the same."""
+    return {"resolution": [edge, edge], "pixel_pitch_um": 97.65625 * 256 / edge, "observer": "1931"}
 
 
 def box(**keys):

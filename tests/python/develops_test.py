@@ -6,7 +6,7 @@ import numpy
 import OpenImageIO
 
 import abbe
-from common import DATA, SCENES, Test, box
+from common import DATA, NIGHTLY, SCENES, Test, box
 
 CHART = SCENES / "validation" / "colorchecker.json"
 
@@ -120,7 +120,8 @@ class Develops(Test):
 
     def test_curves_of_a_camera_are_what_they_are_said_to_be(self):
         quantum = abbe.calibrate("Nikon_D5100", "A", camera_response="quantum")["dE00_mean"]
-        self.assertNotAlmostEqual(quantum, abbe.calibrate("Nikon_D5100", "A")["dE00_mean"], 3)
+        if NIGHTLY:
+            self.assertNotAlmostEqual(quantum, abbe.calibrate("Nikon_D5100", "A")["dE00_mean"], 3)
         told = json.loads(self.command("calibrate", "--camera", "Nikon_D5100", "--camera-response", "quantum", "--illuminant", "A", "--json"))
         self.assertEqual(quantum, told["dE00_mean"])
 
@@ -148,7 +149,7 @@ class Develops(Test):
     def test_real_cameras_are_calibrated_as_by_the_command(self):
         measured, series = self.write_photographs_of_gamma_2()
         how = {"chart": "colorchecker24_ohta1997", "measured": measured, "series": series}
-        for correction in ("matrix", "root-polynomial-2", "auto"):
+        for correction in ("matrix", "root-polynomial-2", "auto") if NIGHTLY else ("matrix",):
             made = abbe.calibrate(illuminant="A", correction=correction, **how)
             told = json.loads(self.command("calibrate", "--illuminant", "A", "--chart", how["chart"], "--measured", measured, "--series", series,
                                            "--correction", correction, "--json"))
@@ -156,11 +157,12 @@ class Develops(Test):
             self.assertEqual(made["dE00_unseen_mean"], told["unseen_dE00_mean"])
             self.assertEqual(list(made["gains"]), told["gains"])
             self.assertEqual("to_xyz_d65" in made, "to_xyz_d65" in told)
-        matrix = abbe.calibrate(illuminant="A", **how)
+        matrix = abbe.calibrate(illuminant="A", **how) if NIGHTLY else made
         simulated = abbe.calibrate("Nikon_D5100", "A", chart=how["chart"], bits=0)
         numpy.testing.assert_allclose(matrix["dE00_mean"], simulated["dE00_mean"], atol=0.02)
-        trained = abbe.calibrate("Nikon_D5100", "A", training="rawtoaces_190_patches", **how)
-        self.assertGreater(trained["dE00_mean"], matrix["dE00_mean"])
+        if NIGHTLY:
+            trained = abbe.calibrate("Nikon_D5100", "A", training="rawtoaces_190_patches", **how)
+            self.assertGreater(trained["dE00_mean"], matrix["dE00_mean"])
         curves = abbe.recover_response(series)
         self.assertEqual(list(curves), ["R", "G", "B"])
         for channel, curve in curves.items():

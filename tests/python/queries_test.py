@@ -31,6 +31,9 @@ class Queries(Test):
         self.assertTrue(numpy.isnan(first))
         self.assertEqual(second, told["k"][1])
         self.assertTrue(numpy.isnan(abbe.extinction("water", 550)))
+        glass = abbe.material("N-LASF31A")
+        self.assertEqual([glass[key] for key in ("low_nm", "high_nm", "k_low_nm", "k_high_nm")], [250, 2500, 334, 2500])
+        self.assertIsNone(abbe.material("water")["k_low_nm"])
 
     def test_what_coats_water_is_met_from_air(self):
         told = self.query("reflectance", "water", "--at", "550", "--angle", "60", "--coating", "MgF2:100")

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "tests/scenes/scene_fixture.h"
+#include "tests/tier.h"
 #include "transport/path/roulette.h"
 
 namespace abbe {
@@ -12,9 +13,10 @@ namespace {
 // A cubic room of side 4 m, reflectance 0.99 and a lamp of 10 000 lm: E = Phi/96/(1 - rho) in the mean of a
 // wall, of which the first 64 events make 48 %.
 TEST(Depth, AWhiteRoomIsAsBrightAsItsWallsMakeIt) {
-  const Scene scene = test::load("validation/room.json", {{"/materials/wall/diffuse/reflectance", "0.99"},
-                                                          {"/sensor/resolution", "[8, 8]"},
-                                                          {"/render/samples", "1024"}});
+  const Scene scene =
+      test::load("validation/room.json", {{"/materials/wall/diffuse/reflectance", "0.99"},
+                                          {"/sensor/resolution", "[8, 8]"},
+                                          {"/render/samples", test::nightly() ? "1024" : "512"}});
   const RenderResult result = render(scene, {});
   const Film::Average lux = result.film.average(1);
   fmt::print("{:.0f} +- {:.0f} lx\n", lux.mean, lux.standard_error);

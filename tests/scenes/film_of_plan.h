@@ -16,8 +16,7 @@ inline Film film_of(const Scene& scene, const Plan& plan, std::uint64_t samples,
                     std::optional<std::uint64_t> seed = {}) {
   constexpr int kReplicates = 8;
   Film film(scene.camera.width, scene.camera.height, static_cast<int>(scene.film_planes().size()),
-            kReplicates, plan.nominal_value, uses(plan.techniques, Technique::light) ? plan.photons : 0,
-            plan.path_interval);
+            kReplicates, plan.nominal_value, paths_to_any_pixel(plan), plan.path_interval);
   Pass(plan, film, {}, {0, samples}, 0, seed.value_or(samples)).run(2, [] { return false; });
   film.set_samples(count_per_replicate({{0, samples}}, kReplicates));
   return film;

@@ -7,8 +7,10 @@
 #include "materials/interface/fresnel.h"
 #include "scene/camera/lens_optics.h"
 #include "scene/polarisation_need.h"
+#include "tests/scenes/margin.h"
 #include "tests/scenes/polarised_scene.h"
 #include "tests/scenes/scene_fixture.h"
+#include "tests/tier.h"
 
 // Pictures by light that the surfaces of a lens reflect twice, and through lenses that polarise.
 
@@ -37,9 +39,12 @@ constexpr const char* kBrightGhosts = R"({
   "render": {"max_depth": 5}
 })";
 
+// By day of as many photons as suit a film this small.
 Film bright_ghosts(const std::string& integrator, int samples, const std::vector<Override>& more = {}) {
   std::vector<Override> settings{{"/render/integrator", integrator},
                                  {"/render/samples", std::to_string(samples)}};
+  if (!test::nightly() && integrator == "sppm")
+    settings.push_back({"/render/photons", R"({"per_sample": 1024})"});
   settings.insert(settings.end(), more.begin(), more.end());
   RenderResult result = render(test::load_text(kBrightGhosts, settings), {});
   EXPECT_EQ(result.stats.nonfinite_samples, 0U);
@@ -48,20 +53,23 @@ Film bright_ghosts(const std::string& integrator, int samples, const std::vector
 
 // Path tracing connects lights to the lens, the others meet them by rays from the film.
 TEST(Ghosts, AreTheSameByEveryTechnique) {
-  const Film path = bright_ghosts("path", 1024);
-  const Film without = bright_ghosts("path", 256, {{"/camera/lens_system/ghosts", "false"}});
+  const int fewer = test::nightly() ? 1 : 4;  // samples by day
+  const Film path = bright_ghosts("path", 1024 / fewer);
+  const Film without = bright_ghosts("path", 256 / fewer, {{"/camera/lens_system/ghosts", "false"}});
   const test::Comparison of_ghosts = test::compare_regions(path, without, 4);
   std::printf("with over without ghosts: %.4f, largest z %.1f\n", 1 / of_ghosts.ratio, of_ghosts.largest_z);
   EXPECT_GT(of_ghosts.largest_z, 20) << "there is something to agree on";
   for (const auto& [integrator, samples] : {std::pair("bdpt", 1024), {"vcm", 512}}) {
-    const test::Comparison c = test::compare_regions(path, bright_ghosts(integrator, samples), 4);
+    const Film film = bright_ghosts(integrator, samples / fewer);
+    const test::Comparison c = test::compare_regions(path, film, 4);
     std::printf("%s: largest z %.2f, ratio of the means %.5f\n", integrator, c.largest_z, c.ratio);
     EXPECT_LT(c.largest_z, 5.5) << integrator;  // 1e-6 over 3 channels x 16 regions x 2 techniques
-    EXPECT_NEAR(c.ratio, 1, 0.02) << integrator;
+    EXPECT_NEAR(c.ratio, 1, test::ratio_margin(path, film, 0.02, 0.1)) << integrator;
   }
-  const double gathered = test::compare_regions(path, bright_ghosts("sppm", 256), 4).ratio;
-  std::printf("sppm: ratio of the means %.5f\n", gathered);
-  EXPECT_NEAR(gathered, 1, 0.02);
+  const Film gathered = bright_ghosts("sppm", 256 / fewer);
+  const double ratio = test::compare_regions(path, gathered, 4).ratio;
+  std::printf("sppm: ratio of the means %.5f\n", ratio);
+  EXPECT_NEAR(ratio, 1, test::ratio_margin(path, gathered, 0.02, 0.1));
 }
 
 // No path from the camera meets a lamp without size.
@@ -69,11 +77,13 @@ TEST(Ghosts, OfPointsAreTheSameByEveryTechnique) {
   const std::vector<Override> lamp{
       {"/lights",
        R"([{"point": {"at": [0.3, -0.4, 0.5]}, "emission": {"illuminant": "A", "luminous_intensity": 300}}])"}};
-  const Film path = bright_ghosts("path", 256, lamp);
-  for (const auto& [integrator, samples] : {std::pair("bdpt", 256), {"vcm", 256}, {"sppm", 256}}) {
-    const test::Comparison c = test::compare_regions(path, bright_ghosts(integrator, samples, lamp), 4);
+  const int samples = test::nightly() ? 256 : 64;
+  const Film path = bright_ghosts("path", samples, lamp);
+  for (const char* integrator : {"bdpt", "vcm", "sppm"}) {
+    const Film film = bright_ghosts(integrator, samples, lamp);
+    const test::Comparison c = test::compare_regions(path, film, 4);
     std::printf("%s: largest z %.2f, ratio of the means %.5f\n", integrator, c.largest_z, c.ratio);
-    EXPECT_NEAR(c.ratio, 1, 0.02) << integrator;
+    EXPECT_NEAR(c.ratio, 1, test::ratio_margin(path, film, 0.02, 0.1)) << integrator;
   }
   std::vector<Override> without = lamp;
   without.push_back({"/camera/lens_system/ghosts", "false"});
@@ -83,7 +93,7 @@ TEST(Ghosts, OfPointsAreTheSameByEveryTechnique) {
 // On a film so wide that a lens stops some wavelengths of a path and lets others through, by an edge or by
 // total reflection: those it stops bring nothing, polarised or not.
 TEST(Ghosts, StopWavelengthsWithoutHarmToOthers) {
-  const Scene room = test::load_text(R"({"abbe": 1,
+  Scene room = test::load_text(R"({"abbe": 1,
     "camera": {"lens_system": {"prescription": "double_gauss", "focus_distance": 1.0, "ghosts": true},
                "from": [0.05, -0.8, 0.1], "to": [0, 1, -0.3], "up": [0, 0, 1]},
     "sensor": {"resolution": [16, 16], "channels": {"b": {"band": [430, 470]}, "r": {"band": [600, 700]}},
@@ -92,6 +102,7 @@ TEST(Ghosts, StopWavelengthsWithoutHarmToOthers) {
     "shapes": [{"sphere": {"center": [0, 0, 0], "radius": 1.3}, "material": "w"}],
     "lights": [{"sphere": {"center": [0.2, 0, 0.7], "radius": 0.15}, "emission": {"spectrum": 1}}],
     "render": {"integrator": "path", "samples": 1024, "seed": 1}})");
+  if (!test::nightly()) room.render.samples = 256;
   EXPECT_EQ(render(room, {}).stats.nonfinite_samples, 0U);
 }
 
@@ -104,16 +115,18 @@ TEST(Ghosts, OfWhatPhotonsLightAreTheSameByEveryTechnique) {
        R"([{"spot": {"at": [0.6, -0.2, 0.5], "direction": [1, 0, 0], "half_angle_deg": 12}, "emission": {"illuminant": "A", "luminous_intensity": 300}}])"},
       {"/materials/mirror", R"({"mirror": {"reflectance": 1}})"},
       {"/shapes/1", fmt::format(R"({{"quad": {}, "material": "mirror"}})", test::square(at, normal, 0.3))}};
-  const Film light = bright_ghosts("light", 512, mirrored);
+  const int fewer = test::nightly() ? 1 : 2;  // samples by day
+  const Film light = bright_ghosts("light", 512 / fewer, mirrored);
   ASSERT_GT(frame_mean_error(light), 0);
   for (const auto& [integrator, samples] : {std::pair("bdpt", 512), {"vcm", 256}}) {
-    const test::Comparison c = test::compare_regions(light, bright_ghosts(integrator, samples, mirrored), 4);
+    const Film film = bright_ghosts(integrator, samples / fewer, mirrored);
+    const test::Comparison c = test::compare_regions(light, film, 4);
     std::printf("%s: largest z %.2f, ratio of the means %.5f\n", integrator, c.largest_z, c.ratio);
-    EXPECT_NEAR(c.ratio, 1, 0.02) << integrator;
+    EXPECT_NEAR(c.ratio, 1, test::ratio_margin(light, film, 0.02, 0.1)) << integrator;
   }
   std::vector<Override> without = mirrored;
   without.push_back({"/camera/lens_system/ghosts", "false"});
-  EXPECT_GT(test::compare_regions(bright_ghosts("light", 256, without), light, 4).ratio, 1.04);
+  EXPECT_GT(test::compare_regions(bright_ghosts("light", 256 / fewer, without), light, 4).ratio, 1.04);
 }
 
 // A small lamp's light that is reflected within the lens: of the flux through the stop the share that a trace
@@ -129,7 +142,7 @@ TEST(Ghosts, OfALampHaveTheTracedPowerAndPlace) {
     "shapes": [],
     "render": {"integrator": "path", "samples": 64}
   })";
-  const Scene scene = test::load_text(kLamp);
+  const Scene scene = test::load_text(kLamp, {{"/render/samples", test::nightly() ? "64" : "48"}});
   const LensOptics& optics = *std::get<LensSystem>(scene.camera.kind).optics;
   ASSERT_EQ(optics.routes.size(), 2U);
   struct Moments {
@@ -156,15 +169,17 @@ TEST(Ghosts, OfALampHaveTheTracedPowerAndPlace) {
     }
   const auto film_moments = [&](const Film& film) {
     Moments of;
-    for (int y = 0; y < 90; ++y)
-      for (int x = 0; x < 90; ++x) {
-        const V2d at((x + 0.5) * 0.1 - 4.5, (y + 0.5) * 0.1 - 4.5);
-        of.add(film.mean(static_cast<std::size_t>(y * 90 + x), 0), at);
+    for (int y = 0; y < film.height(); ++y)
+      for (int x = 0; x < film.width(); ++x) {
+        const V2d at((x + 0.5 - film.width() / 2.0) * 0.1, (y + 0.5 - film.height() / 2.0) * 0.1);
+        of.add(film.mean(film.pixel_at(x, y), 0), at);
       }
     return of;
   };
   const Moments direct = film_moments(
-      render(test::load_text(kLamp, {{"/camera/lens_system/ghosts", "false"}, {"/render/samples", "1024"}}),
+      render(test::load_text(kLamp, {{"/camera/lens_system/ghosts", "false"},
+                                     {"/render/samples", "1024"},
+                                     {"/sensor/resolution", test::nightly() ? "[90, 90]" : "[30, 30]"}}),
              {})
           .film);
   // What is in the image of the lamp, a disc of .07 mm, is taken out of the picture with ghosts.
@@ -186,7 +201,8 @@ TEST(Ghosts, OfALampHaveTheTracedPowerAndPlace) {
   std::printf("ghost's share: %.5f, traced %.5f; rms %.4f, traced %.4f mm, at %.4f, traced %.4f mm\n",
               ghost.power / direct.power, area_share * traced.power / image.power, ghost.rms(), traced.rms(),
               ghost.height(), -traced.height());
-  EXPECT_NEAR(ghost.power / direct.power / (area_share * traced.power / image.power), 1, 0.02);
+  EXPECT_NEAR(ghost.power / direct.power / (area_share * traced.power / image.power), 1,
+              test::nightly() ? 0.02 : 0.06);
   EXPECT_NEAR(ghost.rms() / traced.rms(), 1, 0.02);
   EXPECT_NEAR(ghost.height(), -traced.height(), 0.02 * traced.rms());
   EXPECT_NEAR(traced.power / image.power, std::pow(1.0 / 9, 2), 1e-3) << "R^2 along the normal";

@@ -6,6 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "tests/scenes/scene_fixture.h"
+#include "tests/tier.h"
 #include "transport/render/part.h"
 #include "transport/render/pass.h"
 
@@ -49,6 +50,12 @@ TEST(Layers, BouncesAreTheTermsOfTheNeumannSeries) {
   }
 }
 
+// By day: as many as suit films this small.
+std::vector<Override> few_photons() {
+  if (test::nightly()) return {};
+  return {{"/render/photons", R"({"per_sample": 512})"}};
+}
+
 struct Told {
   const char* scene;
   const char* integrator;
@@ -66,9 +73,12 @@ const std::vector<Told> kTold{{"cornell.json", "path"},
                               {"validation/room.json", "photon-brute"},
                               {"validation/room.json", "sppm"}};
 Scene small(const Told& told, const char* samples = "8", const char* resolution = "[32, 32]") {
-  return test::load(told.scene, {{"/render/integrator", told.integrator},
+  std::vector<Override> settings{{"/render/integrator", told.integrator},
                                  {"/sensor/resolution", resolution},
-                                 {"/render/samples", samples}});
+                                 {"/render/samples", samples}};
+  const auto photons = few_photons();
+  settings.insert(settings.end(), photons.begin(), photons.end());
+  return test::load(told.scene, settings);
 }
 
 TEST(Layers, AddUpToTheFilmWhichStaysAsItWas) {
@@ -105,7 +115,9 @@ TEST(Layers, AddUpWherePixelsSkipSamples) {
 // The first layers are what a render has whose paths end there, by as many samples as give eight replicates.
 TEST(Layers, BouncesCountWhatMaxDepthCounts) {
   for (const Told& told : kTold) {
-    Scene scene = small(told, "128", "[12, 12]");
+    // By day not of pilots, which take the most time.
+    if (!test::nightly() && std::string(told.integrator) == "auto") continue;
+    Scene scene = small(told, "128", test::nightly() ? "[12, 12]" : "[8, 8]");
     const RenderResult whole = told_apart(scene, bounce_layers(4));
     scene.render.max_depth = 2;
     const RenderResult cut = told_apart(scene, bounce_layers(4));
@@ -145,18 +157,18 @@ std::string lamps(const std::string& which, const char* integrator) {
     "materials": {{"grey": {{"diffuse": {{"reflectance": 0.5}}}}}},
     "shapes": [{{"quad": {{"corner": [-2, -2, 0], "edge_u": [4, 0, 0], "edge_v": [0, 4, 0]}}, "material": "grey"}},
                {{"quad": {{"corner": [-2, 1, 0], "edge_u": [4, 0, 0], "edge_v": [0, 0, 2]}}, "material": "grey"}}],
-    "render": {{"samples": 256, "integrator": "{}"}}}})",
-                     fmt::join(lit, ", "), integrator);
+    "render": {{"samples": {}, "integrator": "{}"}}}})",
+                     fmt::join(lit, ", "), test::nightly() ? 256 : 128, integrator);
 }
 
 TEST(Layers, OfLightsAreWhatEachLightGivesAlone) {
   for (const char* integrator : {"path", "bdpt", "light", "sppm", "adjoint-brute"}) {
-    const Scene all = test::load_text(lamps("", integrator));
+    const Scene all = test::load_text(lamps("", integrator), few_photons());
     const Layers layers = light_layers(all, {});
     EXPECT_EQ(layers.names, (std::vector<std::string>{"light.key", "light.fill_in"}));
     const RenderResult result = told_apart(all, layers);
-    const Film key = render(test::load_text(lamps("key", integrator)), {}).film;
-    const Film fill = render(test::load_text(lamps("fill in", integrator)), {}).film;
+    const Film key = render(test::load_text(lamps("key", integrator), few_photons()), {}).film;
+    const Film fill = render(test::load_text(lamps("fill in", integrator), few_photons()), {}).film;
     for (int channel = 0; channel < 4; ++channel)
       for (int y = 0; y < 24; y += 8) {
         const test::Region layer = test::region(*result.layers, channel, 0, y, 24, y + 8);
@@ -192,7 +204,7 @@ TEST(Layers, LightsShareOneByTheirNameAndNotByWhatFilesMakeOfIt) {
 }
 
 TEST(Layers, TheirBitsDependOnNothingButTheSamples) {
-  for (const Told& told : {kTold[0], kTold[1], kTold[2]}) {
+  for (const Told& told : {kTold[0], kTold[test::nightly() ? 1 : 5], kTold[2]}) {
     const Scene scene = small(told, "12");
     const FilmIdentity identity{{"sensor_channels", fmt::format("{}", fmt::join(scene.film_planes(), ","))},
                                 {kLayersKey, fmt::format("{}", fmt::join(bounce_layers(3).names, ","))}};

@@ -57,6 +57,7 @@ TEST(PolarisedOptics, PilesOfPlatesPolarise) {
                                           {kBrewster, 7},
                                           {kBrewster, 10},
                                           {75.0, 2}}) {
+    if (plates > 4 && !nightly()) continue;  // light goes back and forth between them for long
     std::string shapes;
     for (int k = 0; k < plates; ++k)
       shapes += fmt::format(R"({}{{"quad": {}, "material": "glass"}}, {{"quad": {}, "material": "glass"}})",

@@ -7,6 +7,7 @@
 #include "scene/shapes/basis.h"
 #include "tests/angles.h"
 #include "tests/scenes/scene_fixture.h"
+#include "tests/tier.h"
 
 namespace abbe {
 namespace {
@@ -94,7 +95,7 @@ TEST(Stress, AlphaSweepIsContinuous) {
              {{"quad": {{"corner": [-2, -0.4, -2], "edge_u": [0, 0, 6], "edge_v": [4, 0, 0]}}, "material": "card"}},
              {{"quad": {{"corner": [-2, -2, 4], "edge_u": [2, 0, 0], "edge_v": [0, 4, 0]}}, "material": "card", "emission": {{"spectrum": 5}}, "two_sided": true}}],)",
                                       alpha),
-                          "0, 0, -4", 256),
+                          "0, 0, -4", test::nightly() ? 256 : 96),
                   {})
         .film;
   };

@@ -27,6 +27,12 @@ std::vector<V3f> outgoing() {
     directions.push_back(direction_at(cos_theta, 0.3 + cos_theta));
   return directions;
 }
+// Whether one of the directions of examples in turn is among those of the day: of one example a steep one
+// from above and the flattest from below, of the next the flattest from above and a steep one from below.
+bool looked_at_by_day(int turn) {
+  const int at = turn % 16;
+  return at == 1 || at == 7 || at == 11 || at == 13;
+}
 
 template <typename Variant>
 struct AsTypes;
@@ -83,17 +89,18 @@ void expect_sound(const Bsdf& bsdf, const V3f& wo, const BsdfSample& s, int hero
 // Over a grid of choices, as many are delta events as delta_probability says, to the grid's step at each of
 // the bounds between lobes.
 TYPED_TEST(BsdfLaws, DeltaProbabilityIsTheShareOfDeltaEvents) {
-  constexpr int kChoices = 4096;
-  this->for_all([](const Bsdf& bsdf, const V3f& wo) {
+  const int choices = test::nightly() ? 4096 : 1024;
+  const float step = 1 / static_cast<float>(choices);
+  this->for_all([&](const Bsdf& bsdf, const V3f& wo) {
     const SampledSpectrum told = delta_probability(bsdf, wo);
     for (int hero = 0; hero < kLanes; ++hero) {
       int delta = 0;
-      for (int i = 0; i < kChoices; ++i) {
-        const float lobe = (static_cast<float>(i) + 0.5F) / kChoices;
+      for (int i = 0; i < choices; ++i) {
+        const float lobe = (static_cast<float>(i) + 0.5F) * step;
         const auto s = sample(bsdf, wo, {lobe, {0.3F, 0.6F}}, hero, TransportMode::radiance);
         if (s && s->delta) ++delta;
       }
-      EXPECT_NEAR(told[hero], static_cast<float>(delta) / kChoices, 8.0F / kChoices);
+      EXPECT_NEAR(told[hero], static_cast<float>(delta) * step, 8 * step);
     }
   });
 }
@@ -200,12 +207,13 @@ TYPED_TEST(BsdfLaws, SamplesFollowTheirDensity) {
   // Sidak over the whole suite.
   const double checks = static_cast<double>(AsTypes<Bsdf>::examples_in_all() * outgoing().size());
   const double significance = 1 - std::pow(1 - 0.01, 1 / checks);
+  int turn = 0;
   this->for_all([&](const Bsdf& bsdf, const V3f& wo) {
-    if (!scatters(bsdf)) return;
+    if ((!looked_at_by_day(turn++) && !test::nightly()) || !scatters(bsdf)) return;
     constexpr int kHero = 3;
     const auto density = [&](const V3f& wi) { return static_cast<double>(pdf(bsdf, wo, wi)[kHero]); };
     const DensityCheck check = check_density(sampler_of(bsdf, wo, TransportMode::radiance), density, kHero,
-                                             test::nightly() ? 200'000 : 50'000);
+                                             test::nightly() ? 200'000 : 8000);
     EXPECT_GT(check.p, significance);
     EXPECT_LE(check.integral, 1 + 1e-3);
   });
@@ -314,7 +322,8 @@ TYPED_TEST(BsdfLaws, SingleDirectionsMayBeReversed) {
 TYPED_TEST(BsdfLaws, NoEnergyAppears) {
   double most = 0;
   this->for_all([&](const Bsdf& bsdf, const V3f& wo) {
-    const Albedo white = albedo(sampler_of(bsdf, wo, TransportMode::power), wo);
+    const Albedo white =
+        albedo(sampler_of(bsdf, wo, TransportMode::power), wo, test::nightly() ? 4096 : 1024);
     const std::optional<double> lossless = lossless_within(std::get<TypeParam>(bsdf));
     for (int j = 0; j < kLanes; ++j) {
       const auto lane = static_cast<std::size_t>(j);

@@ -7,6 +7,7 @@
 
 #include "tests/materials/bsdf_examples.h"
 #include "tests/scene/scenes.h"
+#include "tests/tier.h"
 #include "transport/plan/caustic_guide.h"
 #include "transport/technique/path.h"
 #include "validation/goniometer/lobes.h"
@@ -71,8 +72,9 @@ void expect_guided(const PathTracer& tracer, const CausticGuide& guide) {
                  ? static_cast<double>((1 - share) * pdf(vertex.bsdf, vertex.wo, local)[0] + share * guided)
                  : 0.0;
     };
-    const DensityCheck check = check_density(
-        [&](const BsdfRandom& u, int) { return tracer.scatter(path, vertex, u); }, density, 0, 50000);
+    const DensityCheck check =
+        check_density([&](const BsdfRandom& u, int) { return tracer.scatter(path, vertex, u); }, density, 0,
+                      test::nightly() ? 50000 : 10000);
     EXPECT_GT(check.p, 1e-4) << typeid(Model).name();
     for (std::uint32_t i = 0; i < 1000; ++i) {
       const auto u = Sampler(1, Purpose::camera, 0, 0, i).group(0);

@@ -26,7 +26,7 @@ TEST(Cases, ExpectedValuesAreTheKnownFigures) {
   const auto expected = [](const std::string& id) {
     for (const Case& item : all_cases())
       if (const auto* film = std::get_if<FilmMean>(&item.method); film && item.id == id)
-        return film->expected;
+        return film->expected();
     ADD_FAILURE() << id;
     return 0.0;
   };

@@ -85,7 +85,7 @@ struct PlantedCells {
             "",
             "",
             {0.01, Margin::Kind::relative},
-            TechniqueMean{"film", by, {}, Tier::quick}};
+            TechniqueMean{"film", by, {"", {}, "Y", 1.0, 1, 0.002}, Tier::quick}};
   }
   static CaseResult of(double measured, Verdict verdict) {
     return {{{"", 2, {measured, 0.001}}}, {0.01, Margin::Kind::relative}, verdict, 0, 16, 1};

@@ -8,10 +8,6 @@
 namespace abbe {
 namespace {
 
-const Material& material_of(const Scene& scene, std::uint32_t shape) {
-  return scene.materials[scene.shapes[shape].material];
-}
-
 // Of the shapes in a stack that by which its matter has an index: the innermost that has an interface.
 std::optional<std::uint32_t> refracting(const Scene& scene, const MediumStack& inside) {
   const std::span<const std::uint32_t> shapes = inside.shapes();

@@ -18,10 +18,6 @@ using Kind = TraceEvent::Kind;
 // A hit nearer than this share of the distances involved is the surface the ray starts from.
 constexpr double kSelf = 1e-11;
 
-const Material& material_of(const Scene& scene, std::uint32_t shape) {
-  return scene.materials[scene.shapes[shape].material];
-}
-
 // A surface where no matter is within other matter, so that a ray is in that which it entered last, and what
 // depends on the index around it is in air.
 ActingSurface alone(const Scene& scene, const BasicRay<double>& ray, const ExactHit& at,

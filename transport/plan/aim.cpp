@@ -22,7 +22,7 @@ constexpr float kEmissionShare = 0.05F;
 // Of those that are aimed, once an aim has learnt: anywhere, and, at most, where few others have gone.
 constexpr float kAnywhere = 0.1F;
 constexpr float kApart = 0.1F;
-constexpr double kEverywhere = 0.1;  // of those within a grid
+constexpr double kEvenShare = 0.1;  // of those within a grid
 constexpr float kInverseTurn = std::numbers::inv_pi_v<float> / 2;
 constexpr float kAnyRadius = 1;  // of the scene, which only light from infinity asks for
 
@@ -105,7 +105,7 @@ std::vector<double> smoothed(std::vector<double> cells, int reach) {
     average(cells, (reach + 1) / 2, 1, kCells);
     average(cells, (reach + 1) / 2, kCells, 1);
   }
-  for (double& cell : cells) cell = (1 - kEverywhere) * cell + kEverywhere * even;
+  for (double& cell : cells) cell = (1 - kEvenShare) * cell + kEvenShare * even;
   return cells;
 }
 

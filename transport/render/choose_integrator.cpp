@@ -22,7 +22,7 @@ namespace {
 constexpr double kCostOfJoinedRay = 2;
 
 // By how much the pilots must prefer another way.
-constexpr double kLeastGain = 1.5;
+constexpr double kLeastRatio = 1.5;
 
 // Pixels that pilots look at, and the rays that they may cast for each pixel of the film: about what path
 // tracing does in ten samples, so that a film's pilots cost little of it. The samples themselves do not
@@ -128,7 +128,7 @@ IntegratorChoice choose_integrator(const Scene& scene, int threads) {
   const bool reaches_enough = by != Integrator::light || unreached(other).empty();
   std::optional<double> ratio;
   if (open && !refusal(other) && reaches_enough) ratio = cost_ratio(plan, other, way, threads);
-  if (ratio && *ratio > kLeastGain)
+  if (ratio && *ratio > kLeastRatio)
     return {by,
             fmt::format("pilots take it for {:.2g} times as cheap at equal error as path tracing", *ratio),
             ratio, by};

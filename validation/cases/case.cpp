@@ -132,7 +132,7 @@ FilmSetup film_of(const Case& item) {
   Scene scene = load_case_scene(item.id, method.scene, settings);
   scene.render.samples = method.samples;
   const int channel = channel_index(scene, method.channel);
-  return {std::move(scene), channel, method.expected};
+  return {std::move(scene), channel, method.expected()};
 }
 
 Scene load_case_scene(const std::string& id, const std::string& file, std::span<const Override> settings) {

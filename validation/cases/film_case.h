@@ -11,7 +11,7 @@ namespace abbe {
 /// A case of radiometry: the mean illuminance times time of a film, or another channel's mean, in closed
 /// form.
 [[nodiscard]] inline Case film_case(std::string id, std::string title, std::string source, std::string scene,
-                                    std::vector<Override> settings, double expected, int samples,
+                                    std::vector<Override> settings, Expected expected, int samples,
                                     std::string channel = "Y") {
   return {Suite::radiometry,
           std::move(id),
@@ -19,7 +19,8 @@ namespace abbe {
           std::move(source),
           "lx s",
           {0.01, Margin::Kind::relative},
-          FilmMean{std::move(scene), std::move(settings), std::move(channel), expected, samples, 0.002}};
+          FilmMean{std::move(scene), std::move(settings), std::move(channel), std::move(expected), samples,
+                   0.002}};
 }
 
 /// What a pinhole of f-number 1 and a square field of view makes of unit radiance: pi/4 times the mean of

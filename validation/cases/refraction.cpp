@@ -102,39 +102,42 @@ std::vector<Case> ball_cases() {
   };
   const std::string disc =
       fmt::format(R"({{"center": [0, 0, {}], "normal": [0, 0, 1], "radius": {}}})", -kBelow, kRadius);
-  return {out_of_sight(
-              film_case("ball-disc",
-                        "sun through a ball of glass onto a white disc, no more than two events before it",
-                        source, "ball_lens.json",
-                        {{"/camera/from", fmt::format("[{}, 0, {}]", kDistance * std::cos(elevation),
-                                                      kDistance * std::sin(elevation) - kBelow)}},
-                        kPi / 4 * share * behind_ball(kBelow, kRadius, 1) / kPi, 128),
-              {"E L", "E S (S|D)* L", "E S (S|D)* D (S|D)* S L"}),
-          film_case("ball-meter", "sun through a ball of glass onto a meter", source, "ball_lens.json",
-                    {{"/camera", fmt::format(R"({{"irradiance_probe": {{"disc": {}}}}})", disc)},
-                     {"/shapes", R"([{"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "glass"}])"},
-                     {"/sensor/resolution", "[64, 64]"},
-                     {"/render/max_depth", "100"}},
-                    behind_ball(kBelow, kRadius, kMostChords), 128),
-          film_case("ball-axis", "disc of light through a ball of glass to a point", source, "ball_lens.json",
-                    {probe_at(fmt::format("[0, 0, {}]", -kBelow), "[0, 0, 1]"),
-                     {"/lights/0", R"({"disc": {"center": [0, 0, 3], "normal": [0, 0, -1], "radius": 0.5},
+  return {out_of_sight(film_case(
+                           "ball-disc",
+                           "sun through a ball of glass onto a white disc, no more than two events before it",
+                           source, "ball_lens.json",
+                           {{"/camera/from", fmt::format("[{}, 0, {}]", kDistance * std::cos(elevation),
+                                                         kDistance * std::sin(elevation) - kBelow)}},
+                           [=] { return kPi / 4 * share * behind_ball(kBelow, kRadius, 1) / kPi; }, 128),
+                       {"E L", "E S (S|D)* L", "E S (S|D)* D (S|D)* S L"}),
+          film_case(
+              "ball-meter", "sun through a ball of glass onto a meter", source, "ball_lens.json",
+              {{"/camera", fmt::format(R"({{"irradiance_probe": {{"disc": {}}}}})", disc)},
+               {"/shapes", R"([{"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "glass"}])"},
+               {"/sensor/resolution", "[64, 64]"},
+               {"/render/max_depth", "100"}},
+              [] { return behind_ball(kBelow, kRadius, kMostChords); }, 128),
+          film_case(
+              "ball-axis", "disc of light through a ball of glass to a point", source, "ball_lens.json",
+              {probe_at(fmt::format("[0, 0, {}]", -kBelow), "[0, 0, 1]"),
+               {"/lights/0", R"({"disc": {"center": [0, 0, 3], "normal": [0, 0, -1], "radius": 0.5},
                     "emission": {"illuminant": "E", "luminance": 1}})"},
-                     {"/shapes", R"([{"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "glass"}])"},
-                     {"/render/max_depth", "100"}},
-                    below_ball(kBelow, 3, 0.5), 256)};
+               {"/shapes", R"([{"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "glass"}])"},
+               {"/render/max_depth", "100"}},
+              [] { return below_ball(kBelow, 3, 0.5); }, 256)};
 }
 
 // A disc of light of 0.5 m, 1 m above a point, and a pane between them; all of `pane.json`.
 std::vector<Case> pane_cases() {
-  return {
-      film_case("pane-thick", "disc of light behind a pane of 0.4 m",
-                "rays through a plate, s and p kept apart [Born1999, sec. 7.6]", "pane.json", {},
-                behind_pane(0.6, 0.4, 0.5), 512),
-      film_case("pane-thin", "disc of light behind thin glass", "all internal bounces [Born1999, sec. 7.6]",
-                "pane.json", {{"/shapes", R"([{"quad": {"corner": [-1000, -1000, 0.5], "edge_u": [2000, 0, 0],
+  return {film_case(
+              "pane-thick", "disc of light behind a pane of 0.4 m",
+              "rays through a plate, s and p kept apart [Born1999, sec. 7.6]", "pane.json", {},
+              [] { return behind_pane(0.6, 0.4, 0.5); }, 512),
+          film_case(
+              "pane-thin", "disc of light behind thin glass", "all internal bounces [Born1999, sec. 7.6]",
+              "pane.json", {{"/shapes", R"([{"quad": {"corner": [-1000, -1000, 0.5], "edge_u": [2000, 0, 0],
                        "edge_v": [0, 2000, 0]}, "material": "thin"}])"}},
-                behind_pane(1, 0, 0.5), 1024)};
+              [] { return behind_pane(1, 0, 0.5); }, 1024)};
 }
 
 // A meter in a ball of glass below a dome, near enough to its centre that no ray to it is trapped.

@@ -18,15 +18,14 @@ namespace {
 std::vector<Case> layer_cases() {
   constexpr double kAlbedo = 0.9;  // as `deep_layer.json` has it
   constexpr double kDistance = 5;
-  const ChandrasekharH h(kAlbedo);
-  const double unit = pinhole_exposure(0.1);
   std::vector<Case> cases;
   for (const double mu : {1.0, 0.2})
     cases.push_back(film_case(
         fmt::format("layer-{}", mu), fmt::format("deep layer that scatters evenly, cosine {}", mu),
         "1 - H(μ) sqrt(1 - ϖ) [Chandrasekhar1960, sec. 33]", "deep_layer.json",
         {{"/camera/from", fmt::format("[0, {}, {}]", -kDistance * std::sqrt(1 - mu * mu), kDistance * mu)}},
-        unit * (1 - h(mu) * std::sqrt(1 - kAlbedo)), 768));
+        [mu] { return pinhole_exposure(0.1) * (1 - ChandrasekharH(kAlbedo)(mu) * std::sqrt(1 - kAlbedo)); },
+        768));
   return cases;
 }
 
@@ -39,25 +38,30 @@ std::vector<Case> single_cases() {
     return (1 - kG * kG) / (4 * std::numbers::pi * std::pow(1 + kG * kG - 2 * kG * cosine, 1.5));
   };
   constexpr double kAbsorption = 0.1;  // as `lamp_in_fog.json` has it
-  const auto seen = [&](double scattering) {
+  const auto seen = [phase](double scattering) {
     return scattered_once({scattering, scattering + kAbsorption, phase}, 0.5, 5, 95);
   };
-  const Curve& y = color_matching(Observer::cie1931).y;
-  double sum = 0;
-  double weights = 0;
-  for (double nm = 382.5; nm < 780; nm += 5) {
-    sum += y(nm) * seen(1 - 0.9 * (std::clamp(nm, 440.0, 660.0) - 440) / 220);
-    weights += y(nm);
-  }
+  const auto seen_in_blue = [seen] {
+    const Curve& y = color_matching(Observer::cie1931).y;
+    double sum = 0;
+    double weights = 0;
+    for (double nm = 382.5; nm < 780; nm += 5) {
+      sum += y(nm) * seen(1 - 0.9 * (std::clamp(nm, 440.0, 660.0) - 440) / 220);
+      weights += y(nm);
+    }
+    return sum / weights;
+  };
   const std::string source = "the integral along the line of sight [Chandrasekhar1960, sec. 7]";
   const double unit = pinhole_exposure(0.01);
-  return {film_case("scattered-once", "lamp in fog, light scattered once", source, "lamp_in_fog.json", {},
-                    unit * seen(0.3), 256),
-          film_case("scattered-blue", "lamp in fog that scatters blue light, scattered once", source,
-                    "lamp_in_fog.json",
-                    {{"/materials/fog/medium/scattering_per_m",
-                      R"({"table": {"wavelength_nm": [440, 660], "values": [1, 0.1], "outside": "clamp"}})"}},
-                    unit * sum / weights, 8192)};
+  return {film_case(
+              "scattered-once", "lamp in fog, light scattered once", source, "lamp_in_fog.json", {},
+              [=] { return unit * seen(0.3); }, 256),
+          film_case(
+              "scattered-blue", "lamp in fog that scatters blue light, scattered once", source,
+              "lamp_in_fog.json",
+              {{"/materials/fog/medium/scattering_per_m",
+                R"({"table": {"wavelength_nm": [440, 660], "values": [1, 0.1], "outside": "clamp"}})"}},
+              [=] { return unit * seen_in_blue(); }, 8192)};
 }
 
 }  // namespace

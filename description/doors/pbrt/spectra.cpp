@@ -41,7 +41,7 @@ void add_metal(std::string_view metal, std::vector<std::string>& names) {
   for (const std::string_view end : {kEta, kK}) names.push_back(fmt::format("{}{}", metal, end));
 }
 
-// n or k of a shipped table or formula, every 5 nm where both it and the renderer have some.
+// n or k of a shipped table or formula, every 5 nm where it is measured and the renderer has wavelengths.
 std::optional<Spectrum> index_samples(const std::string& material, bool extinction,
                                       const SourcePosition& where, World& world) {
   constexpr double kStep = 5;
@@ -50,7 +50,7 @@ std::optional<Spectrum> index_samples(const std::string& material, bool extincti
   const RefractiveIndex& index = named->index;
   Samples samples;
   for (double nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; nm += kStep) {
-    if (nm < index.low_nm() || nm > index.high_nm()) continue;
+    if (nm < index.low_nm() || nm > index.high_nm() || (extinction && !index.knows_k(nm))) continue;
     samples.nm.push_back(nm);
     samples.values.push_back(extinction ? index.k(nm) : index.n(nm));
   }
