@@ -32,7 +32,8 @@ function(abbe_test name)
     gtest_discover_tests(test_${name}
       TEST_PREFIX ${name}_nightly.
       DISCOVERY_TIMEOUT 60
-      PROPERTIES LABELS nightly TIMEOUT ${TEST_NIGHTLY} ENVIRONMENT "ABBE_DATA=${PROJECT_SOURCE_DIR}/data;ABBE_NIGHTLY=1")
+      PROPERTIES LABELS nightly TIMEOUT ${TEST_NIGHTLY} ENVIRONMENT "ABBE_DATA=${PROJECT_SOURCE_DIR}/data"
+        ENVIRONMENT_MODIFICATION ABBE_NIGHTLY=set:1)  # gtest_discover_tests takes no lists
   endif()
 endfunction()
 
