@@ -1,6 +1,5 @@
 // Caustics that camera paths find by what photons have shown them.
 #include "tests/scenes/film_of_plan.h"
-#include "tests/scenes/margin.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
 #include "transport/plan/emissions.h"
@@ -54,22 +53,21 @@ TEST(CausticGuide, ALampInABulbIsAsBrightAsItsGlassLetsThrough) {
 // So does merging, of photons that no camera path could have been connected with.
 TEST(Merging, FindsALampInABulbAsBrightAsItsGlassLetsThrough) {
   constexpr double kThrough = 24.0 / 26;
-  const auto seen = [](bool bulb, const char* integrator) {
-    const Scene scene = test::load_text(lamp_over_floor(bulb),
-                                        {{"/camera/pinhole/fov_deg", "40"},
-                                         {"/sensor/resolution", test::nightly() ? "[128, 128]" : "[64, 64]"},
-                                         {"/render/integrator", integrator},
-                                         {"/render/photons/radius", "0.05"},
-                                         {"/render/samples", test::nightly() ? "64" : "32"}});
+  const auto seen = [](bool bulb, const char* integrator, const char* samples) {
+    const Scene scene = test::load_text(lamp_over_floor(bulb), {{"/camera/pinhole/fov_deg", "40"},
+                                                                {"/sensor/resolution", "[128, 128]"},
+                                                                {"/render/integrator", integrator},
+                                                                {"/render/photons/radius", "0.05"},
+                                                                {"/render/samples", samples}});
     return mean_of(render(scene, {}).film);
   };
-  const Mean open = seen(false, "path");
-  const Mean closed = seen(true, "vcm");
+  const Mean open = seen(false, "path", "64");
+  const Mean closed = seen(true, "vcm", "64");
   const double error =
       std::hypot(std::sqrt(closed.variance), kThrough * std::sqrt(open.variance)) / open.value;
   std::printf("%.5f of it, standard error %.5f\n", closed.value / open.value / kThrough, error);
-  EXPECT_LT(error, test::nightly() ? 0.0018 : 0.008);
-  EXPECT_NEAR(closed.value / open.value, kThrough, test::nightly() ? 0.006 : 4.5 * error);
+  EXPECT_LT(error, 0.0018);
+  EXPECT_NEAR(closed.value / open.value, kThrough, 0.006);
 }
 
 // Whatever scatters where the caustic falls, with the guide and without it the light is the same: diffuse
@@ -82,8 +80,6 @@ TEST(CausticGuide, ChangesNoiseOnly) {
     floors.push_back(R"({"diffuse": {"reflectance": 0.5}})");
     floors.push_back(R"({"conductor": {"ior": "Au_Johnson", "roughness": 0.5}})");
   }
-  const std::uint64_t samples = test::nightly() ? 512 : 64;
-  const double most_error = test::nightly() ? 0.012 : 0.035;
   for (const char* floor : floors) {
     const Scene scene =
         test::load("glass_sphere.json", {{"/sensor/resolution", "[48, 48]"},
@@ -94,13 +90,13 @@ TEST(CausticGuide, ChangesNoiseOnly) {
                                          {"/render/integrator", "path"}});
     const Plan guided = make_learnt_plan(scene, 2);
     ASSERT_FALSE(guided.guides.caustics_of_paths.empty());
-    const Film a = test::film_of(scene, make_plan(scene), samples);
-    const Film b = test::film_of(scene, guided, samples - 8);
+    const Film a = test::film_of(scene, make_plan(scene), 512);
+    const Film b = test::film_of(scene, guided, 504);
     EXPECT_LT(test::compare_regions(a, b, 4).largest_z, test::kLargestZ) << floor;
     const Mean chance = mean_of(a);
     const Mean found = mean_of(b);
     EXPECT_NEAR(found.value, chance.value, 4.5 * std::sqrt(found.variance + chance.variance)) << floor;
-    EXPECT_LT(std::sqrt(found.variance + chance.variance), most_error * found.value) << floor;
+    EXPECT_LT(std::sqrt(found.variance + chance.variance), 0.012 * found.value) << floor;
   }
 }
 
@@ -111,7 +107,7 @@ TEST(CausticGuide, LooksBehindAPaneForWhatPhotonsBringBesideIt) {
       R"({"name": "pane", "quad": {"corner": [1.5, 0.1, -6], "edge_u": [2, 0, 1], "edge_v": [0, 4, 0]}, )"
       R"("material": "pane"})";
   std::vector<Override> settings{{"/sensor/resolution", "[48, 48]"},
-                                 {"/lights/0/sphere/radius", test::nightly() ? "0.45" : "0.9"},
+                                 {"/lights/0/sphere/radius", "0.45"},
                                  {"/materials/pane", R"({"thin_glass": {"ior": 1.5}})"},
                                  {"/shapes/2", pane}};
   Scene both = test::load("glass_sphere.json", settings);
@@ -123,12 +119,11 @@ TEST(CausticGuide, LooksBehindAPaneForWhatPhotonsBringBesideIt) {
   ASSERT_TRUE(uses(plan.techniques, Technique::light));
   ASSERT_TRUE(plan.guides.caustics_of_paths.empty());
   ASSERT_FALSE(plan.guides.caustics_seen_through.empty());
-  const std::uint64_t samples = test::nightly() ? 512 : 64;
-  const Film guided = test::film_of(both, plan, samples);
-  const Film chance = test::film_of(paths, make_plan(paths), 4 * samples);
+  const Film guided = test::film_of(both, plan, 512);
+  const Film chance = test::film_of(paths, make_plan(paths), 2048);
   const test::Comparison c = test::compare_regions(chance, guided, 4);
   EXPECT_LT(c.largest_z, test::kLargestZ);
-  EXPECT_NEAR(c.ratio, 1, test::ratio_margin(chance, guided, 0.01, 0.1));
+  EXPECT_NEAR(c.ratio, 1, 0.01);
 }
 
 // What the guide learns from has come through glass or by a mirror alone.

@@ -5,7 +5,6 @@
 #include "sensor/readout/readout.h"
 #include "tests/angles.h"
 #include "tests/scenes/scene_fixture.h"
-#include "tests/tier.h"
 
 // What a sensor counts behind its filters, in physical units.
 
@@ -271,16 +270,14 @@ TEST(MosaicFilm, ExpectsWhatAFilmOfAllChannelsDoesWithLessNoise) {
 }
 
 TEST(MosaicFilm, PhotonsMeetThePixelsFilter) {
-  const int samples = test::nightly() ? 256 : 64;
-  const double wide = test::nightly() ? 1 : 2;  // for noise
-  const Scene scene = narrow("glass_sphere.json", kBayer, samples);
+  const Scene scene = narrow("glass_sphere.json", kBayer, 256);
   const RenderResult raw = render(scene, {});
-  ASSERT_GT(raw.stats.paths, static_cast<unsigned>(samples) * 48 * 48) << "no photon was traced";
-  const RenderResult all = render(narrow("glass_sphere.json", "", samples), {});
+  ASSERT_GT(raw.stats.paths, 256U * 48 * 48) << "no photon was traced";
+  const RenderResult all = render(narrow("glass_sphere.json", "", 256), {});
   const MosaicComparison found = compare(scene, raw.film, all.film, 4);
   EXPECT_LT(found.largest_z, test::kLargestZ);
-  EXPECT_NEAR(found.ratio, 1, wide * 0.01);
-  const Scene photons = narrow("cornell.json", kBayer, samples, {{"/render/integrator", "light"}});
+  EXPECT_NEAR(found.ratio, 1, 0.01);
+  const Scene photons = narrow("cornell.json", kBayer, 256, {{"/render/integrator", "light"}});
   const RenderResult paths = render(narrow("cornell.json", "", 64), {});
   const Film light = render(photons, {}).film;
   double ratio_raw = 0;
@@ -291,7 +288,7 @@ TEST(MosaicFilm, PhotonsMeetThePixelsFilter) {
       ratio_raw += light.mean(pixel, 0);
       ratio_all += paths.film.mean(pixel, photons.mosaic->at(x, y));
     }
-  EXPECT_NEAR(ratio_raw / ratio_all, 1, wide * 0.02);
+  EXPECT_NEAR(ratio_raw / ratio_all, 1, 0.02);
 }
 
 TEST(MosaicFilm, AnUnlitFilterIsExactlyBlack) {

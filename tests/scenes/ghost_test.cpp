@@ -142,7 +142,7 @@ TEST(Ghosts, OfALampHaveTheTracedPowerAndPlace) {
     "shapes": [],
     "render": {"integrator": "path", "samples": 64}
   })";
-  const Scene scene = test::load_text(kLamp, {{"/render/samples", test::nightly() ? "64" : "48"}});
+  const Scene scene = test::load_text(kLamp);
   const LensOptics& optics = *std::get<LensSystem>(scene.camera.kind).optics;
   ASSERT_EQ(optics.routes.size(), 2U);
   struct Moments {
@@ -176,12 +176,11 @@ TEST(Ghosts, OfALampHaveTheTracedPowerAndPlace) {
       }
     return of;
   };
-  const Moments direct = film_moments(
-      render(test::load_text(kLamp, {{"/camera/lens_system/ghosts", "false"},
-                                     {"/render/samples", "1024"},
-                                     {"/sensor/resolution", test::nightly() ? "[90, 90]" : "[30, 30]"}}),
-             {})
-          .film);
+  const Moments direct = film_moments(render(test::load_text(kLamp, {{"/camera/lens_system/ghosts", "false"},
+                                                                     {"/render/samples", "1024"},
+                                                                     {"/sensor/resolution", "[90, 90]"}}),
+                                             {})
+                                          .film);
   // What is in the image of the lamp, a disc of .07 mm, is taken out of the picture with ghosts.
   const Film film = render(scene, {}).film;
   Moments ghost;
@@ -201,8 +200,7 @@ TEST(Ghosts, OfALampHaveTheTracedPowerAndPlace) {
   std::printf("ghost's share: %.5f, traced %.5f; rms %.4f, traced %.4f mm, at %.4f, traced %.4f mm\n",
               ghost.power / direct.power, area_share * traced.power / image.power, ghost.rms(), traced.rms(),
               ghost.height(), -traced.height());
-  EXPECT_NEAR(ghost.power / direct.power / (area_share * traced.power / image.power), 1,
-              test::nightly() ? 0.02 : 0.06);
+  EXPECT_NEAR(ghost.power / direct.power / (area_share * traced.power / image.power), 1, 0.02);
   EXPECT_NEAR(ghost.rms() / traced.rms(), 1, 0.02);
   EXPECT_NEAR(ghost.height(), -traced.height(), 0.02 * traced.rms());
   EXPECT_NEAR(traced.power / image.power, std::pow(1.0 / 9, 2), 1e-3) << "R^2 along the normal";

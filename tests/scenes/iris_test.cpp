@@ -10,9 +10,7 @@
 
 #include "scene/camera/lens_optics.h"
 #include "tests/angles.h"
-#include "tests/scenes/margin.h"
 #include "tests/scenes/scene_fixture.h"
-#include "tests/tier.h"
 
 // Pictures through the blades of a stop, of an ideal and of a real lens.
 
@@ -36,11 +34,10 @@ double share_of(int blades) {
 
 Film even_field(const std::string& lens) {
   return render(test::load_text(R"({"abbe": 1, "camera": {)" + lens +
-                                    R"(, "from": [0, 0, 0], "to": [0, 2, 0], "up": [0, 0, 1]},
+                                R"(, "from": [0, 0, 0], "to": [0, 2, 0], "up": [0, 0, 1]},
     "sensor": {"resolution": [4, 4], "pixel_pitch_um": 50, "channels": {"all": {"band": [545, 555]}}},
     "lights": [{"environment": {}, "emission": {"spectrum": 1}}],
-    "render": {"integrator": "path"}})",
-                                {{"/render/samples", test::nightly() ? "16384" : "4096"}}),
+    "render": {"integrator": "path", "samples": 16384}})"),
                 {})
       .film;
 }
@@ -69,8 +66,8 @@ std::string speck(const std::string& lens, double distance) {
   "materials": {{"white": {{"diffuse": {{"reflectance": 0.8}}}}}},
   "lights": [{{"spot": {{"at": [0, {}, 0], "direction": [0, 1, 0], "half_angle_deg": 0.6}}, "emission": {{"illuminant": "E", "luminous_intensity": 1000}}}}],
   "shapes": [{{"disc": {{"center": [0, {}, 0], "normal": [0, -1, 0], "radius": {}}}, "material": "white"}}],
-  "render": {{"integrator": "light", "samples": {}}}}})",
-      lens, distance - 100 * radius, distance, radius, test::nightly() ? 48 : 16);
+  "render": {{"integrator": "light", "samples": 48}}}})",
+      lens, distance - 100 * radius, distance, radius);
 }
 
 // What a picture has in every pixel, at its place [m] from the middle: x to the right, y up.
@@ -170,18 +167,13 @@ TEST(Iris, IsTheSameForEveryTechnique) {
       scene.needs.light_is_traced.assign(scene.lights.size(), true);
       return render(scene, {}).film;
     };
-    const struct {
-      const char* integrator;
-      const char* by_day;
-      const char* at_night;
-    } others[] = {{"light", "1024", "1024"}, {"bdpt", "64", "256"}, {"vcm", "64", "96"}};
-    const Film path = by("path", test::nightly() ? "2048" : "256");
-    for (const auto& [integrator, by_day, at_night] : others) {
-      const Film film = by(integrator, test::nightly() ? at_night : by_day);
-      const test::Comparison c = test::compare_regions(path, film, 4);
+    const Film path = by("path", "2048");
+    const std::pair<const char*, const char*> others[] = {{"light", "1024"}, {"bdpt", "256"}, {"vcm", "96"}};
+    for (const auto& [integrator, samples] : others) {
+      const test::Comparison c = test::compare_regions(path, by(integrator, samples), 4);
       std::printf("%s: largest z %.2f, ratio of the means %.5f\n", integrator, c.largest_z, c.ratio);
       EXPECT_LT(c.largest_z, 5.5) << integrator;  // 1e-6 over 16 regions x 3 techniques x 2 lenses
-      EXPECT_NEAR(c.ratio, 1, test::ratio_margin(path, film, 0.02, 0.3)) << integrator;
+      EXPECT_NEAR(c.ratio, 1, 0.02) << integrator;
     }
   }
 }

@@ -120,8 +120,8 @@ EdgeResponse measured(const Film& film, int channel, const Edge& edge, double im
 }
 
 TEST(LensModulation, OfASlantedEdgeIsThatOfTheTracedSpots) {
-  const Scene scene = bench(test::nightly() ? 2048 : 64);
-  const double tolerance = test::nightly() ? 0.01 : 0.05;
+  const Scene scene = bench(test::nightly() ? 2048 : 128);
+  const double tolerance = test::nightly() ? 0.01 : 0.02;
   const LensOptics& optics = *std::get<LensSystem>(scene.camera.kind).optics;
   const double pitch_mm = scene.camera.pixel_pitch * 1e3;
   const Film film = render(scene, {}).film;
@@ -132,7 +132,7 @@ TEST(LensModulation, OfASlantedEdgeIsThatOfTheTracedSpots) {
       const EdgeResponse found =
           measured(film, static_cast<int>(k), edge, -lens::size_of(spots)->centroid.y / pitch_mm);
       EXPECT_EQ(found.is_horizontal, edge.tangential);
-      EXPECT_NEAR(std::abs(found.angle_deg), kSlant, test::nightly() ? 0.2 : 1);
+      EXPECT_NEAR(std::abs(found.angle_deg), kSlant, 0.2);
       const double angle = found.angle_deg * kPi / 180;
       const V2d across =
           edge.tangential ? V2d(std::sin(angle), std::cos(angle)) : V2d(std::cos(angle), std::sin(angle));

@@ -9,7 +9,6 @@
 #include "tests/angles.h"
 #include "tests/scene/meshes.h"
 #include "tests/scenes/scene_fixture.h"
-#include "tests/tier.h"
 #include "validation/cases/radiative_transfer.h"
 
 // Films of matter that absorbs and scatters, held against what radiative transfer says of it.
@@ -248,7 +247,7 @@ TEST(Media, TheSkyIsBlue) {
        .shapes = ball("air", 3),
        .lights = kLamp,
        .fov_deg = 0.01,
-       .samples = test::nightly() ? 32768 : 16384,
+       .samples = 32768,
        .depth = R"("max_depth": 1, )"});
   std::vector<double> expected;
   for (const double nm : {450, 550, 650})
@@ -297,7 +296,7 @@ TEST(Media, WhatOverlapsInPartIsTheSameFromBothEnds) {
         R"({"spot": {"at": [0, 4.5, 1], "direction": [0, 0.5, -1], "half_angle_deg": 8}, "emission": {"spectrum": 1}})";
     bench.camera = c.camera;
     bench.integrator = integrator;
-    bench.samples = test::nightly() ? 1024 : 256;
+    bench.samples = 1024;
     bench.depth = R"("max_depth": 1, )";
     return test::region(rendered(bench).film, 0, 0, 0, 4, 4);
   };
@@ -306,7 +305,7 @@ TEST(Media, WhatOverlapsInPartIsTheSameFromBothEnds) {
     for (const char* integrator : {"path", "light", "bdpt"}) {
       const test::Region seen = lit_wall(c, c.shapes, integrator);
       const double error = std::sqrt(bare.variance + seen.variance) / bare.mean;
-      EXPECT_LT(error, (test::nightly() ? 0.04 : 0.08) * std::exp(-c.depth));
+      EXPECT_LT(error, 0.04 * std::exp(-c.depth));
       EXPECT_NEAR(seen.mean / bare.mean, std::exp(-c.depth), kLargestZ * error + 2e-4 * std::exp(-c.depth))
           << integrator << " of " << c.shapes;
     }
@@ -320,7 +319,7 @@ TEST(Media, TransmittanceHoldsAtAnyOpticalDepth) {
         radiances({.materials = fmt::format(R"("ink": {{"medium": {{"absorption_per_m": {}}}}})", depth / 2),
                    .shapes = ball("ink"),
                    .fov_deg = 0.01,
-                   .samples = test::nightly() ? 8192 : 2048});
+                   .samples = 8192});
     for (const Radiance& r : found) EXPECT_NEAR(r.value, std::exp(-depth), 1e-3 * std::exp(-depth)) << depth;
   }
 }
@@ -364,13 +363,13 @@ TEST(Media, AnEvenGridIsEvenMatter) {
          .shapes = shape,
          .lights = R"({"sphere": {"center": [3, 0, 3], "radius": 1}, "emission": {"spectrum": 100}})",
          .fov_deg = 20,
-         .samples = test::nightly() ? 4096 : 1024});
+         .samples = 4096});
   };
   const auto even = bench("1", box, "");
   const auto gridded = bench("0.5", ball("fog", 2), ", " + grid.json());
   for (std::size_t i = 0; i < even.size(); ++i) {
     const double error = std::hypot(even[i].error, gridded[i].error);
-    EXPECT_LT(error, (test::nightly() ? 0.05 : 0.1) * even[i].value);
+    EXPECT_LT(error, 0.05 * even[i].value);
     EXPECT_NEAR(even[i].value, gridded[i].value, kLargestZ * error) << i;
   }
 }

@@ -6,7 +6,6 @@
 #include "film/meter_reading.h"
 #include "tests/angles.h"
 #include "tests/scenes/scene_fixture.h"
-#include "tests/tier.h"
 #include "validation/statistics/equivalence.h"
 
 // What meters read, against what can be told by hand, by every integrator.
@@ -41,15 +40,8 @@ void expect_equal(const Film::Average& value, double expected, double margin = 0
 // A scene of one meter and what else there is.
 std::string scene_of(const std::string& meter, const std::string& rest,
                      const std::string& integrator = "path", int samples = 64) {
-  const bool fewer = !test::nightly() && integrator == "photon-brute";
   return R"({"abbe": 1, "meters": {"m": )" + meter + "}, " + rest + R"(, "render": {"integrator": ")" +
-         integrator + R"(", "samples": )" + std::to_string(samples) +
-         (fewer ? R"(, "photons": {"per_sample": 4096}}})" : "}}");
-}
-
-// What that leaves by day, where few of the photons find the meter by themselves.
-double margin_of(const std::string& integrator, double at_night = 0.01) {
-  return !test::nightly() && integrator == "photon-brute" ? 3 * at_night : at_night;
+         integrator + R"(", "samples": )" + std::to_string(samples) + "}}";
 }
 
 // Of 1000 lm, off the middle.
@@ -149,8 +141,7 @@ TEST_P(MeterBy, TellsTheFluxBetweenDiscs) {
       R"("lights": [{"disc": {"center": [0, 0, 1], "normal": [0, 0, -1], "radius": 0.6}, "emission": {"illuminant": "E", "luminance": 1}}])";
   const std::string disc =
       R"({"measures": "flux", "disc": {"center": [0, 0, 0], "normal": [0, 0, 1], "radius": 1})";
-  const auto& [integrator, samples, at_night] = GetParam();
-  const double margin = margin_of(integrator, at_night);
+  const auto& [integrator, samples, margin] = GetParam();
   // F = (S - sqrt(S^2 - 4 (R_lamp/R)^2)) / 2 with S = 1 + (1 + R_lamp^2) / R^2, of the lower disc.
   const double s = 1 + 1.36;
   const double whole = kPi * kPi * (s - std::sqrt(s * s - 4 * 0.36)) / 2;
@@ -183,11 +174,8 @@ TEST(Meter, PhotonsTellTheFluxOfALampWithinGlass) {
                {"sphere": {"center": [0, 0, 0], "radius": 0.05}, "material": "air"}])";
   const std::string sphere =
       R"({"measures": "flux", "sphere": {"center": [0.1, 0, 0], "radius": 0.3, "facing": "inwards"}})";
-  for (const std::string integrator : {"auto", "light", "photon-brute"}) {
-    if (integrator == "auto" && !test::nightly()) continue;  // pilots take long; the next test has them
-    expect_equal(read(scene_of(sphere, bulb, integrator)).whole.luminous, 1000 * through / (1 - thrown_back),
-                 margin_of(integrator));
-  }
+  for (const char* integrator : {"auto", "light", "photon-brute"})
+    expect_equal(read(scene_of(sphere, bulb, integrator)).whole.luminous, 1000 * through / (1 - thrown_back));
 }
 
 // A lamp of 1000 lm in a bulb in a grey ball of 1 m: nothing else absorbs, so that the wall sends back what
@@ -204,10 +192,9 @@ TEST(Meter, PathsAndPhotonsShareTheLightOfALampWithinGlass) {
       R"({"measures": "flux", "sphere": {"center": [0.02, 0, 0], "radius": 0.5, "facing": "inwards"}})";
   const double flux = 1000 + 0.25 * 1000 * 0.5 / (1 - 0.5);
   expect_equal(read(scene_of(sphere, bulb, "light")).whole.luminous, flux);
-  const bool night = test::nightly();
-  const LightReading shared = read(scene_of(sphere, bulb, "auto", night ? 512 : 128)).whole;
-  EXPECT_LT(shared.luminous.standard_error, (night ? 0.01 : 0.02) * flux);
-  expect_equal(shared.luminous, flux, night ? 0.03 : 0.08);
+  const LightReading shared = read(scene_of(sphere, bulb, "auto", 512)).whole;
+  EXPECT_LT(shared.luminous.standard_error, 0.01 * flux);
+  expect_equal(shared.luminous, flux, 0.03);
 }
 
 // A black ball of 0.1 m above a disc, and beside a sphere, of 1 m: photons from afar must not be sent to the
@@ -219,9 +206,8 @@ TEST(Meter, SunlightReachesWhatIsBeyondTheShapes) {
   const std::string disc = R"({"disc": {"center": [0, 0, -0.2], "normal": [0, 0, 1], "radius": 1}})";
   const std::string sphere = R"({"measures": "flux", "sphere": {"center": [2, 0, 0], "radius": 1}})";
   for (const char* integrator : {"path", "light", "photon-brute"}) {
-    const double margin = margin_of(integrator);
-    expect_equal(read(scene_of(disc, sun, integrator, 256)).whole.luminous, 0.99, margin);
-    expect_equal(read(scene_of(sphere, sun, integrator, 256)).whole.luminous, kPi, margin);
+    expect_equal(read(scene_of(disc, sun, integrator, 256)).whole.luminous, 0.99);
+    expect_equal(read(scene_of(sphere, sun, integrator, 256)).whole.luminous, kPi);
   }
 }
 
@@ -239,8 +225,7 @@ TEST(Meter, TakesALampBesideItsOwnSurfaceForNear) {
   const std::string bulb =
       R"("lights": [{"point": {"at": [0.25, 0.25, 0.3]}, "emission": {"illuminant": "E", "luminous_flux_lm": 1000}}])";
   for (const char* integrator : {"auto", "light", "photon-brute"})
-    expect_equal(read(scene_of(quad, bulb, integrator)).whole.luminous, 1000 * solid_angle / (4 * kPi),
-                 margin_of(integrator));
+    expect_equal(read(scene_of(quad, bulb, integrator)).whole.luminous, 1000 * solid_angle / (4 * kPi));
 }
 
 // A card lit by a bulb 1.1 m above it.
@@ -306,8 +291,7 @@ TEST(Meter, StandsOffTheSurfaceItLiesOn) {
   const std::string meter = R"({"quad": )" + board + "}";
   const double bare = read(scene_of(meter, lamp)).whole.luminous.mean;
   for (const char* integrator : {"path", "light", "photon-brute"})
-    expect_equal(read(scene_of(meter, lamp + black, integrator, 256)).whole.luminous, bare,
-                 margin_of(integrator));
+    expect_equal(read(scene_of(meter, lamp + black, integrator, 256)).whole.luminous, bare);
 }
 
 // Inwards on the surface of a ball of ink around a lamp, and outwards on a black ball in an even sky.

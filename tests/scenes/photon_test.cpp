@@ -79,16 +79,15 @@ const std::string kPointLamp = R"({"name": "bulb", "point": {"at": [0.5, 0.5, 2.
 // Caustics that are seen through glass, of a lamp so large that paths meet it without being told where it is.
 TEST(Photons, MergingFindsCausticsSeenThroughGlassAsBruteForceDoes) {
   const std::string scene = ball_under(kBigLamp);
-  const Film brute = film_of({"adjoint-brute", test::nightly() ? 16384 : 4096}, scene);
+  const Film brute = film_of({"adjoint-brute", 16384}, scene);
   // The film positions of progressive photon mapping are few: those of a replicate, whatever its samples.
   const std::vector<Override> finer{{"/sensor/resolution", "[64, 64]"}, {"/sensor/pixel_pitch_um", "400"}};
-  std::vector<Rendered> merging{{"vcm",
-                                 test::nightly() ? 256 : 64,
-                                 {{"/sensor/resolution", "[32, 32]"}, {"/sensor/pixel_pitch_um", "800"}}}};
+  std::vector<Rendered> merging{
+      {"vcm", 256, {{"/sensor/resolution", "[32, 32]"}, {"/sensor/pixel_pitch_um", "800"}}}};
   if (test::nightly()) merging.insert(merging.end(), {{"path", 1024}, {"sppm", 256}, {"ppm", 256, finer}});
   for (const Rendered& how : merging) {
     SCOPED_TRACE(how.integrator);
-    expect_alike(brute, film_of(how, scene), test::nightly() ? 0.01 : 0.03, test::nightly() ? 0.03 : 0.08);
+    expect_alike(brute, film_of(how, scene), 0.01, 0.03);
   }
 }
 
@@ -99,7 +98,7 @@ TEST(Photons, MergingFindsTheCausticsOfAPoint) {
   const std::vector<Override> finer{{"/sensor/resolution", "[64, 64]"}, {"/sensor/pixel_pitch_um", "400"}};
   const Film merged = film_of({"sppm", 64, finer}, scene);
   expect_alike(merged, film_of({"vcm", 64, finer}, scene), 0.01, 0.03);
-  EXPECT_LT(mean_of(film_of({"bdpt", test::nightly() ? 64 : 16, finer}, scene)), 0.95 * mean_of(merged));
+  EXPECT_LT(mean_of(film_of({"bdpt", 64, finer}, scene)), 0.95 * mean_of(merged));
   const auto unreached_by = [&scene](const char* integrator) {
     const Scene loaded =
         test::load_text(scene, {{"/render/integrator", std::string("\"") + integrator + "\""}});
@@ -125,24 +124,19 @@ TEST(Photons, GatheringFindsTheLightOfPathTracing) {
         Compared{"materials/textures.json", "0.03", 0.01, true},
         Compared{"materials/nested.json", "0.3", 0.02}}) {
     if (!by_day && !test::nightly()) continue;
-    const bool night = test::nightly();
-    const double wide = night ? 1 : 2;  // for noise
-    const auto film = [&, name = scene, r = radius](const std::string& integrator, int samples) {
+    const auto film = [&, name = scene, r = radius](const char* integrator, int samples) {
       return render(test::load(name, {{"/render/integrator", integrator},
                                       {"/render/samples", std::to_string(samples)},
                                       {"/sensor/resolution", "[32, 32]"},
-                                      {"/render/photons", std::string(R"({"per_sample": )") +
-                                                              (night ? "16384" : "8192") + R"(, "radius": )" +
-                                                              r + "}"}}),
+                                      {"/render/photons",
+                                       std::string(R"({"per_sample": 16384, "radius": )") + r + "}"}}),
                     {})
           .film;
     };
-    const Film path = film("path", night ? 512 : 128);
-    for (const std::string integrator : {"sppm", "vcm"}) {
-      // In smoke single photons are so bright that the few of the day do not tell.
-      if (!night && integrator == "sppm" && std::string(scene) == "materials/smoke.json") continue;
+    const Film path = film("path", 512);
+    for (const char* integrator : {"sppm", "vcm"}) {
       SCOPED_TRACE(std::string(scene) + " by " + integrator);
-      expect_alike(path, film(integrator, night ? 128 : 32), wide * within, wide * 4 * within);
+      expect_alike(path, film(integrator, 128), within, 4 * within);
     }
   }
 }
@@ -163,16 +157,10 @@ TEST(Photons, MergingBehindColouredFogFindsTheLightOfPathTracing) {
                {"name": "wall", "quad": {"corner": [-2, 1, 0], "edge_u": [4, 0, 0], "edge_v": [0, 0, 3]},
                 "material": "white"}],
     "render": {"photons": {"radius": 0.1}}})";
-  const bool night = test::nightly();
-  const std::vector<Override> day{{"/sensor/resolution", "[16, 16]"}, {"/render/photons/per_sample", "4096"}};
-  const auto film = [&](const char* integrator, int by_day, int at_night) {
-    return film_of({integrator, night ? at_night : by_day, night ? std::vector<Override>() : day}, fog);
-  };
-  const double wide = night ? 1 : 3;  // for noise
-  const Film path = film("path", 512, 1024);
-  expect_alike(path, film("vcm", 64, 128), wide * 0.01, wide * 0.03);
+  const Film path = film_of({"path", 1024}, fog);
+  expect_alike(path, film_of({"vcm", 128}, fog), 0.01, 0.03);
   // Whose pixels share their photons, and so their errors.
-  expect_alike(path, film("sppm", 64, 128), wide * 0.02, wide * 0.05);
+  expect_alike(path, film_of({"sppm", 128}, fog), 0.02, 0.05);
 }
 
 // Progressive photon mapping looks at the same places in all samples of a replicate, stochastic progressive
@@ -202,13 +190,12 @@ TEST(Photons, OnlyOfTheStochasticKindArePlacesDrawnAnew) {
 // caustic.
 TEST(Photons, MapsBlurLessTheMorePhotonsThereAre) {
   const auto error = [](const char* photons) {
-    const char* resolution = test::nightly() ? "[32, 32]" : "[16, 16]";
-    const std::vector<Override> small{{"/sensor/resolution", resolution}, {"/render/samples", "32"}};
+    const std::vector<Override> small{{"/sensor/resolution", "[32, 32]"}, {"/render/samples", "32"}};
     std::vector<Override> by_map = small;
     by_map.push_back({"/render/integrator", "photon-map"});
     by_map.push_back({"/render/photons", photons});
     static const Film kPath =
-        render(test::load("cornell.json", {{"/sensor/resolution", resolution}, {"/render/samples", "512"}}),
+        render(test::load("cornell.json", {{"/sensor/resolution", "[32, 32]"}, {"/render/samples", "512"}}),
                {})
             .film;
     const Film film = render(test::load("cornell.json", by_map), {}).film;
@@ -240,8 +227,7 @@ TEST(Photons, AFinalGatherMeetsLampsInGlassThroughFog) {
     const Film film = film_of(how, scene);
     return test::whole(film).mean;
   };
-  const int fewer = test::nightly() ? 1 : 8;
-  EXPECT_NEAR(mean({"photon-map", 4096 / fewer}) / mean({"path", 8192 / fewer}), 1, 0.2);
+  EXPECT_NEAR(mean({"photon-map", 4096}) / mean({"path", 8192}), 1, 0.2);
 }
 
 // Photons that find an opening by themselves, from the lamps, see what paths that leave it do: in coloured
@@ -254,18 +240,13 @@ TEST(BruteForce, PhotonsAndTheirAdjointsAgree) {
                                    {"/sensor/resolution", "[2, 2]"},
                                    {"/sensor/pixel_pitch_um", "700000"},
                                    {"/render/photons", R"({"per_sample": 100000})"}};
-  const bool night = test::nightly();
-  const int paths = night ? 8192 : 2048;
-  const int photons = night ? 64 : 4;
-  const double of_all = night ? 0.05 : 0.15;
-  const Film path = film_of({"path", paths, wide}, scene);
-  expect_alike(path, film_of({"adjoint-brute", night ? 1048576 : 131072, wide}, scene), night ? 0.01 : 0.06,
-               night ? 0.03 : 0.2);
-  expect_alike(path, film_of({"photon-brute", photons, wide}, scene), of_all, 3 * of_all);
+  const Film path = film_of({"path", 8192, wide}, scene);
+  expect_alike(path, film_of({"adjoint-brute", 1048576, wide}, scene), 0.01, 0.03);
+  expect_alike(path, film_of({"photon-brute", 64, wide}, scene), 0.05, 0.15);
   std::vector<Override> bladed = wide;
   bladed.push_back({"/camera/thin_lens/blades", "4"});
-  expect_alike(film_of({"path", paths, bladed}, scene), film_of({"photon-brute", photons, bladed}, scene),
-               of_all, 3 * of_all);
+  expect_alike(film_of({"path", 8192, bladed}, scene), film_of({"photon-brute", 64, bladed}, scene), 0.05,
+               0.15);
 }
 
 // At the corners of a film that the lens does not fill no path begins.

@@ -101,11 +101,10 @@ Film seen_by(const char* integrator, int samples, const std::string& others) {
 // What a row measures of light is the same whichever end it is carried from.
 TEST(Polarisation, IsTheSameFromEitherEnd) {
   const Film path = seen_by("path", 1024, "");
-  const Film by_light = seen_by("light", 1024, "");
-  const Comparison light = compare_regions(path, by_light, 4);
+  const Comparison light = compare_regions(path, seen_by("light", 1024, ""), 4);
   std::printf("light: largest z %.2f, ratio of the means %.5f\n", light.largest_z, light.ratio);
   EXPECT_LT(light.largest_z, 5.5);
-  EXPECT_NEAR(light.ratio, 1, ratio_margin(path, by_light, 0.01, 0.5));
+  EXPECT_NEAR(light.ratio, 1, 0.01);
   const Film with_ball = seen_by("path", nightly() ? 8192 : 512, kBall);
   for (const char* integrator : {"bdpt", "vcm", "sppm"}) {
     const Film film = seen_by(integrator, nightly() ? 512 : 64, kBall);
@@ -255,7 +254,7 @@ TEST(Polarisation, AirBehindAPolariserIsInvisibleInAFurnace) {
         "materials": {{"air": {{"medium": {{"phase": "rayleigh", "scattering_per_m": 1}}}}}},
         "lights": [{{"environment": {{}}, "emission": {{"spectrum": 1}}}}],
         "shapes": [{}], "render": {{"samples": {}, "integrator": "path", "max_depth": 200}}}})",
-                                               shapes, nightly() ? 32768 : 8192)),
+                                               shapes, 32768)),
                          {})
                       .film,
                   0, 0, 0, 4, 4);
@@ -263,7 +262,7 @@ TEST(Polarisation, AirBehindAPolariserIsInvisibleInAFurnace) {
   const Region air = seen(R"({"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "air"})");
   const double ratio = air.mean / seen("").mean;
   std::printf("air behind a polariser: %.5f +- %.5f\n", ratio, std::sqrt(air.variance) / air.mean);
-  EXPECT_NEAR(ratio, 1, nightly() ? 0.003 : 0.007);
+  EXPECT_NEAR(ratio, 1, 0.003);
 }
 
 // Light goes through a polariser to a mirror and back through it, which takes no more.
@@ -290,7 +289,8 @@ TEST(Polarisation, OneSurfaceIsMetTwiceByWayOfAMirror) {
 // A poor metal that light comes to from a card alone, so that all of what photons bring there is merged.
 TEST(Polarisation, MergedPhotonsAreReflectedAsLightIs) {
   const auto seen = [](const char* integrator, int samples) {
-    return render(load_text(R"({"abbe": 1,
+    return render(
+               load_text(R"({"abbe": 1,
         "camera": {"pinhole": {"fov_deg": 12, "f_number": 4}, "from": [0, -2, 1.6], "to": [0, 1, 0.5], "up": [0, 0, 1]},
         "sensor": {"resolution": [4, 4], "channels": {"A": {"band": [500, 600]}}, "stokes": true},
         "materials": {"card": {"diffuse": {"reflectance": 0.8}},
@@ -299,10 +299,8 @@ TEST(Polarisation, MergedPhotonsAreReflectedAsLightIs) {
         "shapes": [{"quad": {"corner": [-1, -1, 0], "edge_u": [2, 0, 0], "edge_v": [0, 2, 0]}, "material": "card"},
                    {"quad": {"corner": [-1, 1, 0], "edge_u": [2, 0, 0], "edge_v": [0, 0, 1.5]}, "material": "metal"}],
         "render": {}})",
-                            {{"/render/integrator", integrator},
-                             {"/render/samples", std::to_string(samples)},
-                             {"/render/photons", nightly() ? "{}" : R"({"per_sample": 4096})"}}),
-                  {})
+                         {{"/render/integrator", integrator}, {"/render/samples", std::to_string(samples)}}),
+               {})
         .film;
   };
   const auto degree = [](const Film& film) {
@@ -310,11 +308,10 @@ TEST(Polarisation, MergedPhotonsAreReflectedAsLightIs) {
   };
   const double by_paths = degree(seen("path", 8192));
   EXPECT_GT(std::abs(by_paths), 0.1);
-  // Of the photons of the second, as many as the film has pixels, only many samples tell.
-  for (const auto& [integrator, by_day] : {std::pair("photon-map", 128), {"vcm", 1024}}) {
-    const double by_photons = degree(seen(integrator, nightly() ? 128 : by_day));
+  for (const char* integrator : {"photon-map", "vcm"}) {
+    const double by_photons = degree(seen(integrator, 128));
     std::printf("%s: Q/I %.5f, by paths %.5f\n", integrator, by_photons, by_paths);
-    EXPECT_NEAR(by_photons / by_paths, 1, nightly() ? 0.015 : 0.03) << integrator;
+    EXPECT_NEAR(by_photons / by_paths, 1, 0.015) << integrator;
   }
 }
 

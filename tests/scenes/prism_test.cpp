@@ -1,13 +1,8 @@
 #include <algorithm>
 #include <array>
-#include <string>
-#include <vector>
-
-#include <fmt/format.h>
 
 #include "materials/interface/snell.h"
 #include "tests/scenes/scene_fixture.h"
-#include "tests/tier.h"
 
 namespace abbe {
 namespace {
@@ -66,71 +61,44 @@ struct Line {
 };
 constexpr std::array<Line, 4> kLines{{{"C", 656.2725}, {"d", 587.5618}, {"F", 486.1327}, {"g", 435.8343}}};
 
-// The lines by which one film each is lit: by day all of one, at night each of its own.
-std::vector<std::vector<Line>> lamps_of_lines() {
-  if (!test::nightly()) return {{kLines.begin(), kLines.end()}};
-  std::vector<std::vector<Line>> lamps;
-  for (const Line& line : kLines) lamps.push_back({line});
-  return lamps;
-}
-
-// Emission of as much power in each line, `quantity` in all.
-std::string emission_of(const std::vector<Line>& lines, const char* quantity) {
-  std::string text;
-  for (const Line& line : lines)
-    text += (text.empty() ? "" : ", ") +
-            fmt::format(R"({{"nm": {}, "width_nm": 0.01, "power": 1}})", std::to_string(line.nm));
-  return fmt::format(R"({{"lines": [{}], "{}": 1}})", text, quantity);
-}
-
-// Of the scene's film by day, of which the middle is looked at, rows enough.
-Override rows(int width, int height) {
-  return {"/sensor/resolution", fmt::format("[{}, {}]", width, test::nightly() ? height : 48)};
-}
-
 TEST(Prism, FraunhoferLinesFallWhereTheSellmeierFormulaPutsThem) {
-  for (const std::vector<Line>& lines : lamps_of_lines()) {
+  for (const Line& line : kLines) {
+    const std::string emission = "{\"lines\": [{\"nm\": " + std::to_string(line.nm) +
+                                 ", \"width_nm\": 0.01, \"power\": 1}], \"radiant_flux_W\": 1}";
     const Scene scene =
-        test::load("prism.json", {{"/lights/0/emission", emission_of(lines, "radiant_flux_W")},
-                                  rows(640, 360),
-                                  {"/render/samples", test::nightly() ? "3" : "16"}});
+        test::load("prism.json", {{"/lights/0/emission", emission}, {"/render/samples", "3"}});
+    const int channel = line.nm > 600 ? 0 : line.nm > 500 ? 1 : 2;
+    const double expected = chief_column(scene, line.nm);
+    const auto middle = static_cast<int>(expected);
+    // Rays inclined to the prism's principal plane are deviated more and bend the line, so only its middle is
+    // looked at: 16 rows of the 200 it is long, and 40 columns to each side of the 15 it is wide.
     const Film film = render(scene, {}).film;
-    for (const Line& line : lines) {
-      const int channel = line.nm > 600 ? 0 : line.nm > 500 ? 1 : 2;
-      const double expected = chief_column(scene, line.nm);
-      const auto middle = static_cast<int>(expected);
-      // Rays inclined to the prism's principal plane are deviated more and bend the line, so only its middle
-      // is looked at: 16 rows of the 200 it is long, and 40 columns to each side of the 15 it is wide.
-      const double column =
-          centroid(film, channel, middle - 40, film.height() / 2 - 8, middle + 40, film.height() / 2 + 8);
-      EXPECT_NEAR(column, expected, test::nightly() ? 0.1 : 0.2)
-          << line.name;  // its standard error by day is 0.04
-    }
+    const double column =
+        centroid(film, channel, middle - 40, film.height() / 2 - 8, middle + 40, film.height() / 2 + 8);
+    EXPECT_NEAR(column, expected, 0.1) << line.name;
   }
 }
 
 TEST(Prism, FraunhoferLinesOfAParallelSunbeamFallThereToo) {
-  for (const std::vector<Line>& lines : lamps_of_lines()) {
+  for (const Line& line : kLines) {
     const Scene scene = test::load(
         "sunlit_prism.json",
-        {{"/lights/0", R"({"directional": {"towards": [-238.555886, 0, -155.936158]}, "emission": )" +
-                           emission_of(lines, "irradiance") + "}"},
-         rows(480, 270),
+        {{"/lights/0",
+          R"({"directional": {"towards": [-238.555886, 0, -155.936158]}, "emission": {"lines": [{"nm": )" +
+              std::to_string(line.nm) + R"(, "width_nm": 0.01, "power": 1}], "irradiance": 1}})"},
          {"/sensor/observer", "\"1931\""},
-         {"/render/samples", test::nightly() ? "2" : "16"}});
+         {"/render/samples", "2"}});
+    const double expected = chief_column(scene, line.nm);
+    const auto middle = static_cast<int>(expected);
     const Film film = render(scene, {}).film;
-    for (const Line& line : lines) {
-      const double expected = chief_column(scene, line.nm);
-      const auto middle = static_cast<int>(expected);
-      const double column =
-          centroid(film, 1, middle - 20, film.height() / 2 - 6, middle + 20, film.height() / 2 + 6);
-      EXPECT_NEAR(column, expected, 0.1) << line.name;
-    }
+    const double column =
+        centroid(film, 1, middle - 20, film.height() / 2 - 6, middle + 20, film.height() / 2 + 6);
+    EXPECT_NEAR(column, expected, 0.1) << line.name;
   }
 }
 
 TEST(Prism, BandpassBlocksEndWhereTheirBandsEnd) {
-  const Scene scene = test::load("prism.json", {rows(640, 360), {"/render/samples", "12"}});
+  const Scene scene = test::load("prism.json", {{"/render/samples", "12"}});
   const Film film = render(scene, {}).film;
   // Where the column means of two neighbouring blocks cross, against the chief ray of the limit they share;
   // the image of the slit blurs both edges over its width.
@@ -157,7 +125,7 @@ TEST(Prism, BandpassBlocksEndWhereTheirBandsEnd) {
 }
 
 TEST(Prism, ColoursStandInOrder) {
-  const Scene scene = test::load("prism.json", {rows(640, 360), {"/render/samples", "2"}});
+  const Scene scene = test::load("prism.json", {{"/render/samples", "2"}});
   const Film film = render(scene, {}).film;
   const double red = centroid(film, 0);
   const double green = centroid(film, 1);

@@ -3,19 +3,11 @@
 #include <fmt/format.h>
 
 #include "tests/scenes/scene_fixture.h"
-#include "tests/tier.h"
 
 // Bins of wavelength as a film.
 
 namespace abbe {
 namespace {
-
-// By day: so many samples for one of the night.
-const int kFewer = test::nightly() ? 1 : 4;
-
-std::string samples(int at_night) {
-  return std::to_string(at_night / kFewer);
-}
 
 std::string bins(double from, double to, double step) {
   return fmt::format(
@@ -27,7 +19,7 @@ std::string bins(double from, double to, double step) {
 TEST(SpectralFilm, ALineThroughAPrismLandsInOneBinWithItsEnergy) {
   const std::vector<Override> lamp{
       {"/lights/0/emission", R"({"spectrum": {"band": [540, 550]}, "radiant_flux_W": 1})"},
-      {"/render/samples", samples(64)}};
+      {"/render/samples", "64"}};
   std::vector<Override> spectral = lamp;
   spectral.push_back({"/sensor", bins(500, 600, 10)});
   std::vector<Override> plain = lamp;
@@ -46,7 +38,7 @@ TEST(SpectralFilm, ALineThroughAPrismLandsInOneBinWithItsEnergy) {
     }
     EXPECT_GT(found.mean, 0);
     EXPECT_LT(std::abs(found.mean - all.mean), 5 * std::sqrt(found.variance + all.variance));
-    EXPECT_NEAR(found.mean / all.mean, 1, test::nightly() ? 0.02 : 0.04);
+    EXPECT_NEAR(found.mean / all.mean, 1, 0.02);
   }
 }
 
@@ -56,7 +48,7 @@ TEST(SpectralFilm, TwoLinesShareNoBin) {
       "prism.json", {{"/sensor", bins(430, 660, 10)},
                      {"/lights/0/emission", R"({"lines": [{"nm": 486.1327, "width_nm": 0.01, "power": 1},
                                     {"nm": 587.5618, "width_nm": 0.01, "power": 2}], "radiant_flux_W": 1})"},
-                     {"/render/samples", samples(64)}});
+                     {"/render/samples", "64"}});
   const Film film = render(scene, {}).film;
   double energy[2] = {0, 0};
   double column[2] = {0, 0};
@@ -81,9 +73,9 @@ TEST(SpectralFilm, PathsAndPhotonsFillBinsWithOneUnit) {
   const std::string sensor =
       R"({"resolution": [48, 48], "pixel_pitch_um": 520.8333, "spectral": {"from_nm": 380, "to_nm": 780, "step_nm": 50}})";
   const auto film = [&sensor](const char* integrator) {
-    return render(test::load("cornell.json", {{"/sensor", sensor},
-                                              {"/render/samples", samples(256)},
-                                              {"/render/integrator", integrator}}),
+    return render(test::load(
+                      "cornell.json",
+                      {{"/sensor", sensor}, {"/render/samples", "256"}, {"/render/integrator", integrator}}),
                   {})
         .film;
   };
@@ -95,7 +87,7 @@ TEST(SpectralFilm, PathsAndPhotonsFillBinsWithOneUnit) {
       const test::Region b = test::region(light, bin, 12 * i, 12, 12 * i + 12, 48);
       EXPECT_LT(std::abs(a.mean - b.mean), 5.6 * std::sqrt(a.variance + b.variance)) << bin << ' ' << i;
       if (a.mean > 0.05 * test::whole(path, 5).mean) {
-        EXPECT_NEAR(b.mean / a.mean, 1, test::nightly() ? 0.1 : 0.2) << bin << ' ' << i;
+        EXPECT_NEAR(b.mean / a.mean, 1, 0.1) << bin << ' ' << i;
       }
     }
 }
