@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <set>
@@ -84,6 +85,8 @@ void expect_same(const std::optional<MuellerMatrix>& a, const std::optional<Muel
 
 void expect_same_events(const Bsdf& mixed, const Bsdf& alone, const V3f& wo, TransportMode mode) {
   constexpr double kRounding = 2e-3;  // of directions, which are much of narrow lobes
+  // Compilers fuse multiplications and additions where a function is inlined, and not where it is called.
+  constexpr float kLastDigits = 4 * std::numeric_limits<float>::epsilon();
   Uniform random(5);
   for (int i = 0; i < 40; ++i) {
     const int hero = i % kLanes;
@@ -92,7 +95,7 @@ void expect_same_events(const Bsdf& mixed, const Bsdf& alone, const V3f& wo, Tra
     const auto event = sample(mixed, wo, u, hero, mode);
     ASSERT_EQ(event.has_value(), expected.has_value());
     if (!event) continue;
-    EXPECT_EQ(event->wi, expected->wi);
+    EXPECT_LE((event->wi - expected->wi).length(), kLastDigits);
     EXPECT_EQ(event->delta, expected->delta);
     EXPECT_NEAR(event->pdf, expected->pdf, kRounding * expected->pdf);
     expect_near(event->weight, expected->weight, kRounding);

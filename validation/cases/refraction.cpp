@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 constexpr double kGlass = 1.5;  // the index in all of these scenes
-constexpr int kSteps = 100000;
+constexpr int kMidpoints = 100000;
 constexpr int kMostChords = 24;  // of grazing rays some 1e-4 still comes after eight ways through
 
 // The part of a ray that leaves a sphere of radius 1 after `chords` ways through it, 0 being what is
@@ -51,7 +51,7 @@ double behind_ball(double below, double radius, int chords) {
     }
     return sum * std::sin(2 * incidence);
   };
-  return midpoint_integral(brought, 0, kPi / 2, kSteps) / (radius * radius);
+  return midpoint_integral(brought, 0, kPi / 2, kMidpoints) / (radius * radius);
 }
 
 // Irradiance of a point on the axis, `below` the centre of a ball of radius 1, by a disc of radiance 1 and
@@ -68,7 +68,7 @@ double below_ball(double below, double above, double radius) {
     }
     return sum * std::sin(2 * theta);
   };
-  return kPi * midpoint_integral(seen, 0, std::asin(1 / below), kSteps);
+  return kPi * midpoint_integral(seen, 0, std::asin(1 / below), kMidpoints);
 }
 
 // Irradiance of a point by a disc of radiance 1 and `radius` parallel to it, `air` of the way to which is air
@@ -82,7 +82,7 @@ double behind_pane(double air, double thickness, double radius) {
       if (air * std::tan(theta) + (bounces + 1) * crossing <= radius) sum += through_after(face, bounces);
     return sum * std::sin(2 * theta);
   };
-  return kPi * midpoint_integral(seen, 0, std::atan(radius / air), kSteps);
+  return kPi * midpoint_integral(seen, 0, std::atan(radius / air), kMidpoints);
 }
 
 // The sun, or a lamp, and a ball of glass; all of `ball_lens.json`.

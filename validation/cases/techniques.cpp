@@ -14,7 +14,7 @@ namespace {
 using Films = std::set<std::string>;
 
 // How an integrator is measured beside the film's case, and which runs afford it for which films.
-struct Measured {
+struct MeasuredTechnique {
   Integrator by;
   int patience = 1;  // by which the samples are multiplied
   int least_samples = 1;
@@ -34,7 +34,7 @@ constexpr int kSharedWavelengths = 256;
 
 // In the order of `kIntegratorNames`. `ppm` gathers as `sppm` does, from places that take much time to be
 // enough: a few films stand for all. What gathers photons is biased, and stays at its quick margin.
-const std::array<Measured, kIntegratorNames.size()>& all_measured() {
+const std::array<MeasuredTechnique, kIntegratorNames.size()>& all_measured() {
   static const Override few_photons{"/render/photons/per_sample", "4096"};
   static const Override few_neighbours{"/render/photons/nearest", "12"};  // no farther than 48 of the usual
   static const Override many_places{"/sensor/resolution", "[128, 128]"};  // which `ppm` never leaves
@@ -45,7 +45,7 @@ const std::array<Measured, kIntegratorNames.size()>& all_measured() {
     both.insert("ball-disc");
     return both;
   }();
-  static const std::array<Measured, kIntegratorNames.size()> all{
+  static const std::array<MeasuredTechnique, kIntegratorNames.size()> all{
       {{.by = Integrator::automatic, .tests = {"ball-meter"}},
        {.by = Integrator::path,
         .tests = {"T1-0.2", "T5-axis", "T11", "T12-white", "T12-glass", "T13-60", "T16-inside", "pane-thick",
@@ -98,14 +98,14 @@ const std::array<Measured, kIntegratorNames.size()>& all_measured() {
   return all;
 }
 
-Tier tier_of(const std::string& film, const Measured& measured) {
+Tier tier_of(const std::string& film, const MeasuredTechnique& measured) {
   if (measured.never.contains(film)) return Tier::never;
   if (measured.quick.contains(film)) return Tier::quick;
   if (measured.tests.contains(film)) return Tier::tests;
   return measured.thorough.contains(film) ? Tier::thorough : measured.others;
 }
 
-Case cell(const Case& item, const FilmMean& film, const Measured& measured) {
+Case cell(const Case& item, const FilmMean& film, const MeasuredTechnique& measured) {
   const char* name = kIntegratorNames.at(static_cast<std::size_t>(measured.by));
   TechniqueMean method{item.id, measured.by, film, tier_of(item.id, measured)};
   method.film.samples = std::max(measured.least_samples, film.samples * measured.patience);
@@ -131,7 +131,7 @@ std::vector<Case> technique_cases(const std::vector<Case>& films) {
   std::vector<Case> cells;
   for (const Case& item : films)
     if (const auto* film = std::get_if<FilmMean>(&item.method); film != nullptr && !is_repeated(item.id))
-      for (const Measured& measured : all_measured()) cells.push_back(cell(item, *film, measured));
+      for (const MeasuredTechnique& measured : all_measured()) cells.push_back(cell(item, *film, measured));
   return cells;
 }
 
