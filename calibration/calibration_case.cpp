@@ -1,7 +1,6 @@
 #include "calibration/calibration_case.h"
 
 #include <iterator>
-#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
@@ -108,15 +107,6 @@ void require_light_of(const ChartTargets& chart, const NamedCurve& light) {
                             light.name, named[0], named[1], own[0], own[1]));
 }
 
-void warn_of_codes(const MeasuredPatches& patches, const fs::path& file, Diagnostics& diagnostics) {
-  if (patches.unit != kCodeValues) return;
-  const auto source = std::make_shared<const SourceText>(SourceText{file.string(), ""});
-  diagnostics.warning(
-      {source, SourcePosition::kWholeFile, ""},
-      "its values, the code values of a picture, are taken for linear, which those for displays "
-      "are not: measure raw files, or give a --series");
-}
-
 // Code values to linear ones.
 void linearise_all(MeasuredPatches& patches, const std::vector<ChannelResponse>& responses) {
   for (Raw& value : patches.values)
@@ -184,8 +174,8 @@ CalibrationCase measured_calibration(const CalibrationSource& source, const std:
     camera.responses = in_rgb_order(std::move(recovered.channels), &ChannelResponse::channel);
     scale_to_codes(*patches, recovered.full_scale_dn, source.measured);
     linearise_all(*patches, camera.responses);
-  } else {
-    warn_of_codes(*patches, source.measured, diagnostics);
+  } else if (patches->unit == kCodeValues) {
+    warn_of_codes(source.measured, "measure raw files, or give a --series", diagnostics);
   }
   const BalancedPatches balanced = balance(*chart, *patches);
   camera.colors = balanced.colors;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
 #include <string_view>
 #include <vector>
@@ -13,10 +14,11 @@
 namespace abbe::cli {
 namespace {
 
+// What JSON has as null is "-", numbers that are not finite too.
 std::string cell(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
+  if (value.is_null() || (value.is_number_float() && !std::isfinite(value.get<double>()))) return "-";
   if (value.is_number_float()) return fmt::format("{:.10g}", value.get<double>());
-  if (value.is_null()) return "-";
   if (!value.is_structured()) return value.dump();
   std::string cells;
   for (const auto& [key, inner] : value.items())

@@ -64,8 +64,8 @@ Json seidel_answer(const lens::SeidelSums& sums) {
   for (std::size_t i = 0; i < sums.surfaces.size(); ++i) answer["surface"].push_back(i + 1);
   answer["surface"].push_back("sum");
   const auto add = [&](const char* name, double Seidel::*member) {
-    for (const Seidel& surface : sums.surfaces) answer[name].push_back(surface.*member);
-    answer[name].push_back(sums.sum.*member);
+    for (const Seidel& surface : sums.surfaces) answer[name].push_back(finite(surface.*member));
+    answer[name].push_back(finite(sums.sum.*member));
   };
   add("S_I", &Seidel::spherical);
   add("S_II", &Seidel::coma);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include "calibration/chart/measured_patches.h"
 #include "calibration/chart/raw_scale.h"
 #include "calibration/judge/slanted_edge.h"
 #include "cli/answer.h"
@@ -13,6 +14,7 @@
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/extension.h"
+#include "io/picture_codec.h"
 #include "sensor/film/film_planes.h"
 #include "sensor/film/recorded_mosaic.h"
 
@@ -46,11 +48,21 @@ const ImageChannel& channel_of(const Image& image, const std::string& asked) {
   return image.channels.front();
 }
 
+// Warns of values that are not linear, or of which the file does not tell it.
+void warn_of_nonlinear(const Image& image, const std::filesystem::path& path) {
+  const auto told = image.metadata.find(kColorSpace);
+  if (told != image.metadata.end() && told->second == kLinear) return;
+  Diagnostics diagnostics;
+  warn_of_codes(path, "measure a film, a raw file, or a picture that says that it is linear", diagnostics);
+  check(diagnostics);
+}
+
 EdgeResponse measure_edge(const MtfOptions& options, Inputs& inputs) {
   inputs.add_file(options.image);
   const RawImage read = read_raw_image(options.image, &inputs);
   require_no_mosaic(read, options.image);
   const Image& image = read.image;
+  warn_of_nonlinear(image, options.image);
   const Crop crop = asked_pixels(image, options.crop);
   const ImageChannel& channel = channel_of(image, options.channel);
   std::vector<double> values;

@@ -29,8 +29,8 @@ if(Python_FOUND)
   find_package(pybind11 2.10 QUIET CONFIG)
 endif()
 # Ceres is a static library of templates of Eigen compiled for any x86-64, where memory is aligned to 16 bytes. With
-# AVX Eigen would align to 32, and functions of one compilation would be linked into the other and crash.
-set_property(TARGET Ceres::ceres Eigen3::Eigen APPEND PROPERTY INTERFACE_COMPILE_DEFINITIONS EIGEN_MAX_ALIGN_BYTES=16)
+# AVX Eigen would align to 32, and under AddressSanitizer align memory itself: functions of one compilation would be linked into the other and crash.
+set_property(TARGET Ceres::ceres Eigen3::Eigen APPEND PROPERTY INTERFACE_COMPILE_DEFINITIONS EIGEN_MAX_ALIGN_BYTES=16 EIGEN_MALLOC_ALREADY_ALIGNED=1)
 if(BUILD_TESTING)
   find_package(GTest REQUIRED)
   find_package(benchmark REQUIRED)

@@ -40,7 +40,7 @@ function(abbe_common_options target)
     -fno-trapping-math $<$<AND:$<CXX_COMPILER_ID:GNU>,$<CONFIG:Release>>:-mmove-max=256 -mstore-max=256 --param=ggc-min-heapsize=1000000>)
 endfunction()
 
-# For what leaves the doing to rooms, as tests do and what reads the options of commands: half the time of their compilation would be optimisation that
+# For what leaves the doing to rooms, as tests do and what reads the options of commands: up to half the time of their compilation would be optimisation that
 # nobody waits for. A function of a header that such a target calls rather than inlines is this one's for the whole program, so that commands
 # and the module of Python, whose bits are compared, are compiled as rooms are.
 function(abbe_plain_options target)

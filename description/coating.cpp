@@ -1,4 +1,4 @@
-#include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -8,56 +8,71 @@
 namespace abbe::description {
 namespace {
 
-// The number of the material that `said` names among those of `coating`, added if it is new: the same words
-// name the same material.
-std::optional<std::uint32_t> film_material(const spec::Ior& said, Coating& coating, LoadContext& context) {
+/// A coating under way, with what its materials were told by first.
+struct Films {
+  Coating coating;
+  std::vector<const spec::Ior*> told;  // as many as materials
+};
+
+// Whether neither is a table, or both are the same, which their names do not tell.
+bool same_tables(const spec::Ior& a, const spec::Ior& b) {
+  const auto* one = std::get_if<spec::TableIor>(&a.value);
+  const auto* other = std::get_if<spec::TableIor>(&b.value);
+  if (one == nullptr || other == nullptr) return one == other;
+  return std::tie(one->wavelength_nm, one->n, one->k) == std::tie(other->wavelength_nm, other->n, other->k);
+}
+
+// The number of the material that `said` names among those of the coating, added if it is new: the same
+// words, numbers and tables are the same material.
+std::optional<std::uint32_t> film_material(const spec::Ior& said, Films& films, LoadContext& context) {
   auto ior = build(said, context);
   if (!ior) return std::nullopt;
   const auto* words = std::get_if<std::string>(&said.value);
   const std::string name = words ? *words : ior->name;
-  const auto known =
-      std::find_if(coating.materials.begin(), coating.materials.end(),
-                   [&](const Coating::Material& material) { return material.index_name == name; });
-  const auto number = static_cast<std::uint32_t>(known - coating.materials.begin());
-  if (known != coating.materials.end()) return number;
+  std::vector<Coating::Material>& materials = films.coating.materials;
+  std::uint32_t number = 0;
+  for (; number < materials.size(); ++number)
+    if (materials[number].index_name == name && same_tables(*films.told[number], said)) return number;
   if (number == Coating::kMaxMaterials) {
     context.diagnostics.error(
         said.where, fmt::format("too many materials in a coating (allowed {})", Coating::kMaxMaterials));
     return std::nullopt;
   }
-  coating.materials.push_back({name, std::move(ior->index)});
+  materials.push_back({name, std::move(ior->index)});
+  films.told.push_back(&said);
   return number;
 }
 
-void add_layers(const std::vector<spec::LayerEntry>& entries, Coating& coating, LoadContext& context) {
+void add_layers(const std::vector<spec::LayerEntry>& entries, Films& films, LoadContext& context) {
+  std::vector<Coating::Layer>& layers = films.coating.layers;
   for (const spec::LayerEntry& entry : entries) {
-    const std::size_t first = coating.layers.size();
+    const std::size_t first = layers.size();
     std::int64_t repeats = 1;
     if (const auto* group = std::get_if<spec::LayerGroup>(&entry.value)) {
       repeats = group->repeat;
-      add_layers(group->layers, coating, context);
+      add_layers(group->layers, films, context);
     } else {
       const auto& layer = std::get<spec::Layer>(entry.value);
-      if (const auto material = film_material(layer.ior, coating, context))
-        coating.layers.push_back({*material, layer.thickness_nm});
+      if (const auto material = film_material(layer.ior, films, context))
+        layers.push_back({*material, layer.thickness_nm});
     }
-    const std::size_t last = coating.layers.size();
+    const std::size_t last = layers.size();
     if (first + (last - first) * static_cast<std::size_t>(repeats) > Coating::kMaxLayers) {
       context.diagnostics.error(entry.where,
                                 fmt::format("too many layers (allowed {})", Coating::kMaxLayers));
       return;
     }
     for (; repeats > 1; --repeats)
-      for (std::size_t i = first; i < last; ++i) coating.layers.push_back(coating.layers[i]);
+      for (std::size_t i = first; i < last; ++i) layers.push_back(layers[i]);
   }
 }
 
 }  // namespace
 
 Coating build(const std::vector<spec::LayerEntry>& layers, LoadContext& context) {
-  Coating coating;
-  add_layers(layers, coating, context);
-  return coating;
+  Films films;
+  add_layers(layers, films, context);
+  return std::move(films.coating);
 }
 
 }  // namespace abbe::description

@@ -22,14 +22,13 @@ constexpr double kMaxMm = 1e9;
 constexpr Range kMm = Range{-kMaxMm, kMaxMm}.in("mm");
 constexpr Range kPositiveMm{0, kMaxMm, true, false, "mm"};
 constexpr Range kTilt = Range{-89, 89}.in("degrees");
-constexpr Range kFieldAngle = Range{-120, 120}.in("degrees");
 
 }  // namespace
 
 static Fields fields(Tag<ModelGlass>) {
   return describe("model_glass", "A glass known by two numbers: n = A + B/lambda^2 through both.",
-                  {field("nd", &ModelGlass::nd, {1, 4, true, false}, "Index at 587.5618 nm."),
-                   field("vd", &ModelGlass::vd, {1, 1000}, "Abbe number (n_d - 1)/(n_F - n_C).")});
+                  {field("nd", &ModelGlass::nd, kModelIndex, "Index at 587.5618 nm."),
+                   field("vd", &ModelGlass::vd, kAbbeNumber, "Abbe number (n_d - 1)/(n_F - n_C).")});
 }
 
 static Kind kind(Tag<LensGlass::Wrapped>) {
@@ -221,24 +220,66 @@ void set_wavelengths(const spec::Lens& said, System& system, Diagnostics& diagno
   system.primary = static_cast<std::size_t>(found - said.wavelengths_nm.begin());
 }
 
+void require_air(const spec::Lens& said, const System& system, Diagnostics& diagnostics) {
+  const auto& glass = system.surfaces.back().behind;
+  if (glass && glass->index.n(system.primary_nm()) != 1)
+    diagnostics.error(
+        said.surfaces.back().where,
+        fmt::format("the image of a lens is in air (got {} behind the last surface)", glass->name));
+}
+
+// Heights of a near object that are seen under these angles from the entrance pupil.
+std::vector<double> object_heights(const spec::Lens& said, std::vector<double> angles_deg, double pupil_mm,
+                                   Diagnostics& diagnostics) {
+  for (double& field : angles_deg) {
+    if (field == 0) continue;
+    if (!(std::abs(field) < 90)) {
+      diagnostics.error(said.where,
+                        fmt::format("fields_deg of a near object are less than 90 degrees from the axis (got "
+                                    "{:g}, allowed (-90, 90))",
+                                    field));
+    } else if (!(std::abs(pupil_mm) <= spec::kMaxMm)) {
+      diagnostics.error(said.where,
+                        fmt::format("fields_deg of a near object are seen from the entrance pupil, and this "
+                                    "lens is telecentric: say object_heights (got a pupil {:g} mm behind the "
+                                    "first surface, allowed [{:g}, {:g}])",
+                                    pupil_mm, -spec::kMaxMm, spec::kMaxMm));
+      break;
+    }
+    field = -(*said.object_distance + pupil_mm) * std::tan(field * kDegree);
+  }
+  return angles_deg;
+}
+
+// The fields that have these paraxial heights in the image.
+std::vector<double> fields_of_image(const spec::Lens& said, std::vector<double> heights,
+                                    const lens::FirstOrder& first, Diagnostics& diagnostics) {
+  if (!(std::abs(first.image_distance_mm) <= spec::kMaxMm))
+    diagnostics.error(said.where,
+                      fmt::format("image_heights need an image, and the lens has it at infinity: say {} (got "
+                                  "an image {:g} mm behind the last surface, allowed [{:g}, {:g}])",
+                                  said.object_distance ? "object_heights" : "fields_deg",
+                                  first.image_distance_mm, -spec::kMaxMm, spec::kMaxMm));
+  for (double& field : heights)
+    field = said.object_distance ? field / first.magnification
+                                 : std::atan(field / first.focal_length_mm) / kDegree;
+  return heights;
+}
+
 // Fields of any kind as the tracing takes them: directions of objects at infinity, heights of near ones.
 void set_fields(const spec::Lens& said, System& system, Diagnostics& diagnostics) {
   const lens::FirstOrder first = lens::first_order(lens::SystemAt(system, system.primary_nm()));
   if (const auto* angles = std::get_if<spec::FieldAngles>(&said.fields)) {
-    system.fields = angles->value;
-    if (said.object_distance)
-      for (double& field : system.fields)
-        field = -(*said.object_distance + first.entrance_pupil_mm) * std::tan(field * kDegree);
+    system.fields = said.object_distance
+                        ? object_heights(said, angles->value, first.entrance_pupil_mm, diagnostics)
+                        : angles->value;
   } else if (const auto* heights = std::get_if<spec::ObjectHeights>(&said.fields)) {
     if (!said.object_distance)
       diagnostics.error(said.where,
                         "object_heights need an object_distance: of an object at infinity say fields_deg");
     system.fields = heights->value;
   } else if (const auto* images = std::get_if<spec::ImageHeights>(&said.fields)) {
-    system.fields = images->value;
-    for (double& field : system.fields)
-      field = said.object_distance ? field / first.magnification
-                                   : std::atan(field / first.focal_length_mm) / kDegree;
+    system.fields = fields_of_image(said, images->value, first, diagnostics);
   }
   if (system.fields.empty()) system.fields = {0};
 }
@@ -345,6 +386,7 @@ std::optional<System> build(const spec::Lens& said, LoadContext& context,
   set_wavelengths(said, system, context.diagnostics);
   check_gaps(said, system, context.diagnostics);
   if (context.diagnostics.has_errors()) return std::nullopt;
+  require_air(said, system, context.diagnostics);
   set_fields(said, system, context.diagnostics);
   if (context.diagnostics.has_errors()) return std::nullopt;
   if (!set_up(said, system, wavelengths_nm, context.diagnostics)) return std::nullopt;

@@ -13,6 +13,10 @@
 // Lens prescriptions, as their files say them: lengths in mm, angles in degrees.
 namespace abbe::spec {
 
+inline constexpr Range kModelIndex{1, 4, true, false};  ///< Of n_d.
+inline constexpr Range kAbbeNumber{1, 1000};
+inline constexpr Range kFieldAngle = Range{-120, 120}.in("degrees");
+
 /// A glass by its index at the d line and its Abbe number there.
 struct ModelGlass {
   double nd = 1.5;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <set>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -116,12 +117,12 @@ Support counted_range(const Sensor& sensor) {
   return range.low < range.high ? range : Support{kMinWavelengthNm, kMaxWavelengthNm};
 }
 
-// Each index once, however many surfaces have it.
+// Each index once, however many surfaces have it; all tables have one name.
 void check_indices(const spec::LensSystem& said, const lens::System& lens, const Support& counted,
                    const LoadContext& context) {
-  std::set<std::string> told;
+  std::set<std::tuple<std::string, double, double>> told;
   const auto check = [&](const std::string& name, const RefractiveIndex& index) {
-    if (told.insert(name).second)
+    if (told.emplace(name, index.low_nm(), index.high_nm()).second)
       check_validity({&name, &index}, counted, said.prescription.where, context.diagnostics);
   };
   for (const lens::Surface& surface : lens.surfaces) {
@@ -130,20 +131,12 @@ void check_indices(const spec::LensSystem& said, const lens::System& lens, const
   }
 }
 
-bool is_in_air(const spec::LensSystem& said, const lens::System& lens, LoadContext& context) {
-  if (!lens.surfaces.back().behind) return true;
-  context.diagnostics.error(said.prescription.where,
-                            fmt::format("the film of a camera stands in air (got {} behind the last surface)",
-                                        lens.surfaces.back().behind->name));
-  return false;
-}
-
 }  // namespace
 
 std::optional<LensSystem> build(const spec::LensSystem& said, const CameraFrame& frame, const Sensor& sensor,
                                 LoadContext& context) {
   auto lens = load_prescription(said, context);
-  if (!lens || !is_in_air(said, *lens, context)) return std::nullopt;
+  if (!lens) return std::nullopt;
   if (sensor.spectral) {
     context.diagnostics.error(
         said.where,

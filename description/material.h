@@ -20,7 +20,7 @@ struct HenyeyGreenstein {
 /// How matter within a shape scatters.
 struct Scattering {
   std::optional<Curve> per_m;
-  std::optional<std::variant<PhaseWord, HenyeyGreenstein>> phase;
+  std::optional<schema::Located<std::variant<PhaseWord, HenyeyGreenstein>>> phase;
 };
 /// Densities at the nodes of a grid.
 struct Grid {

@@ -266,6 +266,10 @@ struct ModelBuilder {
   Model operator()(const spec::Medium& said) const {
     auto filling = build(said.scattering, said.absorption_per_m, context);
     if (!filling) return std::nullopt;
+    if (said.grid && !said.absorption_per_m && !said.scattering.per_m)
+      context.diagnostics.warning(said.grid->where,
+                                  "a grid without effect: without absorption_per_m and scattering_per_m "
+                                  "there is nothing that its densities multiply");
     if (said.grid && !(filling->grid = build(*said.grid, context))) return std::nullopt;
     return MediumMaterial{std::move(*filling)};
   }

@@ -10,9 +10,9 @@ namespace {
 
 PhaseFunction build_phase(const spec::Scattering& said) {
   if (!said.phase) return IsotropicPhase{};
-  if (const auto* peak = std::get_if<spec::HenyeyGreenstein>(&*said.phase))
+  if (const auto* peak = std::get_if<spec::HenyeyGreenstein>(&said.phase->value))
     return HenyeyGreensteinPhase{static_cast<float>(peak->g)};
-  if (std::get<spec::PhaseWord>(*said.phase) == spec::PhaseWord::isotropic) return IsotropicPhase{};
+  if (std::get<spec::PhaseWord>(said.phase->value) == spec::PhaseWord::isotropic) return IsotropicPhase{};
   return RayleighPhase{};
 }
 
@@ -66,6 +66,9 @@ std::optional<Medium> build(const spec::Scattering& said, const std::optional<sp
                             LoadContext& context) {
   auto scatters = build_coefficient(said.per_m, context);
   auto absorbs = build_coefficient(absorption, context);
+  if (said.phase && !said.per_m)
+    context.diagnostics.warning(said.phase->where,
+                                "a phase without effect: without scattering_per_m nothing scatters");
   if (!scatters || !absorbs) return std::nullopt;
   return Medium{std::move(*absorbs), std::move(*scatters), build_phase(said)};
 }

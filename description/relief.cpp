@@ -23,6 +23,20 @@ std::optional<TextureImage> map_image(const TextureFile& file, std::span<const s
   return texture_image(file, channels.size(), std::move(*texels));
 }
 
+// Why texel number `i` is no outward normal, if it is none.
+std::optional<std::string> normal_fault(const TextureFile& file, const std::vector<const ImageChannel*>& rgb,
+                                        std::size_t i) {
+  constexpr float kRounding = 1e-3F;  // of what was filtered, or stands in half floats
+  for (const ImageChannel* channel : rgb)
+    if (const float value = channel->values[i]; value < -kRounding || value > 1 + kRounding)
+      return fmt::format("{} has a normal that is not encoded (got {} = {}, allowed [0, 1])",
+                         file.texel_name(i), channel->name, value);
+  const float outward = rgb.back()->values[i];
+  if (outward > 0.5F) return std::nullopt;
+  return fmt::format("{} has a normal that does not point outward (got B = {}, allowed (0.5, 1])",
+                     file.texel_name(i), outward);
+}
+
 }  // namespace
 
 std::shared_ptr<const Relief> build(const spec::NormalMap& said, LoadContext& context) {
@@ -31,12 +45,12 @@ std::shared_ptr<const Relief> build(const spec::NormalMap& said, LoadContext& co
   const std::vector<std::string> channels{"R", "G", "B"};
   auto image = map_image(*file, channels, "a normal map", context);
   if (!image) return nullptr;
-  const std::vector<float>& outward = file->image.find(channels[2])->values;
-  for (std::size_t i = 0; i < outward.size(); ++i) {
-    if (outward[i] > 0.5F) continue;
-    file->refuse(fmt::format("{} has a normal that does not point outward (got B = {}, allowed (0.5, 1])",
-                             file->texel_name(i), outward[i]),
-                 ErrorCode::input, context);
+  std::vector<const ImageChannel*> rgb;
+  for (const std::string& channel : channels) rgb.push_back(file->image.find(channel));
+  for (std::size_t i = 0; i < file->image.pixels(); ++i) {
+    const auto fault = normal_fault(*file, rgb, i);
+    if (!fault) continue;
+    file->refuse(*fault, ErrorCode::input, context);
     return nullptr;
   }
   return std::make_shared<const Relief>(NormalMap{std::move(*image)});

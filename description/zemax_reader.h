@@ -85,8 +85,10 @@ class Reader {
     diagnostics_.error(line.where(word), std::move(message), ErrorCode::input);
   }
   spec::LensGlass named_glass(const Line& line) const;
+  std::optional<spec::LensGlass> model_glass(const Line& line);
   void require_whole();
   void require_meaning(const ReadSurface& read, bool object);
+  void require_angles();
   void finish_fields();
   void finish_wavelengths();
   spec::LensSurface finished(const ReadSurface& read) const;
@@ -102,7 +104,8 @@ class Reader {
   std::size_t field_count_ = 0;       // 0: as many as stand there
   std::size_t wavelength_count_ = 0;  // the same
   SourcePosition wavelength_count_where_{};
-  SourcePosition fields_where_{};  // what tells them, else how many there are
+  SourcePosition fields_where_{};  // of their number
+  std::optional<Line> fields_line_{};
   int primary_ = 1;
   std::optional<Line> primary_line_{};
   std::string aperture_word_{};  // of the line that has told the aperture

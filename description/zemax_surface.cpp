@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "description/zemax_reader.h"
 #include "materials/index/library.h"
@@ -52,20 +53,52 @@ void Reader::thickness(const Line& line) {
   if (!now().at_infinity) now().surface.thickness = line.number(1, diagnostics_).value_or(0);
 }
 
-// As the first of the file's catalogues sells it, else as scenes find it.
+// As the first of the file's catalogues sells it, else as scenes find it, which is told: another maker's
+// glass of the name may differ, and a catalogue may be one that is not known here.
 spec::LensGlass Reader::named_glass(const Line& line) const {
   std::string name = line.words[1].text;
   const std::vector<std::string> sold = glass_names();
-  for (const std::string& maker : catalogues_)
-    if (std::binary_search(sold.begin(), sold.end(), maker + "/" + name)) {
-      name = maker + "/" + name;
-      break;
-    }
+  const auto has_it = [&](const std::string& maker) {
+    return std::binary_search(sold.begin(), sold.end(), maker + "/" + name);
+  };
+  const auto maker = std::find_if(catalogues_.begin(), catalogues_.end(), has_it);
+  if (maker != catalogues_.end())
+    name = *maker + "/" + name;
+  else if (!catalogues_.empty())
+    diagnostics_.warning(line.where(1),
+                         fmt::format("{} is in none of the file's catalogues that are known here (got GCAT "
+                                     "{}): it is looked for in all",
+                                     name, fmt::join(catalogues_, " ")));
   spec::LensGlass glass;
   spec::Ior ior;
   ior.value = name;
   ior.where = glass.where = line.where(1);
   glass.value = ior;
+  return glass;
+}
+
+// An index, an Abbe number that is 0 without dispersion, and how far the partial dispersion is off the line
+// of normal glasses.
+std::optional<spec::LensGlass> Reader::model_glass(const Line& line) {
+  constexpr Range kIndex{1, spec::kModelIndex.high};
+  const auto nd = line.number(4, diagnostics_);
+  const auto vd = line.number(5, diagnostics_);
+  const auto partial = line.text(6) ? line.number(6, diagnostics_) : 0;
+  if (!nd || !vd || !partial) return std::nullopt;
+  if (!kIndex.contains(*nd))
+    error(line, 4, fmt::format("index out of range (got {:g}, allowed {})", *nd, kIndex.text()));
+  if (*vd != 0 && !spec::kAbbeNumber.contains(*vd))
+    error(line, 5,
+          fmt::format("Abbe number out of range (got {:g}, allowed {} or 0)", *vd, spec::kAbbeNumber.text()));
+  if (*partial != 0)
+    error(line, 6,
+          fmt::format("a partial dispersion of its own is not understood (got {:g}, allowed 0)", *partial));
+  spec::LensGlass glass;
+  glass.where = line.where(1);
+  if (*vd != 0)
+    glass.value = spec::ModelGlass{*nd, *vd};
+  else
+    glass.value = spec::Ior{{{*nd}, line.where(4)}};
   return glass;
 }
 
@@ -75,19 +108,10 @@ void Reader::glass(const Line& line) {
   if (said.empty()) return error(line, 0, "GLAS names a glass");
   if (is_object())
     return error(line, 1, fmt::format("an object in glass is not understood (got {}, allowed air)", said));
-  if (said != "___BLANK") {
+  if (said == "___BLANK")
+    now().surface.glass = model_glass(line);
+  else
     now().surface.glass = named_glass(line);
-    return;
-  }
-  const auto nd = line.positive(4, diagnostics_);
-  const auto vd = line.number(5, diagnostics_);
-  if (!nd || !vd) return;
-  now().surface.glass.emplace();
-  now().surface.glass->where = line.where(1);
-  if (*vd > 0)
-    now().surface.glass->value = spec::ModelGlass{*nd, *vd};
-  else  // without dispersion
-    now().surface.glass->value = spec::Ior{{{*nd}, line.where(4)}};
 }
 
 void Reader::conic(const Line& line) {

@@ -119,7 +119,7 @@ void Reader::x_fields(const Line& line) {
 
 void Reader::y_fields(const Line& line) {
   fields_ = line.numbers(1);
-  fields_where_ = line.where();
+  fields_line_ = line;
 }
 
 void Reader::wavelength(const Line& line) {
@@ -160,16 +160,25 @@ void Reader::configurations(const Line& line) {
           fmt::format("lenses of several configurations are not understood (got {:g})", line.numbers(1)[0]));
 }
 
+void Reader::require_angles() {
+  for (std::size_t i = 0; i < fields_.size(); ++i)
+    if (!spec::kFieldAngle.contains(fields_[i]))
+      error(*fields_line_, i + 1,
+            fmt::format("field out of range (got {} degrees, allowed {} degrees)", fields_[i],
+                        spec::kFieldAngle.text()));
+}
+
 void Reader::finish_fields() {
   // The axis needs no YFLN.
   if (std::max<std::size_t>(fields_.size(), 1) < field_count_)
-    diagnostics_.error(fields_where_,
+    diagnostics_.error(fields_line_ ? fields_line_->where() : fields_where_,
                        fmt::format("fewer fields along y than FTYP says (got {}, expected {})",
                                    fields_.size(), field_count_),
                        ErrorCode::input);
   if (field_count_ > 0) fields_.resize(field_count_);
   if (field_kind_ != 0)
     for (double& field : fields_) field *= unit_mm_;
+  if (field_kind_ == 0) require_angles();
   if (field_kind_ == 0)
     lens_.fields = spec::FieldAngles{{fields_}};
   else if (field_kind_ == 1)

@@ -19,7 +19,7 @@ constexpr int kMaxAimingSteps = 40;
 constexpr int kMaxHalvings = 20;
 constexpr double kAimed = 1e-12;      // in radii of the stop: what Newton's method strives for,
 constexpr double kGoodEnough = 1e-9;  // and what is taken where rounding does not let it
-constexpr double kDifference = 1e-4;  // of the entrance pupil's radius, for the Jacobian
+constexpr double kDifference = 1e-4;  // of the beam's radius, for the Jacobian
 constexpr double kFieldStep = 0.1;    // of the field, from chief ray to chief ray
 constexpr double kLeastStep = 1e-4;
 constexpr int kRimRays = 32;
@@ -34,10 +34,11 @@ V2d solved(const V2d& by_x, const V2d& by_y, const V2d& wanted) {
 
 Beam::Beam(const SystemAt& at, double stop_radius_mm) : at_(&at), radius_(stop_radius_mm) {
   const FirstOrder first = first_order(at);
-  const bool near_pupil = std::isfinite(first.entrance_pupil_mm) && !at.system->object_distance_mm;
-  pupil_z_ = near_pupil ? first.entrance_pupil_mm : 0;
-  const double magnification = std::abs(first.entrance_magnification);
-  scale_ = radius_ * (std::isfinite(magnification) ? magnification : 1);
+  const auto& distance = at.system->object_distance_mm;
+  pupil_z_ = std::isfinite(first.entrance_pupil_mm) && !distance ? first.entrance_pupil_mm : 0;
+  const double stop_over_launch =
+      std::abs(1 / first.entrance_magnification + (distance ? first.stop_by_slope_mm / *distance : 0));
+  scale_ = radius_ / (stop_over_launch > 0 ? stop_over_launch : 1);
 }
 
 void Beam::set_field(double field) {

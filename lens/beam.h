@@ -43,7 +43,7 @@ class Beam {
   const SystemAt* at_;
   double radius_;
   double pupil_z_;
-  double scale_;  // of the entrance pupil
+  double scale_;  // of the beam in the launch plane, paraxially
   Imath::V3d direction_{0, 0, 1};
   Imath::V3d object_{0, 0, 0};
   Imath::V2d chief_{0, 0};

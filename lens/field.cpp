@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "lens/paraxial.h"
@@ -36,27 +37,30 @@ double mean_radius(const Ends& ends) {
 }
 
 struct Rim {
-  Ends entrance_mm;    // where they cross the paraxial entrance pupil
+  Ends launch_mm;      // where they cross the launch plane
   Ends image_cosines;  // of their directions at the image, along x and y
 };
 
 std::optional<Rim> rim_of(const Beam& beam) {
   const SystemAt& at = beam.at();
-  const double pupil_z = first_order(at).entrance_pupil_mm;
   constexpr std::array<std::array<double, 2>, 4> kEnds{{{1, 0}, {-1, 0}, {0, 1}, {0, -1}}};
   Rim rim;
   for (std::size_t i = 0; i < kEnds.size(); ++i) {
     const auto launched = beam.aim({kEnds[i][0], kEnds[i][1]});
     if (!launched) return std::nullopt;
-    const Ray ray = beam.launch(*launched);
-    const RayPath path = trace(at, ray, Apertures::ignored);
+    const RayPath path = trace(at, beam.launch(*launched), Apertures::ignored);
     if (!path.reached()) return std::nullopt;
-    // Light of an object at infinity has the same width in every plane, a pupil at infinity included.
-    const double along = at.system->object_distance_mm ? (pupil_z - ray.origin.z) / ray.direction.z : 0;
-    rim.entrance_mm[i] = V2d(ray.origin.x, ray.origin.y) + along * V2d(ray.direction.x, ray.direction.y);
+    rim.launch_mm[i] = *launched;
     rim.image_cosines[i] = {path.last.direction.x, path.last.direction.y};
   }
   return rim;
+}
+
+// Of the axial beam's widths, that in the paraxial entrance pupil over that in the launch plane. Light of an
+// object at infinity has the same width in every plane, a pupil at infinity included.
+double pupil_over_launch(const SystemAt& at) {
+  const auto& distance = at.system->object_distance_mm;
+  return distance ? std::abs(1 + first_order(at).entrance_pupil_mm / *distance) : 1;
 }
 
 System with_round_stop(System system) {
@@ -86,8 +90,11 @@ std::optional<Speed> speed(const SystemAt& at, double stop_radius_mm, int side) 
   const Spot axial = spot(*beam, 0, side);
   if (!(axial.passed > 0)) return std::nullopt;
   Speed speed{};
-  speed.entrance_diameter_mm = 2 * mean_radius(rim->entrance_mm);
-  speed.f_number = std::abs(first_order(at).focal_length_mm) / speed.entrance_diameter_mm;
+  speed.launch_diameter_mm = 2 * mean_radius(rim->launch_mm);
+  speed.entrance_diameter_mm = speed.launch_diameter_mm * pupil_over_launch(at);
+  speed.f_number = std::isfinite(speed.entrance_diameter_mm)
+                       ? std::abs(first_order(at).focal_length_mm) / speed.entrance_diameter_mm
+                       : std::numeric_limits<double>::quiet_NaN();
   speed.working_f_number = 1 / (2 * at.n.back() * mean_radius(rim->image_cosines));
   speed.transmittance = axial.transmitted / axial.passed;
   speed.t_stop = speed.f_number / std::sqrt(share_at_image(at, stop_radius_mm, axial, side));

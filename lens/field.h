@@ -12,7 +12,8 @@ namespace abbe::lens {
 /// as the circle of the same area.
 struct Speed {
   double entrance_diameter_mm;  ///< Of the real axial beam at the entrance pupil.
-  double f_number;              ///< Focal length over that diameter.
+  double launch_diameter_mm;    ///< The same in the plane where `Beam` counts rays.
+  double f_number;              ///< Focal length over the former; not a number where that is infinite.
   double working_f_number;      ///< 1/(2 n' sin U'): U' of the real marginal ray, sin^2 U' the area that the
                                 ///< direction cosines of the beam along x and y fill, over pi.
   double transmittance;         ///< Mean over the axial beam.
@@ -30,7 +31,8 @@ struct Speed {
 /// The chief ray of a field in the plane of the image.
 struct Chief {
   double height_mm;                  ///< y there.
-  std::optional<double> distortion;  ///< Share by which it is off the paraxial height; none where that is 0.
+  std::optional<double> distortion;  ///< Share by which it is off the paraxial height; none where that is 0,
+                                     ///< and of directions of 90 degrees and more.
 };
 /// Where the image is off the paraxial focus the paraxial height is moved along the real chief ray.
 [[nodiscard]] std::optional<Chief> chief_ray(const SystemAt& at, double field, double stop_radius_mm);

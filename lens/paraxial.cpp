@@ -1,6 +1,7 @@
 #include "lens/paraxial.h"
 
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace abbe::lens {
@@ -53,6 +54,7 @@ FirstOrder first_order(const SystemAt& at) {
   first.rear_principal_mm = first.back_focus_mm - first.focal_length_mm;
   first.entrance_pupil_mm = before.b / before.a;
   first.entrance_magnification = 1 / before.a;
+  first.stop_by_slope_mm = before.b;
   first.exit_pupil_mm = -n_image * behind.b / behind.d;
   first.exit_magnification = 1 / behind.d;
   first.image_distance_mm = first.back_focus_mm;
@@ -65,9 +67,14 @@ FirstOrder first_order(const SystemAt& at) {
   return first;
 }
 
+double paraxial_slope(double direction_deg) {
+  if (!(std::abs(direction_deg) < 90)) return std::numeric_limits<double>::quiet_NaN();
+  return std::tan(direction_deg * std::numbers::pi / 180);
+}
+
 double paraxial_image_height(const SystemAt& at, const FirstOrder& first, double field) {
   if (at.system->object_distance_mm) return first.magnification * field;
-  return first.focal_length_mm / at.n.back() * std::tan(field * std::numbers::pi / 180);
+  return first.focal_length_mm / at.n.back() * paraxial_slope(field);
 }
 
 }  // namespace abbe::lens

@@ -27,6 +27,7 @@ struct FirstOrder {
   double entrance_pupil_mm;       ///< Of the image of the stop in object space.
   double exit_pupil_mm;           ///< Of the image of the stop in image space.
   double entrance_magnification;  ///< Entrance pupil over stop.
+  double stop_by_slope_mm;        ///< Height at the stop of a ray of slope 1 through the first vertex.
   double exit_magnification;      ///< Exit pupil over stop.
   double image_distance_mm;       ///< Of the image of the object: the back focus for one at infinity.
   double magnification;           ///< Of a near object; 0 for one at infinity.
@@ -34,7 +35,11 @@ struct FirstOrder {
 
 [[nodiscard]] FirstOrder first_order(const SystemAt& at);
 
-/// Height in the plane of the image that a paraxial chief ray of the field has; fields as in `System`.
+/// Slope of a paraxial ray in a direction as in `System`; not a number from 90 degrees on.
+[[nodiscard]] double paraxial_slope(double direction_deg);
+
+/// Height in the plane of the image that a paraxial chief ray of the field has; fields as in `System`. Not a
+/// number for directions of 90 degrees and more.
 [[nodiscard]] double paraxial_image_height(const SystemAt& at, const FirstOrder& first, double field);
 
 }  // namespace abbe::lens

@@ -1,8 +1,5 @@
 #include "lens/seidel.h"
 
-#include <cmath>
-#include <numbers>
-
 #include "lens/paraxial.h"
 
 namespace abbe::lens {
@@ -12,16 +9,18 @@ struct Slope {
   double y, u;  // at the first vertex, and before it
 };
 
-// The paraxial rays of the beam: through the edge of the entrance pupil, and through its middle.
-std::pair<Slope, Slope> beam_rays(const SystemAt& at, double pupil_radius, double field) {
-  const double z = first_order(at).entrance_pupil_mm;
+// The paraxial rays of the beam: of this height at the first vertex, and through the middle of the stop.
+std::pair<Slope, Slope> beam_rays(const SystemAt& at, double marginal, double field) {
+  const FirstOrder first = first_order(at);
   if (const auto distance = at.system->object_distance_mm) {
-    const double marginal = pupil_radius / (*distance + z);
-    const double chief = -field / (*distance + z);
-    return {{marginal * *distance, marginal}, {-z * chief, chief}};
+    // A ray passes the stop at by_height y + by_slope u, wherever the entrance pupil is.
+    const double by_height = 1 / first.entrance_magnification;
+    const double by_slope = first.stop_by_slope_mm;
+    const double share = field / (by_height * *distance + by_slope);
+    return {{marginal, marginal / *distance}, {by_slope * share, -by_height * share}};
   }
-  const double chief = std::tan(field * std::numbers::pi / 180);
-  return {{pupil_radius, 0}, {-z * chief, chief}};
+  const double chief = paraxial_slope(field);
+  return {{marginal, 0}, {-first.entrance_pupil_mm * chief, chief}};
 }
 
 struct SurfaceRays {
@@ -80,9 +79,9 @@ Seidel& Seidel::operator+=(const Seidel& other) {
   return *this;
 }
 
-SeidelSums seidel_sums(const SystemAt& at, const SystemAt& blue, const SystemAt& red, double pupil_radius_mm,
+SeidelSums seidel_sums(const SystemAt& at, const SystemAt& blue, const SystemAt& red, double marginal_mm,
                        double field) {
-  const auto [marginal, chief] = beam_rays(at, pupil_radius_mm, field);
+  const auto [marginal, chief] = beam_rays(at, marginal_mm, field);
   const auto hits = paraxial_trace(at, marginal.y, marginal.u);
   const auto chief_hits = paraxial_trace(at, chief.y, chief.u);
   const double lagrange = at.n[0] * (marginal.u * chief.y - chief.u * marginal.y);

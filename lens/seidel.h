@@ -26,8 +26,9 @@ struct SeidelSums {
   double image_nu;  ///< n'u' of the marginal ray behind the lens.
 };
 
-/// The sums for a beam whose marginal ray has the height `pupil_radius_mm` in the entrance pupil, from a
-/// field as in `System`; `blue` and `red` are the system at the wavelengths whose difference is the colour's.
+/// The sums for a beam whose marginal ray has the height `marginal_mm` at the first vertex, from a field as
+/// in `System`; `blue` and `red` are the system at the wavelengths whose difference is the colour's. For
+/// directions of 90 degrees and more all but S_I and C_I are not numbers.
 ///
 /// With A = n i of the marginal ray (y, u), B that of the chief ray (Y, U), H = n (u Y - U y) the Lagrange
 /// invariant, c the curvature and D what a surface changes:
@@ -38,6 +39,6 @@ struct SeidelSums {
 /// and a surface that leaves its osculating sphere by G r^4 adds 8 G D(n) y^4 to S_I, (Y/y) times that to
 /// S_II, (Y/y)^2 times to S_III, (Y/y)^3 times to S_V. [Welford1986]
 [[nodiscard]] SeidelSums seidel_sums(const SystemAt& at, const SystemAt& blue, const SystemAt& red,
-                                     double pupil_radius_mm, double field);
+                                     double marginal_mm, double field);
 
 }  // namespace abbe::lens

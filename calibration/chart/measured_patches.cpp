@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <set>
 #include <string_view>
 
@@ -87,8 +88,31 @@ std::set<std::string> saturated_in(const Table& table, const std::vector<std::st
   return saturated;
 }
 
+// Black whatever its chromaticity is.
 XYZ from_xyy(const std::array<double, 3>& c) {
+  if (c[2] == 0) return {};
   return {c[0] / c[1] * c[2], c[2], (1 - c[0] - c[1]) / c[1] * c[2]};
+}
+
+// The colours of a table's rows, by L, a, b or by x, y, Y; nothing where one states none.
+std::optional<std::vector<XYZ>> stated_rows(const Table& table, const XYZ& white, Diagnostics& diagnostics) {
+  const bool is_lab = table.column("L").has_value();
+  const auto values =
+      is_lab ? triples(table, {"L", "a", "b"}, diagnostics) : triples(table, {"x", "y", "Y"}, diagnostics);
+  if (!values) return std::nullopt;
+  std::vector<XYZ> colors;
+  for (const std::array<double, 3>& c : *values) {
+    const XYZ xyz = is_lab ? lab_to_xyz(c, white) : from_xyy(c);
+    const bool is_finite = std::isfinite(xyz[0]) && std::isfinite(xyz[1]) && std::isfinite(xyz[2]);
+    if (!is_finite || !(is_lab || c[1] > 0 || c[2] == 0))
+      diagnostics.error(
+          table.position(colors.size()),
+          fmt::format("states no colour (got {:g}, {:g}, {:g}, allowed {})", c[0], c[1], c[2],
+                      is_lab ? "L, a, b of finite X, Y, Z" : "y above 0 or a Y of 0, and finite X, Y, Z"),
+          ErrorCode::input);
+    colors.push_back(xyz);
+  }
+  return diagnostics.has_errors() ? std::nullopt : std::optional(std::move(colors));
 }
 
 std::optional<ChartTargets> stated_colors(const Table& table, Diagnostics& diagnostics) {
@@ -103,14 +127,10 @@ std::optional<ChartTargets> stated_colors(const Table& table, Diagnostics& diagn
     return std::nullopt;
   }
   auto names = patch_names(table, diagnostics);
-  const bool is_lab = table.column("L").has_value();
-  const auto values =
-      is_lab ? triples(table, {"L", "a", "b"}, diagnostics) : triples(table, {"x", "y", "Y"}, diagnostics);
-  if (!names || !values) return std::nullopt;
-  ChartTargets colors{*std::move(names), {}, from_xyy({xy[0], xy[1], 1})};
-  for (const std::array<double, 3>& c : *values)
-    colors.xyz.push_back(is_lab ? lab_to_xyz(c, colors.white) : from_xyy(c));
-  return colors;
+  const XYZ white = from_xyy({xy[0], xy[1], 1});
+  auto xyz = stated_rows(table, white, diagnostics);
+  if (!names || !xyz) return std::nullopt;
+  return ChartTargets{*std::move(names), *std::move(xyz), white};
 }
 
 }  // namespace
@@ -128,6 +148,14 @@ std::optional<ChartTargets> load_chart_targets(const std::string& name, const Cu
     colors.xyz.push_back(unit_tristimulus(illuminant, patch.reflectance));
   }
   return colors;
+}
+
+void warn_of_codes(const std::filesystem::path& file, const std::string& instead, Diagnostics& diagnostics) {
+  const auto source = std::make_shared<const SourceText>(SourceText{file.string(), ""});
+  diagnostics.warning({source, SourcePosition::kWholeFile, ""},
+                      "its values, the code values of a picture, are taken for linear, which those for "
+                      "displays are not: " +
+                          instead);
 }
 
 std::optional<MeasuredPatches> load_measured_patches(const std::filesystem::path& path,

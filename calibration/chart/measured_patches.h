@@ -29,6 +29,10 @@ struct ChartTargets {
 inline constexpr const char* kNumbersAboveBlack = "digital numbers above black";
 inline constexpr const char* kCodeValues = "code values in [0, 1], as the file has them";
 
+/// Warns that the code values of a picture, out of which `file` is or was measured, are taken for linear, and
+/// tells what to do instead.
+void warn_of_codes(const std::filesystem::path& file, const std::string& instead, Diagnostics& diagnostics);
+
 /// A camera's values of named patches, each named once, from a table with the columns `patch`, `R`, `G`, `B`;
 /// with `R_deviation` (of a pixel), `R_pixels` and those of G and B, as `abbe measure` writes them, it tells
 /// their noise too. Where `R_saturated`, `G_saturated` or `B_saturated` is above 0, a warning names the

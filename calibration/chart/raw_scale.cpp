@@ -10,6 +10,7 @@
 #include "io/error.h"
 #include "io/json.h"
 #include "io/picture.h"
+#include "io/picture_codec.h"
 #include "io/text.h"
 #include "sensor/film/recorded_mosaic.h"
 #include "sensor/readout/readout_json.h"
@@ -153,13 +154,17 @@ RawImage read_raw_image(const std::filesystem::path& path, Inputs* inputs) {
   if (!is_raw_picture(path)) {
     Image image = read_image(path, inputs);
     auto scale = raw_scale(image);
-    if (scale && holds_codes(all_told(image))) name_planes(image);
+    if (scale && holds_codes(all_told(image))) {
+      name_planes(image);
+      image.metadata[kColorSpace] = kLinear;
+    }
     if (scale && !scale->linear_codes.empty()) straighten(image, *scale);
     return {std::move(image), std::move(scale)};
   }
   const RawPicture raw = read_raw_picture(path);
   if (inputs != nullptr) inputs->take_memory(path.string(), raw.codes.size() * sizeof(float));
   RawImage read{code_planes(raw), {}};
+  read.image.metadata[kColorSpace] = kLinear;
   const auto share = static_cast<float>(1 / kSixteenBits);  // with which OpenImageIO rounds alike
   for (ImageChannel& plane : read.image.channels)
     for (float& code : plane.values) code *= share;

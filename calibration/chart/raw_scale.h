@@ -75,7 +75,8 @@ struct RawImage {
 /// Reads a DNG or FITS by `read_raw_picture`, its codes as they are and not as a raw converter shows them,
 /// and any other image by `read_image`, as stored beside an alpha channel; codes by a response curve that the
 /// file tells are those of a straight line, as the table of a DNG makes them. What a DNG or FITS of another
-/// program tells of its levels, pattern and exposure counts too. Throws Error{input} and Error{resource}.
+/// program tells of its levels, pattern and exposure counts too. Codes of a sensor are "Linear" by the
+/// attribute `kColorSpace`, as floats are. Throws Error{input} and Error{resource}.
 [[nodiscard]] RawImage read_raw_image(const std::filesystem::path& path, Inputs* inputs = nullptr);
 /// The 16-bit code that a value of an image from `read_image` stands for.
 [[nodiscard]] double code_of(float value);

@@ -78,8 +78,8 @@ Raw diffuser_by_neutrals(const PatchColors& colors) {
   Raw sum{};
   double weight = 0;
   for (std::size_t i = 0; i < colors.xyz.size(); ++i) {
-    if (!is_neutral(colors.xyz[i], colors.white)) continue;
     const double y = colors.xyz[i][1];
+    if (!(y > 0 && is_neutral(colors.xyz[i], colors.white))) continue;  // a black one tells nothing
     const Raw grey = camera ? multiply(*camera, colors.white) : Raw{1, 1, 1};
     const Raw tinged = camera ? multiply(*camera, colors.xyz[i]) : Raw{y, y, y};
     for (std::size_t k = 0; k < 3; ++k) sum[k] += colors.raw[i][k] * y * (y * grey[k] / tinged[k]);

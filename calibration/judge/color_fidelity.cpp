@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "calibration/judge/appearance.h"
@@ -50,7 +51,7 @@ std::size_t bin_of(const std::array<double, 3>& color) {
   return static_cast<std::size_t>((hue < 0 ? hue + 1 : hue) * ColorFidelity::kBins) % ColorFidelity::kBins;
 }
 
-// Twice the area of the polygon of the bins' means.
+// Twice the area of the polygon of the bins' means; NaN where one has no samples.
 double area(const std::array<HueBin, ColorFidelity::kBins>& bins, std::array<double, 2> HueBin::*of) {
   double total = 0;
   for (std::size_t i = 0; i < bins.size(); ++i) {
@@ -59,6 +60,25 @@ double area(const std::array<HueBin, ColorFidelity::kBins>& bins, std::array<dou
     total += a0 * b1 - a1 * b0;
   }
   return total;
+}
+
+// The means of the k-th bin, in which as many samples as `count` have these sums.
+HueBin mean_of(HueBin bin, double count, double difference, std::size_t k) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (count == 0) return {{kNone, kNone}, {kNone, kNone}, kNone, kNone, kNone};
+  for (std::size_t j = 0; j < 2; ++j) {
+    bin.test[j] /= count;
+    bin.reference[j] /= count;
+  }
+  // The mean shift along the middle of the bin and across it, as shares of the chroma [TM30, sec. 4.6].
+  const double middle = (static_cast<double>(k) + 0.5) * kTurn / ColorFidelity::kBins;
+  const double chroma = std::hypot(bin.reference[0], bin.reference[1]);
+  const double da = (bin.test[0] - bin.reference[0]) / chroma;
+  const double db = (bin.test[1] - bin.reference[1]) / chroma;
+  bin.chroma_shift = da * std::cos(middle) + db * std::sin(middle);
+  bin.hue_shift = -da * std::sin(middle) + db * std::cos(middle);
+  bin.fidelity = fidelity_of(difference / count);
+  return bin;
 }
 
 std::array<HueBin, ColorFidelity::kBins> binned(const Colors& test, const Colors& reference) {
@@ -74,21 +94,7 @@ std::array<HueBin, ColorFidelity::kBins> binned(const Colors& test, const Colors
       bins[k].reference[j] += reference[i][j + 1];
     }
   }
-  for (std::size_t k = 0; k < bins.size(); ++k) {
-    HueBin& bin = bins[k];
-    for (std::size_t j = 0; j < 2; ++j) {
-      bin.test[j] /= counts[k];
-      bin.reference[j] /= counts[k];
-    }
-    // The mean shift along the middle of the bin and across it, as shares of the chroma [TM30, sec. 4.6].
-    const double middle = (static_cast<double>(k) + 0.5) * kTurn / ColorFidelity::kBins;
-    const double chroma = std::hypot(bin.reference[0], bin.reference[1]);
-    const double da = (bin.test[0] - bin.reference[0]) / chroma;
-    const double db = (bin.test[1] - bin.reference[1]) / chroma;
-    bin.chroma_shift = da * std::cos(middle) + db * std::sin(middle);
-    bin.hue_shift = -da * std::sin(middle) + db * std::cos(middle);
-    bin.fidelity = fidelity_of(differences[k] / counts[k]);
-  }
+  for (std::size_t k = 0; k < bins.size(); ++k) bins[k] = mean_of(bins[k], counts[k], differences[k], k);
   return bins;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <optional>
 #include <vector>
@@ -23,20 +24,23 @@ struct ColorRendering {
 /// without a colour temperature up to 25 000 K.
 [[nodiscard]] std::optional<ColorRendering> color_rendering(const Curve& light);
 
-/// Where samples of one range of hue lie in the plane a', b', in the mean, and how they fare.
+/// Where samples of one range of hue lie in the plane a', b', in the mean, and how they fare: NaN where the
+/// range holds none under the reference.
 struct HueBin {
   std::array<double, 2> test{};
   std::array<double, 2> reference{};
   double fidelity = 0;      ///< R_f,h
   double chroma_shift = 0;  ///< R_cs,h, as a share of the reference's chroma.
   double hue_shift = 0;     ///< R_hs,h [rad].
+
+  [[nodiscard]] bool has_samples() const { return !std::isnan(fidelity); }
 };
 
 /// Colour fidelity and gamut by CIE 224 and ANSI/IES TM-30.
 struct ColorFidelity {
   static constexpr std::size_t kBins = 16;
   double fidelity = 0;               ///< R_f
-  double gamut = 0;                  ///< R_g
+  double gamut = 0;                  ///< R_g; NaN where a bin has no samples.
   std::vector<double> samples;       ///< R_f of each of the 99 samples.
   std::array<HueBin, kBins> bins{};  ///< From the hue angle 0 on, 22.5 degrees each.
 };
@@ -45,7 +49,8 @@ struct ColorFidelity {
 /// (above 5000 K) or a mixture of both of the same colour temperature: in CAM02-UCS for the CIE 1964
 /// observer, L_A = 100, Y_b = 20, adapted completely; R_f = 10 ln(1 + exp((100 - 6.73 dE)/10)) of the mean
 /// difference [CIE224, sec. 4]. R_g is 100 times the ratio of the areas of the polygons of the bins' means,
-/// the bins being those of the hue under the reference [TM30, sec. 4]. Nothing as for `color_rendering`.
+/// the bins being those of the hue under the reference [TM30, sec. 4], and exists where none of the 16 is
+/// empty. Nothing as for `color_rendering`.
 [[nodiscard]] std::optional<ColorFidelity> color_fidelity(const Curve& light);
 
 }  // namespace abbe

@@ -47,11 +47,15 @@ struct Obj {
     const std::string_view text = stream.view().substr(0, static_cast<std::size_t>(end));
     return text.substr(0, text.find_last_not_of("\r\n") + 1);
   }
-  /// Its words behind the first.
-  [[nodiscard]] std::string rest() const {
+  /// Its words behind the first, without blanks at their ends.
+  [[nodiscard]] std::string_view rest() const {
+    constexpr std::string_view kBlanks = " \t";
     std::string_view line = read();
     line.remove_prefix(line.find_last_of("\r\n") + 1);
-    return split(line.substr(line.find_first_of(" \t", line.find_first_not_of(" \t"))), '\n')[0];
+    line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
+    line.remove_prefix(std::min(line.find_first_of(kBlanks), line.size()));
+    line.remove_prefix(std::min(line.find_first_not_of(kBlanks), line.size()));
+    return line.substr(0, line.find_last_not_of(kBlanks) + 1);
   }
   [[noreturn]] void refuse(const std::string& what) const {
     const std::string_view text = read();
@@ -107,7 +111,7 @@ void join_continued_lines(std::string& bytes) {
   bytes.resize(kept);
 }
 
-// Numbers at the start of a text. The library takes for 0 what is none.
+// Numbers at the start of a text. The library takes what a word begins with, or 0, for what is none.
 template <std::size_t N>
 std::optional<std::array<double, N>> numbers(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r\n\v\f";
@@ -123,25 +127,25 @@ std::optional<std::array<double, N>> numbers(std::string_view text) {
   return v;
 }
 
-// What the library has read as three numbers; `what` names number `count` of those.
-void require_numbers(const Obj& obj, const Imath::V3d& v, const char* what, std::size_t count) {
-  const auto suspect = [](double x) { return x == 0 || !std::isfinite(x); };
-  if ((suspect(v.x) || suspect(v.y) || suspect(v.z)) && !numbers<3>(obj.rest()))
-    obj.refuse(fmt::format("{} {} needs three finite numbers (got {})", what, count, obj.rest()));
+// The three numbers of a line; `what` names number `count` of those.
+Imath::V3d three_numbers(const Obj& obj, const char* what, std::size_t count) {
+  const auto v = numbers<3>(obj.rest());
+  if (!v) obj.refuse(fmt::format("{} {} needs three finite numbers (got {})", what, count, obj.rest()));
+  return {(*v)[0], (*v)[1], (*v)[2]};
 }
 
-void take_vertex(void* user, double x, double y, double z, double /*w*/) {
+void take_vertex(void* user, double /*x*/, double /*y*/, double /*z*/, double /*w*/) {
   Obj& obj = *static_cast<Obj*>(user);
-  require_numbers(obj, {x, y, z}, "vertex", obj.vertices.size() + 1);
+  const Imath::V3d vertex = three_numbers(obj, "vertex", obj.vertices.size() + 1);
   obj.reading.make_room(obj.vertices, 1);
-  obj.vertices.emplace_back(x, y, z);
+  obj.vertices.push_back(vertex);
 }
 
-void take_normal(void* user, double x, double y, double z) {
+void take_normal(void* user, double /*x*/, double /*y*/, double /*z*/) {
   Obj& obj = *static_cast<Obj*>(user);
-  require_numbers(obj, {x, y, z}, "vn", obj.normals.size() + 1);
+  const Imath::V3d normal = three_numbers(obj, "vn", obj.normals.size() + 1);
   obj.reading.make_room(obj.normals, 1);
-  obj.normals.push_back(unit_normal({x, y, z}));
+  obj.normals.push_back(unit_normal(normal));
 }
 
 void take_coordinates(void* user, double /*u*/, double /*v*/, double /*w*/) {
@@ -185,10 +189,10 @@ bool is_corner(std::string_view word) {
 
 void require_corners(const Obj& obj) {
   constexpr std::string_view kBlanks = " \t\r";
-  const std::string line = obj.rest();
+  const std::string_view line = obj.rest();
   for (std::size_t begin = 0, end = 0; begin < line.size(); begin = line.find_first_not_of(kBlanks, end)) {
     end = std::min(line.find_first_of(kBlanks, begin), line.size());
-    const std::string word = line.substr(begin, end - begin);
+    const std::string_view word = line.substr(begin, end - begin);
     if (!is_corner(word))
       obj.refuse(fmt::format(
           "a corner of a face (got \"{}\", allowed v, v/vt, v//vn and v/vt/vn of whole numbers)", word));

@@ -201,7 +201,10 @@ class Shading:
         self.note("a reflectance along the normal above 0.08 is cut to that", self.value(node, "Specular") > 1)
         model = {"metallic": tidy(metallic)}
         model.update({key: tidy(min(self.value(node, key.capitalize()), 1)) for key in ("roughness", "specular", "sheen", "clearcoat")})
-        model["clearcoat_gloss"] = tidy(1 - self.value(node, "Clearcoat Roughness"))
+        if model["clearcoat"] > 0:
+            width = self.value(node, "Clearcoat Roughness") ** 2
+            self.note("a width of a clear coat's facets above 0.1 is cut to that", width > 0.1)
+            model["clearcoat_gloss"] = tidy(min(max((0.1 - width) / 0.099, 0), 1))
         return self.in_relief(node, {"principled": {"base_color": self.reflectance(node, "Base Color"), **model}}), emission
 
     def glass(self, node, colour="Color", distribution=None):

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
 #include <utility>
 
+#include <fmt/format.h>
 #include <boost/random/normal_distribution.hpp>
 #include <boost/random/poisson_distribution.hpp>
 #include <boost/random/uniform_01.hpp>
@@ -25,6 +25,15 @@ constexpr double kSaturationDeviations = 6;
 double poisson(double mean, SplitMix64& random) {
   if (!(mean > 0)) return 0;
   return static_cast<double>(boost::random::poisson_distribution<std::int64_t, double>(mean)(random));
+}
+
+// The electrons that a pixel expects. Throws where they are no number, or too many.
+double countable(double electrons, const char* of_what, std::size_t pixel) {
+  if (!(electrons <= kMostElectrons))
+    throw Error(
+        ErrorCode::input, "film",
+        fmt::format("pixel {} expects {:g} electrons{} (allowed up to 1e15)", pixel, electrons, of_what));
+  return electrons;
 }
 
 // What is odd about a pixel in every exposure.
@@ -53,15 +62,12 @@ struct ExposedPixel {
 
 ExposedPixel expose_pixel(const Readout& readout, float expected_e, std::size_t pixel, double seconds,
                           std::uint64_t key) {
-  const double light_e = std::max(0.0, static_cast<double>(expected_e));
-  if (!(light_e <= kMostElectrons) || std::isnan(expected_e))
-    throw Error(ErrorCode::input, "film",
-                "pixel " + std::to_string(pixel) + " expects " + std::to_string(expected_e) +
-                    " electrons (allowed up to 1e15)");
+  const double light_e = std::max(0.0, countable(static_cast<double>(expected_e), "", pixel));
   const FixedPattern pattern = fixed_pattern(readout, pixel);
   SplitMix64 random(ReadoutPurpose::noise, key, pixel);
   const double dark_e = (readout.dark_e_per_s + pattern.hot_e_per_s) * seconds;
-  const double freed_e = poisson(light_e * pattern.sensitivity + dark_e, random);
+  const double mean_e = countable(light_e * pattern.sensitivity + dark_e, " with its dark signal", pixel);
+  const double freed_e = poisson(mean_e, random);
   return {freed_e, std::min(freed_e, readout.full_well_e), pattern.offset_e, random};
 }
 

@@ -87,7 +87,7 @@ struct RawFrame {
 /// number for each row. With blooming, half of what a well cannot hold flows down its column and half up,
 /// into the first wells that have room, and off the end. A pure function of readout, exposure and each
 /// pixel's own number and electrons, with blooming those of its column. Throws Error{input} for electrons
-/// that are no number or above 1e15.
+/// that are no number or above 1e15, of light alone or with the dark signal.
 [[nodiscard]] RawFrame read_out(const Readout& readout, std::span<const float> expected_e,
                                 const Exposure& exposure);
 

@@ -230,6 +230,10 @@ class Plain(Exported):
         luminous = self.film("other", "--spp", "256", "--seed", "1", scene=other)
         self.assert_equal_tiles(made, (luminous[0] * per_watt / LUMENS_OF_GLTF, luminous[1] * (per_watt / LUMENS_OF_GLTF)**2), 0.01)
 
+    def test_coats_are_as_wide_as_in_cycles(self):
+        width = 0.1 - 0.099 * self.scene("plain")["materials"]["look2"]["principled"]["clearcoat_gloss"]
+        self.assertAlmostEqual(width, 0.2**2, delta=1e-6)
+
     def test_colours_have_the_spectra_of_abbe(self):
         abbe("convert", self.folder / "plain.gltf", "-o", self.folder / "other.json")
         text = (self.folder / "other.json").read_text()

@@ -239,7 +239,7 @@ def plain():
     ground.uv_layers.new(name="uv").data.foreach_set("uv", [0, 0, 2, 0, 2, 2, 0, 2])
     add("floor", ground)
     looks = [dict(Base_Color=(0.8, 0.2, 0.1, 1), Roughness=0.4), dict(Metallic=1, Base_Color=(0.9, 0.7, 0.3, 1), Roughness=0.3),
-             dict(Base_Color=(0.1, 0.3, 0.7, 1), Roughness=0.7, Clearcoat=0.8, Clearcoat_Roughness=0.2), dict(Base_Color=(0.5, 0.5, 0.5, 1), Metallic=0.4)]
+             dict(Base_Color=(0.1, 0.3, 0.7, 1), Roughness=0.7, Clearcoat=1, Clearcoat_Roughness=0.2), dict(Base_Color=(0.5, 0.5, 0.5, 1), Metallic=0.4)]
     for i, look in enumerate(looks):
         add(f"ball{i}", ball(f"ball{i}", 64, nodes(f"look{i}", **look)), location=(2.2 * i - 3.3, 0, 1))
     lamp("POINT", (-2, -4, 5), energy=500, shadow_soft_size=0)

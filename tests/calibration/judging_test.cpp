@@ -56,6 +56,16 @@ TEST(ColorRendering, OfTheReferencesThemselvesIsPerfect) {
   }
 }
 
+TEST(ColorRendering, OfHuesWithoutSamplesAndTheirGamutThereIsNone) {
+  const auto fidelity = color_fidelity(planck(1000));
+  EXPECT_NEAR(fidelity->fidelity, 100, 0.05);
+  EXPECT_TRUE(std::isnan(fidelity->gamut));
+  std::vector<std::size_t> empty;
+  for (std::size_t k = 0; k < ColorFidelity::kBins; ++k)
+    if (!fidelity->bins[k].has_samples()) empty.push_back(k);
+  EXPECT_EQ(empty, (std::vector<std::size_t>{3, 5, 12}));
+}
+
 TEST(ColorRendering, DoesNotDependOnPower) {
   const Curve lamp = illuminant("FL4");
   EXPECT_NEAR(color_rendering(lamp)->general, color_rendering(scaled(lamp, 1e-6))->general, 1e-9);

@@ -95,6 +95,48 @@ TEST_F(Measured, BalancesOnNeutralPatchesAlone) {
   }
 }
 
+// A black one is as neutral as any, and tells nothing of white.
+TEST_F(Measured, BalancesWithoutTheBlackPatches) {
+  const XYZ white{0.9, 1, 0.8};
+  ChartTargets chart{{"black", "grey"}, {{0, 0, 0}, {0.45, 0.5, 0.4}}, white};
+  MeasuredPatches measured{{"black", "grey"}, {{0.01, 0.01, 0.01}, {0.1, 0.5, 0.25}}};
+  for (std::size_t k = 0; k < 3; ++k)
+    EXPECT_NEAR(balance(chart, measured).gains[k], Raw({5, 1, 2})[k], 1e-12);
+  // With colours that determine a matrix: of a camera whose values are X, Y and Z.
+  for (const XYZ& xyz : {XYZ{0.4, 0.2, 0.1}, XYZ{0.2, 0.4, 0.1}, XYZ{0.2, 0.1, 0.5}}) {
+    chart.names.push_back(std::to_string(chart.names.size()));
+    chart.xyz.push_back(xyz);
+  }
+  const BalancedPatches balanced = balance(chart, {chart.names, chart.xyz});
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(balanced.gains[k] * white[k], 1, 1e-9);
+}
+
+TEST_F(Measured, ChartsOfNoColoursAreRefusedAtTheirRows) {
+  const auto chart_of = [&](const std::string& rows) {
+    std::ofstream(path_) << "# unit: 1\n# outside: clamp\n# white_xy: 0.3, 0.3\n" << rows;
+    return load_chart_targets(path_.string(), Curve(1), {}, diagnostics_);
+  };
+  const auto black = chart_of("patch,x,y,Y\nblack,0,0,0\nwhite,0.3,0.3,1\n");
+  ASSERT_TRUE(black) << diagnostics_.text();
+  EXPECT_EQ(black->xyz[0], (XYZ{0, 0, 0}));
+  EXPECT_EQ(black->xyz[1], black->white);
+  EXPECT_FALSE(
+      chart_of("patch,x,y,Y\nred,0.5,0.3,0.2\nno,0.3,0,0.5\nlow,0.3,-0.1,0.5\nbig,1,1e-300,1e300\n"));
+  EXPECT_EQ(diagnostics_.code(), ErrorCode::input);
+  const std::string allowed = ", allowed y above 0 or a Y of 0, and finite X, Y, Z)";
+  for (const std::string& said : {"csv:6:1: error: states no colour (got 0.3, 0, 0.5" + allowed,
+                                  "csv:7:1: error: states no colour (got 0.3, -0.1, 0.5" + allowed,
+                                  "csv:8:1: error: states no colour (got 1, 1e-300, 1e+300" + allowed})
+    EXPECT_NE(diagnostics_.text().find(said), std::string::npos) << diagnostics_.text();
+  EXPECT_EQ(diagnostics_.text().find("csv:5:1"), std::string::npos) << diagnostics_.text();
+  diagnostics_ = {};
+  EXPECT_FALSE(chart_of("patch,L,a,b\nno,1e200,0,0\n"));
+  EXPECT_NE(
+      diagnostics_.text().find("csv:5:1: error: states no colour (got 1e+200, 0, 0, allowed L, a, b of"),
+      std::string::npos)
+      << diagnostics_.text();
+}
+
 TEST_F(Measured, SaysWhatIsMissingOrUnknown) {
   const ChartTargets chart = colors_of("colorchecker24_after_nov2014");
   const auto few = read("patch,R,G,B\nperfect diffuser,1,1,1\ndark skin,0.1,0.1,0.1\n");

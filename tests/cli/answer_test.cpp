@@ -1,7 +1,11 @@
 #include "cli/answer.h"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
+#include "cli/compare.h"
+#include "io/exr.h"
 #include "tests/cli/program.h"
 
 namespace abbe::cli {
@@ -18,6 +22,22 @@ TEST(Answer, ReadableAnswersPutWavelengthsInColumns) {
   const Json answer{{"name", "N-BK7"}, {"wavelength_nm", {400.0, 550.5}}, {"n", {1.53, nullptr}}};
   EXPECT_EQ(text(answer, false),
             "name  N-BK7\nwavelength_nm     n\n          400  1.53\n        550.5     -\n");
+}
+
+TEST(Answer, NumbersThatAreNotFiniteAreADashWhereJsonHasNull) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  const Json answer{{"ratio", -kNone}, {"all", {1.5, kNone, std::numeric_limits<double>::infinity()}}};
+  EXPECT_EQ(text(answer, false), "ratio  -\nall  1.5  -  -\n");
+  EXPECT_EQ(text(answer, true), "{\"ratio\":null,\"all\":[1.5,null,null]}\n");
+}
+
+TEST(Answer, BlackFilmsHaveNoRatio) {
+  const std::filesystem::path black = test::scratch() / "black.exr";
+  write_exr(black, {1, 1, {{"Y", {0}}}, {}});
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(compare({black, black}), 0);
+  const std::string printed = testing::internal::GetCapturedStdout();
+  EXPECT_NE(printed.find("\nmean_ratio  -\n"), std::string::npos) << printed;
 }
 
 TEST(Answer, ReadableListsStayInTheirLine) {

@@ -116,6 +116,21 @@ TEST(Mtf, IsThatOfTheBlur) {
   EXPECT_NEAR(part["mtf50"], half, 0.005);
 }
 
+TEST(Mtf, CodesThatNobodyCallsLinearAreWarnedOf) {
+  Image image = read_exr(blurred_edge(0.7));
+  image.channels.assign(1, *image.find("G"));
+  write_picture(file("shown.png"), image);
+  const std::string warning = file("shown.png") +
+                              ": warning: its values, the code values of a picture, are taken for linear, "
+                              "which those for displays are not: measure a film";
+  EXPECT_NE(abbe("mtf " + file("shown.png")).err.find(warning), std::string::npos);
+  for (float& value : image.channels[0].values) value = std::round(4000 * value);
+  image.metadata = {{"sensor", R"({"readout":{"bits":12}})"}, {"white_level_dn", "4095"}};
+  write_raw_picture(file("codes.tif"), image);
+  for (const std::string& linear : {file("edge.exr"), file("codes.tif")})
+    EXPECT_EQ(abbe("mtf " + linear).err, "") << linear;
+}
+
 // What a film has not is black, and so an edge of its own.
 TEST(Mtf, LooksAtWhatAFilmHas) {
   const std::string within = " --crop 8,16,56,112 --json";

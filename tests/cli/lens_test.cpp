@@ -105,6 +105,24 @@ TEST(Lens, FaultsAreToldWithTheirPlace) {
   EXPECT_EQ(abbe("lens double_gauss -o lens.png").code, 2);
 }
 
+// Sums of a field of a right angle, and of a beam that does not get to the image: nothing, not numbers.
+TEST(Lens, SeidelSumsThatAreNoneAreNull) {
+  const auto sums_of = [](const std::string& text) {
+    const auto file = scratch().write("none.json", text);
+    const Outcome run = abbe("lens " + file.string() + " --json");
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.json()["seidel_mm"];
+  };
+  const auto wide = sums_of(R"({"entrance_pupil": 5, "fields_deg": [0, 95],
+    "surfaces": [{"radius": 50, "thickness": 4, "glass": 1.5, "stop": true}, [-50, 40]]})");
+  EXPECT_TRUE(wide["S_I"].back().is_number());
+  EXPECT_TRUE(wide["S_III"].back().is_null());
+  const auto telecentric = sums_of(R"({"fields_deg": [0, 5], "focus": "given", "surfaces": [
+    [50, 3, 1.5], [-50, 49.494949494949495], {"stop": true, "aperture": 0.5, "thickness": 50}]})");
+  EXPECT_EQ(telecentric["surface"].size(), 4U);
+  for (const auto& sum : telecentric["S_I"]) EXPECT_TRUE(sum.is_null());
+}
+
 // A stop that no ray fills, and a field beyond what the lens sees, leave their figures out.
 TEST(Lens, WhatDoesNotGetThroughHasNoFigures) {
   const auto dark = scratch().write("dark.json", R"({"entrance_pupil": 5, "fields_deg": [0, 100],

@@ -33,6 +33,25 @@ TEST(QueryLight, JudgesALampAndDrawsIt) {
   EXPECT_NE(drawn.find("Rg 101"), std::string::npos);
 }
 
+TEST(QueryLight, FiguresThatDoNotExistAreNeitherPrintedNorDrawn) {
+  LightOptions options{"blackbody:1000"};
+  options.plot = scratch() / "bb.svg";
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(query_light(options), 0);
+  const std::string printed = testing::internal::GetCapturedStdout();
+  EXPECT_NE(printed.find("\nRg  -\n"), std::string::npos) << printed;
+  const std::string drawn = read_file(options.plot);
+  EXPECT_NE(drawn.find("Rg -<"), std::string::npos);
+  for (const std::string& text : {printed, drawn}) EXPECT_EQ(text.find("nan"), std::string::npos) << text;
+  const json found = json_output(query_light, options);
+  EXPECT_TRUE(found["Rg"].is_null());
+  for (const char* key : {"Rf_h", "Rcs_h", "Rhs_h"}) {
+    EXPECT_EQ(found[key].size(), 16u) << key;
+    EXPECT_TRUE(found[key][3].is_null()) << key;
+    EXPECT_FALSE(found[key][4].is_null()) << key;
+  }
+}
+
 TEST(QueryLight, SeesThroughFiltersAndFromSurfaces) {
   const json bare = json_output(query_light, LightOptions{"A"});
   const json filtered = json_output(query_light, LightOptions{"A", "kodak_wratten_400-700:W78"});

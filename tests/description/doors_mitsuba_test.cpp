@@ -197,6 +197,18 @@ TEST_F(MitsubaTest, ReliefsNeedATexture) {
   }
 }
 
+TEST_F(MitsubaTest, WidthsOfFacetsBeyond1AreCut) {
+  const auto width = [&](const std::string& said) {
+    const auto metal = material<spec::Conductor>(
+        R"(<bsdf type="roughconductor"><float name="alpha" value=")" + said + R"("/></bsdf>)");
+    return std::get<double>(std::get<spec::Facets>(metal.roughness.value().value).alpha);
+  };
+  EXPECT_EQ(width("1.5"), 1);
+  EXPECT_TRUE(tells("warning: a width of facets outside [0, 1] is cut to that")) << told_;
+  EXPECT_EQ(width("1"), 1);
+  EXPECT_FALSE(tells("outside [0, 1]")) << told_;
+}
+
 TEST_F(MitsubaTest, FacetsAreOfAKnownDistribution) {
   const auto rough = [](const std::string& distribution) {
     return R"(<bsdf type="roughconductor"><string name="distribution" value=")" + distribution +

@@ -26,6 +26,21 @@ TEST_F(PbrtTest, GlassesAreThoseOfItsNames) {
   EXPECT_EQ(index("glass-F11"), "SF11");
 }
 
+TEST_F(PbrtTest, WidthsOfFacetsBeyond1AreCut) {
+  const auto width = [&](const std::string& said) {
+    const auto metal = material<spec::Conductor>("Material \"conductor\" \"float roughness\" " + said);
+    return metal.roughness ? std::get<double>(metal.roughness->value) : 0;
+  };
+  for (const char* said : {"2", "1.5 \"bool remaproughness\" false"}) {
+    EXPECT_EQ(width(said), 1);
+    EXPECT_TRUE(tells("a.pbrt:5:1: warning: a width of facets outside [0, 1] is cut to that")) << told_;
+  }
+  EXPECT_EQ(width("-0.25"), 0);
+  EXPECT_TRUE(tells("outside [0, 1]")) << told_;
+  EXPECT_EQ(width("1"), 1);
+  EXPECT_FALSE(tells("outside [0, 1]")) << told_;
+}
+
 TEST_F(PbrtTest, MagnesiaIsANumber) {
   const auto metal = material<spec::Conductor>(
       "Material \"conductor\" \"spectrum eta\" \"metal-MgO-eta\" \"spectrum k\" \"metal-MgO-k\"");

@@ -54,9 +54,33 @@ TEST_F(GltfSceneTest, MetallicRoughness) {
           R"({"principled": {"base_color": 0.5, "metallic": 0.3, "roughness": 0.6, "specular": 0.5000000000000001}})"));
   expect_twin(
       gltf(
-          R"({"name": "m", "pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": {"KHR_materials_ior": {"ior": 1}, "KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.25}}})"),
+          R"({"name": "m", "pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": {"KHR_materials_ior": {"ior": 1}, "KHR_materials_clearcoat": {"clearcoatFactor": 0.125, "clearcoatRoughnessFactor": 0.25}}})"),
       twin(
-          R"({"principled": {"base_color": 1, "roughness": 1, "specular": 0, "clearcoat": 0.5, "clearcoat_gloss": 0.75}})"));
+          R"({"principled": {"base_color": 1, "roughness": 1, "specular": 0, "clearcoat": 0.5, "clearcoat_gloss": 0.37878787878787884}})"));
+  EXPECT_FALSE(tells("cut to that")) << told_;
+}
+
+// A layer of factor 1 reflects 0.04 along the normal there, and the coat here a quarter of that at most.
+TEST_F(GltfSceneTest, CoatsAndReflectancesBeyondWhatThereIsAreCut) {
+  const auto made = convert(
+      "a.gltf",
+      gltf(
+          R"({"name": "m", "extensions": {"KHR_materials_ior": {"ior": 2.4}, "KHR_materials_clearcoat": {"clearcoatFactor": 0.5, "clearcoatRoughnessFactor": 0.5}}})"));
+  ASSERT_TRUE(made) << told_;
+  const auto& surface = std::get<spec::Principled>(made->materials.at(0).value.model);
+  EXPECT_EQ(surface.specular, 1);
+  EXPECT_EQ(surface.clearcoat, 1);
+  EXPECT_EQ(surface.clearcoat_gloss, 0);
+  for (const char* what : {"a clear coat of a factor above 0.25 is cut to that",
+                           "a width of a clear coat's facets above 0.1 is cut to that",
+                           "a reflectance along the normal above 0.08 is cut to that"})
+    EXPECT_TRUE(tells(what)) << told_ << "lacks " << what;
+  ASSERT_TRUE(convert(
+      "a.gltf",
+      gltf(
+          R"({"name": "m", "extensions": {"KHR_materials_ior": {"ior": 1.78}, "KHR_materials_clearcoat": {"clearcoatRoughnessFactor": 0.5}}})")))
+      << told_;
+  EXPECT_FALSE(tells("cut to that")) << told_;
 }
 
 TEST_F(GltfSceneTest, TexturesLieAsTheyDo) {

@@ -25,6 +25,20 @@ TEST_F(LensSystemTest, TellsGlassesThatDoNotHoldForAllThatTheSensorSees) {
   EXPECT_EQ(told.find("N-SF11 holds"), told.rfind("N-SF11 holds")) << told;
 }
 
+TEST_F(LensSystemTest, TellsTheRangeOfEachTable) {
+  const std::string told =
+      load(R"({"camera": {"lens_system": {"prescription": {"entrance_pupil": 4, "surfaces": [
+          {"stop": true, "thickness": 2}, [60, 5, {"wavelength_nm": [400, 800], "n": [1.6, 1.5]}], [-60, 1],
+          [60, 5, {"wavelength_nm": [450, 800], "n": [1.7, 1.6]}], [-60, 15]]}},
+          "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]},
+        "lights": [{"environment": {}, "emission": {"spectrum": 1}}],
+        "sensor": {"resolution": [1, 1], "channels": {"a": {"band": [380, 500]}}}})")
+          .text();
+  for (const char* range : {"[400, 800] nm", "[450, 800] nm"})
+    EXPECT_NE(told.find(fmt::format("holds on {}, the sensor sees [380, 500] nm", range)), std::string::npos)
+        << told;
+}
+
 TEST_F(LensSystemTest, TellsAFocusOfAFilmThatNothingMoves) {
   const auto told = [&](const std::string& beside) {
     return load(R"({"camera": {"lens_system": {"prescription": "achromat", )" + beside + R"(},

@@ -1,5 +1,6 @@
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
@@ -174,6 +175,36 @@ TEST_F(DescriptionTest, ReadsCoatings) {
       [{"ior": "diamond", "thickness_nm": 9}]}}}})")
                                  .text();
   EXPECT_NE(narrow.find("diamond holds on [226, 760] nm"), std::string::npos) << narrow;
+}
+
+// Against the characteristic matrices of 100 nm of 1.38 over 60 nm of 2.3, at 550 nm along the normal.
+TEST_F(DescriptionTest, FilmsOfDifferentTablesAreDifferentMaterials) {
+  const std::string low = R"({"wavelength_nm": [300, 1100], "n": [1.38, 1.38]})";
+  const std::string high = R"({"wavelength_nm": [300, 1100], "n": [2.3, 2.3]})";
+  const auto layers = [](const std::string& outer, const std::string& inner) {
+    return fmt::format(R"([{{"ior": {}, "thickness_nm": 100}}, {{"ior": {}, "thickness_nm": 60}}])", outer,
+                       inner);
+  };
+  const auto coating = [&](const std::string& said) {
+    const Loaded loaded =
+        load(fmt::format(R"({{"materials": {{"m": {{"dielectric": {{"ior": 1.52, "coating": {0}}}}},
+          "bubble": {{"film": {{"layers": {0}}}}}}}}})",
+                         said));
+    EXPECT_TRUE(loaded.scene) << loaded.text();
+    if (!loaded.scene) return std::pair<Coating, Coating>();
+    return std::pair(std::get<DielectricMaterial>(loaded->materials[0].model).coating,
+                     std::get<FilmMaterial>(loaded->materials[1].model).layers);
+  };
+  const std::vector<std::pair<std::string, std::string>> same{{low, high}, {"1.38", "2.3"}, {low, "2.3"}};
+  for (const auto& [outer, inner] : same) {
+    const auto [on_glass, bubble] = coating(layers(outer, inner));
+    ASSERT_EQ(on_glass.materials.size(), 2U) << outer << inner;
+    EXPECT_NEAR(coated_power(on_glass, 550, 1.52, 0, 1, false).R(), 0.08566344, 1e-7) << outer << inner;
+    EXPECT_NEAR(coated_power(bubble, 550, 1, 0, 1, false).R(), 0.22147345, 1e-7) << outer << inner;
+  }
+  const std::string words = "\"MgF2\"";
+  for (const std::string& one : {low, words, std::string("1.38")})
+    EXPECT_EQ(coating(layers(one, one)).first.materials.size(), 1U) << one;
 }
 
 TEST_F(DescriptionTest, WarnsOfAnExtinctionThatEndsBeforeItsIndex) {

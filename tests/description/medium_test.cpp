@@ -88,6 +88,30 @@ TEST_F(MediumDescription, RefusesWhatMatterCannotBe) {
             std::string::npos);
 }
 
+TEST_F(MediumDescription, TellsWhatHasNoEffectWithoutCoefficients) {
+  const auto text = [&](const std::string& material) { return ball_of(material).text(); };
+  const std::string phase =
+      "/phase: warning: a phase without effect: without scattering_per_m nothing scatters";
+  for (const char* material : {R"({"dielectric": {"ior": 1.3, "phase": "rayleigh"}})",
+                               R"({"medium": {"absorption_per_m": 1, "phase": "isotropic"}})"})
+    EXPECT_NE(text(material).find(phase), std::string::npos) << text(material);
+  EXPECT_EQ(
+      text(R"({"dielectric": {"ior": 1.3, "scattering_per_m": 0, "phase": "rayleigh"}})").find("effect"),
+      std::string::npos);
+  write(folder_ / "g.npy", npy(kHeader, eight(3)));
+  const auto grid = [&](const std::string& beside) {
+    return text(fmt::format(
+        R"({{"medium": {{{}"grid": {{"densities": "g.npy", "from": [0, 0, 0], "to": [1, 1, 1]}}}}}})",
+        beside));
+  };
+  EXPECT_NE(grid("").find("/medium/grid: warning: a grid without effect: without absorption_per_m and "
+                          "scattering_per_m there is nothing"),
+            std::string::npos)
+      << grid("");
+  EXPECT_EQ(grid(R"("absorption_per_m": 1, )").find("effect"), std::string::npos);
+  EXPECT_EQ(grid(R"("scattering_per_m": 1, )").find("effect"), std::string::npos);
+}
+
 TEST_F(MediumDescription, RefusesDamagedGrids) {
   EXPECT_EQ(complaint(npy(kHeader, eight(3))).find("error"), std::string::npos);
   EXPECT_EQ(complaint(npy(kHeader, eight(3), 2)).find("error"), std::string::npos);

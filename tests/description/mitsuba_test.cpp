@@ -134,7 +134,7 @@ TEST_F(MitsubaTest, Materials) {
       R"(<bsdf type="dielectric"/><medium name="interior" type="homogeneous"><float name="albedo" value="0.75"/><float name="sigma_t" value="4"/><phase type="hg"><float name="g" value="0.2"/></phase></medium>)");
   EXPECT_EQ(std::get<double>(milk.ior.absorption_per_m.value().value), 1);
   EXPECT_EQ(std::get<double>(milk.scattering.per_m.value().value), 3);
-  EXPECT_EQ(std::get<spec::HenyeyGreenstein>(milk.scattering.phase.value()).g, 0.2);
+  EXPECT_EQ(std::get<spec::HenyeyGreenstein>(milk.scattering.phase.value().value).g, 0.2);
   const spec::Scene blend = scene(
       R"(<shape type="sphere"><bsdf type="blendbsdf"><float name="weight" value="0.25"/><bsdf type="diffuse"/><bsdf type="conductor"/></bsdf></shape>)");
   EXPECT_EQ(

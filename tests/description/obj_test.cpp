@@ -63,6 +63,13 @@ TEST_F(ObjTest, LinesGoOnBehindABackslash) {
                             "line 10: no such vertex (got 9, allowed [1, 4])"}});
 }
 
+TEST_F(ObjTest, NumbersHaveAnyForm) {
+  const Mesh read =
+      mesh("a.obj", "v\t+1e2 -.5 5.\t\nv 1E-1  0.30000000000000004 -0 0.5 1 1 1 \r\nv 0 1 0\nf 1 2 3");
+  EXPECT_EQ(read.vertices.at(0), Imath::V3d(100, -0.5, 5));
+  EXPECT_EQ(read.vertices.at(1), Imath::V3d(0.1, 0.30000000000000004, 0));
+}
+
 TEST_F(ObjTest, PolygonsNeedNotBeConvex) {
   const std::string dented = "v 0 0 0\nv 2 0 0\nv 2 1 0\nv 1 0.2 0\nv 0 1 0\n";
   for (const char* face : {"f 1 2 3 4 5", "f 2 3 4 5 1", "f 3 4 5 1 2", "f 4 5 1 2 3", "f 5 1 2 3 4"}) {
@@ -183,6 +190,13 @@ TEST_F(ObjTest, RefusesBadFiles) {
        {"infinite", "v 1 2 inf\n", in, "three finite numbers"},
        {"not a number", "v 0 0 0\nv 1 nan 2\n", in,
         "line 2: vertex 2 needs three finite numbers (got 1 nan 2)"},
+       {"a decimal comma", "v 4,5 0.25 1\n", in,
+        "line 1: vertex 1 needs three finite numbers (got 4,5 0.25 1)"},
+       {"letters behind a number", "v 1 0.5abc 1\n", in,
+        "vertex 1 needs three finite numbers (got 1 0.5abc 1)"},
+       {"two points", "v 1 2 2.5.9\n", in, "vertex 1 needs three finite numbers (got 1 2 2.5.9)"},
+       {"a normal with a comma", "vn 0,6 0.8 1\n", in,
+        "line 1: vn 1 needs three finite numbers (got 0,6 0.8 1)"},
        {"empty", "", in, "no faces"},
        {"no area", std::string(kCorners) + "f 1 1 2\n", in, "a mesh without a triangle of any area"},
        {"missing library", "mtllib gone.mtl\n", in, "\"gone.mtl\", which it names: no such file"},

@@ -167,7 +167,7 @@ TEST_F(PbrtTest, DielectricsAndWhatIsWithin) {
   EXPECT_EQ(std::get<double>(milk.ior.ior.value), 1.3);
   EXPECT_EQ(std::get<double>(milk.ior.absorption_per_m.value().value), 10);
   EXPECT_EQ(std::get<double>(milk.scattering.per_m.value().value), 20);
-  EXPECT_EQ(std::get<spec::HenyeyGreenstein>(milk.scattering.phase.value()).g, 0.5);
+  EXPECT_EQ(std::get<spec::HenyeyGreenstein>(milk.scattering.phase.value().value).g, 0.5);
   const auto fog = material<spec::Medium>(
       "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [0 0 0] \"rgb sigma_s\" [1 1 "
       "1]\n"

@@ -81,6 +81,64 @@ TEST(LensSeidel, AspheresOffTheStopGiveDistortion) {
   EXPECT_NEAR((chief->height_mm - ideal) / (sums.sum.distortion / (2 * sums.image_nu)), 1, 0.02);
 }
 
+// A stop in the back focus, and that far behind it: the entrance pupil of a near object is at infinity.
+System telecentric(double off) {
+  System system = test::sound_lens_of(R"({"object_distance": 100, "surfaces": [
+    [50, 3, 1.5], [-50, 49.494949494949495], {"stop": true, "aperture": 0.5, "thickness": 50}]})");
+  system.surfaces[1].thickness_mm += off;
+  system.surfaces[2].thickness_mm = first_order(SystemAt(system, 550)).image_distance_mm;
+  return system;
+}
+
+TEST(LensSeidel, TelecentricSumsTellTheDistortionOfRealRays) {
+  for (const double off : {0.0, 1e-6, -1e-6}) {
+    const System system = telecentric(off);
+    const SystemAt at(system, 550);
+    const SeidelSums sums = seidel_sums(at, at, at, 1, 0.5);
+    const auto chief = chief_ray(at, 0.5, 0.5);
+    ASSERT_TRUE(chief);
+    const double ideal = paraxial_image_height(at, first_order(at), 0.5);
+    EXPECT_NEAR((chief->height_mm - ideal) / (sums.sum.distortion / (2 * sums.image_nu)), 1, 0.02) << off;
+  }
+}
+
+// A plane stop in the focus of a single surface: the pupil is at infinity to the last bit.
+TEST(LensField, TelecentricBeamsHaveAWorkingFNumberAlone) {
+  System system;
+  system.surfaces.resize(2);
+  system.surfaces[0].profile.curvature = 1.0 / 32;
+  system.surfaces[0].behind = Glass{"glass", RefractiveIndex(1.5)};
+  system.surfaces[0].thickness_mm = 96;
+  system.surfaces[1].behind = system.surfaces[0].behind;
+  system.surfaces[1].thickness_mm = 48;
+  system.object_distance_mm = 128;
+  system.stop = 1;
+  const SystemAt at(system, 550);
+  ASSERT_TRUE(std::isinf(first_order(at).entrance_pupil_mm));
+  const auto found = speed(at, 0.48, 20);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(std::isinf(found->entrance_diameter_mm));
+  EXPECT_TRUE(std::isnan(found->f_number));
+  EXPECT_NEAR(found->launch_diameter_mm, 2 * 0.48 / 64 * 128, 0.01);
+  EXPECT_NEAR(found->working_f_number, 1 / (2 * 0.48 / 64), 0.2);
+}
+
+TEST(LensSeidel, FieldsOfAtLeastARightAngleHaveNoneNorDistortion) {
+  const System system = test::lens_named("fisheye");
+  const SystemAt at(system, 587.5618);
+  const double radius = stop_radius(system);
+  for (const double field : {90.0, -95.0}) {
+    const auto chief = chief_ray(at, field, radius);
+    ASSERT_TRUE(chief);
+    EXPECT_FALSE(chief->distortion) << field;
+    const Seidel sum = seidel_sums(at, at, at, 1, field).sum;
+    EXPECT_EQ(sum.spherical, seidel_sums(at, at, at, 1, 0).sum.spherical);
+    for (const double none : {sum.coma, sum.astigmatism, sum.petzval, sum.distortion, sum.lateral_color})
+      EXPECT_TRUE(std::isnan(none)) << field;
+  }
+  EXPECT_TRUE(chief_ray(at, 89.9, radius)->distortion);
+}
+
 TEST(LensField, DistortionOfTheDoubleGaussIsTheListed) {
   const System system = test::lens_named("double_gauss");
   const SystemAt at(system, 587.6);

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include "lens/paraxial.h"
 #include "lenses.h"
 
 namespace abbe::lens {
@@ -71,6 +72,27 @@ TEST(LensBeam, NearObjectsFillTheirSolidAngle) {
     for (double y = -20 + cell / 2; y < 20; y += cell)
       if (x * x + y * y < 400) sum += beam->density({x, y}) * cell * cell;
   EXPECT_NEAR(sum / (3.14159265358979 * 400 / (400 + 900)), 1, 1e-3);
+}
+
+// A stop in the back focus, or so near to it that the entrance pupil is 50 km away: all chief rays of a near
+// object are parallel to the axis, and cross the first vertex at the height of their point.
+TEST(LensBeam, TelecentricObjectSpaceHasBeamsOfNearObjects) {
+  System system = test::sound_lens_of(R"({"object_distance": 100, "focus": "paraxial", "surfaces": [
+    [50, 3, 1.5], [-50, 49.494949494949495], {"stop": true, "aperture": 0.5, "thickness": 50}]})");
+  for (const double gap : {49.494949494949495, 49.494951, 49.49485}) {
+    system.surfaces[1].thickness_mm = gap;
+    const SystemAt at(system, 550);
+    ASSERT_GT(std::abs(first_order(at).entrance_pupil_mm), 1e7);
+    const auto beam = Beam::of(at, 0.2, 0.5);
+    ASSERT_TRUE(beam);
+    EXPECT_NEAR(beam->chief().x, 0, 1e-9);
+    EXPECT_NEAR(beam->chief().y, 0.2, 1e-3);
+    const auto launched = beam->aim({0, 1});
+    ASSERT_TRUE(launched);
+    EXPECT_NEAR((beam->pupil_of(*launched).value() - V2d(0, 1)).length(), 0, 1e-9);
+    // u = y_stop/f at the object: half a millimetre of the stop is 0.99 mm of the first vertex.
+    EXPECT_NEAR(launched->y - beam->chief().y, 0.5 / 50.505050505050505 * 100, 0.01);
+  }
 }
 
 }  // namespace

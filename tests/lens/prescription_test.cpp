@@ -155,7 +155,7 @@ TEST(LensPrescription, ConditionsMustFit) {
       "1:1", "how wide is the lens open?");
   expect_json_fault(singlet(kFront, R"("entrance_pupil": 5, "f_number": 2)"),
                     "1:", "a lens has one aperture");
-  expect_json_fault(singlet(kFront, R"("object_heights": [1])"), "1:1",
+  expect_json_fault(singlet(kFront + ", [-50, 40]", R"("object_heights": [1])"), "1:1",
                     "object_heights need an object_distance");
   expect_json_fault(singlet(kFront, R"("primary_nm": 500)"),
                     "1:", "got 500, allowed 486.1327, 587.5618, 656.2725");
@@ -186,6 +186,37 @@ TEST(LensPrescription, FieldsOfAnyKindBecomeDirectionsOrHeights) {
   const System plain =
       sound_lens_of(singlet(kFront + ", [-50, 40]", R"("object_heights": [3], "object_distance": 200)"));
   EXPECT_EQ(plain.fields[0], 3);
+}
+
+TEST(LensPrescription, AnglesOfANearObjectAreLessThanARightAngle) {
+  for (const char* angle : {"90", "-95"})
+    expect_json_fault(singlet(kFront + ", [-50, 40]",
+                              fmt::format(R"("object_distance": 200, "fields_deg": [0, {}])", angle)),
+                      "1:1",
+                      fmt::format("less than 90 degrees from the axis (got {}, allowed (-90, 90))", angle));
+}
+
+TEST(LensPrescription, TelecentricLensesTakeObjectHeights) {
+  const auto telecentric = [](const std::string& fields) {
+    return singlet(R"([50, 3, 1.5], [-50, 49.494949494949495], {"stop": true, "aperture": 0.5})",
+                   R"("object_distance": 100, )" + fields);
+  };
+  expect_json_fault(telecentric(R"("fields_deg": [0, 5])"), "1:1",
+                    "this lens is telecentric: say object_heights");
+  EXPECT_EQ(sound_lens_of(telecentric(R"("fields_deg": [0])")).fields[0], 0);
+  EXPECT_EQ(sound_lens_of(telecentric(R"("object_heights": [0, 5])")).fields[1], 5);
+}
+
+TEST(LensPrescription, ImagesAreInAir) {
+  expect_json_fault(singlet(kFront),
+                    "2:", "the image of a lens is in air (got N-BK7 behind the last surface)");
+  EXPECT_TRUE(lens_of(singlet(kFront + ", [-50, 40, 1.0]")).system);
+}
+
+TEST(LensPrescription, ImageHeightsNeedAnImage) {
+  const std::string plate = R"({"thickness": 4, "glass": 1.5, "stop": true}, [0, 40])";
+  expect_json_fault(singlet(plate, R"("entrance_pupil": 5, "image_heights": [0, 3])"), "1:1",
+                    "image_heights need an image, and the lens has it at infinity: say fields_deg");
 }
 
 TEST(LensPrescription, UnknownLensIsToldWithTheNearest) {

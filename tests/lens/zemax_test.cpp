@@ -206,6 +206,42 @@ TEST(LensZemax, TruncatedFilesAreToldAsSuch) {
                      "got the end of the line");
 }
 
+TEST(LensZemax, ModelGlassesAreOfTwoNumbersThatAGlassCanHave) {
+  const auto with = [](const std::string& numbers) {
+    return replaced(kAchromat, "GLAS N-BK7 0 0 0 0 0", "GLAS ___BLANK 1 0 " + numbers);
+  };
+  expect_zemax_fault(with("1.6 50 0.01"), "29:28",
+                     "a partial dispersion of its own is not understood (got 0.01, allowed 0)");
+  expect_zemax_fault(with("1.6 -50 0"), "29:25",
+                     "Abbe number out of range (got -50, allowed [1, 1000] or 0)");
+  expect_zemax_fault(with("0.9 50 0"), "29:21", "index out of range (got 0.9, allowed [1, 4])");
+  for (const char* sound : {"1.6 50 0.0", "1.6 50", "1.6 0 0"})
+    EXPECT_TRUE(lens_of(with(sound), ".zmx").system) << sound;
+}
+
+TEST(LensZemax, AnglesHaveTheRangeOfJson) {
+  expect_zemax_fault(replaced(kAchromat, "YFLN 0 1 ", "YFLN 0 200 "), "10:8",
+                     "field out of range (got 200 degrees, allowed [-120, 120] degrees)");
+  EXPECT_TRUE(
+      lens_of(replaced(kAchromat, "YFLN 0 1 0", "YFLN 0 1 200"), ".zmx").system);  // not one of the two
+}
+
+// FCD1 is Hoya's.
+TEST(LensZemax, GlassesOfOtherCataloguesAreTold) {
+  const std::string other = replaced(kAchromat, "GLAS N-BK7", "GLAS FCD1");
+  const auto loaded = lens_of(other, ".zmx");
+  ASSERT_TRUE(loaded.system) << loaded.text();
+  EXPECT_NE(
+      loaded.text().find("lens.zmx:29:8: warning: FCD1 is in none of the file's catalogues that are known "
+                         "here (got GCAT schott infrared misc): it is looked for in all"),
+      std::string::npos)
+      << loaded.text();
+  for (const std::string& sound :
+       {kAchromat, replaced(other, "GCAT SCHOTT", "GCAT SCHOTT HOYA"),
+        replaced(replaced(other, "GCAT SCHOTT INFRARED MISC\n", ""), "SF5", "schott/SF5")})
+    EXPECT_EQ(lens_of(sound, ".zmx").text(), "");
+}
+
 TEST(LensZemax, WhatIsLeftOutIsTold) {
   auto loaded = lens_of(replaced(kAchromat, "VCYN 0 0", "VCYN 0 0.2"), ".zmx");
   ASSERT_TRUE(loaded.system);

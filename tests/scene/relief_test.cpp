@@ -106,6 +106,8 @@ TEST_F(ReliefTest, KeysOfAnyMaterial) {
 
 TEST_F(ReliefTest, FaultsAreRefused) {
   write_exr(folder_ / "inward.exr", {1, 2, {{"R", {0.5F, 0.5F}}, {"G", {0.5F, 0.5F}}, {"B", {1, 0.5F}}}, {}});
+  write_exr(folder_ / "signed.exr", {1, 2, {{"R", {0, 0.6F}}, {"G", {0, -0.25F}}, {"B", {1, 0.8F}}}, {}});
+  write_exr(folder_ / "beyond.exr", {1, 1, {{"R", {0.5F}}, {"G", {0.5F}}, {"B", {1.5F}}}, {}});
   DescriptionTest::expect_refused(
       {{"two channels for normals", glossy(R"("normal_map": {"image": "paint.exr"})"), ErrorCode::input,
         "texture \"paint.exr\": a normal map has channels R, G, B (got 2 channels)"},
@@ -113,10 +115,20 @@ TEST_F(ReliefTest, FaultsAreRefused) {
         "texture \"photo.exr\": a bump map has one channel (got 3 channels)"},
        {"inward", glossy(R"("normal_map": {"image": "inward.exr"})"), ErrorCode::input,
         "texel (0, 1) has a normal that does not point outward (got B = 0.5, allowed (0.5, 1])"},
+       {"components in place of codes", glossy(R"("normal_map": {"image": "signed.exr"})"), ErrorCode::input,
+        "texel (0, 1) has a normal that is not encoded (got G = -0.25, allowed [0, 1])"},
+       {"more than 1", glossy(R"("normal_map": {"image": "beyond.exr"})"), ErrorCode::input,
+        "texel (0, 0) has a normal that is not encoded (got B = 1.5, allowed [0, 1])"},
        {"no height", glossy(R"("bump_map": {"image": "sky.exr"})"), ErrorCode::scene, "height"},
        {"both",
         glossy(R"("normal_map": {"image": "photo.exr"}, "bump_map": {"image": "sky.exr", "height": 1})"),
         ErrorCode::scene, "a material has a normal_map or a bump_map (got normal_map and bump_map)"}});
+}
+
+TEST_F(ReliefTest, WhatRoundingLeavesOfANormalIsTaken) {
+  write_exr(folder_ / "rounded.exr", {1, 1, {{"R", {0.5F}}, {"G", {-0.0005F}}, {"B", {1.0005F}}}, {}});
+  const Loaded rounded = load(glossy(R"("normal_map": {"image": "rounded.exr"})"));
+  EXPECT_TRUE(rounded.scene) << rounded.text();
 }
 
 TEST_F(ReliefTest, AMeshWithoutCoordinatesTakesNone) {

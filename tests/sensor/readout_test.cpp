@@ -267,6 +267,24 @@ TEST(Readout, ElectronsThatAreNoNumberAreRefused) {
     }
 }
 
+// Beyond 2^63 electrons a full pixel was dark.
+TEST(Readout, DarkSignalsAreBoundedAsLightIs) {
+  Readout readout;
+  readout.full_well_e = 2e4;
+  readout.dark_e_per_s = 1e12;
+  const RawFrame full = read_out(readout, std::array{1.0F}, {999});
+  EXPECT_EQ(full.dn[0], 20000);
+  EXPECT_EQ(full.saturated[0], 1);
+  for (const double seconds : {1000.1, 1e8}) try {
+      const RawFrame frame = read_out(readout, std::array{1.0F}, {seconds});
+      ADD_FAILURE() << seconds;
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ErrorCode::input);
+      const std::string said = error.what();
+      EXPECT_NE(said.find("electrons with its dark signal (allowed up to 1e15)"), std::string::npos) << said;
+    }
+}
+
 TEST(Readout, BlackIsOffsetAndDarkSignalUnlessThatSaturates) {
   Readout readout;
   readout.bits = 12;

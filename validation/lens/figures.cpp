@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -25,9 +26,7 @@ lens::SeidelSums seidel_of(const lens::System& system, const LensFigures& figure
   const double far = *std::max_element(system.fields.begin(), system.fields.end(),
                                        [](double a, double b) { return std::abs(a) < std::abs(b); });
   const auto& speed = figures.speed[system.primary];
-  const double radius =
-      speed ? speed->entrance_diameter_mm / 2
-            : figures.stop_radius_mm * std::abs(figures.first_order[system.primary].entrance_magnification);
+  const double radius = speed ? speed->launch_diameter_mm / 2 : std::numeric_limits<double>::quiet_NaN();
   return lens::seidel_sums(SystemAt(system, system.primary_nm()), SystemAt(system, blue),
                            SystemAt(system, red), radius, far);
 }

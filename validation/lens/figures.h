@@ -38,7 +38,8 @@ struct LensFigures {
   double stop_radius_mm;
   std::vector<lens::FirstOrder> first_order;      ///< By wavelength.
   std::vector<std::optional<lens::Speed>> speed;  ///< By wavelength; none where the axis is blocked.
-  lens::SeidelSums seidel;              ///< At the primary wavelength, of the field furthest from the axis.
+  lens::SeidelSums seidel;              ///< At the primary wavelength, of the field furthest from the axis;
+                                        ///< not numbers where its speed is none.
   std::optional<double> best_focus_mm;  ///< As `lens::best_focus` tells.
   std::vector<double> frequencies_per_mm;
   std::vector<LensFieldFigures> fields;

@@ -81,17 +81,20 @@ std::string grid() {
 }  // namespace
 
 std::string color_vector_graphic(const ColorFidelity& fidelity, const std::string& title) {
-  std::string elements = grid();
   SvgPoints outline;
-  for (std::size_t k = 0; k < kBins; ++k) outline.push_back(shifted(fidelity.bins[k], k));
-  elements += svg_polygon(outline, "stroke=\"#c22\" stroke-width=\"2\"");
-  for (std::size_t k = 0; k < kBins; ++k)
-    elements += arrow(placed(1, middle_of(k)), outline[k], hue_color(k));
+  std::string arrows;
+  for (std::size_t k = 0; k < kBins; ++k) {
+    if (!fidelity.bins[k].has_samples()) continue;
+    outline.push_back(shifted(fidelity.bins[k], k));
+    arrows += arrow(placed(1, middle_of(k)), outline.back(), hue_color(k));
+  }
+  std::string elements = grid() + svg_polygon(outline, "stroke=\"#c22\" stroke-width=\"2\"") + arrows;
   const auto corner = [](double x, const char* anchor, const std::string& text) {
     return svg_text(x, kGraphicTop + 24, text, fmt::format("font-size=\"18\" text-anchor=\"{}\"", anchor));
   };
   elements += corner(12, "start", fmt::format("Rf {:.0f}", fidelity.fidelity));
-  elements += corner(kSize - 12, "end", fmt::format("Rg {:.0f}", fidelity.gamut));
+  elements += corner(kSize - 12, "end",
+                     std::isnan(fidelity.gamut) ? "Rg -" : fmt::format("Rg {:.0f}", fidelity.gamut));
   return svg_document(kSize, kGraphicTop + kSize, title, elements);
 }
 

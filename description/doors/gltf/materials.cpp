@@ -135,8 +135,27 @@ void set_glass(const JsonValue* material, const SourcePosition& where, spec::Mat
     glass.ior.ior = index;
     if (absorption) glass.ior.absorption_per_m = curve_of(*absorption, where, door);
   }
-  glass.roughness = roughness_of(roughness * roughness, roughness * roughness, FacetShape::ggx, where);
+  glass.roughness = roughness_of(roughness * roughness, roughness * roughness, FacetShape::ggx, where, door);
   to.model = std::move(glass);
+}
+
+// Here a coat of strength 1 has a quarter of what the layer of factor 1 reflects there, and facets of the
+// widths from 0.001 to 0.1.
+void set_coat(const JsonValue* material, const SourcePosition& where, spec::Principled& surface,
+              const Document& document) {
+  constexpr double kMostFactor = 0.25;
+  constexpr double kLeastWidth = 0.001;
+  constexpr double kMostWidth = 0.1;
+  const double factor = number(material, extension("materials_clearcoat", "clearcoatFactor"), 0, document);
+  const double roughness =
+      number(material, extension("materials_clearcoat", "clearcoatRoughnessFactor"), 0, document);
+  if (factor == 0) return;
+  const double width = roughness * roughness;
+  if (factor > kMostFactor) document.door.note(where, "a clear coat of a factor above 0.25 is cut to that");
+  if (width > kMostWidth)
+    document.door.note(where, "a width of a clear coat's facets above 0.1 is cut to that");
+  surface.clearcoat = std::min(factor / kMostFactor, 1.0);
+  surface.clearcoat_gloss = std::clamp((kMostWidth - width) / (kMostWidth - kLeastWidth), 0.0, 1.0);
 }
 
 void set_surface(const JsonValue* material, const SourcePosition& where, spec::Material& to,
@@ -147,10 +166,9 @@ void set_surface(const JsonValue* material, const SourcePosition& where, spec::M
   surface.base_color = base_colour(material, where, document);
   surface.metallic = number(find(material, kSurface), "metallicFactor", 1, document);
   surface.roughness = number(find(material, kSurface), "roughnessFactor", 1, document);
-  surface.specular = std::clamp(r * r / 0.08, 0.0, 1.0);
-  surface.clearcoat = number(material, extension("materials_clearcoat", "clearcoatFactor"), 0, document);
-  surface.clearcoat_gloss =
-      1 - number(material, extension("materials_clearcoat", "clearcoatRoughnessFactor"), 0, document);
+  if (r * r > 0.08) document.door.note(where, "a reflectance along the normal above 0.08 is cut to that");
+  surface.specular = std::min(r * r / 0.08, 1.0);
+  set_coat(material, where, surface, document);
   to.model = std::move(surface);
 }
 

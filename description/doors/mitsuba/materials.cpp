@@ -62,7 +62,7 @@ std::optional<spec::Roughness> roughness(const Object& bsdf, const World& world)
                                  unknown_name("distribution", said, distributions));
   bsdf.ignore({"sample_visible"});
   return roughness_of(number(bsdf, "alpha_u", both, world), number(bsdf, "alpha_v", both, world),
-                      said == "beckmann" ? FacetShape::beckmann : FacetShape::ggx, bsdf.where());
+                      said == "beckmann" ? FacetShape::beckmann : FacetShape::ggx, bsdf.where(), world.door);
 }
 
 spec::Ior metal_index(const Object& bsdf, const World& world) {

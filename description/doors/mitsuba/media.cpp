@@ -16,8 +16,8 @@ Phase phase_of(const Object& medium, const World& world) {
   const auto phases = medium.all("phase");
   if (phases.empty()) return std::nullopt;
   const Object phase(*phases.front(), world);
-  if (phase.type() == "hg") return spec::HenyeyGreenstein{phase.number("g", 0.8)};
-  if (phase.type() == "rayleigh") return spec::PhaseWord::rayleigh;
+  if (phase.type() == "hg") return {{{spec::HenyeyGreenstein{phase.number("g", 0.8)}}, phase.where()}};
+  if (phase.type() == "rayleigh") return {{{spec::PhaseWord::rayleigh}, phase.where()}};
   if (phase.type() != "isotropic")
     world.door.note(phase.where(),
                     fmt::format("a phase function \"{}\" has no counterpart here: isotropic", phase.type()));

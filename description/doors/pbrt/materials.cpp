@@ -20,15 +20,18 @@ const std::vector<std::string> kMaterialTypes{
     "diffusetransmission", "hair",          "interface", "measured",   "mix",
     "subsurface",          "thindielectric"};
 
+// The width of slopes that a number stands for.
+double slope_width(double said, bool remapped) {
+  return remapped && said > 0 ? std::sqrt(said) : said;
+}
+
 // Widths of slopes as the parameters say them; the root of what they say unless told otherwise.
 std::optional<spec::Roughness> roughness(const Parameters& p, const SourcePosition& where, World& world) {
   const bool remapped = p.truth("remaproughness", true, world.door);
   const double both = number(p, "roughness", 0, world);
-  const auto width = [&](std::string_view name) {
-    const double said = number(p, name, both, world);
-    return remapped ? std::sqrt(std::max(said, 0.0)) : said;
-  };
-  return roughness_of(width("uroughness"), width("vroughness"), FacetShape::ggx, where);
+  const double u = slope_width(number(p, "uroughness", both, world), remapped);
+  const double v = slope_width(number(p, "vroughness", both, world), remapped);
+  return roughness_of(u, v, FacetShape::ggx, where, world.door);
 }
 
 spec::Conductor conductor(const Made& made, World& world) {
@@ -51,9 +54,8 @@ spec::Conductor coated_conductor(const Made& made, World& world) {
   metal.ior = p.has("reflectance") ? index_for(spectrum(p, "reflectance", 0.5, world), made.where, world.door)
                                    : metal_index(p, "conductor.eta", "conductor.k", world);
   const bool remapped = p.truth("remaproughness", true, world.door);
-  const double said = number(p, "conductor.roughness", 0, world);
-  const double width = remapped ? std::sqrt(std::max(said, 0.0)) : said;
-  metal.roughness = roughness_of(width, width, FacetShape::ggx, made.where);
+  const double width = slope_width(number(p, "conductor.roughness", 0, world), remapped);
+  metal.roughness = roughness_of(width, width, FacetShape::ggx, made.where, world.door);
   return metal;
 }
 

@@ -27,7 +27,7 @@ spec::Medium medium_of(const std::string& name, const SourcePosition& where, Wor
   medium.scattering.per_m =
       curve_of(scaled(spectrum(p, "sigma_s", scattering, world), scale), made->where, world.door);
   const double g = p.number("g", 0, world.door);
-  if (g != 0) medium.scattering.phase = spec::HenyeyGreenstein{g};
+  if (g != 0) medium.scattering.phase = {{spec::HenyeyGreenstein{g}}, made->where};
   if (p.has("Le")) world.door.note(made->where, "a medium does not emit here: its light is dropped");
   p.ignore({"Le", "Lescale"});
   p.note_unused("medium", world.door);

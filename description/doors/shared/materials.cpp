@@ -14,9 +14,10 @@
 namespace abbe::doors {
 
 std::optional<spec::Roughness> roughness_of(double along, double across, FacetShape distribution,
-                                            const SourcePosition& where) {
+                                            const SourcePosition& where, Door& door) {
   const double u = std::clamp(along, 0.0, 1.0);
   const double v = std::clamp(across, 0.0, 1.0);
+  if (u != along || v != across) door.note(where, "a width of facets outside [0, 1] is cut to that");
   if (u == 0 && v == 0) return std::nullopt;
   spec::Roughness roughness;
   roughness.where = where;

@@ -9,11 +9,11 @@
 
 namespace abbe::doors {
 
-/// Widths of slopes along and across, cut to [0, 1]; nothing where both are so small that the surface is
-/// smooth.
+/// Widths of slopes along and across, cut to [0, 1], which is noted; nothing where both are so small that the
+/// surface is smooth.
 [[nodiscard]] std::optional<spec::Roughness> roughness_of(double along, double across,
                                                           FacetShape distribution,
-                                                          const SourcePosition& where);
+                                                          const SourcePosition& where, Door& door);
 
 /// The index without a real part of n = 1 whose reflectance along the normal is that: k = 2 sqrt(R/(1 - R)).
 [[nodiscard]] spec::Ior index_for(const Spectrum& reflectance, const SourcePosition& where, Door& door);
