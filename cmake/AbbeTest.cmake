@@ -24,10 +24,6 @@ function(abbe_test name)
   if(TEST_LABEL STREQUAL "unit")
     add_dependencies(unit_tests test_${name})
   endif()
-  if(ABBE_SANITIZERS)
-    abbe_sanitized_test(${name} ${TEST_LABEL})
-    return()
-  endif()
   gtest_discover_tests(test_${name}
     TEST_PREFIX ${name}.
     TEST_FILTER -Nightly*
@@ -40,16 +36,6 @@ function(abbe_test name)
       PROPERTIES LABELS nightly TIMEOUT ${TEST_NIGHTLY} ENVIRONMENT "ABBE_DATA=${PROJECT_SOURCE_DIR}/data"
         ENVIRONMENT_MODIFICATION ABBE_NIGHTLY=set:1)  # gtest_discover_tests takes no lists
   endif()
-endfunction()
-
-# The tests of a program by day as four tests of CTest, since under sanitizers each start of it takes as long as many tests do. Those that repeat the
-# same code for their statistics, or take its time, are left out where the build says so.
-function(abbe_sanitized_test name label)
-  foreach(shard RANGE 3)
-    add_test(NAME ${name}.${shard} COMMAND test_${name} --gtest_brief=1 "--gtest_filter=-Nightly*:${ABBE_SANITIZED_TESTS_LEFT_OUT}")
-    set_tests_properties(${name}.${shard} PROPERTIES LABELS ${label} TIMEOUT 1800
-      ENVIRONMENT "ABBE_DATA=${PROJECT_SOURCE_DIR}/data;GTEST_TOTAL_SHARDS=4;GTEST_SHARD_INDEX=${shard}")
-  endforeach()
 endfunction()
 
 # abbe_python_tests(<module> PREFIX name CASES classes... TIMEOUT seconds [PATH folder] [NIGHTLY]): classes of Debian's Python and its unittest
