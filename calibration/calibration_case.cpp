@@ -14,6 +14,7 @@
 #include "io/invalid_input.h"
 #include "io/rgb_order.h"
 #include "io/text.h"
+#include "sensor/response/coverage.h"
 #include "spectral/library.h"
 #include "spectral/sources.h"
 
@@ -132,9 +133,12 @@ std::optional<std::vector<Channel>> camera_channels(const std::string& camera,
 CalibrationCase simulated_calibration(const CalibrationSource& source, const std::string& illuminant,
                                       Diagnostics& diagnostics) {
   const auto channels = camera_channels(source.camera, source.camera_response, diagnostics);
-  const auto light = load_illuminant(illuminant, {}, diagnostics);
-  const auto chart = load_chart(source.chart, {}, diagnostics);
-  const auto test = source.test.empty() ? Chart{} : load_chart(source.test, {}, diagnostics);
+  const NeededRange needed = channels ? needed_by(*channels) : NeededRange();
+  const auto light = load_illuminant(illuminant, {}, diagnostics, needed);
+  if (channels && light) check_ends_of_light(*light, *channels, {}, diagnostics);
+  const auto chart = load_chart(source.chart, {}, diagnostics, kReflectanceFactorUse, needed);
+  const auto test =
+      source.test.empty() ? Chart{} : load_chart(source.test, {}, diagnostics, kReflectanceFactorUse, needed);
   const Chart training = load_training(source, diagnostics);
   require_sound(diagnostics);
   CalibrationCase made{source.camera, source.chart, source.planted_response, source.bits, {}, {}};

@@ -42,6 +42,14 @@ std::vector<std::vector<double>> photographed_values(const CalibrationSetup& set
   return values;
 }
 
+// The largest linear value of a patch before white was balanced.
+double brightest_patch(const MeasuredCamera& camera) {
+  double brightest = 0;
+  for (const Raw& raw : camera.colors.raw)
+    for (std::size_t k = 0; k < 3; ++k) brightest = std::max(brightest, raw[k] / camera.gains[k]);
+  return brightest;
+}
+
 double response_error(const ResponseFit& fit, const PlantedResponse& planted) {
   double error = 0;
   for (int i = 10; i <= 990; ++i)
@@ -91,6 +99,7 @@ CameraCalibration calibrate_measured(const MeasuredCamera& camera, const Charact
   for (std::size_t k = 0; k < camera.responses.size(); ++k)
     result.profile.linearisation.at(k) = camera.responses[k].fit.linear;
   result.profile.gains = camera.gains;
+  result.profile.brightest_patch = brightest_patch(camera);
   result.profile.correction = result.correction.correction;
   result.profile.adaptation = *to_d65;
   result.responses = camera.responses;

@@ -194,6 +194,7 @@ int info(const InfoOptions& options) {
   warn_of_unpolarised_measurement(scene, false);
   warn_of_dark_camera(scene, false);
   warn_of_hidden_sheet(scene, false);
+  warn_of_hidden_lamp(scene, false);
   warn_of_unused_settings(scene);
   note_polarisation(scene);
   return 0;

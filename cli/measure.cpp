@@ -134,7 +134,7 @@ Json json_of(const Measurement& measured) {
     for (const PatchChannel& channel : patch.channels) {
       told["pixels"].push_back(channel.pixels);
       told["mean"].push_back(channel.mean);
-      told["deviation"].push_back(channel.deviation);
+      told["deviation"].push_back(channel.deviation ? Json(*channel.deviation) : Json());
       told["saturated"].push_back(channel.saturated);
     }
     patches.push_back(std::move(told));
@@ -160,7 +160,8 @@ std::string csv_of(const std::vector<Measurement>& all) {
       text += several ? csv_quoted(measured.file.string()) + "," : "";
       text += csv_quoted(patch.name);
       for (const PatchChannel& channel : patch.channels) text += fmt::format(",{}", channel.mean);
-      for (const PatchChannel& channel : patch.channels) text += fmt::format(",{}", channel.deviation);
+      for (const PatchChannel& channel : patch.channels)
+        text += channel.deviation ? fmt::format(",{}", *channel.deviation) : ",";
       for (const PatchChannel& channel : patch.channels) text += fmt::format(",{}", channel.pixels);
       for (const PatchChannel& channel : patch.channels) text += fmt::format(",{}", channel.saturated);
       text += '\n';
@@ -176,7 +177,8 @@ void print_table(const Measurement& measured) {
   for (const PatchValues& patch : measured.patches) {
     fmt::print("{:<24}", patch.name);
     for (const PatchChannel& channel : patch.channels)
-      fmt::print(" {:>12.6g} {:>12.4g} {:>7}", channel.mean, channel.deviation, channel.pixels);
+      fmt::print(" {:>12.6g} {:>12} {:>7}", channel.mean,
+                 channel.deviation ? fmt::format("{:.4g}", *channel.deviation) : "-", channel.pixels);
     fmt::print("\n");
   }
 }

@@ -4,6 +4,7 @@
 #include <deque>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <system_error>
 
@@ -22,6 +23,7 @@
 #include "io/file_lock.h"
 #include "io/text.h"
 #include "sensor/film/recorded_white.h"
+#include "transport/render/part_films.h"
 
 namespace abbe::cli {
 namespace {
@@ -124,10 +126,11 @@ int merge(const MergeOptions& options) {
     writers.emplace_back(
         [&] { write_display(options.display, display_planes(*shown, film_image(sum)), *shown); });
   write_all(writers);
+  const double error = frame_mean_error(sum).value_or(std::numeric_limits<double>::infinity());
   say(fmt::format("{} from {} parts: {}{}{}", options.outputs.front().string(), options.parts.size(),
                   in_words(all.areas, all.shape, " of every pixel"),
                   missing.empty() ? "" : fmt::format("; missing: {}", in_words(missing, all.shape)),
-                  error_text({.frame_mean = frame_mean_error(sum.result.film)}, ", ")));
+                  error_text({.frame_mean = error}, ", ")));
   return 0;
 }
 

@@ -13,6 +13,7 @@
 #include "io/table.h"
 #include "materials/index/library.h"
 #include "sensor/response/channel.h"
+#include "sensor/response/coverage.h"
 #include "spectral/astm_e308.h"
 #include "spectral/curve_use.h"
 #include "spectral/library.h"
@@ -26,10 +27,14 @@ struct LitSurface {
   Curve reflectance;
 };
 
-LitSurface load(const std::string& illuminant, const std::string& reflectance, Diagnostics& diagnostics) {
-  const auto light = load_illuminant(illuminant, {}, diagnostics);
+// As the observer or, if there are any, these channels see it.
+LitSurface load(const std::string& illuminant, const std::string& reflectance, Diagnostics& diagnostics,
+                std::span<const Channel> channels = {}) {
+  const NeededRange needed = needed_by(channels);
+  const auto light = load_illuminant(illuminant, {}, diagnostics, needed);
+  if (light) check_ends_of_light(*light, channels, {}, diagnostics);
   std::optional<NamedCurve> surface;
-  if (!reflectance.empty()) surface = load_curve(kReflectanceUse, reflectance, {}, diagnostics);
+  if (!reflectance.empty()) surface = load_curve(kReflectanceUse, reflectance, {}, diagnostics, needed);
   check(diagnostics);
   return {light->curve, surface ? surface->curve : Curve(1.0)};
 }
@@ -154,7 +159,8 @@ int query_camera(const CameraOptions& options) {
     throw Error(ErrorCode::usage, "query camera", "needs --illuminant or --judge");
   const auto channels = load_camera(options.name, {}, diagnostics, options.response, ResponseScale::relative);
   if (options.judge) return judge_camera(accepted(channels, diagnostics), options.json);
-  const LitSurface lit = load(options.illuminant, options.reflectance, diagnostics);
+  const LitSurface lit = load(options.illuminant, options.reflectance, diagnostics,
+                              channels ? std::span<const Channel>(*channels) : std::span<const Channel>());
   const std::vector<double> raw = camera_raw(*channels, lit.illuminant, lit.reflectance);
   Json answer;
   for (std::size_t i = 0; i < raw.size(); ++i) answer["raw"][(*channels)[i].name] = raw[i];

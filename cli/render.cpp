@@ -343,6 +343,7 @@ int render(const RenderOptions& options) {
   warn_of_unpolarised_measurement(scene, options.strict);
   warn_of_dark_camera(scene, options.strict);
   warn_of_hidden_sheet(scene, options.strict);
+  warn_of_hidden_lamp(scene, options.strict);
   warn_of_lost_light(scene, options.strict && !leaves_integrator);
   warn_of_unused_settings(scene);
 

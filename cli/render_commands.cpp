@@ -132,10 +132,9 @@ void add_render(CLI::App& app, Command& command) {
   render.add_flag(
       "--strict", sub->strict,
       "Refuse a scene of which a warning means a wrong image (exit 3): no light, a lamp that emits nothing, "
-      "matter in an open mesh or with vertex normals, a camera in opaque matter, a sheet on a surface, light "
-      "that an integrator named for the scene loses, not what auto says is missing; exit with 70 if any "
-      "sample was "
-      "not finite");
+      "matter in an open mesh or with vertex normals, a camera in opaque matter, a sheet or a lamp on a "
+      "surface, light that an integrator named for the scene loses, not what auto says is missing; exit with "
+      "70 if any sample was not finite");
   render.add_flag("--quiet", sub->quiet, "Show no progress and no notes, only warnings");
 }
 

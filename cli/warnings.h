@@ -27,6 +27,9 @@ void warn_of_dark_camera(const Scene& scene, bool strict);
 /// Warns of a thin sheet that is lost where it lies on something: Error{scene} when `strict`.
 void warn_of_hidden_sheet(const Scene& scene, bool strict);
 
+/// Warns of a lamp that light is lost of where it touches something opaque: Error{scene} when `strict`.
+void warn_of_hidden_lamp(const Scene& scene, bool strict);
+
 /// Warns of settings that the scene's integrator makes no use of.
 void warn_of_unused_settings(const Scene& scene);
 

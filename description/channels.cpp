@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "description/sensor.h"
+#include "description/table_ends.h"
 #include "sensor/response/stokes_channels.h"
 
 namespace abbe::description {
@@ -104,12 +105,14 @@ bool is_quantum(const Detector& detector) {
   return detector.quantum_efficiency || detector.response == ResponseKind::quantum;
 }
 
-// Responses to energy have no unit that is told, nor has what is scaled afterwards.
+// Responses to energy have no unit that is told, nor has what is scaled afterwards. Before a detector whose
+// quantum efficiency is told a response is what its filter passes.
 CurveUse response_use(const Detector& detector) {
+  const bool filter = detector.quantum_efficiency.has_value();
   if (is_quantum(detector) && detector.scale == ResponseScale::absolute)
-    return {"filter", kQuantumResponseUse.allowed, kQuantumResponseUse.unit};
+    return {"filter", kQuantumResponseUse.allowed, kQuantumResponseUse.unit, filter};
   const bool unsaid = !is_quantum(detector) && !detector.response;
-  return {"filter", spec::kValue, unsaid ? CurveUnit::unsaid_response : CurveUnit::any};
+  return {"filter", spec::kValue, unsaid ? CurveUnit::unsaid_response : CurveUnit::any, filter};
 }
 
 // Either a curve, or filters perhaps with an exposure time.
@@ -177,10 +180,13 @@ struct ChannelBuilder {
 
   void operator()(std::monostate) const {}
   void operator()(const spec::Channels& channels) const {
-    for (const auto& named : channels.value)
+    for (const auto& named : channels.value) {
+      context.ends.channel = named.name;
       if (detector)
         if (auto channel = build_channel(named, *detector, context))
           sensor.channels.push_back(*std::move(channel));
+    }
+    context.ends.channel.clear();
   }
   void operator()(const spec::MeasuredCamera& camera) const {
     refuse(place(said.quantum_efficiency), "quantum_efficiency", "camera", context);
@@ -248,6 +254,34 @@ void require_response(const Channel& channel, const SourcePosition& where, LoadC
                                                  channel.name, kMinWavelengthNm, kMaxWavelengthNm));
 }
 
+// Fills in what the pixels count: the channels behind all filters, or the bins.
+void build_filtered(const spec::Sensor& said, Sensor& sensor, LoadContext& context) {
+  const std::optional<Detector> detector = build_detector(said, context);
+  std::visit(ChannelBuilder{said, detector, sensor, context}, said.counts);
+  scale_to_peak(said, sensor, context);
+  for (Channel& channel : sensor.channels) {
+    if (detector && detector->filters) channel = behind(std::move(channel), *detector->filters);
+    if (detector && detector->polariser && !channel.analyser)
+      channel = behind(std::move(channel), *detector->polariser);
+    limit_angles(channel, 0);
+    require_response(channel, place_of(channel, said), context);
+  }
+}
+
+// The same with a word where tables of it end within what the others let count.
+void build_covered(const spec::Sensor& said, Sensor& sensor, LoadContext& context) {
+  std::vector<EndedTable> ended;
+  context.ends.noted = &ended;
+  build_filtered(said, sensor, context);
+  context.ends.noted = nullptr;
+  if (ended.empty()) return;
+  Diagnostics unheard;
+  LoadContext on = going_on(context, unheard);
+  Sensor longer;
+  build_filtered(said, longer, on);
+  check_ends(ended, longer.channels, context.diagnostics);
+}
+
 // What stands in the way of measuring all of the light's polarisation.
 void check_stokes(const spec::Sensor& said, const Sensor& sensor, LoadContext& context) {
   const auto refuse_beside = [&](bool there, const char* what) {
@@ -272,16 +306,7 @@ std::optional<SpectralBins> build_bins(const spec::Bins& said, LoadContext& cont
 }
 
 void build_channels(const spec::Sensor& said, Sensor& sensor, LoadContext& context) {
-  const std::optional<Detector> detector = build_detector(said, context);
-  std::visit(ChannelBuilder{said, detector, sensor, context}, said.counts);
-  scale_to_peak(said, sensor, context);
-  for (Channel& channel : sensor.channels) {
-    if (detector && detector->filters) channel = behind(std::move(channel), *detector->filters);
-    if (detector && detector->polariser && !channel.analyser)
-      channel = behind(std::move(channel), *detector->polariser);
-    limit_angles(channel, 0);
-    require_response(channel, place_of(channel, said), context);
-  }
+  build_covered(said, sensor, context);
   if (!said.stokes || !said.stokes->value) return;
   check_stokes(said, sensor, context);
   if (!any_analyser(sensor.channels) && !said.mosaic)

@@ -64,13 +64,19 @@ Mesh surround_mesh(const Grid& grid, std::size_t patches) {
   return mesh;
 }
 
-// Index of a diffuse material, made when its name is new.
-std::uint32_t diffuse_material(const std::string& name, Curve reflectance, LoadContext& context,
-                               Scene& scene) {
-  const auto [known, added] =
-      context.materials.emplace(name, static_cast<std::uint32_t>(scene.materials.size()));
-  if (added) scene.materials.push_back({name, DiffuseMaterial{std::move(reflectance)}});
-  return known->second;
+// Index of a new diffuse material, whatever others are called.
+std::uint32_t add_diffuse(const std::string& name, Curve reflectance, Scene& scene) {
+  scene.materials.push_back({name, DiffuseMaterial{std::move(reflectance)}});
+  return static_cast<std::uint32_t>(scene.materials.size() - 1);
+}
+
+// Index of the material of a patch, which all charts of that table share.
+std::uint32_t patch_material(const std::string& table, const Patch& patch, LoadContext& context,
+                             Scene& scene) {
+  const std::string name = table + ":" + patch.name;
+  const auto known = context.materials.find(name);
+  if (known != context.materials.end()) return known->second;
+  return context.materials[name] = add_diffuse(name, patch.reflectance, scene);
 }
 
 }  // namespace
@@ -80,7 +86,9 @@ std::vector<NamedShape> build(const spec::Chart& said, const std::string& name, 
   const auto surround = said.surround ? build(*said.surround, kReflectanceUse, context) : Curve(kSurround);
   const SourcePosition& where = said.reflectances.where;
   const auto file = context.table(said.reflectances.value, where);
-  const auto chart = file ? load_chart(*file, where, context.diagnostics, kReflectanceUse) : std::nullopt;
+  const auto chart = file
+                         ? load_chart(*file, where, context.diagnostics, kReflectanceUse, context.ends.needed)
+                         : std::nullopt;
   if (!chart || !surround) return {};
   const Imath::V3d edge_u = said.edge_u * context.unit_m;
   const Imath::V3d edge_v = said.edge_v * context.unit_m;
@@ -94,11 +102,11 @@ std::vector<NamedShape> build(const spec::Chart& said, const std::string& name, 
   std::vector<NamedShape> parts;
   for (std::size_t i = 0; i < patches; ++i) {
     const Patch& patch = chart->patches[i];
-    parts.push_back({name + "/" + patch.name, patch_quad(grid, i),
-                     diffuse_material(*file + ":" + patch.name, patch.reflectance, context, scene)});
+    parts.push_back(
+        {name + "/" + patch.name, patch_quad(grid, i), patch_material(*file, patch, context, scene)});
   }
-  parts.push_back({name + "/surround", surround_mesh(grid, patches),
-                   diffuse_material(name + "/surround", *surround, context, scene)});
+  parts.push_back(
+      {name + "/surround", surround_mesh(grid, patches), add_diffuse(name + "/surround", *surround, scene)});
   return parts;
 }
 

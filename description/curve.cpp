@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "description/table_ends.h"
 #include "spectral/library.h"
 
 namespace abbe::spec {
@@ -81,26 +82,65 @@ Kind kind(Tag<Curve::Wrapped>) {
 namespace abbe::description {
 namespace {
 
+/// What a table is of the curve that it stands in, of which its unit is asked.
+enum class TablePart { whole, factor, scaled };
+
+// A number other than 1 scales the other factors, as `scale` does.
+TablePart part_in(const std::vector<spec::Curve>& factors, TablePart product) {
+  const bool scaled = std::any_of(factors.begin(), factors.end(), [](const spec::Curve& factor) {
+    const auto* number = std::get_if<double>(&factor.value);
+    return number != nullptr && *number != 1;
+  });
+  return scaled || product == TablePart::scaled ? TablePart::scaled : TablePart::factor;
+}
+
+std::optional<std::string> fault_of_unit(const NamedCurve& table, const CurveUse& use, TablePart part) {
+  if (part == TablePart::scaled) return std::nullopt;
+  const std::string remedy = fmt::format("; {{\"scale\": S, \"of\": \"{}\"}} converts", table.name);
+  return part == TablePart::factor ? factor_unit_fault(table.name, table.unit, use.unit, remedy)
+                                   : unit_fault(table.name, table.unit, use.unit, remedy);
+}
+std::optional<std::string> doubt_of_unit(const NamedCurve& table, const CurveUse& use, TablePart part) {
+  if (part == TablePart::scaled) return std::nullopt;
+  if (use.unit == CurveUnit::unsaid_response) return unsaid_response(table.name, table.unit);
+  return part == TablePart::whole ? relative_power(table.name, table.unit, use.unit) : std::nullopt;
+}
+
 /// Builds each form of a curve, without regard to the values it may take.
 struct CurveBuilder {
-  std::string_view folder;
+  const CurveUse& use;
   const SourcePosition& where;
   LoadContext& context;
+  TablePart part = TablePart::whole;
 
   [[nodiscard]] std::optional<NamedCurve> named(const std::string& words) const {
     const std::optional<std::string> name = context.table(words, where);
-    return name ? load_curve(folder, *name, where, context.diagnostics) : std::nullopt;
+    auto table =
+        name ? load_curve(use.folder, *name, where, context.diagnostics, context.ends.needed) : std::nullopt;
+    if (!table) return std::nullopt;
+    table->name = words;
+    return with_ends(*std::move(table), use, where, context.ends);
   }
-  [[nodiscard]] std::optional<Curve> of(const spec::Curve& curve) const {
-    return std::visit(CurveBuilder{folder, curve.where, context}, curve.value);
+  // Whether its unit is that of the use.
+  [[nodiscard]] bool fits(const NamedCurve& table) const {
+    auto fault = fault_of_unit(table, use, part);
+    if (fault)
+      context.diagnostics.error(where, *std::move(fault));
+    else if (auto doubt = doubt_of_unit(table, use, part))
+      context.diagnostics.error_if_strict(where, *std::move(doubt));
+    return !fault;
+  }
+  [[nodiscard]] std::optional<Curve> of(const spec::Curve& curve, TablePart entry) const {
+    return std::visit(CurveBuilder{use, curve.where, context, entry}, curve.value);
   }
   // A product or a sum of one curve or more.
   template <typename Combine>
-  [[nodiscard]] std::optional<Curve> combined(const std::vector<spec::Curve>& list, Combine combine) const {
+  [[nodiscard]] std::optional<Curve> combined(const std::vector<spec::Curve>& list, TablePart entry_part,
+                                              Combine combine) const {
     std::optional<Curve> all;
     bool complete = true;
     for (const spec::Curve& entry : list) {
-      std::optional<Curve> one = of(entry);
+      std::optional<Curve> one = of(entry, entry_part);
       complete = complete && one;
       if (complete) all = all ? combine(*all, *one) : std::move(one);
     }
@@ -110,7 +150,7 @@ struct CurveBuilder {
   std::optional<Curve> operator()(double value) const { return Curve(value); }
   std::optional<Curve> operator()(const std::string& words) const {
     std::optional<NamedCurve> table = named(words);
-    if (!table) return std::nullopt;
+    if (!table || !fits(*table)) return std::nullopt;
     return std::move(table->curve);
   }
   std::optional<Curve> operator()(const spec::CurveFormula& formula) const {
@@ -154,32 +194,20 @@ struct CurveBuilder {
   }
   std::optional<Curve> operator()(const spec::Lines& lines) const { return description::build(lines); }
   std::optional<Curve> operator()(const spec::Blackbody& body) const { return planck(body.value); }
-  std::optional<Curve> operator()(const spec::Daylight& day) const { return daylight(day.value); }
+  std::optional<Curve> operator()(const spec::Daylight& day) const {
+    return with_ends(named_daylight(day.value), use, where, context.ends).curve;
+  }
   std::optional<Curve> operator()(const spec::Product& factors) const {
-    return combined(factors.value, product);
+    return combined(factors.value, part_in(factors.value, part), product);
   }
   std::optional<Curve> operator()(const spec::Sum& terms) const {
-    return combined(terms.value, [](const Curve& a, const Curve& b) { return sum(a, b); });
+    return combined(terms.value, part, [](const Curve& a, const Curve& b) { return sum(a, b); });
   }
   std::optional<Curve> operator()(const spec::Scaled& said) const {
-    const std::optional<Curve> curve = of(*said.of);
+    const std::optional<Curve> curve = of(*said.of, TablePart::scaled);
     return curve ? std::optional(scaled(*curve, said.scale)) : std::nullopt;
   }
 };
-
-// A table named by itself, if its unit is that of the use.
-std::optional<Curve> checked(NamedCurve table, const std::string& words, const CurveUse& use,
-                             const SourcePosition& where, Diagnostics& diagnostics) {
-  const std::string remedy = fmt::format("; {{\"scale\": S, \"of\": \"{}\"}} converts", words);
-  if (auto fault = unit_fault(words, table.unit, use.unit, remedy)) {
-    diagnostics.error(where, *std::move(fault));
-    return std::nullopt;
-  }
-  if (use.unit == CurveUnit::unsaid_response)
-    if (auto doubt = unsaid_response(words, table.unit))
-      diagnostics.error_if_strict(where, *std::move(doubt));
-  return std::move(table.curve);
-}
 
 }  // namespace
 
@@ -190,14 +218,7 @@ Curve build(const spec::Lines& said) {
 }
 
 std::optional<Curve> build(const spec::Curve& curve, const CurveUse& use, LoadContext& context) {
-  const CurveBuilder builder{use.folder, curve.where, context};
-  std::optional<Curve> built;
-  if (const auto* words = std::get_if<std::string>(&curve.value)) {
-    if (auto table = builder.named(*words))
-      built = checked(*std::move(table), *words, use, curve.where, context.diagnostics);
-  } else {
-    built = builder.of(curve);
-  }
+  std::optional<Curve> built = std::visit(CurveBuilder{use, curve.where, context}, curve.value);
   if (!built) return std::nullopt;
   const auto fault = value_fault(*built, use.allowed);
   if (!fault) return built;

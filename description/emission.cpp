@@ -9,7 +9,9 @@
 
 #include <fmt/format.h>
 
+#include "description/table_ends.h"
 #include "io/schema/write.h"
+#include "sensor/response/coverage.h"
 #include "spectral/colorimetry.h"
 #include "spectral/library.h"
 
@@ -140,24 +142,39 @@ Fields fields(Tag<SkyEmission>) {
 namespace abbe::description {
 namespace {
 
+constexpr bool is_luminous(spec::Quantity quantity) {
+  return static_cast<int>(quantity) % 2 == 1;
+}
+
+/// How a spectrum is read, which is part of what makes it the same as another.
+struct SpectrumUse {
+  CurveUnit unit = CurveUnit::power;  ///< Of a table: of any power where its values are scaled.
+  bool by_power = false;              ///< Whether it is scaled by its power over all wavelengths.
+
+  [[nodiscard]] CurveUse curve() const { return {"illuminant", spec::kPower, unit, true}; }
+};
+
 /// The curve of each spectrum, as it is named.
 struct SpectrumBuilder {
   LoadContext& context;
-  CurveUnit unit;  ///< Of a table: any where its values are scaled.
+  const SpectrumUse& use;
+  const SourcePosition& where;  ///< Of the emission.
 
   std::optional<Curve> operator()(std::monostate) const { return std::nullopt; }
   std::optional<Curve> operator()(const spec::Illuminant& said) const {
     const std::optional<std::string> name = context.table(said.value, said.where);
     if (!name) return std::nullopt;
-    std::optional<NamedCurve> named = load_illuminant(*name, said.where, context.diagnostics);
+    std::optional<NamedCurve> named =
+        load_illuminant(*name, said.where, context.diagnostics, context.ends.needed);
     if (!named) return std::nullopt;
-    return std::move(named->curve);
+    named->name = said.value;
+    return with_ends(*std::move(named), use.curve(), said.where, context.ends).curve;
   }
   std::optional<Curve> operator()(const spec::Blackbody& said) const { return planck(said.value); }
-  std::optional<Curve> operator()(const spec::Daylight& said) const { return daylight(said.value); }
-  std::optional<Curve> operator()(const spec::Curve& said) const {
-    return build(said, {"illuminant", spec::kPower, unit}, context);
+  std::optional<Curve> operator()(const spec::Daylight& said) const {
+    return with_ends(named_daylight(said.value), use.curve(), where, context.ends).curve;
   }
+  std::optional<Curve> operator()(const spec::Curve& said) const { return build(said, use.curve(), context); }
   std::optional<Curve> operator()(const spec::Lines& said) const { return description::build(said); }
 };
 
@@ -168,16 +185,62 @@ std::string spectrum_text(const spec::Emission& emission) {
   return to_text(schema::write(unscaled));
 }
 
-// The same words name the same spectrum, which is made once however many lamps have it.
-LampSpectrum* build_spectrum(const spec::Emission& emission, LoadContext& context) {
-  const bool absolute = std::holds_alternative<spec::Spectrum>(emission.spectrum) &&
-                        std::holds_alternative<std::monostate>(emission.scale);
-  // A table whose unit does not matter to a lamp that is scaled is not yet one for a lamp that is not.
-  const std::string words = (absolute ? "absolute " : "") + spectrum_text(emission);
+// The curve of a spectrum, with a word where tables of it end within what the sensor sees.
+std::optional<Curve> build_curve(const spec::Emission& emission, const SpectrumUse& use,
+                                 LoadContext& context) {
+  std::vector<EndedTable> ended;
+  context.ends.noted = &ended;
+  std::optional<Curve> curve = std::visit(SpectrumBuilder{context, use, emission.where}, emission.spectrum);
+  context.ends.noted = nullptr;
+  if (!curve || ended.empty()) return curve;
+  Diagnostics unheard;
+  LoadContext on = going_on(context, unheard);
+  if (const auto longer = std::visit(SpectrumBuilder{on, use, emission.where}, emission.spectrum))
+    check_ends(ended, exposed_to(*longer, context.ends.channels), context.diagnostics);
+  return curve;
+}
+
+// A lamp that is scaled by its power needs all of it.
+std::optional<Curve> build_all_of(const spec::Emission& emission, const SpectrumUse& use,
+                                  LoadContext& context) {
+  if (!use.by_power) return build_curve(emission, use, context);
+  const NeededRange seen = std::exchange(context.ends.needed, kEveryWavelength);
+  std::optional<Curve> curve = build_curve(emission, use, context);
+  context.ends.needed = seen;
+  return curve;
+}
+
+/// Whether a lamp is scaled by its power over all wavelengths, and not by what the eye sees.
+struct IsByPower {
+  bool operator()(std::monostate) const { return false; }
+  template <spec::Quantity quantity>
+  bool operator()(const spec::Amount<quantity>&) const {
+    return !is_luminous(quantity);
+  }
+  template <spec::Quantity quantity>
+  bool operator()(const spec::AmountAt<quantity>&) const {
+    return !is_luminous(quantity);
+  }
+};
+
+SpectrumUse use_of(const spec::Emission& emission, const LampKind& kind) {
+  const bool scaled = !std::holds_alternative<std::monostate>(emission.scale);
+  CurveUnit unit = CurveUnit::power;
+  if (!scaled && std::holds_alternative<spec::Spectrum>(emission.spectrum)) unit = kind.spectrum;
+  if (!scaled && std::holds_alternative<spec::SpectralFlux>(emission.spectrum))
+    unit = CurveUnit::spectral_flux;
+  return {unit, std::visit(IsByPower{}, emission.scale)};
+}
+
+// The same words name the same spectrum, which is made once however many lamps have it in the same use: a
+// table that one can be scaled of need not be one for another.
+LampSpectrum* build_spectrum(const spec::Emission& emission, const LampKind& kind, LoadContext& context) {
+  const SpectrumUse use = use_of(emission, kind);
+  const std::string words =
+      fmt::format("{} {} {}", static_cast<int>(use.unit), use.by_power, spectrum_text(emission));
   if (const auto found = context.lamp_spectra.find(words); found != context.lamp_spectra.end())
     return &found->second;
-  const CurveUnit unit = absolute ? CurveUnit::spectral_radiance : CurveUnit::any;
-  std::optional<Curve> curve = std::visit(SpectrumBuilder{context, unit}, emission.spectrum);
+  std::optional<Curve> curve = build_all_of(emission, use, context);
   if (!curve) return nullptr;
   const double power = curve->integral();
   const double luminous = photometric(*curve);
@@ -233,8 +296,7 @@ struct ScaleBuilder {
 // What `spectrum` is multiplied by to have as much of a quantity as asked for.
 std::optional<double> normaliser(const LampSpectrum& spectrum, const Scale& scale,
                                  const SourcePosition& where, const LoadContext& context) {
-  const bool luminous = static_cast<int>(scale.quantity) % 2 == 1;
-  const double unscaled = (luminous ? spectrum.luminous : spectrum.power) * scale.of_unit;
+  const double unscaled = (is_luminous(scale.quantity) ? spectrum.luminous : spectrum.power) * scale.of_unit;
   if (unscaled > 0) return scale.value / unscaled;
   context.diagnostics.error(
       where, fmt::format("{} cannot scale this spectrum, which has none", spec::text_of(scale.quantity).key));
@@ -254,7 +316,7 @@ std::vector<std::string_view> scale_names(const schema::Fields& fields) {
 
 std::optional<ScaledCurve> build(const spec::Emission& emission, const LampKind& kind, LoadContext& context) {
   context.emissions.push_back(emission.where);
-  LampSpectrum* spectrum = build_spectrum(emission, context);
+  LampSpectrum* spectrum = build_spectrum(emission, kind, context);
   const bool illuminant = std::holds_alternative<spec::Illuminant>(emission.spectrum);
   const bool relative = illuminant || std::holds_alternative<spec::Daylight>(emission.spectrum);
   const bool scaled = !std::holds_alternative<std::monostate>(emission.scale);

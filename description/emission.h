@@ -75,18 +75,20 @@ struct SkyEmission : Emission {};
 
 namespace abbe::description {
 
-/// What fixes the strength of a lamp of one kind: the table of its emission, and what a lamp of unit radiance
-/// or intensity has of each quantity.
+/// What fixes the strength of a lamp of one kind: the table of its emission, what a spectrum that is not
+/// scaled is of, and what a lamp of unit radiance or intensity has of each quantity.
 struct LampKind {
   const schema::Fields& (*fields)();
+  CurveUnit spectrum;
   double flux;  ///< [m^2 sr] for radiance, [sr] for intensity; 0 without a flux.
   /// Irradiance on its axis at that distance [m], of a surface that faces it: [sr] for radiance, [m^-2] for
   /// intensity. Of what is at infinity the same at every distance.
   std::function<double(double)> irradiance = {};
 };
 
-/// The spectrum of the lamp. Reports a relative spectrum without a scale, and a scale that it has nothing of;
-/// nothing then.
+/// The spectrum of the lamp. Reports a relative spectrum without a scale, a scale that it has nothing of, and
+/// a table that says nothing of wavelengths that are needed; nothing then. Warns of one that is 0 where
+/// channels of the sensor count more than a negligible share of such a light.
 [[nodiscard]] std::optional<ScaledCurve> build(const spec::Emission& emission, const LampKind& kind,
                                                LoadContext& context);
 /// How its light is polarised; nothing where it is not.

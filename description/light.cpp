@@ -149,7 +149,8 @@ double axial_irradiance(const Quad& quad, double distance) {
 }
 
 LampKind area_lamp(const Shape& shape, bool two_sided) {
-  LampKind kind{schema::fields_of<spec::MeshEmission>, std::numbers::pi * area(shape) * (two_sided ? 2 : 1)};
+  LampKind kind{schema::fields_of<spec::MeshEmission>, CurveUnit::spectral_radiance,
+                std::numbers::pi * area(shape) * (two_sided ? 2 : 1)};
   const auto lamp = [&kind](const auto& plain_shape) {
     kind.fields = schema::fields_of<spec::LampEmission>;
     kind.irradiance = [plain_shape](double distance) { return axial_irradiance(plain_shape, distance); };
@@ -214,7 +215,8 @@ struct LightBuilder {
   void operator()(const spec::PointLamp& said) {
     const Moving moving = moving_point();
     add(PointLight{position(said.source.at, moving), moving.motion}, said.emission,
-        {schema::fields_of<spec::PointEmission>, 4 * std::numbers::pi, inverse_square});
+        {schema::fields_of<spec::PointEmission>, CurveUnit::spectral_intensity, 4 * std::numbers::pi,
+         inverse_square});
   }
   void operator()(const spec::SpotLamp& said) {
     const double sine = std::sin(said.source.half_angle_deg * std::numbers::pi / 360);
@@ -224,7 +226,8 @@ struct LightBuilder {
     const SpotLight spot{position(said.source.at, moving), Imath::V3f(axis),
                          static_cast<float>(2 * sine * sine), moving.motion};
     const double solid_angle = 2 * std::numbers::pi * static_cast<double>(spot.cap);
-    add(spot, said.emission, {schema::fields_of<spec::PointEmission>, solid_angle, inverse_square});
+    add(spot, said.emission,
+        {schema::fields_of<spec::PointEmission>, CurveUnit::spectral_intensity, solid_angle, inverse_square});
   }
   // A light from infinity may say its strength itself, by daylight, without an emission beside it.
   void add_from_infinity(decltype(Light::kind) kind, const spec::DaylightStrength& strength,
@@ -244,14 +247,16 @@ struct LightBuilder {
   void operator()(const spec::BeamLamp& said) {
     add_from_infinity(DirectionalLight{Imath::V3f(said.source.towards.normalized())}, said.source.strength,
                       said.emission ? &*said.emission : nullptr,
-                      {schema::fields_of<spec::BeamEmission>, 0, [](double) { return 1.0; }});
+                      {schema::fields_of<spec::BeamEmission>, CurveUnit::spectral_irradiance, 0,
+                       [](double) { return 1.0; }});
   }
   void operator()(const spec::SunLamp& said) {
     const double sine = std::sin(said.source.angular_diameter_deg * std::numbers::pi / 720);
     const SunLight sun{Imath::V3f(said.source.towards.normalized()), static_cast<float>(2 * sine * sine)};
     const double of_unit = sun.projected_solid_angle();
     add_from_infinity(sun, said.source.strength, said.emission ? &*said.emission : nullptr,
-                      {schema::fields_of<spec::SunEmission>, 0, [of_unit](double) { return of_unit; }});
+                      {schema::fields_of<spec::SunEmission>, CurveUnit::spectral_radiance, 0,
+                       [of_unit](double) { return of_unit; }});
   }
   void operator()(const spec::SkyLamp& said) {
     if (refuse_to_move()) return;
@@ -262,7 +267,8 @@ struct LightBuilder {
             said.source.where,
             fmt::format("a scene has one environment (got another beside \"{}\")", light.name));
     if (!sky) return;
-    auto curve = build(said.emission, {schema::fields_of<spec::SkyEmission>, 0}, context);
+    auto curve = build(said.emission, {schema::fields_of<spec::SkyEmission>, CurveUnit::spectral_radiance, 0},
+                       context);
     if (!curve) return;
     EnvironmentLight light;
     if (!sky->texels.empty())

@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <unordered_map>
 #include <vector>
@@ -14,7 +15,9 @@
 #include "io/inputs.h"
 #include "io/json.h"
 #include "scene/shapes/shape.h"
+#include "sensor/response/channel.h"
 #include "spectral/curve.h"
+#include "spectral/library.h"
 
 namespace abbe::description {
 
@@ -39,6 +42,22 @@ struct LampSpectrum {
   std::shared_ptr<const Curve> held = nullptr;  ///< In [0, 1], so that no float overflows.
 };
 
+/// A table of a lamp or a sensor that does not cover all wavelengths and does not say `clamp`.
+struct EndedTable {
+  NamedCurve table;
+  SourcePosition where;  ///< It is named there,
+  std::string channel;   ///< and belongs to this channel of a sensor; to all where there is none.
+};
+
+/// How tables are held to what the sensor sees.
+struct TableEnds {
+  NeededRange needed{};  ///< What they must cover: by the responses of the sensor or meter, once it is built.
+  std::span<const Channel> channels{};       ///< That sensor's; none of a meter, which takes what it is told.
+  std::vector<EndedTable>* noted = nullptr;  ///< Those of the lamp or sensor that is being built, if wanted,
+  std::string channel{};                     ///< and the channel that is.
+  bool go_on = false;  ///< Whether lights and filters go on beyond their tables as they end.
+};
+
 /// What the readers of one scene file share.
 struct LoadContext {
   Diagnostics& diagnostics;
@@ -55,6 +74,7 @@ struct LoadContext {
   std::vector<std::shared_ptr<Motion>> motions{};        ///< and of all that moves.
   double open_s = 0;                                     ///< When the shutter opens,
   double span_s = 1;                                     ///< and how long until it has closed for all rows.
+  TableEnds ends{};
 
   /// A file named by the scene, remembered for the hash; a URL is reported.
   [[nodiscard]] std::optional<std::filesystem::path> file(const std::string& name,

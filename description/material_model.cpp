@@ -285,6 +285,9 @@ struct ModelBuilder {
   }
   Model operator()(const spec::ThinGlass& said) const {
     auto ior = build(said.ior, context);
+    if (said.ior.absorption_per_m && said.thickness == 0)
+      context.diagnostics.warning(said.ior.absorption_per_m->where,
+                                  "an absorption without effect: without a thickness nothing is absorbed");
     if (!ior) return std::nullopt;
     return ThinGlassMaterial{std::move(ior->name), std::move(ior->index), said.thickness * context.unit_m};
   }

@@ -9,6 +9,7 @@
 #include "scene/colors.h"
 #include "scene/extent.h"
 #include "scene/shapes/placed.h"
+#include "sensor/response/coverage.h"
 
 namespace abbe::spec {
 
@@ -158,11 +159,13 @@ std::vector<Meter> build_meters(const spec::Scene& said, LoadContext& context) {
 Scene build(const spec::Scene& said, LoadContext& context, const Meter* meter) {
   Scene scene{};
   scene.unit_m = context.unit_m = spec::metres(said.units);
-  // Before the lights, which may be sampled by what they expose.
+  // Before the lights, which may be sampled by what they expose, and whose tables must cover it.
   if (meter != nullptr)
     set_meter(said, *meter, context, scene);
   else
     build_sensor(said, context, scene);
+  context.ends.needed = needed_by(scene.channels);
+  if (meter == nullptr) context.ends.channels = scene.channels;
   build_materials(said.materials, context, scene);
   build_objects(said.objects, context, scene);
   build_shapes(said.shapes, context, scene);

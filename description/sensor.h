@@ -98,7 +98,9 @@ struct Sensor {
 [[nodiscard]] std::optional<SpectralBins> build_bins(const spec::Bins& said, LoadContext& context);
 
 /// What the pixels of a sensor count, with its filters: its channels or its bins; the sensor's exposure is
-/// that of channels without their own.
+/// that of channels without their own. Reports tables of filters and responses that do not say what holds
+/// beyond their rows where a channel counts more than a negligible share, and warns of filters that are 0
+/// there.
 void build_channels(const spec::Sensor& said, Sensor& sensor, LoadContext& context);
 
 }  // namespace abbe::description

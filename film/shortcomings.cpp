@@ -54,6 +54,25 @@ std::optional<std::string> hidden_sheet(const Scene& scene) {
                      scene.shapes[sheet->shape].name, scene.shapes[sheet->on].name);
 }
 
+std::optional<std::string> hidden_lamp(const Scene& scene) {
+  const auto contact = lost_lamp(scene);
+  if (!contact) return std::nullopt;
+  const Light& lamp = scene.lights[contact->light];
+  const std::string& on = scene.shapes[contact->on].name;
+  const auto* emitter = std::get_if<AreaLight>(&lamp.kind);
+  if (emitter == nullptr)
+    return fmt::format(
+        "the lamp \"{}\" stands on \"{}\", on one side or the other by rounding: keep them apart", lamp.name,
+        on);
+  if (emitter->shape == contact->on)
+    return fmt::format(
+        "triangles of the lamp \"{}\" lie on each other, of which one is met and all are lit from: keep one, "
+        "two_sided where both sides emit",
+        lamp.name);
+  return fmt::format("the lamp \"{}\" lies on \"{}\", which may be met instead: keep them apart", lamp.name,
+                     on);
+}
+
 std::optional<std::string> unused_settings(const Scene& scene) {
   std::vector<std::string> keys;
   for (const std::string_view key : unused_photon_settings(scene))

@@ -19,6 +19,9 @@ namespace abbe {
 /// That a sheet lies on something that is met instead, as a sentence; nothing when none does.
 [[nodiscard]] std::optional<std::string> hidden_sheet(const Scene& scene);
 
+/// That light is lost of a lamp which touches something opaque, as a sentence; nothing when none does.
+[[nodiscard]] std::optional<std::string> hidden_lamp(const Scene& scene);
+
 /// Which settings of the scene its integrator makes no use of, as a sentence; nothing when it uses all.
 [[nodiscard]] std::optional<std::string> unused_settings(const Scene& scene);
 

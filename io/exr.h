@@ -24,8 +24,8 @@ void write_exr(const std::filesystem::path& path, const Image& image);
 /// writes one. Throws Error{output}.
 void write_exr(const std::filesystem::path& path, std::span<const ExrPart> parts);
 
-/// The attribute of an image read from an EXR with `chromaticities`: x and y of its red, green, blue and
-/// white, with blanks between them.
+/// The attribute of an image whose file tells its primaries, as an EXR does by `chromaticities`: x and y of
+/// its red, green, blue and white, with blanks between them. Those of an ICC profile are adapted to D50.
 inline constexpr const char* kPrimariesKey = "primaries_xy";
 
 /// Reads a single-part scan-line or tiled EXR, all channels as float, string attributes, those numbers and

@@ -28,7 +28,7 @@ void write_raw_picture(const std::filesystem::path& path, const Image& image);
 [[nodiscard]] Image read_picture(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
 /// Any image file: .exr by `read_exr`, others by `read_picture`. Its attribute `kColorSpace` is "Linear"
-/// where the file holds floats, or says so.
+/// where the file says so, or holds floats of which an ICC profile does not say otherwise.
 [[nodiscard]] Image read_image(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
 }  // namespace abbe

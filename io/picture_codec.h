@@ -16,15 +16,19 @@ struct PictureHeader {
   std::int64_t width = 0;
   std::int64_t height = 0;
   std::vector<std::string> channels;  ///< Their names, in the order of a pixel's values.
-  /// Attributes that are texts, by OpenImageIO's names, `kOrientation` and `kPrimariesKey`.
+  /// Attributes that are texts, by OpenImageIO's names, `kOrientation`, `kPrimariesKey` and `kProfileKey`.
   std::map<std::string, std::string> metadata;
 };
 
 /// The attribute that says how a picture's codes are to be read: "sRGB", "Linear", or "Gamma" before the
-/// power of a code in [0, 1] that is linear.
+/// power of a code in [0, 1] that is linear; any other text says that they are encoded otherwise.
 inline constexpr const char* kColorSpace = "oiio:ColorSpace";
 inline constexpr const char* kLinear = "Linear";
 inline constexpr const char* kGamma = "Gamma";
+
+/// The attribute with the name of the ICC profile that a picture's file holds, by which its `kColorSpace` and
+/// `kPrimariesKey` are then.
+inline constexpr const char* kProfileKey = "icc_profile";
 
 /// The values of a picture to be written, pixel by pixel, as 8-bit or 16-bit codes.
 using PictureCodes = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>>;

@@ -39,16 +39,38 @@ void set(PictureHeader& header, const char* key, const std::string& text) {
   if (!text.empty()) header.metadata[key] = text;
 }
 
+// Referring to `spec`.
+picture_module::LibraryColors library_colors(const OIIO::ImageSpec& spec, std::string_view format) {
+  picture_module::LibraryColors told{format, spec.format.is_floating_point(), spec.nchannels < 3};
+  for (const char* const model : {"tiff:ColorSpace", "jpeg:ColorSpace"})
+    told.model += spec.get_string_attribute(model);
+  told.exif_space = spec.get_int_attribute("Exif:ColorSpace");
+  told.profile_name = spec.get_string_attribute("ICCProfile:profile_description");
+  if (const OIIO::ParamValue* profile = spec.find_attribute("ICCProfile"))
+    told.profile = {static_cast<const std::uint8_t*>(profile->data()),
+                    static_cast<std::size_t>(profile->datasize())};
+  return told;
+}
+
+void set_colors(PictureHeader& header, const OIIO::ImageSpec& spec, std::string_view format,
+                const std::string& path) {
+  const picture_module::LibraryColors library = library_colors(spec, format);
+  const picture_module::ColorsTold told = picture_module::colors_told(path, library);
+  set(header, kColorSpace, told.encoding.empty() ? color_space(spec, format) : told.encoding);
+  set(header, kPrimariesKey, library.is_grey ? "" : told.primaries);
+  set(header, kProfileKey, told.profile);
+}
+
 void set_orientation(PictureHeader& header, int orientation) {
   set(header, kOrientation, orientation > 1 && orientation <= 8 ? std::to_string(orientation) : "");
 }
 
-PictureHeader header_of(const OIIO::ImageSpec& spec, std::string_view format) {
+PictureHeader header_of(const OIIO::ImageSpec& spec, std::string_view format, const std::string& path) {
   PictureHeader header{spec.width, spec.height, spec.channelnames, {}};
   for (const OIIO::ParamValue& attribute : spec.extra_attribs)
     if (attribute.type() == OIIO::TypeDesc::STRING)
       header.metadata[attribute.name().string()] = attribute.get_string();
-  set(header, kColorSpace, color_space(spec, format));
+  set_colors(header, spec, format, path);
   set_orientation(header, spec.get_int_attribute(kOrientation, 1));
   return header;
 }
@@ -100,7 +122,7 @@ void read(const std::string& path, const std::function<float*(const PictureHeade
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1)
     throw Error(ErrorCode::input, path, "not a flat image");
   const std::string_view format = input->format_name();
-  PictureHeader header = header_of(spec, format);
+  PictureHeader header = header_of(spec, format, path);
   picture_module::RadianceHeader radiance;
   if (format == "hdr") {
     radiance = picture_module::radiance_header(path);

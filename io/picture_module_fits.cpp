@@ -164,11 +164,12 @@ std::vector<std::string> plane_names(const std::string& told, std::size_t count)
   return names;
 }
 
-// The lines "key: value" that `write_header` leaves as history, of which the library cuts long ones.
+// The lines "key: value" that `write_header` leaves as history, of which the library cuts long ones. A key
+// may end in the name of a channel, which has hyphens as well as letters, digits and _.
 void read_history(fitsfile* fits, RawPicture& raw) {
   constexpr std::size_t kName = 8;
   constexpr std::size_t kCut = 72;
-  const std::regex key("([A-Za-z][A-Za-z0-9_.]*): (.*)");
+  const std::regex key("([A-Za-z][A-Za-z0-9_.-]*): (.*)");
   int status = 0;
   int count = 0;
   fits_get_hdrspace(fits, &count, nullptr, &status);

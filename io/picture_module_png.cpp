@@ -1,8 +1,7 @@
-// What a PNG's own checksums say of it.
+// The chunks of a PNG: what its own checksums say of it, and what OpenImageIO does not tell.
 #include <array>
-#include <cstdint>
 #include <fstream>
-#include <vector>
+#include <optional>
 
 #include <boost/crc.hpp>
 
@@ -11,41 +10,68 @@
 namespace abbe::picture_module {
 namespace {
 
-std::uint32_t big_endian(const std::array<char, 4>& bytes) {
-  std::uint32_t number = 0;
-  for (const char byte : bytes) number = number << 8U | static_cast<std::uint8_t>(byte);
-  return number;
-}
+struct Chunk {
+  std::string type;
+  std::vector<std::uint8_t> data;
+};
 
-// The length of a chunk, its type, its data and the checksum of type and data.
-bool is_sound_chunk(std::istream& file, std::uint64_t left, std::array<char, 4>& type) {
-  constexpr std::uint64_t kAround = 12;  // bytes beside the data
-  std::array<char, 4> length{};
-  std::array<char, 4> checksum{};
-  if (left < kAround || !file.read(length.data(), 4) || !file.read(type.data(), 4)) return false;
-  if (big_endian(length) > left - kAround) return false;
-  std::vector<char> data(big_endian(length));
-  boost::crc_32_type crc;
-  crc.process_bytes(type.data(), type.size());
-  if (!data.empty()) file.read(data.data(), static_cast<std::streamsize>(data.size()));
-  crc.process_bytes(data.data(), data.size());
-  return file.read(checksum.data(), 4) && crc.checksum() == big_endian(checksum);
-}
+/// A file that may be a PNG, read chunk by chunk.
+class PngFile {
+ public:
+  explicit PngFile(const std::string& path) : file_(path, std::ios::binary | std::ios::ate) {
+    constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+    size_ = static_cast<std::uint64_t>(file_.tellg());
+    file_.seekg(0);
+    std::string begin(kSignature.size(), '\0');
+    is_png_ = file_.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == kSignature;
+  }
+  /// Whether it begins as one.
+  [[nodiscard]] bool is_png() const { return is_png_; }
+
+  /// The next chunk, whose data stand between its length and type and the checksum of type and data; nothing
+  /// for one that is cut short or contradicts its checksum.
+  std::optional<Chunk> next() {
+    constexpr std::uint64_t kAround = 12;  // bytes beside the data
+    const std::uint64_t left = size_ - static_cast<std::uint64_t>(file_.tellg());
+    const std::uint32_t length = left < kAround ? 0 : number();
+    if (left < kAround || length > left - kAround) return std::nullopt;
+    Chunk chunk{std::string(4, '\0'), std::vector<std::uint8_t>(length)};
+    file_.read(chunk.type.data(), 4);
+    if (length > 0) file_.read(reinterpret_cast<char*>(chunk.data.data()), length);
+    boost::crc_32_type crc;
+    crc.process_bytes(chunk.type.data(), chunk.type.size());
+    crc.process_bytes(chunk.data.data(), chunk.data.size());
+    const bool is_sound = number() == crc.checksum() && file_;
+    return is_sound ? std::optional(std::move(chunk)) : std::nullopt;
+  }
+
+ private:
+  std::uint32_t number() {
+    std::array<std::uint8_t, 4> bytes{};
+    file_.read(reinterpret_cast<char*>(bytes.data()), 4);
+    return big_endian(bytes, 0);
+  }
+
+  std::ifstream file_;
+  std::uint64_t size_ = 0;
+  bool is_png_ = false;
+};
 
 }  // namespace
 
 bool is_damaged_png(const std::string& path) {
-  constexpr std::array<char, 8> kSignature{'\x89', 'P', 'N', 'G', '\r', '\n', '\x1a', '\n'};
-  constexpr std::array<char, 4> kEnd{'I', 'E', 'N', 'D'};
-  std::ifstream file(path, std::ios::binary | std::ios::ate);
-  const auto size = static_cast<std::uint64_t>(file.tellg());
-  file.seekg(0);
-  std::array<char, 8> signature{};
-  if (!file.read(signature.data(), signature.size()) || signature != kSignature) return false;
-  std::array<char, 4> type{};
-  while (type != kEnd)
-    if (!is_sound_chunk(file, size - static_cast<std::uint64_t>(file.tellg()), type)) return true;
-  return false;
+  PngFile file(path);
+  if (!file.is_png()) return false;
+  for (auto chunk = file.next(); chunk; chunk = file.next())
+    if (chunk->type == "IEND") return false;
+  return true;
+}
+
+std::optional<std::vector<std::uint8_t>> png_chunk(const std::string& path, std::string_view type) {
+  PngFile file(path);
+  for (auto chunk = file.next(); chunk && chunk->type != "IDAT"; chunk = file.next())
+    if (chunk->type == type) return std::move(chunk->data);
+  return std::nullopt;
 }
 
 }  // namespace abbe::picture_module

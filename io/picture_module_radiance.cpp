@@ -34,9 +34,7 @@ void take_factors(const std::string& line, std::size_t count, const std::string&
 std::string primaries_of(const std::string& line, const std::string& path) {
   const std::vector<double> told = numbers_of(line, 8, path);
   if (std::ranges::all_of(told, [](double number) { return number == 0; })) return "";
-  std::ostringstream text;
-  for (std::size_t i = 0; i < told.size(); ++i) text << (i == 0 ? "" : " ") << told[i];
-  return text.str();
+  return numbers_text(told);
 }
 
 void read_line(const std::string& line, const std::string& path, RadianceHeader& header) {

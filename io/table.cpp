@@ -186,7 +186,7 @@ class TableReader {
 /// What the lines above the rows say of a table, without reading the rows.
 struct Heading {
   std::string aliases;
-  std::vector<std::string> values;  ///< Column names but for the first, the abscissa.
+  std::vector<std::string> values;  ///< Column names but for those of wavelengths or, without any, the first.
   bool semicolons = false;          ///< Between the column names, which hence are not known.
 };
 
@@ -202,8 +202,10 @@ Heading heading_of(const fs::path& path) {
       if (line.ends_with('\r')) line.pop_back();
       std::vector<Cell> cells = cells_of(line).value_or(std::vector<Cell>{});
       heading.semicolons = has_semicolons(line, cells);
-      for (Cell& cell : cells) heading.values.push_back(std::move(cell.text));
-      if (!heading.values.empty()) heading.values.erase(heading.values.begin());
+      for (Cell& cell : cells)
+        if (!cell.text.starts_with("wavelength_")) heading.values.push_back(std::move(cell.text));
+      if (!cells.empty() && heading.values.size() == cells.size())
+        heading.values.erase(heading.values.begin());
       break;
     }
   }

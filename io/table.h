@@ -61,10 +61,11 @@ struct TableColumn {
 };
 
 /// Finds `name` in a folder of the data directory ("illuminant", "reflectance", "camera", ...): the stem of a
-/// file (its only value column, or "" when it has several), a column's own name when it occurs once in the
-/// folder, or `stem:column`, which may be in another folder of spectra, as a camera's channel that serves as
-/// a filter. A `# aliases: a=b, c=d` line of a file adds names. A path ending in `.csv`, optionally followed
-/// by `:column`, is a user's file. Nothing found is reported at `where` with the nearest name.
+/// file (its only value column, which those of wavelengths are not, or "" when it has several), a column's
+/// own name when it occurs once in the folder, or `stem:column`, which may be in another folder of spectra,
+/// as a camera's channel that serves as a filter. A `# aliases: a=b, c=d` line of a file adds names. A path
+/// ending in `.csv`, optionally followed by `:column`, is a user's file. Nothing found is reported at `where`
+/// with the nearest name.
 [[nodiscard]] std::optional<TableColumn> find_table(std::string_view folder, const std::string& name,
                                                     const SourcePosition& where, Diagnostics& diagnostics);
 

@@ -33,9 +33,21 @@ py::object values_of(const std::string& name, const Curve& curve, const Numbers&
   return each(wavelengths_nm, [&](double nm) { return curve(nm); });
 }
 
-Curve named_illuminant(const std::string& name) {
+// What a table is asked for, and what it must cover at any rate.
+NeededRange needed_at(const Numbers& wavelengths_nm) {
+  NeededRange needed;
+  for (const double nm : all(wavelengths_nm))
+    needed = {std::min(needed.low_nm, nm), std::max(needed.high_nm, nm)};
+  return needed;
+}
+
+Curve illuminant_over(const std::string& name, NeededRange needed) {
   Diagnostics diagnostics;
-  return accepted(load_illuminant(name, {}, diagnostics), diagnostics).curve;
+  return accepted(load_illuminant(name, {}, diagnostics, needed), diagnostics).curve;
+}
+
+Curve named_illuminant(const std::string& name) {
+  return illuminant_over(name, {});
 }
 
 Curve named_reflectance(const std::string& name) {
@@ -44,14 +56,14 @@ Curve named_reflectance(const std::string& name) {
 }
 
 py::object illuminant(const std::string& name, const Numbers& wavelengths_nm) {
-  return values_of(name, named_illuminant(name), wavelengths_nm);
+  return values_of(name, illuminant_over(name, needed_at(wavelengths_nm)), wavelengths_nm);
 }
 
 py::object curve(const std::string& kind, const std::string& name, const Numbers& wavelengths_nm) {
   if (kind == kIlluminantUse.folder) return illuminant(name, wavelengths_nm);
   Diagnostics diagnostics;
-  return values_of(name, accepted(load_curve(kind, name, {}, diagnostics), diagnostics).curve,
-                   wavelengths_nm);
+  const auto table = load_curve(kind, name, {}, diagnostics, needed_at(wavelengths_nm));
+  return values_of(name, accepted(table, diagnostics).curve, wavelengths_nm);
 }
 
 py::dict observer(const std::string& name, const Numbers& wavelengths_nm) {
@@ -84,6 +96,8 @@ Curve sampled(const Numbers& wavelengths_nm, const Numbers& values) {
       throw Error(ErrorCode::usage, "spectrum",
                   fmt::format("got {} at {} nm, allowed finite values at ascending wavelengths",
                               all(values)[i], nm[i]));
+  if (const auto fault = range_fault(nm.front(), nm.back()))
+    throw Error(ErrorCode::usage, "spectrum", *fault);
   return table_curve(nm, all(values), Outside::zero);
 }
 
@@ -164,7 +178,8 @@ void add_curves(py::module_& module) {
              "Returns the relative power of an illuminant at wavelengths, in the unit of its table. "
              "\"blackbody:3000\" "
              "and \"daylight:6500\" are made of their temperature in K. Raises InputError for an unknown "
-             "name and UsageError for a wavelength outside [300, 1100] nm.");
+             "name, or where a table says nothing of one of them, and UsageError for a wavelength outside "
+             "[300, 1100] nm.");
   module.def("curve", curve, py::arg("kind"), py::arg("name"), py::arg("wavelengths_nm"),
              "Returns a measured curve of one of the kinds of `names` but material and glass, such as a "
              "reflectance, "
@@ -189,7 +204,8 @@ void add_curves(py::module_& module) {
       "are names, or pairs of wavelengths in nm and values, taken as linear between them and as 0 beyond. "
       "Raises "
       "InputError for an unknown name and for a table of reflectances that are no shares of 1, UsageError "
-      "for a pair with values outside [0, 1], or of an illuminant below 0.");
+      "for a pair with values outside [0, 1], or of an illuminant below 0, or with no wavelengths from 300 "
+      "to 1100 nm.");
   module.def("delta_e", lab_difference, py::arg("lab1"), py::arg("lab2"), py::arg("formula") = "2000",
              "Returns the CIE colour differences of arrays whose last axis is L*, a*, b*, by the formula of "
              "2000, 94 or "

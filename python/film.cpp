@@ -167,9 +167,8 @@ void add_values(py::class_<FilmHandle, std::shared_ptr<FilmHandle>>& film) {
       .def_property_readonly(
           "variance", &FilmHandle::variance,
           "The variance of each of these values, of the same shape; None for an image that does "
-          "not tell it, and where samples are in fewer than two replicates, so that nothing is known of it. "
-          "It "
-          "is inf where it is beyond single precision.")
+          "not tell it, and where samples of some pixels are in fewer than two replicates, so that nothing "
+          "is known of it. It is inf where it is beyond single precision.")
       .def_property_readonly("channels", &FilmHandle::channels,
                              "The names of the channels, in the order of `array`.")
       .def_property_readonly(

@@ -54,8 +54,8 @@ FilmHandle render_scene(SceneHandle& handle, const Request& request, const py::o
   inputs.take_memory("the film", film_bytes(scene, how));
   inputs.take_memory("the paths from lights of a sample", bytes_of_light_paths(scene));
   FilmIdentity identity = identity_of(scene, handle.name(), how);
-  for (const auto& shortcoming :
-       {dark_camera(scene), hidden_sheet(scene), lost_light(scene), unused_settings(scene)})
+  for (const auto& shortcoming : {dark_camera(scene), hidden_sheet(scene), hidden_lamp(scene),
+                                  lost_light(scene), unused_settings(scene)})
     if (shortcoming) warn(*shortcoming);
   RenderResult result = render_listening(scene, how, progress);
   for (const std::string& loss : left_out(scene, result)) warn(loss);

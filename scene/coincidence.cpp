@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -110,11 +111,33 @@ bool ellipsoid_touches(const Shape& shape, const Shape& other, double reach, Fac
                              [&](const Face& face) { return touch(*ball, face, reach); });
 }
 
-// Nothing where too many faces meet to be compared.
-std::optional<bool> faces_coincide(const Shape& a, const Shape& b, double reach, double by,
-                                   FaceFinder& faces) {
-  const std::vector<Face> of_a = faces.near(a, grown(bounds(b), reach));
-  const std::vector<Face> of_b = faces.near(b, grown(bounds(a), reach));
+// Of a disc the square within it, which is beyond doubt its own.
+std::vector<Face> sure_faces(const Shape& shape, const Box3d& near, FaceFinder& faces) {
+  std::vector<Face> found = faces.near(shape, near);
+  if (plain<Disc>(shape) == nullptr) return found;
+  for (Face& face : found) {
+    const V3d center = (face.corners[0] + face.corners[3]) / 2;
+    face.box.makeEmpty();
+    for (V3d& corner : face.corners) {
+      corner = center + (corner - center) / std::numbers::sqrt2;
+      face.box.extendBy(corner);
+    }
+  }
+  return found;
+}
+
+// How far rounding may take something in a face off its plane, as far as floats of that size go.
+double rounding_across(const Face& face) {
+  double sum = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    sum += std::abs(face.normal[axis]) *
+           float_step(std::max(std::abs(face.box.min[axis]), std::abs(face.box.max[axis])));
+  return sum;
+}
+
+// From low x to high. Nothing where too many faces meet to be compared.
+std::optional<bool> faces_coincide(const std::vector<Face>& of_a, const std::vector<Face>& of_b, double reach,
+                                   double by) {
   std::size_t pairs = 0;
   auto first = of_b.begin();
   double widest = 0;  // of the faces of b along x
@@ -132,16 +155,31 @@ std::optional<bool> faces_coincide(const Shape& a, const Shape& b, double reach,
 }  // namespace
 
 bool may_coincide(const Shape& a, const Shape& b, double reach, FaceFinder& faces) {
-  if (!grown(bounds(a), reach).intersects(bounds(b))) return false;
+  const Box3d near_a = grown(faces.box_of(a), reach);
+  const Box3d box_b = faces.box_of(b);
+  if (!near_a.intersects(box_b)) return false;
   if (motion_of(a) != nullptr || motion_of(b) != nullptr) return true;
   if (ellipsoid_of(a) || ellipsoid_of(b))
     return ellipsoid_touches(a, b, reach, faces) || ellipsoid_touches(b, a, reach, faces);
-  return faces_coincide(a, b, reach, -reach, faces).value_or(true);
+  return faces_coincide(faces.near(a, grown(box_b, reach)), faces.near(b, near_a), reach, -reach)
+      .value_or(true);
 }
 
 bool lies_on(const Shape& a, const Shape& b, double reach, FaceFinder& faces) {
   if (motion_of(a) != nullptr || motion_of(b) != nullptr) return false;
-  return faces_coincide(a, b, reach, reach, faces).value_or(false);
+  const std::vector<Face> of_a = sure_faces(a, grown(faces.box_of(b), reach), faces);
+  const std::vector<Face> of_b = sure_faces(b, grown(faces.box_of(a), reach), faces);
+  return faces_coincide(of_a, of_b, reach, reach).value_or(false);
+}
+
+bool stands_on(const V3d& point, const Shape& shape, FaceFinder& faces) {
+  if (motion_of(shape) != nullptr) return false;
+  const double most = 2 * float_step(largest_coordinate(faces.box_of(shape)));  // of all its faces
+  const std::vector<Face> near = sure_faces(shape, grown(Box3d(point), most), faces);
+  return std::ranges::any_of(near, [&](const Face& face) {
+    const Face at{{point, point, point, point}, Box3d(point), face.normal};
+    return coincide(at, face, rounding_across(face), -most);
+  });
 }
 
 }  // namespace abbe

@@ -17,7 +17,11 @@ inline constexpr std::size_t kMostPairs = 50'000'000;
 [[nodiscard]] bool may_coincide(const Shape& a, const Shape& b, double reach, FaceFinder& faces);
 
 /// Whether beyond doubt a face of one shape lies in a face of the other, over more than `reach` [m] each way,
-/// and neither moves. Faces that are side by side in a plane do not.
+/// and neither moves. Faces that are side by side in a plane do not; of a disc the square within it counts.
 [[nodiscard]] bool lies_on(const Shape& a, const Shape& b, double reach, FaceFinder& faces);
+
+/// Whether a point, in the coordinates of the render, lies in a face of a shape that does not move, so near
+/// that floats do not tell on which side of it.
+[[nodiscard]] bool stands_on(const Imath::V3d& point, const Shape& shape, FaceFinder& faces);
 
 }  // namespace abbe

@@ -7,6 +7,8 @@
 
 #include "scene/coincidence.h"
 #include "scene/extent.h"
+#include "scene/shapes/solid.h"
+#include "scene/small_light.h"
 
 namespace abbe {
 namespace {
@@ -26,6 +28,40 @@ std::vector<Boxed> shapes_of(const Scene& scene, const Kind& kind) {
   for (std::uint32_t i = 0; i < scene.shapes.size(); ++i)
     if (kind(material_of(scene, i))) found.push_back({i, bounds(scene.shapes[i].shape)});
   return found;
+}
+
+// A lamp that something opaque may hide, and the box around it.
+struct BoxedLamp {
+  std::uint32_t light;
+  Imath::Box3d box;
+};
+
+// Opaque surfaces that emit, and points that stand still.
+std::vector<BoxedLamp> lamps_of(const Scene& scene) {
+  std::vector<BoxedLamp> found;
+  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+    const Light& light = scene.lights[i];
+    if (!emits(light)) continue;
+    const auto* emitter = std::get_if<AreaLight>(&light.kind);
+    if (emitter != nullptr && opaque(material_of(scene, emitter->shape)))
+      found.push_back({i, bounds(scene.shapes[emitter->shape].shape)});
+    else if (const Imath::V3f* at = place(light); at && motion_of(light, scene.shapes) == nullptr)
+      found.push_back({i, Imath::Box3d(Imath::V3d(*at))});
+  }
+  return found;
+}
+
+// Whether light may be lost of a lamp where it touches a wall, or where it, being one, touches itself.
+bool is_hidden(const Scene& scene, const BoxedLamp& lamp, const Boxed& wall, FaceFinder& faces) {
+  const Shape& shape = scene.shapes[wall.shape].shape;
+  const auto* emitter = std::get_if<AreaLight>(&scene.lights[lamp.light].kind);
+  const std::uint32_t own = emitter != nullptr ? emitter->shape : wall.shape;
+  const double reach = scene.touch_distance(Imath::V3d(largest_coordinate(lamp.box)), own, wall.shape);
+  if (!grown(lamp.box, reach).intersects(wall.box)) return false;
+  if (emitter == nullptr) return stands_on(lamp.box.min, shape, faces);
+  if (own != wall.shape) return lies_on(scene.shapes[own].shape, shape, reach, faces);
+  const auto* mesh = plain<Mesh>(shape);
+  return mesh != nullptr && has_doubled_triangles(*mesh);
 }
 
 // Finds the walls that are near a shape of that box.
@@ -139,6 +175,30 @@ std::optional<Contact> lost_sheet(const Scene& scene) {
              scene.shapes[shape].material != scene.shapes[on.front()].material;
     };
     if (on.size() == 1 || std::any_of(on.begin(), on.end(), hides)) return Contact{sheet.shape, on.front()};
+  }
+  return std::nullopt;
+}
+
+std::optional<LampContact> lost_lamp(const Scene& scene) {
+  std::vector<BoxedLamp> lamps = lamps_of(scene);
+  std::vector<Boxed> walls = shapes_of(scene, [](const Material& material) { return opaque(material); });
+  if (lamps.empty() || walls.empty()) return std::nullopt;
+  const auto low = [](const auto& boxed) { return boxed.box.min.x; };
+  std::ranges::stable_sort(lamps, {}, low);
+  std::ranges::stable_sort(walls, {}, low);
+  FaceFinder faces;
+  std::vector<const Boxed*> beside;  // the walls that meet a lamp along x, and some that begin behind it
+  std::size_t pairs = 0;
+  auto next = walls.begin();
+  for (const BoxedLamp& lamp : lamps) {
+    const double reach = scene.touch_distance(Imath::V3d(largest_coordinate(lamp.box)), walls.front().shape);
+    for (; next != walls.end() && next->box.min.x <= lamp.box.max.x + reach; ++next) beside.push_back(&*next);
+    std::erase_if(beside, [&](const Boxed* wall) { return wall->box.max.x < lamp.box.min.x - reach; });
+    pairs += beside.size();
+    if (pairs > kMostPairs) return std::nullopt;
+    const auto hides = [&](const Boxed* wall) { return is_hidden(scene, lamp, *wall, faces); };
+    if (const auto wall = std::ranges::find_if(beside, hides); wall != beside.end())
+      return LampContact{lamp.light, (*wall)->shape};
   }
   return std::nullopt;
 }

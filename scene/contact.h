@@ -27,6 +27,21 @@ struct Contact {
 /// material is not.
 [[nodiscard]] std::optional<Contact> lost_sheet(const Scene& scene);
 
+/// A lamp, and the shape that it touches.
+struct LampContact {
+  std::uint32_t light;  ///< Index into `Scene::lights`.
+  std::uint32_t on;     ///< Index into `Scene::shapes`; the lamp's own where its triangles are doubled.
+};
+
+/// The first lamp, from low x to high, that light may be lost of, as rays meet but one of the opaque surfaces
+/// at one place while the lamp's points are reached all the same: an opaque surface that emits and, by
+/// `lies_on`, lies on an opaque one, which may be a lamp too; a mesh that emits and has triangles with the
+/// same corners; or a point or spot that, by `stands_on`, stands on something opaque. Lamps under glass are
+/// not. It looks at pairs of boxes that meet along x, and at triangles within the boxes of lamps alone, so
+/// that it takes as long as sorting where lamps are small; none is told where there are more than
+/// `kMostPairs`.
+[[nodiscard]] std::optional<LampContact> lost_lamp(const Scene& scene);
+
 /// Where anything opaque comes as near to a shape that lets light on as floats tell, or crosses it.
 struct NearWalls {
   Imath::Box3f box;  ///< Around all such places, and perhaps some of the shape beside them; empty for none.

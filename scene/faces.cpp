@@ -17,14 +17,16 @@ using Imath::V3d;
 
 constexpr std::size_t kRun = 64;  // triangles
 
-using Runs = std::map<const Mesh*, std::vector<Box3d>>;
+using KnownBoxes = std::map<const Mesh*, FaceFinder::MeshBoxes>;
 
-const std::vector<Box3d>& runs_of(const Mesh& mesh, Runs& known) {
+const FaceFinder::MeshBoxes& boxes_of(const Mesh& mesh, KnownBoxes& known) {
   const auto [at, added] = known.try_emplace(&mesh);
+  auto& [around, runs] = at->second;
   if (!added) return at->second;
-  at->second.resize((mesh.triangles.size() + kRun - 1) / kRun);
+  runs.resize((mesh.triangles.size() + kRun - 1) / kRun);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    for (const std::uint32_t vertex : mesh.triangles[i]) at->second[i / kRun].extendBy(mesh.vertices[vertex]);
+    for (const std::uint32_t vertex : mesh.triangles[i]) runs[i / kRun].extendBy(mesh.vertices[vertex]);
+  for (const Box3d& run : runs) around.extendBy(run);
   return at->second;
 }
 
@@ -32,7 +34,7 @@ const std::vector<Box3d>& runs_of(const Mesh& mesh, Runs& known) {
 struct FaceCollector {
   const M44d& to_world;
   const Box3d& within;
-  Runs& runs;
+  KnownBoxes& known;
   std::vector<Face>& faces;
 
   void add(std::array<V3d, 4> corners) const {
@@ -45,9 +47,10 @@ struct FaceCollector {
     faces.push_back({corners, box, (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized()});
   }
   void operator()(const Mesh& mesh) const {
-    const std::vector<Box3d>& boxes = runs_of(mesh, runs);
-    for (std::size_t run = 0; run < boxes.size(); ++run) {
-      if (!Imath::transform(boxes[run], to_world).intersects(within)) continue;
+    const std::vector<Box3d>& runs = boxes_of(mesh, known).runs;
+    const bool stays = to_world == M44d();  // moving boxes takes most of the time
+    for (std::size_t run = 0; run < runs.size(); ++run) {
+      if (!(stays ? runs[run] : Imath::transform(runs[run], to_world)).intersects(within)) continue;
       const std::size_t end = std::min((run + 1) * kRun, mesh.triangles.size());
       for (std::size_t i = run * kRun; i < end; ++i) {
         const auto& [a, b, c] = mesh.triangles[i];
@@ -68,7 +71,7 @@ struct FaceCollector {
   }
   void operator()(const Sphere&) const {}
   void operator()(const PlacedShape& placed) const {
-    std::visit(FaceCollector{placed.at->to_world, within, runs, faces}, placed.of->shape);
+    std::visit(FaceCollector{placed.at->to_world, within, known, faces}, placed.of->shape);
   }
 };
 
@@ -83,10 +86,15 @@ bool has_faces(const Shape& shape) {
 std::vector<Face> FaceFinder::near(const Shape& shape, const Box3d& box) {
   std::vector<Face> faces;
   const M44d unmoved;
-  std::visit(FaceCollector{unmoved, box, runs_, faces}, shape);
+  std::visit(FaceCollector{unmoved, box, known_, faces}, shape);
   std::sort(faces.begin(), faces.end(),
             [](const Face& a, const Face& b) { return a.box.min.x < b.box.min.x; });
   return faces;
+}
+
+Box3d FaceFinder::box_of(const Shape& shape) {
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  return mesh != nullptr ? boxes_of(*mesh, known_).around : bounds(shape);
 }
 
 }  // namespace abbe

@@ -21,16 +21,25 @@ struct Face {
 /// Whether a shape is made of flat faces.
 [[nodiscard]] bool has_faces(const Shape& shape);
 
-/// Finds the flat faces of shapes by where they are. Of each mesh it keeps the boxes around runs of
-/// triangles, so that not all of them are looked at each time; meshes must live as long as it does.
+/// Finds the flat faces of shapes by where they are. Of each mesh it keeps the boxes around all of it and
+/// around runs of triangles, so that not all of them are looked at each time; meshes must live as long as it
+/// does.
 class FaceFinder {
  public:
   /// The faces of a shape the boxes of which meet a box, from low x to high. Of what moves, those when the
   /// shutter opens.
   [[nodiscard]] std::vector<Face> near(const Shape& shape, const Imath::Box3d& box);
+  /// The box around a shape, as `bounds` tells it; of a mesh around its triangles.
+  [[nodiscard]] Imath::Box3d box_of(const Shape& shape);
+
+  /// The boxes of a mesh.
+  struct MeshBoxes {
+    Imath::Box3d around;
+    std::vector<Imath::Box3d> runs;
+  };
 
  private:
-  std::map<const Mesh*, std::vector<Imath::Box3d>> runs_;
+  std::map<const Mesh*, MeshBoxes> known_;
 };
 
 }  // namespace abbe

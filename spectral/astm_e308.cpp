@@ -26,7 +26,7 @@ std::optional<SampleFault> astm_fault(const std::vector<double>& wavelengths_nm)
 }  // namespace
 
 TristimulusWeights astm_weights(const Curve& illuminant, Observer observer, int step_nm, SumRange range) {
-  const ColorMatching& cmf = color_matching(observer);
+  const std::vector<XYZ> fine = tristimulus_weights(illuminant, observer, range);
   std::vector<double> nodes;
   for (int nm = range.low_nm; nm <= range.high_nm; nm += step_nm) nodes.push_back(nm);
   TristimulusWeights table{range.low_nm, step_nm, std::vector<XYZ>(nodes.size(), XYZ{})};
@@ -38,8 +38,7 @@ TristimulusWeights astm_weights(const Curve& illuminant, Observer observer, int 
     const std::size_t first = interval == 0 ? 0 : interval - 1;
     const std::vector<double> shares = lagrange_weights(std::span(nodes).subspan(first, at_an_end ? 3 : 4),
                                                         std::min<double>(nm, nodes.back()));
-    const double power = illuminant(nm);
-    const XYZ xyz{power * cmf.x(nm), power * cmf.y(nm), power * cmf.z(nm)};
+    const XYZ& xyz = fine[static_cast<std::size_t>(nm - range.low_nm)];
     sum_y += xyz[1];
     for (std::size_t i = 0; i < shares.size(); ++i)
       for (std::size_t c = 0; c < 3; ++c) table.weights[first + i][c] += shares[i] * xyz[c];

@@ -20,7 +20,7 @@ struct TristimulusWeights {
 };
 
 /// Tristimulus weights for reflectances measured every `step_nm`, free of the instrument's bandpass: 1 nm
-/// sums of illuminant and observer, in which the reflectance between the measured wavelengths is Lagrange's
+/// `tristimulus_weights`, in which the reflectance between the measured wavelengths is Lagrange's
 /// polynomial through the four around, in the first and last interval through the nearest three [ASTM2022].
 /// The weights of Y add up to 100, all to the illuminant's white. What the range has beyond its last whole
 /// step counts for that one. The range must hold three steps or more.

@@ -36,7 +36,7 @@ bool is_spectral(const Table& table) {
 }
 
 std::optional<Chart> load_chart(const std::string& name, const SourcePosition& where,
-                                Diagnostics& diagnostics, const CurveUse& use) {
+                                Diagnostics& diagnostics, const CurveUse& use, NeededRange needed) {
   const std::optional<Table> table = read_chart_table(name, where, diagnostics);
   if (!table) return std::nullopt;
   if (!is_spectral(*table)) {
@@ -53,7 +53,8 @@ std::optional<Chart> load_chart(const std::string& name, const SourcePosition& w
   Chart chart{name, {}};
   for (const std::string& column : table->columns) {
     if (column.starts_with("wavelength")) continue;
-    const std::optional<NamedCurve> curve = load_curve(use.folder, name + ":" + column, where, diagnostics);
+    const std::optional<NamedCurve> curve =
+        load_curve(use.folder, name + ":" + column, where, diagnostics, needed);
     if (!curve) return std::nullopt;
     chart.patches.push_back({column, curve->curve});
     if (!check_values(chart.patches.back(), use.allowed, where, diagnostics)) return std::nullopt;

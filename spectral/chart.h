@@ -30,10 +30,12 @@ struct Chart {
 [[nodiscard]] bool is_spectral(const Table& table);
 
 /// The chart of a table of reflectances, one patch per column, e.g. "colorchecker24_babelcolor_average".
-/// Reports a table of colours, one whose unit is not that of the use, and a patch with values beyond it.
+/// Reports a table of colours, one whose unit is not that of the use, one that says nothing of wavelengths
+/// that are needed, and a patch with values beyond the use.
 [[nodiscard]] std::optional<Chart> load_chart(const std::string& name, const SourcePosition& where,
                                               Diagnostics& diagnostics,
-                                              const CurveUse& use = kReflectanceFactorUse);
+                                              const CurveUse& use = kReflectanceFactorUse,
+                                              NeededRange needed = {});
 /// The same of a shipped table; what is wrong with it is thrown as Error.
 [[nodiscard]] Chart shipped_chart(const std::string& name);
 

@@ -40,6 +40,15 @@ double share_of_nanometre(const Curve& light, int nm) {
   return integral_of_product(light, share);
 }
 
+// X = k times the integral of S R xbar, and so on, k being 100 over that of S ybar [CIE15, sec. 7.1].
+XYZ integrated_tristimulus(const Curve& illuminant, const Curve& reflectance, const ColorMatching& cmf,
+                           SumRange range) {
+  const double k = 100 / integral(product(illuminant, cmf.y), range);
+  const Curve reflected = product(illuminant, reflectance);
+  const auto seen = [&](const Curve& by) { return k * integral(product(reflected, by), range); };
+  return {seen(cmf.x), seen(cmf.y), seen(cmf.z)};
+}
+
 }  // namespace
 
 const ColorMatching& color_matching(Observer observer) {
@@ -79,6 +88,8 @@ std::vector<XYZ> tristimulus_weights(const Curve& illuminant, Observer observer,
 }
 
 XYZ tristimulus(const Curve& illuminant, const Curve& reflectance, Observer observer, SumRange range) {
+  if (!is_told_by_nanometres(reflectance))
+    return integrated_tristimulus(illuminant, reflectance, color_matching(observer), range);
   XYZ sum{};
   int nm = range.low_nm;
   for (const XYZ& weight : tristimulus_weights(illuminant, observer, range)) {

@@ -37,12 +37,13 @@ struct SumRange {
 [[nodiscard]] double sum_product(const Curve& a, const Curve& b, const Curve& c, SumRange range = {});
 
 /// What each nanometre of the range, from its low end on, adds to the tristimulus values of the perfect
-/// diffuser under an illuminant, Y = 100 in all [CIE15, sec. 7.1].
+/// diffuser under an illuminant, Y = 100 in all [CIE15, sec. 7.1]. The power of an illuminant that bends
+/// between whole nanometres is shared among those next to it.
 [[nodiscard]] std::vector<XYZ> tristimulus_weights(const Curve& illuminant, Observer observer,
                                                    SumRange range = {});
 
 /// Tristimulus values of a reflectance under an illuminant, Y = 100 for the perfect diffuser: the sum of
-/// `tristimulus_weights` times the reflectance.
+/// `tristimulus_weights` times the reflectance; the integral if that bends between whole nanometres.
 [[nodiscard]] XYZ tristimulus(const Curve& illuminant, const Curve& reflectance, Observer observer,
                               SumRange range = {});
 

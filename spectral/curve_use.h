@@ -12,8 +12,20 @@
 namespace abbe {
 
 /// What the values of a curve stand for, where a table may say that its own stand for something else. A
-/// response is `unsaid` while nobody has said whether it multiplies energy, as it is taken to, or photons.
-enum class CurveUnit { any, share, per_metre, spectral_radiance, unsaid_response };
+/// response is `unsaid` while nobody has said whether it multiplies energy, as it is taken to, or photons. A
+/// `power` is one per nm in any unit, as of lamps that are scaled; radiance, intensity, irradiance and flux
+/// are in W/(m^2 sr nm), W/(sr nm), W/(m^2 nm) and W/nm.
+enum class CurveUnit {
+  any,
+  share,
+  per_metre,
+  power,
+  spectral_radiance,
+  spectral_intensity,
+  spectral_irradiance,
+  spectral_flux,
+  unsaid_response
+};
 
 /// Where a curve is used: the data folder its names are looked for in, the values it may take, and their
 /// unit.
@@ -21,23 +33,38 @@ struct CurveUse {
   std::string_view folder;
   Range allowed;
   CurveUnit unit = CurveUnit::any;
+  /// Whether it goes on where a table of it ends and says 0, as light and what filters pass do. A response
+  /// is what its table says.
+  bool goes_on = false;
 };
-inline constexpr CurveUse kIlluminantUse{"illuminant", {0, 1e30}};
+inline constexpr CurveUse kIlluminantUse{"illuminant", {0, 1e30}, CurveUnit::power, true};
 inline constexpr CurveUse kReflectanceUse{"reflectance", Range::unit(), CurveUnit::share};
 /// Of the patches of charts, which may shine or fluoresce into the instrument; per cent are more.
 inline constexpr CurveUse kReflectanceFactorUse{"reflectance", {0, 2}, CurveUnit::share};
 /// Of a filter before a sensor: above 1 by what a measurement may err, far below a percentage.
-inline constexpr CurveUse kTransmittanceUse{"filter", {0, 1.05}, CurveUnit::share};
+inline constexpr CurveUse kTransmittanceUse{"filter", {0, 1.05}, CurveUnit::share, true};
 /// Electrons per photon, above 1 for energetic photons; per cent are more.
 inline constexpr CurveUse kQuantumEfficiencyUse{"camera", {0, 10}, CurveUnit::share};
 /// The same of a channel, which may have a negative response.
 inline constexpr CurveUse kQuantumResponseUse{"camera", {-10, 10}, CurveUnit::share};
 
 /// Why a table called `name` whose line `# unit:` says `told` is not in the unit that is needed, as one in
-/// percent is not in shares, or one in 1/cm in 1/m. `remedy` ends what is said to be allowed. Nothing when it
-/// may be in that unit: a unit is prose, such as "reflectance (0-1); wavelength in nm".
+/// percent or of densities is not in shares, one in 1/cm not in 1/m, and one of photons or per Hz no power
+/// per nm. `remedy` ends what is said to be allowed, where a factor makes the one of the other. Nothing when
+/// it may be in that unit: a unit is prose, such as "reflectance (0-1); wavelength in nm".
 [[nodiscard]] std::optional<std::string> unit_fault(std::string_view name, std::string_view told,
                                                     CurveUnit needed, std::string_view remedy = {});
+
+/// The same of a table that is one factor of a product: what the others cannot make the unit that is needed,
+/// as shares in percent, coefficients in 1/cm and parts or multiples of a power. Another quantity than the
+/// one needed is none of these.
+[[nodiscard]] std::optional<std::string> factor_unit_fault(std::string_view name, std::string_view told,
+                                                           CurveUnit needed, std::string_view remedy = {});
+
+/// What is to be said of a table called `name` whose unit says that it is relative, where a radiance, an
+/// intensity, an irradiance or a flux is needed.
+[[nodiscard]] std::optional<std::string> relative_power(std::string_view name, std::string_view unit,
+                                                        CurveUnit needed);
 
 /// What is to be said of a table called `name` that is taken as a response to energy for lack of a word about
 /// it, when its unit speaks of quantum efficiencies or of photons.

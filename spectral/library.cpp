@@ -34,6 +34,13 @@ std::optional<std::vector<double>> wavelengths(const Table& table, Diagnostics& 
     diagnostics.error(table.where, "no column \"wavelength_nm\"", ErrorCode::input);
     return std::nullopt;
   }
+  if (nm != 0 && um != 0) {
+    diagnostics.error(
+        table.where,
+        fmt::format("first column \"{}\" (allowed wavelength_nm, wavelength_um)", table.columns.front()),
+        ErrorCode::input);
+    return std::nullopt;
+  }
   auto values = table.numbers(nm ? *nm : *um, diagnostics);
   if (!values) return std::nullopt;
   if (!nm) {
@@ -255,7 +262,8 @@ std::optional<NamedCurve> curve_of(const Table& table, const std::string& column
                     table.provenance.unit,
                     samples->wavelengths_nm.front(),
                     samples->wavelengths_nm.back(),
-                    table_curve(fine.wavelengths_nm, fine.values, table.outside)};
+                    table_curve(fine.wavelengths_nm, fine.values, table.outside),
+                    table.outside};
   if (table.outside == Outside::error && !covers(result, needed)) {
     diagnostics.error(
         table.where,
@@ -274,6 +282,16 @@ std::optional<std::string> range_fault(double low_nm, double high_nm) {
                      high_nm, kMinWavelengthNm, kMaxWavelengthNm);
 }
 
+NamedCurve named_daylight(double kelvin) {
+  return {fmt::format("daylight:{}", kelvin),
+          "CIE 15 daylight of that correlated colour temperature",
+          "relative, 100 at 560 nm",
+          300,
+          830,
+          daylight(kelvin),
+          Outside::zero};
+}
+
 std::optional<NamedCurve> load_illuminant(const std::string& name, const SourcePosition& where,
                                           Diagnostics& diagnostics, NeededRange needed) {
   if (const auto kelvin = temperature(name, "blackbody", 100, 1e6, where, diagnostics)) {
@@ -287,12 +305,9 @@ std::optional<NamedCurve> load_illuminant(const std::string& name, const SourceP
   }
   if (const auto kelvin = temperature(name, "daylight", 4000, 25000, where, diagnostics)) {
     if (*kelvin == 0) return std::nullopt;
-    return NamedCurve{name,
-                      "CIE 15 daylight of that correlated colour temperature",
-                      "relative, 100 at 560 nm",
-                      300,
-                      830,
-                      daylight(*kelvin)};
+    NamedCurve day = named_daylight(*kelvin);
+    day.name = name;
+    return day;
   }
   auto illuminant = load_curve(kIlluminantUse, name, where, diagnostics, needed);
   if (illuminant && (name == "A" || name == "cie_A")) extend_by_definition(*illuminant);

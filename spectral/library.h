@@ -20,6 +20,7 @@ struct NamedCurve {
   double low_nm = 0;   ///< First tabulated wavelength.
   double high_nm = 0;  ///< Last tabulated wavelength.
   Curve curve;
+  Outside outside = Outside::clamp;  ///< What the table says of the wavelengths beyond.
 };
 
 /// The wavelengths a caller will ask a curve for [nm]; by default those of a colorimetric sum.
@@ -27,6 +28,8 @@ struct NeededRange {
   double low_nm = 380;
   double high_nm = 780;
 };
+/// All wavelengths that are carried.
+inline constexpr NeededRange kEveryWavelength{kMinWavelengthNm, kMaxWavelengthNm};
 
 /// A column of a table, as it stands there.
 struct TableSamples {
@@ -40,7 +43,7 @@ struct TableSamples {
                                                        const SourcePosition& where, Diagnostics& diagnostics);
 
 /// Reads the curve `name` of a data folder ("illuminant", "reflectance", "camera", "filter", "observer"): see
-/// `find_table` for the names. The wavelength column is `wavelength_nm` (a user's file may have
+/// `find_table` for the names. The first column is `wavelength_nm` (a user's file may have
 /// `wavelength_um`). Reports unsorted or duplicate wavelengths, fewer than two samples, wavelengths all
 /// outside [300, 1100] nm (a wrong unit), and a table declared `outside: error` that does not cover `needed`.
 /// Between its samples the table is read as its line `# interpolation:` says (default linear), overshoot cut
@@ -62,6 +65,10 @@ struct TableSamples {
 /// Why a curve is of no use for a quantity within that range: its first knot outside. Nothing when it has
 /// none.
 [[nodiscard]] std::optional<std::string> value_fault(const Curve& curve, const Range& allowed);
+
+/// CIE daylight of that correlated colour temperature [K] as "daylight:<K>" names it, which is 0 beyond 830
+/// nm.
+[[nodiscard]] NamedCurve named_daylight(double kelvin);
 
 /// Illuminants by name: those of `data/illuminant`, "blackbody:<K>" and "daylight:<K>". Illuminant A beyond
 /// its table follows its definition. Reports a table with negative power.

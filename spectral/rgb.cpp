@@ -115,6 +115,22 @@ RgbBasis make_basis() {
   return {Curve(std::move(knots[0])), Curve(std::move(knots[1])), Curve(std::move(knots[2]))};
 }
 
+// The primaries of Rec.709 as ICC profiles of sRGB have them, adapted by Bradford's transform to the white
+// D50 to which profiles relate all colours [ICC].
+constexpr RgbSpace kRec709InProfiles{{0.6484, 0.3309}, {0.3212, 0.5979}, {0.1559, 0.0660}, {0.3457, 0.3585}};
+
+// Whether an image tells the primaries of a space, to two digits, or none.
+bool is_of(const RgbSpace& space, const Image& image) {
+  constexpr double kRounding = 5e-3;
+  const auto near = [](const Chromaticity& a, const Chromaticity& b) {
+    return std::abs(a[0] - b[0]) < kRounding && std::abs(a[1] - b[1]) < kRounding;
+  };
+  if (!image.metadata.contains(kPrimariesKey)) return true;
+  const auto told = recorded_primaries(image);
+  return told && near(told->red, space.red) && near(told->green, space.green) &&
+         near(told->blue, space.blue) && near(told->white, space.white);
+}
+
 }  // namespace
 
 XYZ unit_xyz(const Chromaticity& xy) {
@@ -136,18 +152,17 @@ std::optional<RgbSpace> recorded_primaries(const Image& image) {
 }
 
 std::optional<std::string> rec709_fault(const Image& image) {
-  constexpr double kRounding = 5e-3;
-  if (!recorded_encoding(image))
+  const auto profile = image.metadata.find(kProfileKey);
+  const bool is_profiled = profile != image.metadata.end();
+  const bool is_encoded = recorded_encoding(image).has_value();
+  if (is_encoded && is_of(is_profiled ? kRec709InProfiles : kRec709, image)) return std::nullopt;
+  if (is_profiled)
+    return "its colours are those of the profile \"" + profile->second +
+           "\" (allowed the primaries of sRGB, with floats that are linear or codes that are linear, encoded "
+           "as sRGB or by a gamma)";
+  if (!is_encoded)
     return "its colour space is unknown (got \"" + image.metadata.at(kColorSpace) +
            "\", allowed linear, sRGB or a gamma)";
-  const auto told = recorded_primaries(image);
-  if (!told) return std::nullopt;
-  const auto near = [](const Chromaticity& a, const Chromaticity& b) {
-    return std::abs(a[0] - b[0]) < kRounding && std::abs(a[1] - b[1]) < kRounding;
-  };
-  if (near(told->red, kRec709.red) && near(told->green, kRec709.green) && near(told->blue, kRec709.blue) &&
-      near(told->white, kRec709.white))
-    return std::nullopt;
   return "its chromaticities are not those of Rec.709 (got " + image.metadata.at(kPrimariesKey) + ")";
 }
 

@@ -11,6 +11,7 @@
 #include "io/error.h"
 #include "io/table.h"
 #include "io/text.h"
+#include "spectral/curve_use.h"
 
 namespace abbe {
 namespace {
@@ -54,11 +55,34 @@ bool each_once(const std::vector<std::string>& names, const Table& table, Diagno
   return seen.size() == names.size();
 }
 
+constexpr std::array kDeviations{"R_deviation", "G_deviation", "B_deviation"};
+
+// Whether a patch tells nothing of its noise, of which a warning then names the first: an empty cell, or the
+// 0 of one pixel, which has no spread and would pass for certain.
+bool is_noise_unknown(const Table& table, const std::vector<std::string>& names,
+                      const std::vector<Raw>& pixels, Diagnostics& diagnostics) {
+  for (std::size_t i = 0; i < table.rows.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto column = table.column(kDeviations[k]);
+      if (!column) continue;
+      const std::string& cell = table.rows[i][*column];
+      if (!cell.empty() && !(pixels[i][k] == 1 && parse_number(cell) == 0.0)) continue;
+      diagnostics.warning(table.position(i),
+                          fmt::format("patch \"{}\" has no {}, as one pixel has none: all patches count "
+                                      "alike; show the chart on more pixels",
+                                      names[i], kDeviations[k]));
+      return true;
+    }
+  return false;
+}
+
 // Of the means over so many pixels; none where the table does not tell of noise.
-std::optional<std::vector<Raw>> deviations_of(const Table& table, Diagnostics& diagnostics) {
-  if (!table.column("R_deviation")) return std::vector<Raw>{};
-  auto deviations = triples(table, {"R_deviation", "G_deviation", "B_deviation"}, diagnostics);
+std::optional<std::vector<Raw>> deviations_of(const Table& table, const std::vector<std::string>& names,
+                                              Diagnostics& diagnostics) {
+  if (!table.column(kDeviations[0])) return std::vector<Raw>{};
   const auto pixels = triples(table, {"R_pixels", "G_pixels", "B_pixels"}, diagnostics);
+  if (pixels && is_noise_unknown(table, names, *pixels, diagnostics)) return std::vector<Raw>{};
+  auto deviations = triples(table, kDeviations, diagnostics);
   if (!deviations || !pixels) return std::nullopt;
   for (std::size_t i = 0; i < deviations->size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -94,6 +118,19 @@ XYZ from_xyy(const std::array<double, 3>& c) {
   return {c[0] / c[1] * c[2], c[2], (1 - c[0] - c[1]) / c[1] * c[2]};
 }
 
+// Why what a row states is no colour of a patch; nothing where it is one.
+std::optional<std::string> color_fault(const std::array<double, 3>& c, bool is_lab, const XYZ& xyz) {
+  const bool is_finite = std::isfinite(xyz[0]) && std::isfinite(xyz[1]) && std::isfinite(xyz[2]);
+  if (!is_finite || !(is_lab || c[1] > 0 || c[2] == 0))
+    return fmt::format("states no colour (got {:g}, {:g}, {:g}, allowed {})", c[0], c[1], c[2],
+                       is_lab ? "L, a, b of finite X, Y, Z" : "y above 0 or a Y of 0, and finite X, Y, Z");
+  const double highest = kReflectanceFactorUse.allowed.high;
+  if (xyz[1] <= highest) return std::nullopt;
+  return fmt::format(
+      "has another scale (got a Y of {:g}, allowed {:g} at most: Y of the perfect diffuser is 1)", xyz[1],
+      highest);
+}
+
 // The colours of a table's rows, by L, a, b or by x, y, Y; nothing where one states none.
 std::optional<std::vector<XYZ>> stated_rows(const Table& table, const XYZ& white, Diagnostics& diagnostics) {
   const bool is_lab = table.column("L").has_value();
@@ -103,13 +140,8 @@ std::optional<std::vector<XYZ>> stated_rows(const Table& table, const XYZ& white
   std::vector<XYZ> colors;
   for (const std::array<double, 3>& c : *values) {
     const XYZ xyz = is_lab ? lab_to_xyz(c, white) : from_xyy(c);
-    const bool is_finite = std::isfinite(xyz[0]) && std::isfinite(xyz[1]) && std::isfinite(xyz[2]);
-    if (!is_finite || !(is_lab || c[1] > 0 || c[2] == 0))
-      diagnostics.error(
-          table.position(colors.size()),
-          fmt::format("states no colour (got {:g}, {:g}, {:g}, allowed {})", c[0], c[1], c[2],
-                      is_lab ? "L, a, b of finite X, Y, Z" : "y above 0 or a Y of 0, and finite X, Y, Z"),
-          ErrorCode::input);
+    if (auto fault = color_fault(c, is_lab, xyz))
+      diagnostics.error(table.position(colors.size()), *std::move(fault), ErrorCode::input);
     colors.push_back(xyz);
   }
   return diagnostics.has_errors() ? std::nullopt : std::optional(std::move(colors));
@@ -165,7 +197,7 @@ std::optional<MeasuredPatches> load_measured_patches(const std::filesystem::path
   auto names = patch_names(*table, diagnostics);
   auto values = triples(*table, {"R", "G", "B"}, diagnostics);
   if (!names || !values || !each_once(*names, *table, diagnostics)) return std::nullopt;
-  auto deviations = deviations_of(*table, diagnostics);
+  auto deviations = deviations_of(*table, *names, diagnostics);
   auto saturated = saturated_in(*table, *names, diagnostics);
   if (!deviations) return std::nullopt;
   const auto unit = table->keys.find("unit");

@@ -20,7 +20,8 @@ struct ChartTargets {
 
 /// The colours of a chart: of a table of reflectances under `illuminant` for the CIE 1931 observer, or as an
 /// edition's table states them (columns `patch` and `x`, `y`, `Y` or `L`, `a`, `b`, and a line `# white_xy:
-/// x, y`) under its own light, whatever `illuminant` is.
+/// x, y`) under its own light, whatever `illuminant` is. Y is 1 and L 100 of the perfect diffuser; a row with
+/// a Y above 2, as in percent, is reported, as is one that states no colour.
 [[nodiscard]] std::optional<ChartTargets> load_chart_targets(const std::string& name, const Curve& illuminant,
                                                              const SourcePosition& where,
                                                              Diagnostics& diagnostics);
@@ -35,8 +36,9 @@ void warn_of_codes(const std::filesystem::path& file, const std::string& instead
 
 /// A camera's values of named patches, each named once, from a table with the columns `patch`, `R`, `G`, `B`;
 /// with `R_deviation` (of a pixel), `R_pixels` and those of G and B, as `abbe measure` writes them, it tells
-/// their noise too. Where `R_saturated`, `G_saturated` or `B_saturated` is above 0, a warning names the
-/// patch as left out.
+/// their noise too, unless that of a patch is unknown: of an empty cell, or a deviation of 0 of one pixel, a
+/// warning tells that all count alike. Where `R_saturated`, `G_saturated` or `B_saturated` is above 0, a
+/// warning names the patch as left out.
 struct MeasuredPatches {
   std::vector<std::string> names;
   std::vector<Raw> values;

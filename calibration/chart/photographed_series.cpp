@@ -154,13 +154,16 @@ struct Code {
   double deviation = 0;
 };
 
-// The mean of a patch and its standard error; an end of the scale where a pixel has reached it.
+// The mean of a patch and its standard error, 0 where one pixel tells none; an end of the scale where a pixel
+// has reached it.
 Code patch_code(const PatchChannel& patch, const Scale& scale) {
   const double range = scale.full - scale.black;
   if (patch.lowest <= scale.black) return {0, 0};
   if (patch.highest >= scale.full) return {1, 0};
-  const double error = patch.deviation / range / std::sqrt(static_cast<double>(patch.pixels));
-  return {(patch.mean - scale.black) / range, std::hypot(error, CodeNoise{scale.bits, 0, 0}.deviation(0))};
+  const double value = (patch.mean - scale.black) / range;
+  if (!patch.deviation) return {value, 0};
+  const double error = *patch.deviation / range / std::sqrt(static_cast<double>(patch.pixels));
+  return {value, std::hypot(error, CodeNoise{scale.bits, 0, 0}.deviation(0))};
 }
 
 PatchOutline outline_of(const Region& r) {

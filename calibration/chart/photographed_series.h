@@ -26,7 +26,8 @@ struct PhotographedSeries {
 ///
 /// Paths are relative to that file. Each region [pixels, the last ones excluded] gives one patch: the mean of
 /// its code values, with the mean's standard error from their spread and from rounding to `bits`; a region
-/// with a black or clipped pixel counts as black or clipped. Without regions, single pixels of a regular grid
+/// with a black or clipped pixel counts as black or clipped, and one without spread, as of a single pixel,
+/// leaves the noise of its channel unknown. Without regions, single pixels of a regular grid
 /// are the patches, and nothing is known of their noise. Codes are divided by `full_scale`, the value at
 /// which the camera clips. What the listing does not say, raw files that Abbe wrote tell themselves: exposure
 /// time, full scale, the code of darkness, bits and mosaic, of which each channel is a series; for others

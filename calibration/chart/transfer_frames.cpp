@@ -1,5 +1,6 @@
 #include "calibration/chart/transfer_frames.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <numeric>
@@ -16,6 +17,7 @@ constexpr double kOfTheCodes = 0.99;
 constexpr double kSameGain = 1e-6;  // relative, of texts of few digits
 constexpr double kSameLight = 0.1;  // relative, more than lamps flicker
 constexpr double kStandardErrors = 5;
+constexpr double kUnderflow = 0.005;  // of a channel's pixels
 
 // A frame's codes, a list for each channel.
 struct Frame {
@@ -54,6 +56,21 @@ void require_alike(const Frame& frame, const Frame& first, const std::filesystem
   if (gain && expected && std::abs(*gain - *expected) > kSameGain * *expected)
     refuse(file, fmt::format("was read out at {} e/DN, the first frame at {}: a gain is measured by itself",
                              *gain, *expected));
+}
+
+// What lies below the lowest code is cut off there: the mean is too high and the scatter too small.
+void require_no_underflow(const Frame& frame, const std::filesystem::path& file) {
+  const double lowest = frame.scale.linear(0);
+  for (std::size_t c = 0; c < frame.codes.size(); ++c) {
+    const std::vector<std::uint16_t>& codes = frame.codes[c];
+    const auto cut = std::count_if(codes.begin(), codes.end(), [&](auto code) { return code <= lowest; });
+    const double share = static_cast<double>(cut) / static_cast<double>(codes.size());
+    if (share > kUnderflow)
+      refuse(file, fmt::format("{:.3g} % of its codes in {} are {}, the lowest, at which noise is cut off "
+                               "(allowed {} %), so that neither gain, read noise nor dark current can be "
+                               "told: give the read-out an offset_dn",
+                               100 * share, frame.channels[c], lowest, 100 * kUnderflow));
+  }
 }
 
 struct Moments {
@@ -97,6 +114,7 @@ std::vector<Frame> read_frames(std::span<const std::filesystem::path> files, Inp
   for (const std::filesystem::path& file : files) {
     frames.push_back(read_frame(file, inputs));
     require_alike(frames.back(), frames.front(), file);
+    require_no_underflow(frames.back(), file);
     if (frames.size() % 2 == 0) require_pair(frames[frames.size() - 2], frames.back(), file);
   }
   if (files.size() % 2 == 1) refuse(files.back(), "is alone: two frames of each exposure are needed");

@@ -20,6 +20,7 @@ struct CameraProfile {
   ColorCorrection correction;            ///< To XYZ relative to the light's white.
   Matrix3 adaptation;                    ///< From there to XYZ relative to a D65 white.
   std::array<std::string, 3> channels{"R", "G", "B"};  ///< Names of the camera's values.
+  double brightest_patch = 0;  ///< The largest linear value of a patch that was calibrated.
 };
 
 /// Linear camera values of the perfect diffuser, which become XYZ of the white with Y = 1: the scale in which

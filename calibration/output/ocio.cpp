@@ -31,7 +31,8 @@ constexpr const char* kAcesOutput = "ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - S
 constexpr std::size_t kMaxCurveSize = std::size_t{1} << 20;
 constexpr int kCubeEdge = 65;
 constexpr int kBakeTrials = 4000;
-constexpr double kDarkestTrial = 0.002;  // as a share of full scale
+constexpr double kDarkestTrial = 0.002;  // as a share of where the cube ends
+constexpr double kDarkestChart = 0.125;  // as a share of full scale, in a photograph of any use
 
 bool has_curve(const CameraProfile& profile) {
   return !profile.linearisation[0].empty();
@@ -41,14 +42,26 @@ bool has_cube(const CameraProfile& profile) {
   return profile.correction.model != CorrectionModel::linear;
 }
 
+// The linear value that a cube ends at, beyond which it tells nothing apart: 1 of shares of full scale, else
+// the next power of two above all that was calibrated, as digital numbers end at one. The nearer the chart
+// comes to the end, the finer the cube is where colours are.
+double cube_end(const CameraProfile& profile) {
+  if (has_curve(profile)) return 1;
+  const Raw white = white_values(profile);
+  const double brightest = std::max({white[0], white[1], white[2], profile.brightest_patch});
+  if (kDarkestChart <= brightest && brightest <= 1) return 1;
+  return std::exp2(std::ceil(std::log2(brightest)));
+}
+
 // With the scale of what goes in, so that nobody needs to guess.
 std::string described(const CameraProfile& profile) {
   const Raw white = white_values(profile);
   return fmt::format(
-      "{}. Input: {}; the perfect diffuser, which becomes Y = 1, has {}{} {:.6g}, {} {:.6g}, {} {:.6g}.",
+      "{}. Input: {}; the perfect diffuser, which becomes Y = 1, has {}{} {:.6g}, {} {:.6g}, {} {:.6g}.{}",
       profile.description, has_curve(profile) ? "code values, 1 at full scale" : "linear camera values",
       has_curve(profile) ? "after the curve " : "", profile.channels[0], white[0], profile.channels[1],
-      white[1], profile.channels[2], white[2]);
+      white[1], profile.channels[2], white[2],
+      has_cube(profile) ? fmt::format(" Linear values are cut to [0, {:.6g}].", cube_end(profile)) : "");
 }
 
 OCIO::MatrixTransformRcPtr matrix_transform(const Matrix3& m) {
@@ -81,6 +94,14 @@ OCIO::ExponentTransformRcPtr cube_root() {
   return transform;
 }
 
+// From linear values to XYZ. What a cube is asked for is brought to [0, 1] first, which it ends at.
+void append_cube(const OCIO::GroupTransformRcPtr& group, const CameraProfile& profile) {
+  const double end = cube_end(profile);
+  if (end != 1) group->appendTransform(matrix_transform(diagonal({1 / end, 1 / end, 1 / end})));
+  group->appendTransform(cube_root());
+  group->appendTransform(file_transform(camera_file(profile, ".cube"), OCIO::INTERP_TETRAHEDRAL));
+}
+
 OCIO::ColorSpaceRcPtr color_space(const char* name, const char* description, OCIO::ReferenceSpaceType type) {
   OCIO::ColorSpaceRcPtr space = OCIO::ColorSpace::Create(type);
   space->setName(name);
@@ -101,12 +122,10 @@ void add_camera_space(OCIO::Config& config, const CameraProfile& profile) {
   const OCIO::GroupTransformRcPtr group = OCIO::GroupTransform::Create();
   if (has_curve(profile))
     group->appendTransform(file_transform(camera_file(profile, ".spi1d"), OCIO::INTERP_LINEAR));
-  if (has_cube(profile)) {
-    group->appendTransform(cube_root());
-    group->appendTransform(file_transform(camera_file(profile, ".cube"), OCIO::INTERP_TETRAHEDRAL));
-  } else {
+  if (has_cube(profile))
+    append_cube(group, profile);
+  else
     group->appendTransform(matrix_transform(matrix_to_xyz_d65(profile)));
-  }
   const OCIO::ColorSpaceRcPtr space =
       color_space(camera_space(profile).c_str(), described(profile).c_str(), OCIO::REFERENCE_SPACE_SCENE);
   space->setTransform(group, OCIO::COLORSPACE_DIR_TO_REFERENCE);
@@ -186,9 +205,10 @@ std::string spi1d_text(const CameraProfile& profile) {
 }
 
 std::string cube_text(const CameraProfile& profile) {
-  std::string text =
-      fmt::format("# cube roots of linear camera values to XYZ, D65\nLUT_3D_SIZE {}\n", kCubeEdge);
-  const auto value = [](int i) { return std::pow(static_cast<double>(i) / (kCubeEdge - 1), 3); };
+  const double end = cube_end(profile);
+  std::string text = fmt::format("# cube roots of linear camera values{} to XYZ, D65\nLUT_3D_SIZE {}\n",
+                                 end == 1 ? "" : fmt::format(" over {:.17g}", end), kCubeEdge);
+  const auto value = [end](int i) { return end * std::pow(static_cast<double>(i) / (kCubeEdge - 1), 3); };
   for (int b = 0; b < kCubeEdge; ++b)
     for (int g = 0; g < kCubeEdge; ++g)
       for (int r = 0; r < kCubeEdge; ++r) {
@@ -215,15 +235,15 @@ std::string clf_text(const OCIO::ConstConfigRcPtr& config, const CameraProfile& 
 
 double bake_error(const OCIO::ConstConfigRcPtr& config, const CameraProfile& profile) {
   const OCIO::GroupTransformRcPtr baked = OCIO::GroupTransform::Create();
-  baked->appendTransform(cube_root());
-  baked->appendTransform(file_transform(camera_file(profile, ".cube"), OCIO::INTERP_TETRAHEDRAL));
+  append_cube(baked, profile);
   const auto processor = config->getProcessor(baked)->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS);
   const XYZ white = unit_xyz(kD65);
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> value(kDarkestTrial, 1);
+  const double end = cube_end(profile);
   double worst = 0;
   for (int k = 0; k < kBakeTrials; ++k) {
-    const Raw raw{value(random), value(random), value(random)};
+    const Raw raw{end * value(random), end * value(random), end * value(random)};
     float rgb[3] = {static_cast<float>(raw[0]), static_cast<float>(raw[1]), static_cast<float>(raw[2])};
     processor->applyRGB(rgb);
     const Lab shown = xyz_to_lab(XYZ{rgb[0], rgb[1], rgb[2]}, white);

@@ -24,8 +24,11 @@ inline constexpr const char* kAcesView = "ACES 1.0 - SDR Video";
 [[nodiscard]] std::string camera_file(const CameraProfile& profile, const std::string& extension);
 
 /// An OpenColorIO version 2 configuration. Reference space: linear XYZ, white D65. Colour spaces: one for
-/// each profile (file transform of its `.spi1d` if there is a linearisation, then a matrix, or the square
-/// root and the `.cube` of a root polynomial), ACES2065-1, ACEScg, linear Rec.709, sRGB texture, Raw.
+/// each profile (file transform of its `.spi1d` if there is a linearisation, then a matrix, or the cube root
+/// and the `.cube` of a root polynomial). A cube holds linear values from 0 to 1 after a linearisation and
+/// where those that were calibrated are shares of full scale, which reach an eighth of it at least; other
+/// values are divided first by the next power of two above the brightest of them, where the cube then ends.
+/// Further spaces: ACES2065-1, ACEScg, linear Rec.709, sRGB texture, Raw.
 /// Displays sRGB, Rec.1886 and P3-D65, each with a view that neither tone-maps nor clips and with the
 /// ACES 1.0 view, from OpenColorIO's built-in transforms. Throws Error{internal} with OpenColorIO's words.
 [[nodiscard]] std::string ocio_config_text(std::span<const CameraProfile> profiles);
@@ -36,7 +39,7 @@ void make_folder(const std::filesystem::path& folder);
 /// What was written.
 struct WrittenConfig {
   /// What a root polynomial's cube costs: the largest CIEDE2000 between OpenColorIO's interpolation and the
-  /// polynomial, over random camera values; 0 for a matrix.
+  /// polynomial, over random camera values that the cube holds; 0 for a matrix.
   double bake_error = 0;
   std::vector<std::filesystem::path> files;
 };

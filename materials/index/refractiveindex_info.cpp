@@ -59,10 +59,16 @@ struct Count {
 constexpr Count kCounts[] = {{3, 17, 2}, {3, 17, 2}, {3, 17, 2}, {5, 17, 1}, {3, 11, 2},
                              {3, 11, 2}, {3, 6, 1},  {4, 4, 1},  {6, 6, 1}};
 
-// What a file may say of its references, and where.
-constexpr const char* kAbsolute = "n_is_absolute";
-constexpr const char* kVacuumWavelengths = "wavelength_is_vacuum";
+// What a file may say of its references, in the words of later and of earlier editions, and where.
+using Spellings = std::array<const char*, 2>;
+constexpr Spellings kAbsolute{"n_is_absolute", "n_absolute"};
+constexpr Spellings kVacuumWavelengths{"wavelength_is_vacuum", "wavelength_vacuum"};
 constexpr std::array kSections{"SPECS", "CONDITIONS", "PROPERTIES"};
+
+bool is_of_references(std::string_view key) {
+  const auto is_key = [key](const char* word) { return key == word; };
+  return std::ranges::any_of(kAbsolute, is_key) || std::ranges::any_of(kVacuumWavelengths, is_key);
+}
 
 class EntryReader {
  public:
@@ -104,7 +110,7 @@ class EntryReader {
     const auto* object = std::get_if<JsonValue::Object>(&value.value);
     if (object == nullptr) return;
     for (const auto& [key, inner] : *object) {
-      if (!is_section && (key == kAbsolute || key == kVacuumWavelengths))
+      if (!is_section && is_of_references(key))
         complain(inner.where, fmt::format("{} is not heeded there (allowed under {} alone)", key,
                                           fmt::join(kSections, ", ")));
       const bool names_section = std::find(kSections.begin(), kSections.end(), key) != kSections.end();
@@ -112,18 +118,28 @@ class EntryReader {
     }
   }
 
-  // Editions of the database differ in where they say it.
-  bool says(const JsonValue& root, std::string_view what) {
-    for (const char* section : kSections) {
-      const JsonValue* specs = root.find(section);
-      const std::string* value = specs ? scalar(*specs, what) : nullptr;
-      if (value == nullptr) continue;
-      const std::string word = lower_case(*value);
-      if (word == "true") return true;
-      if (word != "false")
-        complain(specs->find(what)->where, fmt::format("{} (got \"{}\", allowed true, false)", what, *value));
-    }
-    return false;
+  // Editions of the database differ in where they say it and in its spelling; a file must not contradict
+  // itself.
+  bool says(const JsonValue& root, const Spellings& spellings) {
+    std::string said;
+    std::string_view by;  // which key said it
+    for (const char* section : kSections)
+      for (const char* key : spellings) {
+        const JsonValue* specs = root.find(section);
+        const std::string* value = specs ? scalar(*specs, key) : nullptr;
+        if (value == nullptr) continue;
+        const SourcePosition& at = specs->find(key)->where;
+        const std::string word = lower_case(*value);
+        if (word != "true" && word != "false") {
+          complain(at, fmt::format("{} (got \"{}\", allowed true, false)", key, *value));
+        } else if (!by.empty() && word != said) {
+          complain(at, fmt::format("{} is {}, but {} is {}", key, word, by, said));
+        } else {
+          said = word;
+          by = key;
+        }
+      }
+    return said == "true";
   }
 
   std::string identity(const JsonValue& root) const {

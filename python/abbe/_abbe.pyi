@@ -79,7 +79,7 @@ class Film:
 
     @property
     def variance(self) -> NDArray[numpy.float32] | None:
-        """The variance of each of these values, of the same shape; None for an image that does not tell it, and where samples are in fewer than two replicates, so that nothing is known of it. It is inf where it is beyond single precision."""
+        """The variance of each of these values, of the same shape; None for an image that does not tell it, and where samples of some pixels are in fewer than two replicates, so that nothing is known of it. It is inf where it is beyond single precision."""
 
     @property
     def channels(self) -> typing.List[str]:
@@ -198,7 +198,7 @@ def camera(name: str, wavelengths_nm: ArrayLike, *, response: str = '') -> dict:
 def color(illuminant: typing.Any, reflectance: typing.Any = None, observer: str = '1931') -> dict:
     """Returns the colour of a reflectance, or of the perfect diffuser, as a dict of XYZ (Y = 100 for the perfect diffuser), xy and Lab, summed every nanometre from 380 to 780 nm.
 
-    Illuminant and reflectance are names, or pairs of wavelengths in nm and values, taken as linear between them and as 0 beyond. Raises InputError for an unknown name and for a table of reflectances that are no shares of 1, UsageError for a pair with values outside [0, 1], or of an illuminant below 0."""
+    Illuminant and reflectance are names, or pairs of wavelengths in nm and values, taken as linear between them and as 0 beyond. Raises InputError for an unknown name and for a table of reflectances that are no shares of 1, UsageError for a pair with values outside [0, 1], or of an illuminant below 0, or with no wavelengths from 300 to 1100 nm."""
 
 
 def compare(film: Film, reference: Film, *, white: typing.Any = None) -> dict:
@@ -228,7 +228,7 @@ def help(key: str = '') -> str:
 
 
 def illuminant(name: str, wavelengths_nm: ArrayLike) -> typing.Any:
-    """Returns the relative power of an illuminant at wavelengths, in the unit of its table. "blackbody:3000" and "daylight:6500" are made of their temperature in K. Raises InputError for an unknown name and UsageError for a wavelength outside [300, 1100] nm."""
+    """Returns the relative power of an illuminant at wavelengths, in the unit of its table. "blackbody:3000" and "daylight:6500" are made of their temperature in K. Raises InputError for an unknown name, or where a table says nothing of one of them, and UsageError for a wavelength outside [300, 1100] nm."""
 
 
 def ior(name: str, wavelengths_nm: ArrayLike) -> typing.Any:

@@ -22,9 +22,10 @@ bl_info = {"name": "Abbe scene", "description": "Exports scenes to the spectral 
 
 # Lumens of a watt of D65 on 300-1100 nm; shares of the linear Rec.709 colours in Y; and the quadratics in x = (nm - 580)/200 whose exponentials, over
 # their sum with 1, are the spectra that stand for red and blue [Mallett2019]. Tests compare them with what Abbe measures, and writes of colours.
-LUMENS_PER_WATT = 190.412297
+LUMENS_PER_WATT = 176.799762
 SHARES_OF_Y = (0.212663651, 0.715178325, 0.072158024)
 RED, BLUE = (-1.83692275, 27.93408994, 51.38553635), (-3.54247104, 8.85485252, 35.69893127)
+ROUGHEST = 0.7767  # of diffuse surfaces: what slopes that deviate by 90 degrees have
 PINHOLE_F_NUMBER = 4  # by which Abbe exposes a pinhole that says none
 PHOTOMETRIC = {"radiant_flux_W": "luminous_flux_lm", "radiance": "luminance", "intensity": "luminous_intensity", "irradiance": "illuminance"}
 DROPPED = {"VOLUME": "volumes", "GPENCIL": "grease pencil", "CURVES": "hair", "POINTCLOUD": "clouds of points"}
@@ -74,6 +75,13 @@ def spectrum_of(rgb):
     parts = np.array([np.exp(np.polyval(RED[::-1], (nm - 580) / 200)), np.ones(nm.size), np.exp(np.polyval(BLUE[::-1], (nm - 580) / 200))])
     values = np.array(rgb) @ (parts / parts.sum(axis=0))
     return {"table": {"wavelength_nm": nm.tolist(), "values": [round(float(v), 6) for v in values], "outside": "clamp"}}
+
+
+def slopes_of(roughness):
+    """The deviation [degrees] of slopes for which Abbe's rough diffuse surface has Blender's roughness, up to ROUGHEST. Both have Fujii's model, of
+    B = roughness A; here x, the deviation squared, tells it by 0.45 x/(x + 0.09) = roughness (1 - 0.5 x/(x + 0.33)), which is solved. [OrenNayar1994]"""
+    a, b, c = 0.45 - 0.5 * roughness, 0.45 * 0.33 - (0.5 * 0.09 + 0.33) * roughness, 0.09 * 0.33 * roughness
+    return math.degrees(math.sqrt(2 * c / (b + math.sqrt(b * b + 4 * a * c))))
 
 
 def emission_of(rgb, kind, amount, where, notes):
@@ -221,8 +229,9 @@ class Shading:
         reflectance, roughness = self.reflectance(node, "Color"), self.value(node, "Roughness")
         if roughness == 0:
             return self.in_relief(node, {"diffuse": {"reflectance": reflectance}}), BLACK
-        self.note("a rough diffuse surface is Oren and Nayar's, of slopes that deviate by as many radians")
-        return self.in_relief(node, {"oren_nayar": {"reflectance": reflectance, "sigma_deg": tidy(math.degrees(roughness))}}), BLACK
+        self.note("light that a rough diffuse surface scatters on among its facets is sent back here, and lost there")
+        self.note(f"a roughness of a diffuse surface above {ROUGHEST} is cut to that", roughness > ROUGHEST)
+        return self.in_relief(node, {"oren_nayar": {"reflectance": reflectance, "sigma_deg": tidy(slopes_of(min(roughness, ROUGHEST)))}}), BLACK
 
     def glossy(self, node):
         facets = self.facets(node, node.distribution)

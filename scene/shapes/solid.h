@@ -32,6 +32,10 @@ struct SolidReport {
 /// is turned is turned with it.
 [[nodiscard]] SolidReport make_solid(Mesh& mesh);
 
+/// Whether two triangles of a mesh have the same corners, whichever way each is wound. Vertices at the same
+/// place count as one.
+[[nodiscard]] bool has_doubled_triangles(const Mesh& mesh);
+
 /// The volume [m^3] that a shape encloses: of a mesh, the largest of its closed components, cavities not
 /// taken off. 0 of what encloses nothing. What lies wholly in a shape has less, unless the shape has further
 /// components.

@@ -71,7 +71,10 @@ std::vector<Pixel> pixels_in(const PatchOutline& outline, const std::vector<Crop
 // Of the pixels that a channel has.
 PatchChannel measure(const Image& image, const ImageChannel& plane, const std::vector<Pixel>& pixels,
                      const std::optional<double>& saturation) {
-  PatchChannel found{pixels.size(), 0, 0, std::numeric_limits<double>::infinity(),
+  PatchChannel found{pixels.size(),
+                     0,
+                     {},
+                     std::numeric_limits<double>::infinity(),
                      -std::numeric_limits<double>::infinity()};
   const auto value = [&](const Pixel& pixel) {
     return static_cast<double>(
@@ -88,7 +91,7 @@ PatchChannel measure(const Image& image, const ImageChannel& plane, const std::v
   found.mean /= count;
   double squares = 0;
   for (const Pixel& pixel : pixels) squares += (value(pixel) - found.mean) * (value(pixel) - found.mean);
-  found.deviation = std::sqrt(squares / std::max(1.0, count - 1));
+  if (count > 1) found.deviation = std::sqrt(squares / (count - 1));
   return found;
 }
 

@@ -26,7 +26,7 @@ struct PatchOutline {
 struct PatchChannel {
   std::size_t pixels = 0;
   double mean = 0;
-  double deviation = 0;  ///< Standard deviation of the pixels.
+  std::optional<double> deviation = {};  ///< Standard deviation of the pixels; nothing of a single one.
   double lowest = 0;
   double highest = 0;
   std::size_t saturated = 0;  ///< Pixels at or above saturation.

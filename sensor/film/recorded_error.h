@@ -6,7 +6,8 @@
 namespace abbe {
 
 /// The attribute of a film with the relative error of the mean over all of it. It is infinite where nothing
-/// is known of any error, as with samples in fewer than two replicates: all variances are 0 then.
+/// is known of that error, as with samples of some pixels in fewer than two replicates: the variances of
+/// these are 0 then.
 inline constexpr const char* kFrameMeanErrorKey = "frame_mean_error";
 
 /// Whether the attributes of a film, or of what was developed of it, say that nothing is known of its error.

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "sensor/readout/random.h"
+#include "sensor/random.h"
 
 namespace abbe {
 namespace {
@@ -175,10 +175,11 @@ std::vector<double> quantiles_of_deviation(std::span<const double> estimates, do
   return quantiles;
 }
 
-double frame_mean_error(const Film& film) {
+double frame_mean_error(const Film& film, std::size_t counting) {
+  const auto channels = static_cast<int>(std::min(counting, static_cast<std::size_t>(film.channels())));
   double variance = 0;
   double square = 0;
-  for (int channel = 0; channel < film.channels(); ++channel) {
+  for (int channel = 0; channel < channels; ++channel) {
     const Film::Average average = film.average(channel);
     variance += average.standard_error * average.standard_error;
     square += average.mean * average.mean;
@@ -196,9 +197,9 @@ double worst_mean_error(const Film& film, int planes) {
   return film.filled_replicates() > 1 && worst >= 0 ? worst : std::numeric_limits<double>::infinity();
 }
 
-RelativeError relative_error(const Film& film, std::span<const std::size_t> lit) {
+RelativeError relative_error(const Film& film, std::span<const std::size_t> lit, std::size_t counting) {
   RelativeError error;
-  error.frame_mean = frame_mean_error(film);
+  error.frame_mean = frame_mean_error(film, counting);
   if (lit.empty() || film.filled_replicates() < 2) return error;
   const Deviations deviations = deviations_of(film, lit);
   const auto noisy = static_cast<double>(deviations.noisy.size());

@@ -12,12 +12,15 @@ namespace abbe {
 /// relMSE of values x against r is the mean of (x - r)^2 over r^2 and this much of the squared mean of r.
 inline constexpr double kUsualFloor = 0.01;
 
+/// As many planes as a film has.
+inline constexpr std::size_t kAllPlanes = std::numeric_limits<std::size_t>::max();
+
 /// How far a film is from what endless samples would make of it: standard deviations over means.
 struct RelativeError {
   double median = std::numeric_limits<double>::infinity();  ///< Of the lit values; infinite until known.
   double p95 = std::numeric_limits<double>::infinity();     ///< Their 95th percentile.
-  /// Of the mean over the whole film, its planes taken together: root of the summed variances over root of
-  /// the summed squares. Bright points that few pixels have weigh here, and in no median.
+  /// Of the mean over the whole film, as `frame_mean_error` has it. Bright points that few pixels have weigh
+  /// here, and in no median.
   double frame_mean = std::numeric_limits<double>::infinity();
   /// The largest of the means over the whole film of the planes that a target asks for, if it asks for some.
   double worst_mean = std::numeric_limits<double>::infinity();
@@ -26,19 +29,22 @@ struct RelativeError {
 /// The values of a film that have light, by pixel times planes plus plane: those that are not 0 in a pilot,
 /// which must be independent of the film to be judged; of very many, evenly spread ones. Only the first
 /// `counting` planes are looked at: the others have a sign, and are small where there is much light.
-[[nodiscard]] std::vector<std::size_t> lit_values(
-    const Film& pilot, std::size_t counting = std::numeric_limits<std::size_t>::max());
+[[nodiscard]] std::vector<std::size_t> lit_values(const Film& pilot, std::size_t counting = kAllPlanes);
 
-/// Percentiles over the lit values, corrected for the few replicates by `quantiles_of_deviation`. A lit value
-/// that the film has no light in counts as infinitely far off.
-[[nodiscard]] RelativeError relative_error(const Film& film, std::span<const std::size_t> lit);
+/// Percentiles over the lit values, corrected for the few replicates by `quantiles_of_deviation`, and the
+/// error of the mean of the first `counting` planes. A lit value that the film has no light in counts as
+/// infinitely far off.
+[[nodiscard]] RelativeError relative_error(const Film& film, std::span<const std::size_t> lit,
+                                           std::size_t counting = kAllPlanes);
 
 /// The largest relative error of the means over the whole film of the first so many planes, but for those
 /// that are dark.
 [[nodiscard]] double worst_mean_error(const Film& film, int planes);
 
-/// Relative error of the mean over the whole film alone.
-[[nodiscard]] double frame_mean_error(const Film& film);
+/// Relative error of the mean over the whole film, its first `counting` planes, which count light, taken
+/// together: root of the summed variances of their means over root of the summed squares. Infinite of a film
+/// without light, and of samples in fewer than two replicates.
+[[nodiscard]] double frame_mean_error(const Film& film, std::size_t counting = kAllPlanes);
 
 /// Quantiles, at ascending `probabilities`, of standard deviations of which there are only estimates: each is
 /// its true one times chi/sqrt(f), f the degrees of freedom, which spreads even equal ones. The distribution

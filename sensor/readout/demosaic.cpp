@@ -1,10 +1,12 @@
 #include "sensor/readout/demosaic.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <vector>
 
 #include "io/error.h"
+#include "sensor/film/recorded_crop.h"
 
 namespace abbe {
 namespace {
@@ -28,16 +30,36 @@ std::vector<Neighbour> neighbours(const Mosaic& mosaic, int x, int y, int channe
   return found;
 }
 
-float weighted_mean(const Image& image, const std::vector<float>& raw, int x, int y,
-                    const std::vector<Neighbour>& around) {
+/// The values of a mosaic, and which of them its film has: those beyond a crop, or in gaps, tell nothing.
+struct RawValues {
+  int width;
+  int height;
+  const std::vector<float>& values;
+  std::vector<bool> recorded;
+
+  RawValues(const Image& image, const ImageChannel& plane)
+      : width(image.width), height(image.height), values(plane.values), recorded(image.pixels()) {
+    for (const Crop& area : recorded_areas(image))
+      for (int y = area.y0; y < area.y1; ++y)
+        std::fill_n(recorded.begin() + static_cast<std::ptrdiff_t>(at(area.x0, y)), area.x1 - area.x0, true);
+  }
+
+  [[nodiscard]] std::size_t at(int x, int y) const {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+  }
+  [[nodiscard]] bool has(int x, int y) const {
+    return x >= 0 && y >= 0 && x < width && y < height && recorded[at(x, y)];
+  }
+};
+
+// 0 at a pixel that the film does not have.
+float weighted_mean(const RawValues& raw, int x, int y, const std::vector<Neighbour>& around) {
+  if (!raw.has(x, y)) return 0;
   float sum = 0;
   float weights = 0;
   for (const Neighbour& n : around) {
-    const int u = x + n.dx;
-    const int v = y + n.dy;
-    if (u < 0 || v < 0 || u >= image.width || v >= image.height) continue;
-    sum += n.weight * raw[static_cast<std::size_t>(v) * static_cast<std::size_t>(image.width) +
-                          static_cast<std::size_t>(u)];
+    if (!raw.has(x + n.dx, y + n.dy)) continue;
+    sum += n.weight * raw.values[raw.at(x + n.dx, y + n.dy)];
     weights += n.weight;
   }
   return weights > 0 ? sum / weights : 0;
@@ -73,6 +95,7 @@ Image demosaic(const Image& image, const std::string& raw, const Mosaic& mosaic,
                std::span<const std::string> channels) {
   const ImageChannel* plane = image.find(raw);
   if (plane == nullptr) throw Error(ErrorCode::input, "film", "has no plane " + raw);
+  const RawValues own(image, *plane);
   Image planes{image.width, image.height, {}, image.metadata};
   for (std::size_t channel = 0; channel < channels.size(); ++channel) {
     std::vector<std::vector<Neighbour>> around;  // of each pixel of the pattern
@@ -84,7 +107,7 @@ Image demosaic(const Image& image, const std::string& raw, const Mosaic& mosaic,
     for (int y = 0; y < image.height; ++y)
       for (int x = 0; x < image.width; ++x)
         values.push_back(weighted_mean(
-            image, plane->values, x, y,
+            own, x, y,
             around[static_cast<std::size_t>(y % mosaic.height * mosaic.width + x % mosaic.width)]));
     planes.channels.push_back({channels[channel], std::move(values)});
   }

@@ -10,7 +10,7 @@
 #include <boost/random/uniform_01.hpp>
 
 #include "io/error.h"
-#include "sensor/readout/random.h"
+#include "sensor/random.h"
 
 namespace abbe {
 namespace {

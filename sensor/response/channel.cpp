@@ -6,6 +6,7 @@
 #include "io/error.h"
 #include "io/table.h"
 #include "sensor/response/camera_json.h"
+#include "sensor/response/coverage.h"
 #include "spectral/curve_use.h"
 #include "spectral/library.h"
 #include "spectral/sources.h"
@@ -42,12 +43,24 @@ std::optional<std::vector<NamedCurve>> camera_curves(const std::string& name, co
   std::vector<NamedCurve> curves;
   for (std::size_t column = 1; column < table->columns.size(); ++column) {
     const std::string& label = table->columns[column];
+    if (label.starts_with("wavelength_")) continue;
     std::optional<NamedCurve> curve = load_curve("camera", name + ":" + label, where, diagnostics);
     if (!curve) return std::nullopt;
     curve->name = label;
     curves.push_back(*std::move(curve));
   }
-  return curves;
+  if (!curves.empty()) return curves;
+  diagnostics.error(table->where, "has no column of a channel", ErrorCode::input);
+  return std::nullopt;
+}
+
+// A response that is 0 beyond its table ends there; of one whose table does not say so nobody knows.
+bool tells_its_ends(const NamedCurve& curve, const std::string& column, const Channel& channel,
+                    const SourcePosition& where, Diagnostics& diagnostics) {
+  if (curve.outside != Outside::error) return true;
+  NamedCurve named = curve;
+  named.name = column;
+  return check_ends(named, {&channel, 1}, where, diagnostics);
 }
 
 }  // namespace
@@ -133,6 +146,7 @@ std::optional<std::vector<Channel>> load_camera(const std::string& name, const S
       if (auto doubt = unsaid_response(name, curve.unit))
         diagnostics.error_if_strict(where, *std::move(doubt));
     channels.push_back(quantum ? quantum_channel(label, curve.curve) : energy_channel(label, curve.curve));
+    if (!tells_its_ends(curve, column, channels.back(), where, diagnostics)) return std::nullopt;
   }
   return channels;
 }
@@ -146,8 +160,9 @@ std::vector<Channel> observer_channels(Observer observer) {
 }
 
 bool is_observer(std::span<const Channel> channels) {
+  constexpr auto is_photometric = [](const Channel& c) { return c.kind == ResponseKind::photometric; };
   return channels.size() == 3 && channels[0].name == "X" && channels[1].name == "Y" &&
-         channels[2].name == "Z";
+         channels[2].name == "Z" && std::all_of(channels.begin(), channels.end(), is_photometric);
 }
 
 }  // namespace abbe

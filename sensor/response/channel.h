@@ -83,7 +83,8 @@ enum class ResponseScale { absolute, relative };
 /// user's table or `.json` (see `read_camera_json`). Without a `kind`, colour cameras are energy responses
 /// ("to be multiplied by spectral power"), as they are tabulated, and columns named QE quantum efficiencies;
 /// others whose unit speaks of photons are warned of. Reports absolute quantum efficiencies in percent, or
-/// beyond `kQuantumResponseUse`.
+/// beyond `kQuantumResponseUse`, and a table that does not say what holds beyond its rows where a share of
+/// the response that is not negligible would lie there if it went on as it ends.
 [[nodiscard]] std::optional<std::vector<Channel>> load_camera(const std::string& name,
                                                               const SourcePosition& where,
                                                               Diagnostics& diagnostics,
@@ -93,7 +94,7 @@ enum class ResponseScale { absolute, relative };
 /// The standard observer as a sensor: X, Y, Z with weight 683.002 times the colour-matching functions, so Y
 /// is in lx s.
 [[nodiscard]] std::vector<Channel> observer_channels(Observer observer);
-/// Whether three channels are those, by their names.
+/// Whether three channels are those, perhaps behind filters, and no sensor's own of the same names.
 [[nodiscard]] bool is_observer(std::span<const Channel> channels);
 
 }  // namespace abbe

@@ -263,13 +263,22 @@ class Kinds(Exported):
         shapes = {shape["name"]: shape for shape in scene["shapes"]}
         self.assertEqual([shapes[name]["mesh"] for name in ("shape0", "shape1")], ["kinds_files/shape0.obj", "kinds_files/shape1.ply"])
         self.assertEqual(shapes["shape1"]["emission"], {"illuminant": "D65", "radiance": 0.25})
-        self.assertAlmostEqual(shapes["shape10"]["emission"]["luminance"], 2 * 190.41 * (0.2126 + 0.5 * 0.7874), delta=0.05)
+        self.assertAlmostEqual(shapes["shape10"]["emission"]["luminance"], 2 * 176.80 * (0.2126 + 0.5 * 0.7874), delta=0.05)
         told = "\n".join(self.facts["kinds"]["notes"])
-        for part in ('view "Filmic"', "triangles of a smooth body as they are: it needs many (2 times)", 'material "wax": warning: Subsurface', "alpha is dropped",
+        for part in ('view "Filmic"', "triangles of a smooth body as they are: it needs many (3 times)", 'material "wax": warning: Subsurface', "alpha is dropped",
                      'material "fluid": warning: the colour of a clear surface', "Velvet BSDF", 'object "fog": warning: volumes', "points and lines", "elliptic",
                      'material "bottle": warning: Clearcoat of a Principled BSDF that transmits'):
             self.assertIn(part, told)
-        self.assertEqual(len(self.facts["kinds"]["notes"]), 14)
+        self.assertEqual(len(self.facts["kinds"]["notes"]), 15)
+
+    def test_rough_diffuse_surfaces_are_as_rough_as_in_cycles(self):
+        def ratio(sigma_deg):  # of B to A in the qualitative model of Oren and Nayar, which Abbe takes for the roughness
+            x = math.radians(sigma_deg)**2
+            return 0.45 * x / (x + 0.09) / (1 - 0.5 * x / (x + 0.33))
+
+        for name, roughness in (("clay", 0.5), ("chalk", 0.7767)):
+            self.assertAlmostEqual(ratio(self.scene("kinds")["materials"][name]["oren_nayar"]["sigma_deg"]), roughness, delta=1e-6)
+        self.assertIn('material "chalk": warning: a roughness of a diffuse surface above 0.7767 is cut to that', self.facts["kinds"]["notes"])
 
 
 class Faults(Exported):

@@ -279,7 +279,8 @@ def kinds():
             nodes("wax", Subsurface=0.5, Alpha=0.5), nodes("fluid", Transmission=1, IOR=1.33, Roughness=0), nodes("velvet", "ShaderNodeBsdfVelvet"),
             nodes("light", Emission_Strength=2, Emission=(1, 0.5, 0.5, 1)), None,
             nodes("chrome", Transmission=1, Metallic=1, Base_Color=(0.5, 0.5, 0.5, 1), Roughness=0.25),
-            nodes("bottle", Transmission=1, Sheen=1, Sheen_Tint=0, Clearcoat=0.5, Base_Color=(1, 1, 1, 1), Roughness=0)]
+            nodes("bottle", Transmission=1, Sheen=1, Sheen_Tint=0, Clearcoat=0.5, Base_Color=(1, 1, 1, 1), Roughness=0),
+            nodes("chalk", "ShaderNodeBsdfDiffuse", Roughness=1)]
     for i, material in enumerate(made):
         add(f"shape{i}", ball(f"ball{i}", 16, material), location=(3 * i, 0, 0))
     add("fog", bpy.data.volumes.new("fog"))

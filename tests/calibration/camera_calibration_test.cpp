@@ -71,6 +71,15 @@ TEST(CameraCalibration, ProfileHasTheNamesOfTheChannels) {
             (std::array<std::string, 3>{"X", "Y", "Z"}));
 }
 
+// As it was measured, and brighter than the diffuser, as what fluoresces is.
+TEST(CameraCalibration, ProfileTellsTheBrightestPatch) {
+  MeasuredCamera camera{"mine", "D65", test::nikon("D65"), {1 / 2000.0, 1 / 3500.0, 1 / 3000.0}, {}};
+  camera.colors.raw[4] = {0.5, 1.2, 0.9};
+  CharacterisationOptions options = hardly_judged();
+  options.fit.objective = Objective::xyz;
+  EXPECT_NEAR(calibrate_measured(camera, options).profile.brightest_patch, 4200, 1e-9);
+}
+
 TEST(CameraCalibration, JudgesPatchesItHasNotSeen) {
   const CameraCalibration one_out = calibrate_camera(setup("linear"));
   CharacterisationOptions options = hardly_judged();

@@ -137,6 +137,49 @@ TEST_F(Measured, ChartsOfNoColoursAreRefusedAtTheirRows) {
       << diagnostics_.text();
 }
 
+// An L of 150 is a Y of (166/116)^3.
+TEST_F(Measured, ChartsInPercentAreRefusedAtTheirRows) {
+  const auto complaint = [&](const std::string& rows) {
+    std::ofstream(path_) << "# unit: 1\n# white_xy: 0.3, 0.3\n" << rows;
+    diagnostics_ = {};
+    EXPECT_FALSE(load_chart_targets(path_.string(), Curve(1), {}, diagnostics_));
+    EXPECT_EQ(diagnostics_.code(), ErrorCode::input);
+    EXPECT_EQ(diagnostics_.all().size(), 1U);
+    return diagnostics_.text();
+  };
+  const std::string allowed = ", allowed 2 at most: Y of the perfect diffuser is 1)";
+  const std::string xyy = complaint("patch,x,y,Y\nbright,0.3,0.3,2\nwhite,0.3457,0.3585,91.29\n");
+  EXPECT_NE(xyy.find("csv:5:1: error: has another scale (got a Y of 91.29" + allowed), std::string::npos)
+      << xyy;
+  const std::string lab = complaint("patch,L,a,b\nbright,130,0,0\nbrighter,150,0,0\nblack,0,0,0\n");
+  EXPECT_NE(lab.find("csv:5:1: error: has another scale (got a Y of 2.93056" + allowed), std::string::npos)
+      << lab;
+}
+
+TEST_F(Measured, PatchesOfOnePixelTellNoNoise) {
+  const auto with_blue = [&](const std::string& deviation) {
+    diagnostics_ = {};
+    const auto patches = read(
+        "patch,R,G,B,R_deviation,G_deviation,B_deviation,R_pixels,G_pixels,B_pixels\n"
+        "red,3,2,1,0.2,0.4,0,4,16,25\ngrey,2,2,2,0.2,0.4," +
+        deviation + ",4,16,1\n");
+    EXPECT_TRUE(patches) << diagnostics_.text();
+    return patches.value_or(MeasuredPatches{}).deviations;
+  };
+  const std::string warning =
+      "csv:4:1: warning: patch \"grey\" has no B_deviation, as one pixel has none: all patches count alike";
+  for (const char* unknown : {"", "0", "0.0"}) {
+    EXPECT_TRUE(with_blue(unknown).empty()) << unknown;
+    EXPECT_EQ(diagnostics_.all().size(), 1U);
+    EXPECT_NE(diagnostics_.text().find(warning), std::string::npos) << diagnostics_.text();
+  }
+  const std::vector<Raw> known = with_blue("0.3");
+  ASSERT_EQ(known.size(), 2U);
+  test::expect_near(known[0], {0.1, 0.1, 0}, 1e-15);
+  test::expect_near(known[1], {0.1, 0.1, 0.3}, 1e-15);
+  EXPECT_TRUE(diagnostics_.all().empty()) << diagnostics_.text();
+}
+
 TEST_F(Measured, SaysWhatIsMissingOrUnknown) {
   const ChartTargets chart = colors_of("colorchecker24_after_nov2014");
   const auto few = read("patch,R,G,B\nperfect diffuser,1,1,1\ndark skin,0.1,0.1,0.1\n");

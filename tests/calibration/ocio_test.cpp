@@ -1,6 +1,7 @@
 #include "calibration/output/ocio.h"
 
 #include <OpenColorIO/OpenColorIO.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include <optional>
 #include <random>
 #include <span>
+#include <tuple>
 
 #include "calibration/chart/delta_e.h"
 #include "calibration/fit/response.h"
@@ -240,6 +242,63 @@ TEST(OcioFolderOfACube, IsFineEnoughAndPassesOpenColorIosOwnCheck) {
   const WrittenFolder folder(std::array{profile(), profile("blackbody:3200", test::kRootPolynomial)});
   expect_fine_cube(folder);
   if (test::nightly()) expect_checked(folder);
+}
+
+// A camera with linear values in some unit, of whose patches one is brighter than the diffuser.
+CameraProfile in_unit(double unit) {
+  return {fmt::format("unit {}", unit),
+          "camera",
+          {},
+          {1 / (0.6 * unit), 1 / unit, 1 / (0.85 * unit)},
+          test::kRootPolynomial,
+          {},
+          {"R", "G", "B"},
+          1.1 * unit};
+}
+
+// Digital numbers above black, and electrons per m^2 of a film.
+class OcioFolderOfAUnit : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Units, OcioFolderOfAUnit, testing::Values(3500, 2.7e12));
+
+// The XYZ of white and of a colour whose products are squares are those that the terms add up to by hand.
+TEST_P(OcioFolderOfAUnit, ShowsTheColoursOfThePolynomial) {
+  const CameraProfile camera = in_unit(GetParam());
+  const WrittenFolder folder(std::array{camera});
+  EXPECT_LT(folder.written().bake_error, 0.1);
+  const auto processor = folder.config()->getProcessor(camera_space(camera).c_str(), kReferenceSpace);
+  const OCIO::FileTransformRcPtr clf = OCIO::FileTransform::Create();
+  clf->setSrc(camera_file(camera, ".clf").c_str());
+  const auto from_clf = folder.config()->getProcessor(clf);
+  const Raw white = white_values(camera);
+  const auto expect_shown = [&](const Rgb& balanced, const Rgb& xyz) {
+    const Rgb values{balanced[0] * white[0], balanced[1] * white[1], balanced[2] * white[2]};
+    expect_near(run(processor, values), xyz, 1e-3);
+    expect_near(run(from_clf, values), xyz, 1e-3);
+  };
+  expect_shown({1, 1, 1}, {0.95, 1, 1.1});
+  expect_shown({0.16, 0.25, 0.09}, {0.1575, 0.232, 0.0915});
+}
+
+// Shares of full scale from an eighth of it on need no scale, nor does what comes out of a curve.
+TEST(OcioConfig, CubesEndAboveAllThatWasCalibrated) {
+  const auto text = [](const CameraProfile& camera) { return ocio_config_text({&camera, 1}); };
+  const std::string to_cube = "- !<ExponentTransform> {value: 0.333333333333333}";
+  const std::string next = "\n        ";
+  for (const auto& [unit, scale, end] :
+       {std::tuple{3500.0, "0.000244140625, 0, 0, 0,", "[0, 4096]"},
+        std::tuple{2.7e12, "2.27373675443232e-13, 0, 0, 0,", "[0, 4.39805e+12]"},
+        std::tuple{0.05, "16, 0, 0, 0,", "[0, 0.0625]"}}) {
+    const std::string config = text(in_unit(unit));
+    EXPECT_NE(config.find("children:" + next + "- !<MatrixTransform> {matrix: [" + scale), std::string::npos)
+        << config;
+    EXPECT_NE(config.find(std::string("Linear values are cut to ") + end), std::string::npos) << config;
+  }
+  for (const double share : {0.12, 0.5, 0.9})
+    EXPECT_NE(text(in_unit(share)).find("children:" + next + to_cube), std::string::npos) << share;
+  CameraProfile curved = profile("D65", test::kRootPolynomial);
+  curved.brightest_patch = 2;
+  EXPECT_NE(text(curved).find("camera_D65.spi1d, interpolation: linear}" + next + to_cube), std::string::npos)
+      << text(curved);
 }
 
 TEST(OcioConfig, LinearCameraNeedsNoFile) {

@@ -128,6 +128,19 @@ TEST_F(Photographs, AClippedPixelClipsItsRegion) {
   EXPECT_EQ(all->series[0].codes[1][0], 1);
 }
 
+TEST_F(Photographs, RegionsOfOnePixelTellNoNoise) {
+  write_exr(folder_ / "a.exr", {3, 1, {{"Y", {0.2F, 0.4F, 0.5F}}}, {}});
+  const auto deviations = [&](const std::string& regions) {
+    std::ofstream(folder_ / "one.json")
+        << R"({"bits": 8, "exposures": [{"file": "a.exr", "exposure_s": 1}], "regions": )" << regions << "}";
+    const auto all = read(folder_ / "one.json");
+    EXPECT_TRUE(all) << diagnostics_.text();
+    return all ? all->series.at(0).deviations : std::vector<std::vector<double>>{};
+  };
+  EXPECT_EQ(deviations("[[0, 0, 2, 1], [1, 0, 3, 1]]").size(), 2U);
+  EXPECT_TRUE(deviations("[[0, 0, 2, 1], [2, 0, 3, 1]]").empty());
+}
+
 // What `develop` writes of its own read-out.
 std::map<std::string, std::string> told_by_develop(double exposure_s) {
   return {{"exposure_s", fmt::format("{}", exposure_s)},

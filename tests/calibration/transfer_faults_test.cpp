@@ -15,12 +15,24 @@ class TransferFaults : public test::PlantedFrames {
                                 {{"gain_e_per_dn", fmt::format("{}", gain_e_per_dn)}});
   }
 
+  // A dark frame of which so many pixels have the lowest code.
+  fs::path cut_frame(int lowest, double exposure_s) {
+    Image image{kEdge, kEdge, {{"raw", {}}}, {}};
+    for (int i = 0; i < kEdge * kEdge; ++i)
+      image.channels[0].values.push_back(i < lowest ? 0.0F : static_cast<float>(50 + (i + frames_) % 3));
+    image.metadata = {{"exposure_s", fmt::format("{}", exposure_s)},
+                      {"sensor", R"({"readout":{"bits":12,"offset_dn":50}})"}};
+    const fs::path file = folder_ / fmt::format("{}.tif", ++frames_);
+    write_raw_picture(file, image);
+    return file;
+  }
+
   static void refused(const Files& dark, const Files& lit, const fs::path& file, const std::string& text) {
     PlantedFrames::refused(dark, lit, file.filename().string() + ": " + text);
   }
 
   static constexpr int kEdge = 64;
-  std::uint32_t frames_ = 0;
+  int frames_ = 0;
 };
 
 TEST_F(TransferFaults, GainsAreNotMixed) {
@@ -50,6 +62,23 @@ TEST_F(TransferFaults, FramesThatAreFullMayBeAlike) {
     lit.push_back(frame(e, 0.01));
   Inputs inputs;
   EXPECT_NEAR(measure_transfer(dark, lit, inputs)[0].transfer.gain_e_per_dn, 2, 0.1);
+}
+
+// Of 4096 pixels 20 are 0.488 %, and 21 are 0.513 %.
+TEST_F(TransferFaults, FramesWhoseNoiseIsCutOffAreRefused) {
+  Files lit;
+  for (const double e : {300, 300, 1000, 1000, 3000, 3000}) lit.push_back(frame(e, 0.01));
+  const auto dark = [&](int lowest) {
+    Files files;
+    for (const double seconds : {0.01, 0.01, 1.0}) files.push_back(cut_frame(20, seconds));
+    files.push_back(cut_frame(lowest, 1));
+    return files;
+  };
+  Inputs inputs;
+  EXPECT_EQ(measure_transfer(dark(20), lit, inputs).size(), 1U);
+  const Files cut = dark(21);
+  refused(cut, lit, cut[3], "0.513 % of its codes in ");
+  PlantedFrames::refused(cut, lit, " are 0, the lowest, at which noise is cut off (allowed 0.5 %), so that");
 }
 
 }  // namespace

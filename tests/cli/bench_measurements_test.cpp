@@ -79,6 +79,24 @@ TEST(Transfer, FaultsAreNamed) {
   expect_fault("transfer " + dark_pairs() + "--lit " + file("absent.tif"), 4, "absent.tif");
 }
 
+// The middle of a patch's cell of three pixels by three holds one.
+TEST(Measure, PatchesOfOnePixelHaveNoDeviation) {
+  const std::vector<float> values(18 * 12, 0.5F);
+  write_exr(file("fine.exr"), {18, 12, {{"R", values}, {"G", values}, {"B", values}}, {}});
+  const std::string fine = "measure " + file("fine.exr") +
+                           " --chart colorchecker24_babelcolor_average --corners 0,0,18,0,18,12,0,12";
+  const Outcome told = abbe(fine + " --json");
+  ASSERT_EQ(told.code, 0) << told.err;
+  const nlohmann::json patch = told.json()["patches"][0];
+  EXPECT_EQ(patch["pixels"], (std::vector<int>{1, 1, 1}));
+  EXPECT_EQ(patch["deviation"], nlohmann::json::array({nullptr, nullptr, nullptr}));
+  const Outcome run = abbe(fine + " -o " + file("fine.csv"));
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_NE(run.out.find(fmt::format("0.5 {:>12} {:>7}", "-", 1)), std::string::npos) << run.out;
+  const std::string table = read_file(file("fine.csv"));
+  EXPECT_NE(table.find("\"dark skin\",0.5,0.5,0.5,,,,1,1,1,0,0,0\n"), std::string::npos) << table;
+}
+
 // An edge slanted by 5 degrees and blurred by a Gaussian; its values are those at the pixels' middles, so
 // that the Gaussian alone shows. Beside it a plane without an edge.
 std::string blurred_edge(double deviation, const std::string& areas = "") {

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
 #include "tests/cli/program.h"
 
 namespace abbe::test {
@@ -119,6 +121,33 @@ TEST(MeterCommand, TellsOfADarkPlaceAndStrictlyRefusesIt) {
   const Outcome strict = abbe("meter " + scene.string() + " --quiet --strict");
   EXPECT_EQ(strict.code, 3);
   EXPECT_NE(strict.err.find("inside: the camera stands within"), std::string::npos) << strict.err;
+}
+
+// Of a square of half the side a under a ceiling the middle of the floor, d below, has E = 4 L A atan A with
+// A = a / sqrt(a^2 + d^2).
+TEST(MeterCommand, TellsOfALampOnACeilingAndMeasuresOneThatIsApart) {
+  const auto read = [](double height) {
+    return abbe("meter --quiet --strict --json " + scratch()
+                                                       .write("ceiling.json", fmt::format(R"({{"abbe": 1,
+    "materials": {{"black": {{"diffuse": {{"reflectance": 0}}}}}},
+    "shapes": [{{"quad": {{"corner": [-2, -2, 0.5], "edge_u": [0, 4, 0], "edge_v": [4, 0, 0]}}, "material": "black"}}],
+    "lights": [{{"quad": {{"corner": [-1, -1, {}], "edge_u": [0, 2, 0], "edge_v": [2, 0, 0]}},
+                 "emission": {{"illuminant": "A", "luminance": 1000}}}}],
+    "meters": {{"floor": {{"at": [0, 0, 0], "normal": [0, 0, 1]}}}}}})",
+                                                                                          height))
+                                                       .string());
+  };
+  const Outcome flush = read(0.5);
+  EXPECT_EQ(flush.code, 3);
+  EXPECT_NE(flush.err.find("floor: the lamp \"light 0\" lies on \"shape 0\""), std::string::npos)
+      << flush.err;
+  const Outcome apart = read(0.499);
+  ASSERT_EQ(apart.code, 0) << apart.err;
+  const auto luminous = apart.json()["meters"][0]["luminous"];
+  const double share = 1 / std::hypot(1, 0.499);
+  EXPECT_NEAR(luminous["value"].get<double>(), 4000 * share * std::atan(share),
+              3 * luminous["half_interval_95"].get<double>());
+  EXPECT_LT(luminous["half_interval_95"].get<double>(), 10);
 }
 
 TEST(MeterCommand, TellsWhichMetersFoundNoLight) {

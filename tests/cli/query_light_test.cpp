@@ -218,6 +218,26 @@ TEST(QueryCamera, TakesCurvesForWhatTheyAreSaidToMultiply) {
             std::string::npos);
 }
 
+// The CCD sees to 1050 nm, D65 is told to 830 nm and A to 1100 nm.
+TEST(QueryCamera, TellsOfLightsThatEndWithinWhatItSees) {
+  const auto said = [](const std::string& light) {
+    testing::internal::CaptureStderr();
+    json_output(query_camera, CameraOptions{"kodak_kaf-3200me", light, ""});
+    return testing::internal::GetCapturedStderr();
+  };
+  EXPECT_NE(said("D65").find("\"D65\" is 0 beyond its table, 300 to 830 nm"), std::string::npos);
+  EXPECT_EQ(said("A"), "");
+  const std::string lamp =
+      scratch().write("ended.csv", "# unit: 1\nwavelength_nm,L\n380,1\n780,1\n").string();
+  EXPECT_EQ(fault(
+                [&] {
+                  query_camera(CameraOptions{"kodak_kaf-3200me", lamp, ""});
+                },
+                "covers 380 to 780 nm, but"),
+            ErrorCode::input);
+  EXPECT_NO_THROW(json_output(query_camera, CameraOptions{"Nikon_D5100", lamp, ""}));
+}
+
 TEST(QueryDeltaE, KnowsFormulasOfAppearanceAndDisplays) {
   // sRGB red and white beside D65, as `itp_srgb` of the reference tables has them.
   const json found =

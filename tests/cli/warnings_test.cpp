@@ -201,5 +201,32 @@ TEST(Warnings, ACameraWithinOpaqueMatterIsTold) {
   EXPECT_EQ(warned(room(ball_of("white", "5"), kLamp)).err, "");
 }
 
+TEST(Warnings, ALampOnSomethingOpaqueIsTold) {
+  const auto lit_by = [](const std::string& lamp) {
+    return room(
+        ball_of("white") +
+            R"(, {"name": "ceiling", "quad": {"corner": [-4, -4, 2], "edge_u": [0, 8, 0], "edge_v": [8, 0, 0]}, "material": "white"})",
+        lamp + R"(, "emission": {"illuminant": "A", "luminous_flux_lm": 100}})");
+  };
+  const auto panel_at = [](double z) {
+    return fmt::format(
+        R"({{"name": "panel", "quad": {{"corner": [-1, -1, {}], "edge_u": [0, 2, 0], "edge_v": [2, 0, 0]}})",
+        z);
+  };
+  const std::string flush = lit_by(panel_at(2));
+  const std::string said =
+      "the lamp \"panel\" lies on \"ceiling\", which may be met instead: keep them apart";
+  EXPECT_EQ(abbe("info " + flush).err, "abbe: warning: " + said + "\n");
+  EXPECT_NE(warned(flush).err.find("warning: " + said), std::string::npos);
+  const Outcome strict = warned(flush, " --strict");
+  EXPECT_EQ(strict.code, 3);
+  EXPECT_NE(strict.err.find(said), std::string::npos) << strict.err;
+  EXPECT_EQ(abbe("info " + lit_by(panel_at(1.999))).err, "");
+  EXPECT_EQ(warned(lit_by(panel_at(1.999)), " --strict").code, 0);
+  EXPECT_NE(abbe("info " + lit_by(R"({"name": "bulb", "point": {"at": [0.3, 0.1, 2]})"))
+                .err.find("the lamp \"bulb\" stands on \"ceiling\", on one side or the other by rounding"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace abbe::test

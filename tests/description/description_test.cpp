@@ -20,6 +20,7 @@ namespace {
 using Imath::V3d;
 using test::DescriptionTest;
 using test::kSquare;
+using test::lit;
 using test::Loaded;
 using test::ply;
 using test::shaped;
@@ -247,10 +248,61 @@ TEST_F(DescriptionTest, TablesAreInTheUnitThatIsAskedFor) {
   for (const char* unit : {"mW/(m2 sr nm)", "W/(m2 sr um)", "W/(cm2 sr nm)"})
     EXPECT_NE(complaint(lamp, unit).find("allowed W/(m^2 sr nm)"), std::string::npos) << unit;
   for (const char* unit : {"W/(m2 sr nm)", "relative spectrum"}) EXPECT_EQ(complaint(lamp, unit), "") << unit;
+  const auto from_infinity = [](const std::string& scale) {
+    return R"({"lights": [{"directional": {"towards": [0, 0, 1]}, "emission": {"spectrum": "t.csv:a")" +
+           scale + "}}]}";
+  };
+  const std::string point = lit(R"({"spectrum": "t.csv:a"})");
+  for (const char* unit : {"W/(m^2 nm)", "spectral irradiance, W/m2/nm"}) {
+    EXPECT_NE(complaint(lamp, unit).find("allowed W/(m^2 sr nm);"), std::string::npos) << unit;
+    EXPECT_EQ(complaint(from_infinity(""), unit), "") << unit;
+    EXPECT_NE(complaint(point, unit).find("allowed W/(sr nm);"), std::string::npos) << unit;
+  }
+  EXPECT_NE(complaint(from_infinity(""), "W/(m2 sr nm)").find("allowed W/(m^2 nm);"), std::string::npos);
+  EXPECT_EQ(complaint(from_infinity(R"(, "irradiance": 1)"), "W/(m2 sr nm)"), "") << "of any scale";
+  for (const std::string& seen : {lamp, point, from_infinity(R"(, "illuminance": 1)"),
+                                  lit(R"({"illuminant": "t.csv:a", "luminous_intensity": 1})"),
+                                  lit(R"({"spectral_flux_W_per_nm": "t.csv:a"})")})
+    EXPECT_NE(complaint(seen, "photons/(s m^2 sr nm)").find("allowed power per nm: hc/lambda"),
+              std::string::npos)
+        << seen;
   const std::string behind_a_scaled_one =
       R"({"lights": [{"sun": {"towards": [0, 0, 1]}, "emission": {"spectrum": "t.csv:a", "irradiance": 1}},
                      {"environment": {}, "emission": {"spectrum": "t.csv:a"}}]})";
   EXPECT_NE(complaint(behind_a_scaled_one, "mW/(m2 sr nm)").find("/lights/1/emission"), std::string::npos);
+}
+
+TEST_F(DescriptionTest, TablesWithinSumsAndProductsAreInThatUnitToo) {
+  const auto complaint = [&](const std::string& fragment, const std::string& curve, const std::string& unit) {
+    write(folder_ / "t.csv", "# unit: " + unit + "\n# outside: clamp\nwavelength_nm,a\n400,0.5\n700,0.5\n");
+    const Loaded loaded = load(fmt::format(fmt::runtime(fragment), curve));
+    return loaded.scene ? "" : loaded.text();
+  };
+  const std::string fog = R"({{"materials": {{"m": {{"medium": {{"absorption_per_m": {}}}}}}}}})";
+  const std::string paint = R"({{"materials": {{"m": {{"diffuse": {{"reflectance": {}}}}}}}}})";
+  const std::string lamp = R"({{"lights": [{{"environment": {{}}, "emission": {{"spectrum": {}}}}}]}})";
+  for (const char* curve : {R"({"sum": ["t.csv:a", 0]})", R"({"product": ["t.csv:a", 1]})",
+                            R"({"product": [{"band": [400, 700]}, {"sum": [0, "t.csv:a"]}]})"}) {
+    EXPECT_NE(complaint(fog, curve, "1/cm").find("(got \"1/cm\", allowed 1/m; {\"scale\": S"),
+              std::string::npos)
+        << curve;
+    EXPECT_NE(complaint(paint, curve, "%").find("allowed shares of 1"), std::string::npos) << curve;
+    EXPECT_NE(complaint(lamp, curve, "mW/(m2 sr nm)").find("allowed W/(m^2 sr nm)"), std::string::npos)
+        << curve;
+    EXPECT_EQ(complaint(fog, curve, "1/m"), "");
+    EXPECT_EQ(complaint(paint, curve, "reflectance (0-1)"), "");
+    EXPECT_EQ(complaint(lamp, curve, "W/(m2 sr nm)"), "");
+  }
+  for (const char* curve :
+       {R"({"sum": [{"scale": 0.01, "of": "t.csv:a"}, 0]})", R"({"product": ["t.csv:a", 0.01]})",
+        R"({"product": [0.01, {"sum": ["t.csv:a", {"product": ["t.csv:a", 1]}]}]})"}) {
+    EXPECT_EQ(complaint(fog, curve, "1/cm"), "") << curve;
+    EXPECT_EQ(complaint(paint, curve, "%"), "") << curve;
+  }
+  const std::string converted = R"({"product": ["t.csv:a", {"band": [400, 700]}]})";
+  EXPECT_EQ(complaint(lamp, converted, "photons/(s m2 sr nm)"), "") << "by the other factor";
+  EXPECT_NE(complaint(lamp, R"({"sum": ["t.csv:a", 0]})", "photons/(s m2 sr nm)").find("hc/lambda"),
+            std::string::npos);
 }
 
 TEST_F(DescriptionTest, SharesOfASensorAreNoPercentagesWhereverATableStands) {
@@ -279,6 +331,10 @@ TEST_F(DescriptionTest, SharesOfASensorAreNoPercentagesWhereverATableStands) {
     EXPECT_EQ(complaint("%", 50, sensor), "") << "scaled: " << sensor;
   EXPECT_EQ(complaint("%", 50, channels), "") << "of no unit";
   EXPECT_NE(complaint("electrons per photon", 0.5, channels).find("warning: \"t.csv:QE\" is taken as"),
+            std::string::npos);
+  EXPECT_NE(complaint("electrons per photon", 0.5,
+                      R"("channels": {"a": {"product": ["t.csv:QE", {"band": [400, 700]}]}})")
+                .find("warning: \"t.csv:QE\" is taken as"),
             std::string::npos);
   EXPECT_EQ(complaint("electrons per photon", 0.5, channels + quantum), "");
 }

@@ -1,4 +1,5 @@
 // What scenes of Mitsuba mean where its models or defaults are others than here, and what of them is told.
+#include <algorithm>
 #include <cmath>
 
 #include "io/exr.h"
@@ -233,6 +234,66 @@ TEST_F(MitsubaTest, WhatSpectraSayIsUsedOrTold) {
   EXPECT_NEAR(std::get<spec::Amount<spec::Quantity::luminance>>(emission.scale).value,
               2 * 683.002 * 106.856917101, 1e-3);
   EXPECT_TRUE(tells("\"wavelength_min\" of spectrum \"uniform\" has no counterpart here: dropped")) << told_;
+}
+
+// Gold's n and k as colours. By the shares of the three spectra at 450, 550 and 700 nm, worked out from their
+// quadratics: (0.01677, 0.00301, 0.98022), (0.00748, 0.97581, 0.01671) and (1, 0, 0).
+TEST_F(MitsubaTest, IndicesThatAreColoursHaveTheirSpectra) {
+  const auto metal = [&](const std::string& parts) {
+    return material<spec::Conductor>(R"(<bsdf type="conductor">)" + parts + "</bsdf>").ior.value;
+  };
+  const std::string n = R"(<rgb name="eta" value="0.143, 0.375, 1.442"/>)";
+  const auto gold = std::get<spec::TableIor>(metal(n + R"(<rgb name="k" value="3.983, 2.386, 1.603"/>)"));
+  EXPECT_TRUE(tells("a colour has no spectrum: the smooth one that looks so under D65 stands in")) << told_;
+  const Curve gold_n = table_curve(gold.wavelength_nm, gold.n, Outside::clamp);
+  const Curve gold_k = table_curve(gold.wavelength_nm, gold.k.value(), Outside::clamp);
+  EXPECT_NEAR(gold_n(450), 1.41700, 1e-4);
+  EXPECT_NEAR(gold_k(450), 1.64527, 1e-4);
+  EXPECT_NEAR(gold_n(550), 0.39109, 1e-4);
+  EXPECT_NEAR(gold_k(550), 2.38487, 1e-4);
+  EXPECT_NEAR(gold_n(700), 0.143, 1e-5);
+  EXPECT_NEAR(gold_k(700), 3.983, 1e-5);
+  const auto grey =
+      std::get<spec::MetalIor>(metal(R"(<rgb name="eta" value="0.1"/><rgb name="k" value="3, 3, 3"/>)"));
+  EXPECT_EQ(grey.n, 0.1);
+  EXPECT_EQ(grey.k, 3);
+  EXPECT_FALSE(tells("a colour has no spectrum")) << told_;
+  const auto least = std::get<spec::TableIor>(metal(R"(<rgb name="eta" value="0, 0.4, 1.4"/>)")).n;
+  EXPECT_EQ(*std::ranges::min_element(least), 1e-6) << "an index in a table is above 0";
+  EXPECT_EQ(std::get<spec::MetalIor>(metal(R"(<rgb name="k" value="3, 2, 1"/>)")).n, 0) << "as without eta";
+}
+
+TEST_F(MitsubaTest, IndicesAreNoLamps) {
+  const auto refused = [&](const std::string& eta) {
+    return !convert("a.xml",
+                    whole(R"(<shape type="sphere"><bsdf type="conductor">)" + eta + "</bsdf></shape>"));
+  };
+  const std::string told = "n and k are numbers, colours or samples (got the spectrum of a lamp)";
+  for (const char* type : {"d65", "blackbody"}) {
+    EXPECT_TRUE(refused(fmt::format(R"(<spectrum name="eta" type="{}"/>)", type)));
+    EXPECT_TRUE(tells(told)) << told_;
+  }
+  EXPECT_TRUE(refused(R"(<rgb name="eta" value="0.1, -0.4, 1.4"/>)"));
+  EXPECT_TRUE(tells("n and k are not negative (got 0.1, -0.4, 1.4)")) << told_;
+}
+
+// Where a table of the albedo ends all that is lost is absorbed.
+TEST_F(MitsubaTest, BeyondItsTableAnAlbedoIsZero) {
+  const auto matter = material<spec::Medium>(R"(<bsdf type="null"/><medium name="interior" type="homogeneous">
+      <spectrum name="albedo" value="450:0.5, 650:0.7"/><float name="sigma_t" value="3"/></medium>)");
+  const auto curve = [](const spec::Curve& said) {
+    const auto& table = std::get<spec::TableCurve>(std::get<spec::CurveFormula>(said.value).of);
+    return table_curve(table.wavelength_nm, table.values, table.outside);
+  };
+  const Curve absorbs = curve(matter.absorption_per_m.value());
+  const Curve scatters = curve(matter.scattering.per_m.value());
+  for (const double nm : {300.0, 449.99, 450.0, 500.0, 650.0, 650.01, 1100.0})
+    EXPECT_NEAR(absorbs(nm) + scatters(nm), 3, 1e-12) << nm;
+  EXPECT_NEAR(absorbs(449.99), 3, 1e-12);
+  EXPECT_NEAR(absorbs(450), 1.5, 1e-12);
+  EXPECT_NEAR(absorbs(550), 1.2, 1e-12);
+  EXPECT_NEAR(absorbs(650), 0.9, 1e-12);
+  EXPECT_NEAR(absorbs(650.01), 3, 1e-12);
 }
 
 TEST_F(MitsubaTest, ASecondSideIsTold) {

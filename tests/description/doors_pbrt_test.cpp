@@ -50,13 +50,13 @@ TEST_F(PbrtTest, MagnesiaIsANumber) {
   EXPECT_TRUE(tells("no table of MgO is shipped")) << told_;
 }
 
-void expect_at_550(const spec::Ior& index, double n, double k) {
+void expect_at_550(const spec::Ior& index, double n, double k, double within = 1e-9) {
   const auto& table = std::get<spec::TableIor>(index.value);
   const auto found = std::ranges::find(table.wavelength_nm, 550);
   ASSERT_NE(found, table.wavelength_nm.end());
   const auto i = static_cast<std::size_t>(found - table.wavelength_nm.begin());
-  EXPECT_NEAR(table.n.at(i), n, 1e-9);
-  EXPECT_NEAR(table.k.value().at(i), k, 1e-9);
+  EXPECT_NEAR(table.n.at(i), n, within);
+  EXPECT_NEAR(table.k.value().at(i), k, within);
 }
 
 TEST_F(PbrtTest, MetalsTakeFromCopperWhatTheyDoNotSay) {
@@ -72,6 +72,22 @@ TEST_F(PbrtTest, MetalsTakeFromCopperWhatTheyDoNotSay) {
   expect_at_550(index("\"spectrum eta\" \"metal-Cu-eta\" \"spectrum k\" \"metal-Ag-k\""), copper.n(550),
                 silver.k(550));
   expect_at_550(index("\"float eta\" 1.5 \"spectrum k\" \"metal-Ag-k\""), 1.5, silver.k(550));
+}
+
+// By the shares of the three spectra at 550 nm: 0.00748131, 0.9758122 and 0.01670649.
+TEST_F(PbrtTest, IndicesThatAreColoursHaveTheirSpectra) {
+  const auto metal = material<spec::Conductor>(
+      "Material \"conductor\" \"rgb eta\" [0.143 0.375 1.442] \"rgb k\" [3.983 2.386 1.603]");
+  EXPECT_TRUE(tells("a colour has no spectrum")) << told_;
+  expect_at_550(metal.ior, 0.39109, 2.38487, 2e-5);
+  const auto glass = [&](const std::string& rgb) {
+    return material<spec::Dielectric>("Material \"dielectric\" \"rgb eta\" " + rgb).ior.ior;
+  };
+  expect_at_550(glass("[1.5 1.6 1.7]"), 1.60092, 0, 2e-5);
+  EXPECT_EQ(std::get<double>(glass("[1.6 1.6 1.6]").value), 1.6);
+  expect_refused(
+      {{"a lamp", kBegin + "Material \"conductor\" \"spectrum eta\" \"stdillum-D65\"\nShape \"sphere\"\n",
+        "a.pbrt:5:22: error: n and k are numbers, colours or samples (got the spectrum of a lamp)"}});
 }
 
 TEST_F(PbrtTest, SpectraMayBeThoseOfMetalsAndGlasses) {

@@ -2,6 +2,8 @@
 #include "doors.h"
 #include "gltf_asset.h"
 #include "io/schema/write.h"
+#include "spectral/rgb.h"
+#include "tests/io/icc_profile.h"
 
 namespace abbe {
 namespace {
@@ -110,6 +112,46 @@ TEST_F(GltfSceneTest, TexturesLieAsTheyDo) {
   EXPECT_TRUE(tells("gone.exr")) << told_;
   EXPECT_TRUE(convert("a.gltf", with("data:image/png;base64,AAAA"))) << told_;
   EXPECT_TRUE(tells("an image within the file has no name here: dropped")) << told_;
+}
+
+// glTF takes the codes of all images for sRGB, whatever their files say.
+TEST_F(GltfSceneTest, WhatAnImageSaysOfItsColoursIsTold) {
+  Asset asset;
+  asset.primitive = R"("attributes": {"POSITION": 0, "TEXCOORD_0": 2}, "indices": 1, "material": 0)";
+  asset.accessors.back() = ',';
+  asset.accessors += R"({"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC2"}])";
+  const auto scene_of = [&](const std::string& colour) {
+    asset.more = R"(, "materials": [{"pbrMetallicRoughness": {)" + colour +
+                 R"(}}], "textures": [{"source": 0}], "images": [{"uri": "photo.jpg"}])";
+    const auto made = convert("a.gltf", asset.text());
+    return made ? to_text(schema::write(*made)) : "";
+  };
+  const auto scene_with = [&](const auto& xyz, const std::string& curve) {
+    put_image("photo.jpg", false);
+    test::put_profile(folder_ / "photo.jpg",
+                      test::icc_profile("wide", "RGB ", test::primaries_and_curve(xyz, curve)));
+    return scene_of(R"("baseColorTexture": {"index": 0})");
+  };
+  const std::string plain = scene_with(test::kSrgbColumns, test::srgb_curve());
+  EXPECT_NE(plain.find("photo.jpg"), std::string::npos) << told_;
+  EXPECT_FALSE(tells("sRGB there")) << told_;
+  EXPECT_EQ(scene_with(test::kSrgbColumns, test::curve_tag({})), plain);
+  EXPECT_TRUE(tells("an image is decoded as it says here, and as sRGB there")) << told_;
+
+  const std::string wide = scene_with(test::kP3Columns, test::srgb_curve());
+  EXPECT_TRUE(
+      tells("baseColorTexture: warning: all images count as sRGB there; here one is an error, and its "
+            "mean as sRGB stands for it: its colours are those of the profile \"wide\" (allowed "))
+      << told_;
+  const Image photo = read_picture(folder_ / "photo.jpg");
+  const auto linear = [&](std::size_t c) {
+    return srgb_decoded(static_cast<double>(photo.channels[c].values[0]));
+  };
+  EXPECT_EQ(wide, scene_of(fmt::format(R"("baseColorFactor": [{:.17g}, {:.17g}, {:.17g}, 1])", linear(0),
+                                       linear(1), linear(2))));
+  put("photo.jpg", "no image");
+  EXPECT_EQ(scene_of(R"("baseColorTexture": {"index": 0})"), "");
+  EXPECT_TRUE(tells("baseColorTexture: error: ")) << told_;
 }
 
 TEST_F(GltfSceneTest, WhatImagesSayAndIsNotSoHereIsTold) {

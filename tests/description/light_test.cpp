@@ -45,6 +45,33 @@ TEST_F(DescriptionTest, NormalisesEmission) {
   EXPECT_NEAR(emission(point, R"({"lines": [{"nm": 500, "width_nm": 2, "power": 3}]})").integral(), 3, 1e-9);
 }
 
+TEST_F(DescriptionTest, FluxesAreInWattsPerNm) {
+  const auto told = [&](const std::string& emission, const std::string& unit) {
+    test::write(folder_ / "t.csv", "# unit: " + unit + "\n# outside: clamp\nwavelength_nm,a\n500,1\n600,1\n");
+    return load(test::lit(emission)).text();
+  };
+  const std::string flux = R"({"spectral_flux_W_per_nm": "t.csv:a"})";
+  for (const char* unit : {"mW/nm", "uW/nm", "lm/nm", "mW/(m2 nm)"})
+    EXPECT_NE(told(flux, unit).find("(got \"" + std::string(unit) + "\", allowed W/nm"), std::string::npos)
+        << told(flux, unit);
+  EXPECT_EQ(told(flux, "W/nm"), "");
+  EXPECT_EQ(told(R"({"spectral_flux_W_per_nm": "t.csv:a", "radiant_flux_W": 3})", "mW/nm"), "");
+}
+
+TEST_F(DescriptionTest, RelativeSpectraWithoutAScaleAreTold) {
+  const auto told = [&](const std::string& emission) { return load(test::lit(emission)).text(); };
+  const std::string taken = "warning: \"D65\" is taken to be in ";
+  EXPECT_NE(told(R"({"spectrum": "D65"})").find(taken + "W/(sr nm), though its unit is \"relative"),
+            std::string::npos)
+      << told(R"({"spectrum": "D65"})");
+  EXPECT_NE(told(R"({"spectral_flux_W_per_nm": {"sum": ["D65", 0]}})").find(taken + "W/nm"),
+            std::string::npos);
+  for (const char* sound :
+       {R"({"spectrum": "D65", "luminous_intensity": 1})", R"({"spectrum": {"scale": 0.01, "of": "D65"}})",
+        R"({"spectrum": {"product": ["D65", {"band": [400, 700]}]}})"})
+    EXPECT_EQ(told(sound).find("is taken to be"), std::string::npos) << sound;
+}
+
 TEST_F(DescriptionTest, LightsFromInfinityIrradiateASurfaceThatFacesThem) {
   const std::string beam = R"("directional": {"towards": [0, 3, 4]})";
   EXPECT_NEAR(photometric(emission(beam, R"({"illuminant": "A", "illuminance": 500})")), 500, 1e-9);

@@ -131,6 +131,20 @@ TEST_F(DescriptionTest, ReadsThinElements) {
   EXPECT_EQ(std::get<DepolariserMaterial>(model(4)).transmittance(550), 0.5);
 }
 
+TEST_F(DescriptionTest, PanesAbsorbByTheirThickness) {
+  const auto text = [&](const char* more) {
+    return load(fmt::format(R"({{"materials": {{"pane": {{"thin_glass": {{"ior": 1.5{}}}}}}}}})", more))
+        .text();
+  };
+  const std::string told =
+      "/materials/pane/thin_glass/absorption_per_m: warning: an absorption without effect: without a "
+      "thickness nothing is absorbed";
+  for (const char* none : {R"(, "absorption_per_m": 10)", R"(, "absorption_per_m": 10, "thickness": 0)"})
+    EXPECT_NE(text(none).find(told), std::string::npos) << text(none);
+  for (const char* sound : {"", R"(, "absorption_per_m": 10, "thickness": 0.01)", R"(, "thickness": 0.01)"})
+    EXPECT_EQ(text(sound).find("effect"), std::string::npos) << text(sound);
+}
+
 TEST_F(DescriptionTest, WhatIsTakenAsClearIsClear) {
   for (const char* model : {"dielectric", "thin_glass"}) {
     const Loaded gold =

@@ -237,6 +237,32 @@ TEST_F(PbrtTest, LightsHaveTheStrengthThatPbrtGivesThem) {
               1e-9);
 }
 
+// Each triangle or patch is a light of that power there; a ball, or what becomes triangles here alone, is
+// one.
+TEST_F(PbrtTest, EachFaceOfAMeshHasThePower) {
+  const auto units = [&](const std::string& shape) {
+    const spec::Scene made = scene("AreaLightSource \"diffuse\" \"float power\" 100\nShape " + shape + "\n");
+    if (made.shapes.empty()) return 0.0;
+    const spec::Emission* emission = description::emission_of(made.shapes[0]);
+    return std::get<spec::Amount<spec::Quantity::luminous_flux>>(emission->scale).value / 683.002;
+  };
+  const std::string square = "\"point3 P\" [-1 -1 0  1 -1 0  1 1 0  -1 1 0] ";
+  EXPECT_NEAR(units("\"trianglemesh\" " + square + "\"integer indices\" [0 1 2 0 2 3]"), 200, 1e-9);
+  EXPECT_FALSE(tells("not equally bright")) << told_;
+  EXPECT_NEAR(units("\"trianglemesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0  5 5 0] \"integer indices\" "
+                    "[0 1 2  1 3 2  1 3 2]"),
+              300, 1e-9);
+  EXPECT_TRUE(tells("faces of different areas with a \"power\" each are not equally bright")) << told_;
+  const std::string patches = "\"bilinearmesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0  1 1 0  0 2 0  1 2 0] ";
+  EXPECT_NEAR(units(patches + "\"integer indices\" [0 1 2 3]"), 100, 1e-9);
+  EXPECT_NEAR(units(patches + "\"integer indices\" [0 1 2 3  2 3 4 5]"), 200, 1e-9);
+  EXPECT_NEAR(units("\"sphere\""), 100, 1e-9);
+  EXPECT_NEAR(units("\"cylinder\""), 100, 1e-9);
+  EXPECT_FALSE(tells("not equally bright")) << told_;
+  EXPECT_NEAR(units("\"plymesh\" \"string filename\" \"square.ply\""), 200, 1e-9);
+  EXPECT_TRUE(tells("counts as two here")) << told_;
+}
+
 TEST_F(PbrtTest, SoftSpotsSendOutAsMuch) {
   const auto spot = std::get<spec::SpotLamp>(
       scene("LightSource \"spot\" \"float coneangle\" 60 \"float conedeltaangle\" 60\n").lights.at(0).kind);

@@ -265,6 +265,16 @@ TEST_F(SensorTest, APeakMakesQuantumEfficienciesOfAMeasuredCamera) {
         << "one camera, said in two ways";
 }
 
+// Flat responses to energy S become efficiencies proportional to S/lambda, greatest at 420 nm.
+TEST_F(SensorTest, APeakScalesChannelsNamedAsTheObserversToo) {
+  const Loaded own = load(sensed(
+      R"("resolution": [1, 1], "peak_quantum_efficiency": 0.5,
+         "channels": {"X": {"band": [580, 650]}, "Y": {"band": [500, 600]}, "Z": {"band": [420, 490]}})"));
+  ASSERT_TRUE(own.scene) << own.text();
+  for (const Channel& channel : own->channels) EXPECT_EQ(channel.kind, ResponseKind::quantum);
+  EXPECT_NEAR(own->channels[0].weight(600) * photon_energy(600), 0.5 * 420 / 600, 1e-9);
+}
+
 // What a pixel of G counts of an exposure of 1 lx s by daylight, through filter and lens, is what was said.
 TEST_F(SensorTest, ElectronsInDaylightScaleAMeasuredCamera) {
   const std::string camera =

@@ -8,6 +8,7 @@
 #include "materials/bsdf/diffuse.h"
 #include "mesh_files.h"
 #include "spectral/rgb.h"
+#include "tests/io/icc_profile.h"
 
 namespace abbe {
 namespace {
@@ -81,6 +82,33 @@ TEST_F(TextureTest, ColoursOfIntegersThatSayThatTheyAreLinearAreNotDecoded) {
   const SampledSpectrum png = reflectance(R"({"image": "deep.png", "rgb": true})", {0, 0});
   for (int lane = 0; lane < kLanes; ++lane)
     EXPECT_NEAR(png[lane], linear(static_cast<double>(kWavelengths[lane])), 1e-6);
+}
+
+TEST_F(TextureTest, ColoursAreThoseOfTheProfileOfTheirFile) {
+  const auto path = folder_ / "photo.jpg";
+  const auto painted_with = [&](const std::array<std::array<double, 3>, 3>& xyz, const std::string& curve) {
+    write_picture(path, {1, 1, {{"R", {0.8F}}, {"G", {0.25F}}, {"B", {0.15F}}}, {}});
+    test::put_profile(path, test::icc_profile("Display P3", "RGB ", test::primaries_and_curve(xyz, curve)));
+    return R"({"image": "photo.jpg", "rgb": true})";
+  };
+  const auto expect_decoded = [&](const std::string& curve, double (*decoded)(double)) {
+    const double seen = reflectance(painted_with(test::kSrgbColumns, curve), {0, 0})[6];
+    const Image codes = read_picture(path);
+    const auto linear = [&](std::size_t c) {
+      return decoded(static_cast<double>(codes.channels[c].values[0]));
+    };
+    EXPECT_NEAR(seen, rgb_spectrum({linear(0), linear(1), linear(2)})(700), 1e-5);
+  };
+  expect_decoded(test::srgb_curve(), srgb_decoded);
+  expect_decoded(test::curve_tag({}), [](double code) { return code; });
+  expect_decoded(test::curve_tag({512}), [](double code) { return code * code; });
+  const Loaded wide = load(painted(painted_with(test::kP3Columns, test::srgb_curve())));
+  EXPECT_FALSE(wide.scene);
+  EXPECT_NE(wide.text().find("/reflectance/image: error: texture \"photo.jpg\": its colours are those of the "
+                             "profile \"Display P3\" (allowed the primaries of sRGB, "),
+            std::string::npos)
+      << wide.text();
+  EXPECT_TRUE(load(painted(R"({"image": "photo.jpg", "weights": {"R": 1}})")).scene) << "codes, no colours";
 }
 
 TEST_F(TextureTest, AlphaBesideColoursIsSaidNotToBeHeeded) {

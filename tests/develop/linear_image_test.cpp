@@ -56,7 +56,7 @@ TEST(LinearImage, AFlatTakesVignettingAway) {
     EXPECT_NEAR(patch.channels[0].mean / patch.channels[1].mean, 3, 1e-3)
         << "each channel keeps its own mean";
     EXPECT_NEAR(patch.channels[0].mean, patches[0].channels[0].mean, 1e-3);
-    EXPECT_LT(patch.channels[0].deviation, 1e-3);
+    EXPECT_LT(patch.channels[0].deviation.value(), 1e-3);
     EXPECT_EQ(patch.channels[0].pixels, 6U * 12);  // of 12 by 12 in the middle 0.6 of 20 by 20
   }
   EXPECT_EQ(refusal([&] { flat_field(image, image_of(60, 39, falloff, kStripes), "f.exr"); }),
@@ -82,7 +82,7 @@ TEST(LinearImage, PatchesCountTheirOwnPixelsAndWhatIsSaturated) {
   EXPECT_EQ(patches[0].channels[0].saturated, 4U * 24);
   EXPECT_EQ(patches[0].channels[0].highest, 100);
   EXPECT_DOUBLE_EQ(patches[1].channels[0].mean, 50.5);
-  EXPECT_NEAR(patches[1].channels[0].deviation, 0.5 * std::sqrt(432.0 / 431), 1e-9);
+  EXPECT_NEAR(patches[1].channels[0].deviation.value(), 0.5 * std::sqrt(432.0 / 431), 1e-9);
   EXPECT_EQ(patches[1].channels[0].saturated, 0U);
 }
 

@@ -299,6 +299,18 @@ TEST(Fits, APedestalBelowZeroIsRefused) {
                 "of no light, 0 or more)");
 }
 
+// Channels have letters, digits, - and _ in their names.
+TEST(Fits, TheHistoryTellsOfChannelsByAnyName) {
+  RawPicture raw = one_pixel({kRed, kGreen, kBlue});
+  raw.metadata = {{"black_level_dn", "100"},   {"channel.O-III", "digital numbers"},
+                  {"exposure_s", "0.01"},      {"exposure_s.2_b-", "4"},
+                  {"exposure_s.Ha", "1"},      {"exposure_s.O-III", "2"},
+                  {"mosaic_channels", "O-III"}};
+  const auto path = test_folder() / "a.fits";
+  write_fits(path, raw);
+  EXPECT_EQ(read_raw_picture(path).metadata, raw.metadata);
+}
+
 // Readers take it for two rows of two.
 TEST(Fits, ABayerPatternIsToldOfTwoByTwoFiltersWithLettersAlone) {
   const auto tells = [](const RawPicture& raw) {

@@ -175,6 +175,14 @@ TEST_F(FindTable, ListsItsNames) {
   EXPECT_TRUE(table_names("no such folder").empty());
 }
 
+TEST_F(FindTable, WavelengthsAreNoValuesWhereverTheyStand) {
+  const auto path = test_folder() / "late.csv";
+  for (const char* columns : {"a,wavelength_nm", "wavelength_nm,a", "wavelength_nm,a,wavelength_um"}) {
+    put(path, std::string("# unit: W\n") + columns + "\n");
+    EXPECT_EQ(found(path.string()), "late.csv:a") << columns;
+  }
+}
+
 TEST_F(FindTable, FindsUserFilesByTheirPaths) {
   const auto folder = test_folder();
   put(folder / "mine.csv", "# unit: W\nl,a,b\n1,2,3\n");

@@ -154,6 +154,29 @@ TEST_F(Entry, SaysWhatItIsRelativeTo) {
   EXPECT_EQ(table.low_nm(), 100);
 }
 
+// Ciddor's formula of air at 15 degrees, of index and wavelengths in vacuum, which an edition spelt so: the
+// air around has the index 1 relative to itself.
+TEST_F(Entry, SaysItAsEarlierEditionsDid) {
+  const std::string air =
+      "DATA:\n  - type: formula 6\n    wavelength_range: 0.23 1.690\n"
+      "    coefficients: 0 0.05792105 238.0185 0.00167917 57.362\nSPECS:\n";
+  const RefractiveIndex old = good(air + "    n_absolute: true\n    wavelength_vacuum: true\n");
+  EXPECT_EQ(old.medium(), IndexMedium::vacuum);
+  EXPECT_NEAR(old.n(589.3), 1, 1e-8);
+  EXPECT_NEAR(old.low_nm(), vacuum_to_air(230), 1e-12);
+  EXPECT_NEAR(good(air + "    n_absolute: false\n").n(589.3), 1.000277, 1e-6);
+  EXPECT_EQ(good(air + "    n_absolute: true\n    n_is_absolute: true\n").medium(), IndexMedium::vacuum);
+}
+
+TEST_F(Entry, DoesNotContradictItself) {
+  const std::string table = "DATA:\n  - type: tabulated n\n    data: |\n      0.4 1\n      0.5 1.5\n";
+  EXPECT_EQ(fault_of(table + "SPECS:\n  n_is_absolute: true\n  n_absolute: false\n"),
+            "8:15: n_absolute is false, but n_is_absolute is true");
+  EXPECT_EQ(
+      fault_of(table + "SPECS:\n  wavelength_vacuum: false\nCONDITIONS:\n  wavelength_is_vacuum: true\n"),
+      "9:25: wavelength_is_vacuum is true, but wavelength_vacuum is false");
+}
+
 TEST_F(Entry, SaysItInWordsThatAreKnown) {
   EXPECT_EQ(fault_of("DATA:\n  - type: tabulated n\n    data: |\n      0.4 1\n      0.5 1.5\n"
                      "SPECS:\n  n_is_absolute: perhaps\n"),
@@ -166,6 +189,7 @@ TEST_F(Entry, SaysItWhereItIsHeeded) {
   EXPECT_EQ(fault(table + "n_is_absolute: true\n"), "6:16: n_is_absolute" + allowed);
   EXPECT_EQ(fault(table + "    wavelength_is_vacuum: true\n"), "6:27: wavelength_is_vacuum" + allowed);
   EXPECT_EQ(fault(table + "SPEC:\n  n_is_absolute: false\n"), "7:18: n_is_absolute" + allowed);
+  EXPECT_EQ(fault(table + "n_absolute: true\n"), "6:13: n_absolute" + allowed);
   EXPECT_EQ(fault(table + "SPECS:\n  more:\n    n_is_absolute: true\n"), "8:20: n_is_absolute" + allowed);
 }
 

@@ -98,7 +98,11 @@ class Queries(Test):
                     call(nm)
         percent = self.scratch / "percent.csv"
         percent.write_text("# unit: %\n# outside: clamp\nwavelength_nm,T\n380,0.3\n780,0.6\n")
-        for call, error, message in ((lambda: abbe.ior("N-BK", 500), abbe.InputError, 'did you mean "N-BK7"'),
+        ended = self.scratch / "ended.csv"
+        ended.write_text("# unit: electrons per photon\nwavelength_nm,QE\n380,0.2\n780,0.2\n")
+        for call, error, message in ((lambda: abbe.curve("camera", f"{ended}:QE", [500, 1000]), abbe.InputError, "covers 380 to 780 nm, but 380 to 1000 nm are needed"),
+                                     (lambda: abbe.camera(str(ended), 500), abbe.InputError, "covers 380 to 780 nm only, where 58.6 % of what channel \"QE\" counts is not"),
+                                     (lambda: abbe.ior("N-BK", 500), abbe.InputError, 'did you mean "N-BK7"'),
                                      (lambda: abbe.ior("N-BK7", [500, 200]), abbe.UsageError, "wavelengths_nm: N-BK7 has no data there"),
                                      (lambda: abbe.ior("N-BK7", [numpy.nan]), abbe.UsageError, "got nan nm"),
                                      (lambda: abbe.reflectance("N-BK7", 500, 91), abbe.UsageError, "angle_deg: got 91"),
@@ -108,6 +112,8 @@ class Queries(Test):
                                      (lambda: abbe.color("D65", ([380, 780], [20, 80])), abbe.UsageError, r"reflectance: curve out of range at 380 nm \(got 20, allowed \[0, 1\]\)"),
                                      (lambda: abbe.color("D65", ([380, 780], [-0.2, 0.8])), abbe.UsageError, "got -0.2"),
                                      (lambda: abbe.color(([380, 780], [-1, 1])), abbe.UsageError, "illuminant: curve out of range"),
+                                     (lambda: abbe.color("D65", ([0.38, 0.78], [0.5, 0.5])), abbe.UsageError, r"^spectrum: wavelengths from 0.38 to 0.78 nm lie outside \[300, 1100\] nm; is the unit right\?$"),
+                                     (lambda: abbe.color(([3800, 7800], [1, 1])), abbe.UsageError, "^spectrum: wavelengths from 3800 to 7800 nm lie outside"),
                                      (lambda: abbe.color("D65", f"{percent}:T"), abbe.InputError, "allowed shares of 1"),
                                      (lambda: abbe.camera(f"{percent}:T", 500, response="quantum"), abbe.InputError, "allowed shares of 1"),
                                      (lambda: abbe.camera("Nikon_D5100", 500, response="photons"), abbe.UsageError, "response: got \"photons\", allowed energy, quantum"),

@@ -83,6 +83,24 @@ TEST_F(ChartFileTest, ATableOfTheUsersMayHaveAnyNumberOfPatches) {
             0.5);
 }
 
+TEST_F(ChartFileTest, EachHasASurroundOfItsOwn) {
+  const auto chart = [](const char* surround) {
+    return R"({"name": "c", "chart": {)" + kTable + kPlaced + R"(, "surround": )" + surround + "}}";
+  };
+  const Loaded scene =
+      load(R"({"materials": {"c/surround": {"diffuse": {"reflectance": 0.5}}}, "shapes": [)" + chart("0.25") +
+           ", " + chart("0.75") + "]}");
+  ASSERT_TRUE(scene.scene) << scene.text();
+  ASSERT_EQ(scene->shapes.size(), 50U);
+  const auto reflectance_of = [&](std::uint32_t shape) {
+    const Material& material = scene->materials.at(scene->shapes.at(shape).material);
+    return std::get<DiffuseMaterial>(material.model).reflectance.curve()(500);
+  };
+  EXPECT_EQ(reflectance_of(24), 0.25);
+  EXPECT_EQ(reflectance_of(49), 0.75);
+  EXPECT_EQ(scene->shapes[0].material, scene->shapes[25].material) << "patches are shared";
+}
+
 TEST_F(ChartFileTest, ATransformMovesAllOfIt) {
   const std::string text = chart_scene(kTable + kPlaced);
   const Loaded scene = load(R"({"shapes": [{"name": "c", "chart": {)" + kTable + kPlaced +

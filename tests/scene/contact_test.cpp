@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <memory>
+#include <string>
+#include <vector>
+
 #include "floor_scenes.h"
 #include "meshes.h"
 #include "scene/faces.h"
@@ -37,6 +41,126 @@ TEST(Contact, FindsWhereMatterIsAtWalls) {
   const Quad slanted{{-3, -3, -3}, {6, 0, 0}, {0, 6, 6}};
   EXPECT_FALSE(at_walls(block, slanted).isEmpty());
   EXPECT_TRUE(at_walls(Sphere{{0, -1, 1.2}, 1}, slanted).isEmpty()) << "above it, in its box";
+}
+
+void add_lamp_surface(Scene& scene, const Shape& shape) {
+  scene.lights.push_back({"lamp", AreaLight{static_cast<std::uint32_t>(scene.shapes.size())}, Curve(1.0)});
+  scene.shapes.push_back({"lamp", shape, kDiffuse});
+}
+// What light of the lamps is lost on: a wall, which comes before them as in scene files, or "lamp"; "" of
+// none.
+std::string lost_on(const std::vector<Shape>& walls, const std::vector<Shape>& lamps,
+                    std::uint32_t of_walls = kDiffuse) {
+  Scene scene = floor_scene();
+  scene.shapes.clear();
+  for (const Shape& wall : walls) scene.shapes.push_back({"wall", wall, of_walls});
+  for (const Shape& lamp : lamps) add_lamp_surface(scene, lamp);
+  scene.commit();
+  const auto lost = lost_lamp(scene);
+  return lost ? scene.shapes[lost->on].name : "";
+}
+
+TEST(Contact, TellsLampsThatLieOnOpaqueSurfaces) {
+  const auto lamp_at = [](double z) { return Quad{{-1, -1, z}, {0, 2, 0}, {2, 0, 0}}; };
+  const Quad ceiling{{-2, -2, 0.5}, {0, 4, 0}, {4, 0, 0}};
+  const Mesh block = box({-2, -2, 0.5}, {2, 2, 1});
+  EXPECT_EQ(lost_on({ceiling}, {lamp_at(0.5)}), "wall");
+  EXPECT_EQ(lost_on({ceiling}, {lamp_at(0.5)}, kMirror), "wall");
+  EXPECT_EQ(lost_on({block}, {lamp_at(0.5)}), "wall") << "on its backing plate";
+  EXPECT_EQ(lost_on({ceiling}, {lamp_at(0.499)}), "");
+  EXPECT_EQ(lost_on({block}, {lamp_at(0.5)}, kGlass), "");
+  EXPECT_EQ(lost_on({Quad{{1, -2, 0.5}, {0, 4, 0}, {4, 0, 0}}}, {lamp_at(0.5)}), "") << "in an opening";
+  const auto turned = [](const Quad& quad) {
+    const Imath::M44d turn = Imath::M44d().setAxisAngle(V3d(1, 2, 3).normalized(), 0.6);
+    return Quad{quad.corner * turn, quad.edge_u * turn, quad.edge_v * turn};
+  };
+  EXPECT_EQ(lost_on({turned(ceiling)}, {turned(lamp_at(0.5))}), "wall");
+  EXPECT_EQ(lost_on({turned(ceiling)}, {turned(lamp_at(0.499))}), "");
+}
+
+TEST(Contact, TellsLampsThatLieOnLamps) {
+  const Quad down{{-1, -1, 0.5}, {0, 2, 0}, {2, 0, 0}};
+  const Quad up{{-1, -1, 0.5}, {2, 0, 0}, {0, 2, 0}};
+  const Disc disc{{0, 0, 0.5}, {0, 0, -1}, 1};
+  EXPECT_EQ(lost_on({}, {down, up}), "lamp") << "back to back";
+  EXPECT_EQ(lost_on({}, {disc, disc}), "lamp") << "listed twice";
+  EXPECT_EQ(lost_on({}, {down}), "");
+  EXPECT_EQ(lost_on({}, {down, Quad{{1, -1, 0.5}, {0, 2, 0}, {2, 0, 0}}}), "") << "side by side";
+  Mesh both;
+  both.vertices = {{-1, -1, 0.5}, {1, -1, 0.5}, {1, 1, 0.5}, {-1, 1, 0.5}};
+  both.triangles = {{0, 1, 2}, {0, 2, 3}};
+  EXPECT_EQ(lost_on({}, {both}), "");
+  EXPECT_EQ(lost_on({}, {joined(both, inside_out(both))}), "lamp") << "triangles for each side";
+  both.triangles.push_back({2, 1, 0});
+  EXPECT_EQ(lost_on({}, {both}), "lamp");
+}
+
+// A disc reaches to 1 from its middle, and the square around it to 1.41.
+TEST(Contact, ADiscCoversNoCornersOfTheSquareAroundIt) {
+  const Disc disc{{0, 0, 0.5}, {0, 0, -1}, 1};
+  const auto wall_from = [](double corner) { return Quad{{corner, corner, 0.5}, {0, 4, 0}, {4, 0, 0}}; };
+  EXPECT_EQ(lost_on({wall_from(0.8)}, {disc}), "");
+  EXPECT_EQ(lost_on({wall_from(0.4)}, {disc}), "wall");
+}
+
+TEST(Contact, LampsThatAreDarkOrMoveLoseNothing) {
+  const Quad wall{{-2, -2, 0.5}, {0, 4, 0}, {4, 0, 0}};
+  const auto is_lost = [&](const Shape& lamp, double emission) {
+    Scene scene = floor_scene();
+    scene.shapes = {{"wall", wall, kDiffuse}};
+    add_lamp_surface(scene, lamp);
+    scene.lights[0].emission = Curve(emission);
+    scene.commit();
+    return lost_lamp(scene).has_value();
+  };
+  auto moving = std::make_shared<Placement>(placement(Imath::M44d()));
+  moving->motion = std::make_shared<Motion>(
+      std::vector<Motion::Keyframe>{{0, {0, 0, 0}, 0, {0, 0, 0}}, {1, {0, 0, 0}, 0, {0, 0, -1}}});
+  EXPECT_TRUE(is_lost(wall, 1));
+  EXPECT_FALSE(is_lost(wall, 0));
+  EXPECT_FALSE(is_lost(PlacedShape{make_prototype(wall), moving}, 1));
+}
+
+// Of a ceiling that slopes, floats of points in it are on one side or the other.
+TEST(Contact, TellsPointsInOpaqueFaces) {
+  const auto is_lost = [](const Shape& shape, const decltype(Light::kind)& lamp,
+                          std::uint32_t material = kDiffuse) {
+    Scene scene = floor_scene();
+    scene.shapes = {{"wall", shape, material}};
+    scene.lights.push_back({"lamp", lamp, Curve(1.0)});
+    scene.commit();
+    return lost_lamp(scene).has_value();
+  };
+  const V3d u = V3d(3, 1, -1).normalized();
+  const V3d v = V3d(-1, 2, -1).normalized();
+  const V3d normal = u.cross(v);
+  const Quad slope{V3d(0.1, 0.2, 2) - u * 2 - v * 2, u * 4, v * 4};
+  Random random(3);
+  for (int i = 0; i < 50; ++i) {
+    const V3d at = V3d(0.1, 0.2, 2) + u * random.between(-1.9, 1.9) + v * random.between(-1.9, 1.9);
+    EXPECT_TRUE(is_lost(slope, PointLight{Imath::V3f(at)})) << at;
+    EXPECT_TRUE(is_lost(slope, SpotLight{Imath::V3f(at)})) << at;
+    EXPECT_FALSE(is_lost(slope, PointLight{Imath::V3f(at)}, kGlass)) << at;
+    for (const double apart : {-1e-5, 1e-5})
+      EXPECT_FALSE(is_lost(slope, PointLight{Imath::V3f(at + normal * apart)})) << at;
+  }
+  const Quad diamond{{-1, 0, 0}, {1, 1, 0}, {1, -1, 0}};
+  EXPECT_TRUE(is_lost(diamond, PointLight{{0.3F, 0.3F, 0}}));
+  EXPECT_FALSE(is_lost(diamond, PointLight{{0.3F, 0.3F, 1e-12F}})) << "floats tell so much from 0";
+  EXPECT_FALSE(is_lost(diamond, PointLight{{0.9F, 0.9F, 0}})) << "beside it, in its box";
+}
+
+TEST(Contact, FindsALampAmongThousands) {
+  Scene scene = floor_scene();
+  scene.shapes = {{"hall", box({-31, -31, 0}, {31, 31, 3}), kDiffuse}};
+  for (int y = -30; y < 30; ++y)
+    for (int x = -30; x < 30; ++x)
+      add_lamp_surface(scene, Quad{V3d(x, y, x == 4 && y == -10 ? 3 : 2.99), {0, 0.5, 0}, {0.5, 0, 0}});
+  scene.commit();
+  const auto lost = lost_lamp(scene);
+  ASSERT_TRUE(lost);
+  EXPECT_EQ(lost->light, 1234U);
+  EXPECT_EQ(lost->on, 0U);
 }
 
 TEST(FaceFinder, FindsAllThatMeetABox) {

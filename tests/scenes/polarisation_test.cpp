@@ -115,6 +115,17 @@ TEST(Polarisation, IsTheSameFromEitherEnd) {
   }
 }
 
+// As that of the same paths where no other component is asked for.
+TEST(Polarisation, TheErrorOfAStokesFilmIsThatOfItsIntensities) {
+  const auto error = [](const char* stokes) {
+    std::vector<Override> settings = by("path", 16);
+    settings.push_back({"/sensor/stokes", stokes});
+    return render(load_text(hall(""), settings), {.measure_error = true}).stats.error.frame_mean;
+  };
+  ASSERT_GT(error("false"), 0.01);
+  EXPECT_NEAR(error("true") / error("false"), 1, 1e-6);
+}
+
 // What it is worth there, so that the test above tells what leaves it out.
 TEST(Polarisation, MattersThere) {
   Scene scene = load_text(hall(""), by("path", 2048));

@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <functional>
+#include <tuple>
 #include <vector>
 
 #include "io/error.h"
+#include "sensor/film/crop.h"
 
 namespace abbe {
 namespace {
@@ -40,6 +43,30 @@ TEST(Demosaic, ConstantPlanesStayConstantToTheBorders) {
       EXPECT_EQ(planes.channels[static_cast<std::size_t>(channel)].values,
                 std::vector<float>(42, static_cast<float>(channel + 1)));
   }
+}
+
+// Of a crop, and of a film that is merged of areas with gaps between them.
+TEST(Demosaic, ConstantPlanesStayConstantToTheBordersOfWhatAFilmHas) {
+  for (const auto& [key, told, areas] :
+       {std::tuple<const char*, const char*, std::vector<Crop>>{kCropKey, "1,2,6,5", {{1, 2, 6, 5}}},
+        {kAreasKey, "0,0,3,6=0:8 4,1,7,5=0:8", {{0, 0, 3, 6}, {4, 1, 7, 5}}}})
+    for (const Mosaic& mosaic : {kBayer, kOdd}) {
+      const auto is_recorded = [&areas = areas](int x, int y) {
+        return std::any_of(areas.begin(), areas.end(),
+                           [x, y](const Crop& c) { return x >= c.x0 && x < c.x1 && y >= c.y0 && y < c.y1; });
+      };
+      const Planes scene = [&](int channel, int x, int y) {
+        return is_recorded(x, y) ? static_cast<float>(channel + 1) : 0.0F;
+      };
+      Image film = mosaicked(mosaic, 7, 6, scene);
+      film.metadata[key] = told;
+      const Image planes = demosaic(film, "raw", mosaic, kRgb);
+      for (int channel = 0; channel < 3; ++channel)
+        for (int y = 0; y < 6; ++y)
+          for (int x = 0; x < 7; ++x)
+            EXPECT_EQ(value(planes, channel, x, y), scene(channel, x, y))
+                << key << ' ' << channel << ' ' << x << ' ' << y;
+    }
 }
 
 TEST(Demosaic, RampsOverABayerPatternComeBackExactly) {

@@ -250,5 +250,17 @@ TEST(Patches, ReachOverAreasThatTouchAndOverNoGap) {
     EXPECT_THROW((void)measured(gaps), Error);
 }
 
+// Of two pixels, 3 and 5, it is the root of 2.
+TEST(Patches, OnePixelHasNoDeviation) {
+  const ImageChannel plane{"Y", {3, 5, 5, 5}};
+  const Image film{2, 2, {plane}, {}};
+  const auto deviation = [&](double right, double bottom) {
+    const std::vector<PatchOutline> patch{{"patch", {{{0, 0}, {right, 0}, {right, bottom}, {0, bottom}}}}};
+    return measure_patches(film, {{&plane}, {"Y"}, {}, {}}, patch)[0].channels[0].deviation;
+  };
+  EXPECT_EQ(deviation(1, 1), std::nullopt);
+  EXPECT_DOUBLE_EQ(deviation(2, 1).value(), std::sqrt(2.0));
+}
+
 }  // namespace
 }  // namespace abbe

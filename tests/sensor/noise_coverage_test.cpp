@@ -89,7 +89,8 @@ TEST(NoiseCoverage, PatchesLieWithinTheDeviationOfTheirMean) {
     const Image image{kEdge, kEdge, {{"Y", {raw.dn.begin(), raw.dn.end()}}}, {}};
     const PatchChannel found =
         measure_patches(image, {{&image.channels[0]}, {"Y"}, {}, {}}, {&outline, 1})[0].channels[0];
-    errors.push_back((found.mean - truth) / (found.deviation / std::sqrt(static_cast<double>(found.pixels))));
+    errors.push_back((found.mean - truth) /
+                     (found.deviation.value() / std::sqrt(static_cast<double>(found.pixels))));
   }
   expect_coverage(errors, "patch");
 }

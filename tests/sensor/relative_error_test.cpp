@@ -140,6 +140,17 @@ TEST(RelativeError, IsThatOfPlanesThatCountLight) {
   EXPECT_EQ(lit_values(film, 9), lit_values(film));
 }
 
+TEST(RelativeError, OfTheMeanIsThatOfPlanesThatCountLight) {
+  Film film(1, 1, 2, 2, 1.0);
+  film.add(0, 0, std::vector<double>{2, -3});
+  film.add(0, 1, std::vector<double>{4, 3});
+  film.set_samples({1, 1});
+  EXPECT_DOUBLE_EQ(frame_mean_error(film, 1), 1.0 / 3);
+  EXPECT_DOUBLE_EQ(frame_mean_error(film), std::sqrt(1.0 + 9) / 3);
+  EXPECT_DOUBLE_EQ(frame_mean_error(film, 9), frame_mean_error(film));
+  EXPECT_DOUBLE_EQ(relative_error(film, {}, 1).frame_mean, 1.0 / 3);
+}
+
 TEST(RelativeError, WhatIsLitAndNotFoundYetIsInfinitelyFarOff) {
   const Film film = half_dark(0.01);
   std::vector<std::size_t> lit = lit_values(film);

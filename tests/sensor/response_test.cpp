@@ -1,5 +1,6 @@
 #include <filesystem>
 #include <fstream>
+#include <tuple>
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -86,6 +87,28 @@ TEST_F(CameraTable, QuantumEfficienciesAreElectronsPerPhotonUnlessTheirRatiosAlo
   EXPECT_TRUE(diagnostics.all().empty()) << diagnostics.text();
 }
 
+TEST_F(CameraTable, WavelengthsAreTheFirstColumnAndNoChannel) {
+  const auto named = [&](const std::string& columns, const std::string& rows) {
+    std::ofstream(path_) << "# unit: 1\n# outside: clamp\n" << columns << '\n' << rows;
+    return path_.string();
+  };
+  for (const auto& [columns, rows, fault] :
+       {std::tuple{"R,G,B,wavelength_nm", "1,2,3,400\n1,2,3,700\n",
+                   "first column \"R\" (allowed wavelength_nm"},
+        std::tuple{"R,wavelength_nm", "1,400\n1,700\n", "first column \"R\" (allowed wavelength_nm"},
+        std::tuple{"index,wavelength_nm,R,G,B", "0,400,1,2,3\n1,700,1,2,3\n",
+                   "first column \"index\" (allowed"},
+        std::tuple{"wavelength_nm,wavelength_um", "400,0.4\n700,0.7\n", "has no column of a channel"}})
+    EXPECT_NE(complaint(named(columns, rows)).find(fault), std::string::npos) << complaint(path_.string());
+  Diagnostics diagnostics;
+  const auto twice = load_camera(named("wavelength_nm,wavelength_um,R,G", "400,0.4,1,2\n700,0.7,1,2\n"), {},
+                                 diagnostics, ResponseKind::energy);
+  ASSERT_TRUE(twice) << diagnostics.text();
+  ASSERT_EQ(twice->size(), 2U);
+  EXPECT_EQ((*twice)[0].name, "R");
+  EXPECT_EQ((*twice)[1].weight(550), 2);
+}
+
 TEST_F(CameraTable, CurvesWhoseUnitSpeaksOfPhotonsAreWarnedOfUntilTheirResponseIsSaid) {
   const auto warnings = [](const std::string& name, std::optional<ResponseKind> kind) {
     Diagnostics diagnostics;
@@ -111,6 +134,18 @@ TEST(Response, AnUnknownCameraIsReportedWithTheNearestName) {
 TEST(Response, TheObserverMeasuresLux) {
   // 1 W/m^2 at 555 nm is 683 lx, nearly.
   EXPECT_NEAR(observer_channels(Observer::cie1931)[1].weight(555), 683.002, 0.01);
+}
+
+TEST(Response, AnObserverIsNoSensorWithItsNames) {
+  for (const Observer which : {Observer::cie1931, Observer::cie1964})
+    EXPECT_TRUE(is_observer(observer_channels(which)));
+  std::vector<Channel> filtered = observer_channels(Observer::cie1931);
+  for (Channel& channel : filtered) channel = exposed(behind(channel, FilterStack{Curve(0.5)}), 2);
+  EXPECT_TRUE(is_observer(filtered));
+  const std::vector<Channel> own{energy_channel("X", band(580, 650)), energy_channel("Y", band(500, 600)),
+                                 energy_channel("Z", band(420, 490))};
+  EXPECT_FALSE(is_observer(own));
+  EXPECT_FALSE(is_observer(with_peak_efficiency(own, 0.5)));
 }
 
 }  // namespace

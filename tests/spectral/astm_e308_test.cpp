@@ -7,6 +7,7 @@
 
 #include "io/reference_table.h"
 #include "spectral/library.h"
+#include "spectral/sources.h"
 #include "tests/spectral/illuminant.h"
 
 namespace abbe {
@@ -50,6 +51,19 @@ TEST(AstmE308, IsTheOneNanometreSumOfTheInterpolatedReflectance) {
     }
     expect_near(astm_tristimulus(astm_weights(light, Observer::cie1964, step), samples),
                 tristimulus(light, Curve(knots), Observer::cie1964, kAstmRange), 1e-10, std::to_string(step));
+  }
+}
+
+// Lines between whole nanometres, and one on one, count by their power.
+TEST(AstmE308, NarrowLinesOfALampCountByTheirPower) {
+  const std::vector<SpectralLine> three = {{435.8, 0.1, 1}, {546.5, 0.1, 1}, {611, 0.1, 1}};
+  const Curve lamp = lines(three);
+  const ColorMatching& seen = color_matching(Observer::cie1931);
+  const XYZ exact{integral_of_product(lamp, seen.x), integral_of_product(lamp, seen.y),
+                  integral_of_product(lamp, seen.z)};
+  for (const int step : {10, 20}) {
+    const XYZ white = astm_white(astm_weights(lamp, Observer::cie1931, step));
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(white[k], 100 * exact[k] / exact[1], 1e-3) << step << k;
   }
 }
 

@@ -44,6 +44,30 @@ TEST(Colorimetry, narrow_lines_count_by_their_power) {
   EXPECT_NEAR(mirrored[1], 100 * seen.y(546.1) / exact[1], 1e-3);
 }
 
+// A surface that reflects 0.4 nm of every 5 nm, between whole nanometres, reflects 8 % of any smooth light.
+TEST(Colorimetry, narrow_bands_of_a_reflectance_count_by_their_widths) {
+  std::vector<Knot> knots;
+  for (double nm = 352.5; nm < 850; nm += 5)
+    knots.insert(knots.end(), {{nm - 0.2, 0}, {nm - 0.2, 1}, {nm + 0.2, 1}, {nm + 0.2, 0}});
+  const Curve comb(knots);
+  for (const char* name : {"A", "D65"})
+    for (const Observer observer : {Observer::cie1931, Observer::cie1964}) {
+      const Curve light = illuminant(name);
+      const XYZ reflected = tristimulus(light, comb, observer);
+      const XYZ white = tristimulus(light, Curve(1.0), observer);
+      for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(reflected[k] / white[k], 0.08, 2e-5) << name << k;
+    }
+}
+
+// A bend off the nanometres changes nothing else.
+TEST(Colorimetry, integral_and_sum_of_a_smooth_reflectance_agree) {
+  const Curve light = illuminant("D65");
+  const XYZ summed = tristimulus(light, Curve({{380, 0.2}, {780, 0.8}}), Observer::cie1931);
+  const XYZ integrated =
+      tristimulus(light, Curve({{380, 0.2}, {480.5, 0.35075}, {780, 0.8}}), Observer::cie1931);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(integrated[k] / summed[k], 1, 2e-6) << k;
+}
+
 TEST(Photometry, integral_is_exact) {
   // A watt at the peak of V, in a line a picometre wide.
   const std::vector<SpectralLine> line = {{555, 1e-3, 1}};

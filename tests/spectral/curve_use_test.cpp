@@ -12,6 +12,7 @@
 #include "io/table.h"
 #include "spectral/astm_e308.h"
 #include "spectral/chart.h"
+#include "spectral/library.h"
 
 namespace abbe {
 namespace {
@@ -43,6 +44,162 @@ TEST_F(CurveUseTest, PercentIsNoShareHoweverItIsWritten) {
                            "transmittance (1 = 100 %)", "reflectance (0-1); uncertainty in percent"})
     EXPECT_FALSE(unit_fault("t.csv", unit, CurveUnit::share)) << unit;
   EXPECT_FALSE(unit_fault("t.csv", "%", CurveUnit::any));
+}
+
+TEST_F(CurveUseTest, DensitiesAndDecibelsAreNoShares) {
+  const auto allowed = [](const char* unit) {
+    return unit_fault("t.csv", unit, CurveUnit::share, "; a factor converts").value_or("");
+  };
+  for (const char* unit : {"optical density", "Absorbance (decadic)", "OD", "extinction",
+                           "attenuation; of 2 mm", "neutral density filter, density", "transmission density"})
+    EXPECT_TRUE(allowed(unit).ends_with("allowed shares of 1: 10^-D of a density D)"))
+        << unit << allowed(unit);
+  for (const char* unit : {"attenuation in dB", "dB", "insertion loss [dB]"})
+    EXPECT_TRUE(allowed(unit).ends_with("allowed shares of 1: 10^(-A/10) of A dB)")) << unit << allowed(unit);
+  for (const char* unit :
+       {"transmittance of a neutral density filter", "transmittance (0-1); not the density",
+        "model of the camera's body", "reflectance, adbmal"})
+    EXPECT_EQ(allowed(unit), "") << unit;
+}
+
+TEST_F(CurveUseTest, PhotonsAndPowersPerHertzAreNoPowersPerNm) {
+  for (const CurveUnit needed : {CurveUnit::power, CurveUnit::spectral_radiance,
+                                 CurveUnit::spectral_intensity, CurveUnit::spectral_irradiance}) {
+    const auto allowed = [needed](const char* unit) {
+      return unit_fault("t.csv", unit, needed, "; a factor converts").value_or("");
+    };
+    for (const char* unit : {"photons/(s m^2 nm)", "umol/(m^2 s nm)", "µmol m-2 s-1 nm-1", "mol/(s nm)",
+                             "photons/(s m^2 sr nm)", "quanta per s and nm", "photon flux, relative"})
+      EXPECT_TRUE(allowed(unit).ends_with("allowed power per nm: hc/lambda for each photon)"))
+          << unit << allowed(unit);
+    for (const char* unit : {"W/(m^2 Hz)", "W/(m2 sr Hz)", "relative power per THz", "Jy"})
+      EXPECT_TRUE(allowed(unit).ends_with("allowed power per nm: c/lambda^2 times that per Hz)"))
+          << unit << allowed(unit);
+    for (const char* unit : {"relative spectrum", "1", "relative power (photopic peak 1); no photons",
+                             "normalised to 560 nm (w.r.t. 1 m2)"})
+      EXPECT_EQ(allowed(unit), "") << unit;
+  }
+}
+
+TEST_F(CurveUseTest, AreasAndSolidAnglesAreThoseOfTheQuantity) {
+  const auto fits = [](const char* unit, CurveUnit needed) { return !unit_fault("t.csv", unit, needed); };
+  struct Case {
+    const char* unit;
+    bool radiance;
+    bool intensity;
+    bool irradiance;
+  };
+  for (const Case& told : {Case{"W/(m^2 sr nm)", true, false, false},
+                           {"W m-2 sr-1 nm-1", true, false, false},
+                           {"Watt per m² and sr and nm", true, false, false},
+                           {"W/(m^2 nm)", false, false, true},
+                           {"spectral irradiance, W/m2/nm", false, false, true},
+                           {"Wm-2nm-1", false, false, true},
+                           {"W/(sr nm)", true, true, false},
+                           {"mW/(sr nm)", false, false, false},
+                           {"relative spectral radiance", true, true, true}}) {
+    EXPECT_EQ(fits(told.unit, CurveUnit::spectral_radiance), told.radiance) << told.unit;
+    EXPECT_EQ(fits(told.unit, CurveUnit::spectral_intensity), told.intensity) << told.unit;
+    EXPECT_EQ(fits(told.unit, CurveUnit::spectral_irradiance), told.irradiance) << told.unit;
+    EXPECT_TRUE(fits(told.unit, CurveUnit::power)) << told.unit;
+  }
+}
+
+TEST_F(CurveUseTest, PartsAndMultiplesAreOthersHoweverTheyAreWritten) {
+  const auto allowed = [](const char* unit, CurveUnit needed = CurveUnit::spectral_radiance) {
+    return unit_fault("t.csv", unit, needed, "; a factor converts").value_or("");
+  };
+  for (const char* unit :
+       {"W m-2 sr-1 um-1", "W m^-2 sr^-1 um^-1", "W·m⁻²·sr⁻¹·µm⁻¹", "W/m^2/sr/μm", "W/(um m2 sr)",
+        "W per m2, sr and nm per micron", "W cm-2 sr-1 nm-1", "W cm^-2 sr^-1 nm^-1", "W/(cm² sr nm)",
+        "Wcm-2sr-1nm-1", "μW/(cm2 sr nm)", "mW m-2 sr-1 nm-1", "spectral radiance in mW/(m2 sr nm)",
+        "milliwatt", "erg/s", "erg/(s cm2 sr nm)", "W/(m2 sr Å)", "W m-2 sr-1 Angstrom-1"})
+    EXPECT_TRUE(allowed(unit).ends_with("allowed W/(m^2 sr nm); a factor converts)"))
+        << unit << allowed(unit);
+  for (const char* unit : {"W/(m2 sr cm-1)", "W m⁻² sr⁻¹ (cm⁻¹)⁻¹"})
+    EXPECT_TRUE(allowed(unit).ends_with("allowed power per nm: 10^7 nm cm^-1/lambda^2 times that per cm^-1)"))
+        << unit << allowed(unit);
+  for (const char* unit : {"cd/(m2 nm)", "lm/(m2 sr nm)", "lux"})
+    EXPECT_TRUE(allowed(unit).ends_with("allowed W/(m^2 sr nm))")) << unit << allowed(unit);
+  for (const char* unit :
+       {"W m-2 sr-1 nm-1", "W·m⁻²·sr⁻¹·nm⁻¹", "W m**-2 sr**-1 nm**-1", "W/(m2 sr nm), wavelength in um",
+        "W/(m2 sr nm) of a 2 kW lamp", "W/(m2 sr nm), 100 cd/m2 in all", "relative; mW", "1"})
+    EXPECT_EQ(allowed(unit), "") << unit;
+}
+
+TEST_F(CurveUseTest, FluxesArePowersOfWholeLamps) {
+  const auto allowed = [](const char* unit) {
+    return unit_fault("t.csv", unit, CurveUnit::spectral_flux, "; a factor converts").value_or("");
+  };
+  for (const char* unit : {"mW/nm", "uW/nm", "µW nm⁻¹", "mW/(m2 nm)", "W/(m2 nm)", "W m-2 nm-1", "W/(sr nm)",
+                           "W/um", "W per micron"})
+    EXPECT_TRUE(allowed(unit).ends_with("allowed W/nm; a factor converts)")) << unit << allowed(unit);
+  EXPECT_TRUE(allowed("lm/nm").ends_with("allowed W/nm)")) << allowed("lm/nm");
+  for (const char* unit : {"W/nm", "W nm-1", "watts per nm", "relative", "1"})
+    EXPECT_EQ(allowed(unit), "") << unit;
+}
+
+TEST_F(CurveUseTest, CoefficientsOfPowersOfTenAreOthers) {
+  const auto allowed = [](const char* unit) {
+    return unit_fault("t.csv", unit, CurveUnit::per_metre, "; a factor converts").value_or("");
+  };
+  for (const char* unit : {"1/m, base 10", "m^-1 (log10)", "1/m; decadic", "m⁻¹ (Decadic)"})
+    EXPECT_TRUE(allowed(unit).ends_with(
+        "allowed 1/m of powers of e: ln 10 times that of powers of 10; a factor converts)"))
+        << unit << allowed(unit);
+  for (const char* unit : {"1/m, base e", "m^-1 (natural, not decadic)", "m⁻¹", "per metre", "1/m"})
+    EXPECT_EQ(allowed(unit), "") << unit;
+}
+
+TEST_F(CurveUseTest, FactorsMayBeOtherQuantitiesButNoPartsOfThem) {
+  struct Case {
+    const char* unit;
+    CurveUnit needed;
+    bool fits;
+  };
+  for (const Case& told : {Case{"%", CurveUnit::share, false},
+                           {"optical density", CurveUnit::share, false},
+                           {"photons/(s m2 sr nm)", CurveUnit::share, true},
+                           {"1/cm", CurveUnit::per_metre, false},
+                           {"mm⁻¹; in air", CurveUnit::per_metre, false},
+                           {"1/m, base 10", CurveUnit::per_metre, false},
+                           {"1/m", CurveUnit::per_metre, true},
+                           {"m2", CurveUnit::per_metre, true},
+                           {"share of 1", CurveUnit::per_metre, true},
+                           {"mW/(m2 sr nm)", CurveUnit::spectral_radiance, false},
+                           {"W m-2 sr-1 um-1", CurveUnit::spectral_radiance, false},
+                           {"mW/nm", CurveUnit::spectral_flux, false},
+                           {"W/(m2 nm)", CurveUnit::spectral_radiance, true},
+                           {"photons/(s cm2 sr nm)", CurveUnit::spectral_radiance, true},
+                           {"mW/nm", CurveUnit::power, true}})
+    EXPECT_EQ(!factor_unit_fault("t.csv", told.unit, told.needed), told.fits) << told.unit;
+}
+
+TEST_F(CurveUseTest, RelativeSpectraAreNoQuantities) {
+  EXPECT_EQ(relative_power("D65", "relative spectrum", CurveUnit::spectral_radiance).value_or(""),
+            "\"D65\" is taken to be in W/(m^2 sr nm), though its unit is \"relative spectrum\": scale the "
+            "emission to a quantity");
+  for (const char* unit : {"W/(m2 sr nm), relative error 1 %", "1", "spectral radiance"})
+    EXPECT_FALSE(relative_power("t.csv", unit, CurveUnit::spectral_flux)) << unit;
+  EXPECT_FALSE(relative_power("t.csv", "relative", CurveUnit::power)) << "of any scale";
+}
+
+TEST_F(CurveUseTest, LampsByNameArePowers) {
+  Diagnostics diagnostics;
+  EXPECT_FALSE(load_illuminant(table("umol/(m^2 s nm)", 1) + ":b", {}, diagnostics));
+  EXPECT_NE(diagnostics.text().find("hc/lambda for each photon"), std::string::npos) << diagnostics.text();
+  Diagnostics sound;
+  EXPECT_TRUE(load_illuminant(table("mW/(m^2 nm)", 1) + ":b", {}, sound)) << "of any scale";
+}
+
+TEST_F(CurveUseTest, UnitsThatSpeakOfPhotonsLeaveAResponseUnsaid) {
+  for (const char* unit : {"e-/photon", "electrons/photon", "QE", "QE (0-1)", "quantum yield", "per Photon",
+                           "Quantum efficiency"})
+    EXPECT_NE(unsaid_response("t.csv", unit).value_or("").find("is taken as a response to energy"),
+              std::string::npos)
+        << unit;
+  for (const char* unit : {"relative", "photopic response", "A/W", "relative to an opaque plate", "e-/J"})
+    EXPECT_FALSE(unsaid_response("t.csv", unit)) << unit;
 }
 
 TEST_F(CurveUseTest, ATableIsHeldToTheUnitAndTheRangeOfItsUse) {

@@ -68,6 +68,28 @@ TEST(Library, illuminant_a_follows_its_definition_beyond_the_table) {
   EXPECT_NEAR(a->curve(300), 0.930483, 1e-9);
 }
 
+// D65 is tabulated so far in ISO/CIE 11664-2; the others are S0 + M1 S1 + M2 S2 with the CIE's rounded
+// factors, as 61.9 + 1.039 * 9.8 + 0.363 * 6.5 for D50.
+TEST(Library, daylight_illuminants_go_on_to_830_nm) {
+  Diagnostics diagnostics;
+  const auto d65 = load_illuminant("D65", {}, diagnostics);
+  ASSERT_TRUE(d65) << diagnostics.text();
+  const std::vector<double> published = {63.8434, 64.304,  61.8779, 59.4519, 55.7054,
+                                         51.959,  54.6998, 57.4406, 58.8765, 60.3125};
+  for (std::size_t i = 0; i < published.size(); ++i) {
+    const double nm = 785 + 5.0 * static_cast<double>(i);
+    EXPECT_NEAR(d65->curve(nm), published[i], 1e-9) << nm;
+  }
+  for (const auto& [name, at_830] :
+       {std::pair{"D50", 74.4417}, {"D55", 68.306}, {"D65", 60.3125}, {"D75", 55.539}}) {
+    const auto light = load_illuminant(name, {}, diagnostics);
+    ASSERT_TRUE(light) << diagnostics.text();
+    EXPECT_EQ(light->high_nm, 830) << name;
+    EXPECT_NEAR(light->curve(830), at_830, 5e-4) << name;
+    EXPECT_EQ(light->curve(830.1), 0) << name;
+  }
+}
+
 TEST(Library, black_bodies_and_daylight_by_temperature) {
   Diagnostics diagnostics;
   const auto black = load_illuminant("blackbody:3200", {}, diagnostics);

@@ -1,13 +1,17 @@
 #include "spectral/rgb.h"
 
 #include <cmath>
+#include <map>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
+#include "io/exr.h"
 #include "io/picture_codec.h"
 #include "spectral/colorimetry.h"
 #include "spectral/library.h"
+#include "spectral/matrix3.h"
 
 namespace abbe {
 namespace {
@@ -56,6 +60,47 @@ TEST(Rgb, AnImageSaysHowItsValuesAreEncoded) {
   }
   EXPECT_EQ(recorded_encoding({})->decoded(0.3), srgb_decoded(0.3));
   EXPECT_FALSE(rec709_fault({}));
+}
+
+// X, Y and Z of a primary by Bradford's transform from D65 to D50, to which profiles relate all colours.
+std::string chromaticity_in_profiles(const Chromaticity& xy) {
+  const Matrix3 cones(0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296);
+  const XYZ from = multiply(cones, unit_xyz(kD65));
+  const XYZ to = multiply(cones, XYZ{0.9642, 1, 0.8249});
+  const Matrix3 adapted =
+      cones.inverse() * diagonal({to[0] / from[0], to[1] / from[1], to[2] / from[2]}) * cones;
+  const Chromaticity seen = chromaticity(multiply(adapted, unit_xyz(xy)));
+  return std::to_string(seen[0]) + " " + std::to_string(seen[1]) + " ";
+}
+
+std::string text_in_profiles(const RgbSpace& space) {
+  std::string text;
+  for (const Chromaticity& xy : {space.red, space.green, space.blue, space.white})
+    text += chromaticity_in_profiles(xy);
+  return text.substr(0, text.size() - 1);
+}
+
+TEST(Rgb, ColoursOfAnotherProfileThanSrgbAreAFault) {
+  RgbSpace p3 = kRec709;
+  p3.red = {0.68, 0.32};
+  p3.green = {0.265, 0.69};
+  const auto fault = [](std::map<std::string, std::string> told) {
+    return rec709_fault({0, 0, {}, std::move(told)}).value_or("");
+  };
+  const std::string srgb_text = text_in_profiles(kRec709);
+  EXPECT_EQ(fault({{kProfileKey, "sRGB"}, {kPrimariesKey, srgb_text}}), "");
+  EXPECT_EQ(fault({{kProfileKey, "p"}, {kPrimariesKey, srgb_text}, {kColorSpace, "Gamma1.8"}}), "");
+  EXPECT_NE(fault({{kPrimariesKey, srgb_text}}), "") << "without a profile they are what they are";
+  const std::string allowed =
+      " (allowed the primaries of sRGB, with floats that are linear or codes that are linear, encoded as "
+      "sRGB or by a gamma)";
+  EXPECT_EQ(fault({{kProfileKey, "Display P3"}, {kPrimariesKey, text_in_profiles(p3)}}),
+            "its colours are those of the profile \"Display P3\"" + allowed);
+  EXPECT_EQ(fault({{kProfileKey, "Rec.709"}, {kPrimariesKey, srgb_text}, {kColorSpace, "other"}}),
+            "its colours are those of the profile \"Rec.709\"" + allowed);
+  EXPECT_EQ(fault({{kProfileKey, "grey"}, {kColorSpace, "Gamma2.2"}}), "") << "which has no primaries";
+  EXPECT_NE(fault({{kPrimariesKey, "nan nan 0.3 0.6 0.15 0.06 0.3127 0.329"}}), "");
+  EXPECT_NE(fault({{kPrimariesKey, "wide"}}), "");
 }
 
 TEST(Rgb, BasisIsSmoothAndAddsUpToOne) {

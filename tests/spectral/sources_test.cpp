@@ -38,12 +38,12 @@ TEST(Planck, does_not_overflow) {
 
 TEST(Daylight, agrees_with_the_tabulated_illuminants) {
   for (const auto& [name, kelvin] :
-       {std::pair{"D50", 5000.0}, std::pair{"D65", 6500.0}, std::pair{"D75", 7500.0}}) {
+       {std::pair{"D50", 5000.0}, {"D55", 5500.0}, {"D65", 6500.0}, {"D75", 7500.0}}) {
     Diagnostics diagnostics;
     const auto table = load_illuminant(name, {}, diagnostics);
     ASSERT_TRUE(table) << diagnostics.text();
     const Curve curve = daylight(kelvin * 1.4388 / 1.4380);
-    for (int nm = 300; nm <= 780; nm += 5)
+    for (int nm = 300; nm <= 830; nm += 5)
       EXPECT_NEAR(curve(nm), table->curve(nm), 0.006) << name << " at " << nm;
   }
 }

@@ -48,6 +48,23 @@ TEST(Compare, EqualImagesHaveNoColourDifferenceAndBrightnessMatters) {
   EXPECT_DOUBLE_EQ(c.color->mean, c.color->max / 2);
 }
 
+TEST(ColorDifference, AFilmWhoseChannelsAreNamedXYZGoesByItsMatrixUnlessTheyArePhotometric) {
+  Image film = image({{"X", {1}}, {"Y", {2}}, {"Z", {4}}});
+  film.metadata["sensor_channels"] = "X,Y,Z";
+  const auto expect_xyz = [&film](const XYZ& expected) {
+    const std::vector<XYZ> seen = tristimuli(film);
+    ASSERT_EQ(seen.size(), 1U);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(seen[0][i], expected[i], 1e-6) << i;
+  };
+  expect_xyz({1, 2, 4});
+  film.metadata["channel.X"] = "quantum, electrons per m^2";
+  EXPECT_TRUE(tristimuli(film).empty());
+  film.metadata["to_xyz_d65"] = "0.95 0 0 0 0.5 0.5 0 0 1.09";
+  expect_xyz({0.95, 3, 4.36});
+  film.metadata["channel.X"] = "photometric, lx s";
+  expect_xyz({1, 2, 4});
+}
+
 TEST(Compare, GreyOfLinearSrgbDiffersInLightnessAlone) {
   // Against a white of 1: L* of Y = 0.25 and 0.5, and CIEDE2000 of that step on the neutral axis.
   const std::vector<float> reference{1, 0.25F};

@@ -355,10 +355,10 @@ Image image_of(const RenderPart& part) {
   const RenderResult& result = part.result;
   Image image = developed(result.film, film_planes(part.identity), part);
   image.metadata["renderer"] = "Abbe";
-  if (result.samples.empty()) return image;
-  if (!image.metadata.contains(kAreasKey))
+  if (!result.samples.empty() && !image.metadata.contains(kAreasKey))
     image.metadata["samples_per_pixel"] = fmt::format("{}", result.stats.samples_per_pixel);
-  image.metadata[kFrameMeanErrorKey] = fmt::format("{}", frame_mean_error(result.film));
+  if (const auto error = frame_mean_error(part))
+    image.metadata[kFrameMeanErrorKey] = fmt::format("{}", *error);
   return image;
 }
 

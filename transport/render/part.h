@@ -84,8 +84,8 @@ void merge(RenderPart& sum, const RenderPart& part, const std::filesystem::path&
                                    std::string_view of_all = "");
 
 /// The film with its variance, and its identity, sample count and error as metadata; without the latter two
-/// where pixels have different samples. There, and where some have none, it tells by `kAreasKey` which have
-/// which, and no count.
+/// where pixels have different samples, but for an error that is infinite since those of some tell no
+/// variance. There, and where some have none, it tells by `kAreasKey` which have which, and no count.
 [[nodiscard]] Image image_of(const RenderPart& part);
 /// The layers of its film, each as `image_of` has the film; none where it is not told apart.
 struct LayerImage {

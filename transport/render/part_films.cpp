@@ -1,9 +1,12 @@
 #include "transport/render/part_films.h"
 
 #include <algorithm>
+#include <limits>
 #include <utility>
 
 #include "io/text.h"
+#include "sensor/film/relative_error.h"
+#include "sensor/response/stokes_channels.h"
 #include "transport/render/layers.h"
 
 namespace abbe {
@@ -43,6 +46,15 @@ bool has_gaps(const RenderPart& part) {
   std::size_t held = 0;
   for (const SampledArea& area : part.areas) held += pixel_count(area.pixels);
   return !part.areas.empty() && held < pixel_count(part.result.film.crop());
+}
+
+// Whether some pixels have samples in fewer than two replicates.
+bool lacks_variance(const RenderPart& part) {
+  const int replicates = part.result.film.replicates();
+  return std::any_of(part.areas.begin(), part.areas.end(), [replicates](const SampledArea& area) {
+    const std::vector<std::uint64_t> counts = count_per_replicate(area.samples, replicates);
+    return counts.size() - static_cast<std::size_t>(std::count(counts.begin(), counts.end(), 0U)) < 2;
+  });
 }
 
 }  // namespace
@@ -135,6 +147,12 @@ void set_samples(RenderResult& films, const SampleRanges& samples) {
   const std::vector<std::uint64_t> counts = count_per_replicate(samples, films.film.replicates());
   films.film.set_samples(counts);
   if (films.layers) films.layers->set_samples(counts);
+}
+
+std::optional<double> frame_mean_error(const RenderPart& part) {
+  if (lacks_variance(part)) return std::numeric_limits<double>::infinity();
+  if (part.result.samples.empty()) return std::nullopt;
+  return frame_mean_error(part.result.film, intensities(film_planes(part.identity)).size());
 }
 
 Image developed(const Film& film, std::span<const std::string> names, const RenderPart& part) {

@@ -40,6 +40,11 @@ void set_samples(RenderResult& films, const SampleRanges& samples);
 /// The names of the film's own planes.
 [[nodiscard]] std::vector<std::string> film_planes(const FilmIdentity& identity);
 
+/// Relative error of the mean over the whole film, as `frame_mean_error` of its planes that count light has
+/// it. Infinite where the samples of some pixels are in fewer than two replicates, so that nothing is known
+/// of their variance; nothing where pixels have different samples else.
+[[nodiscard]] std::optional<double> frame_mean_error(const RenderPart& part);
+
 /// A film of the part's, each pixel by the samples it has, and the part's identity; where some have
 /// none, or other samples than others, by `kAreasKey` which have which.
 [[nodiscard]] Image developed(const Film& film, std::span<const std::string> names, const RenderPart& part);

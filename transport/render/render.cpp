@@ -259,11 +259,12 @@ class Rendering {
 
   // Without a pilot, which a stop ends, only the error of the whole film is known.
   RelativeError error_now() {
+    const std::size_t counting = count_intensities(plan_.scene.channels);
     if (!lit_)
       if (const auto pilot = pilot_film(plan_, threads_, options_.crop, [this] { return stop_asked(); }))
-        lit_ = lit_values(*pilot, count_intensities(plan_.scene.channels));
+        lit_ = lit_values(*pilot, counting);
     RelativeError error =
-        relative_error(result_.film, lit_ ? std::span(*lit_) : std::span<const std::size_t>());
+        relative_error(result_.film, lit_ ? std::span(*lit_) : std::span<const std::size_t>(), counting);
     if (options_.target_planes > 0) error.worst_mean = worst_mean_error(result_.film, options_.target_planes);
     return error;
   }

@@ -76,11 +76,9 @@ std::vector<Figure> printed_whites() {
   return white_points("pub", {}, shipped_illuminant);
 }
 
-// What ASTM E308's tables take for A, which is its definition, and for D65: the table, and its components
-// where that ends.
+// What ASTM E308's tables take: of A its definition, of daylight the table.
 Curve astm_illuminant(const std::string& name) {
-  if (name == "A") return by_definition(name);
-  return sum(shipped_illuminant(name), product(by_definition(name), band(780.5, kMaxWavelengthNm, 1)));
+  return name == "A" ? by_definition(name) : shipped_illuminant(name);
 }
 
 // The weights that ASTM E308 prints.

@@ -8,27 +8,42 @@
 #include "spectral/rgb.h"
 
 namespace abbe {
+namespace {
 
-FilmColors film_colors(const Image& image) {
+// Of a film of a sensor's own channels of these names: by the matrix that it tells, in the sensor's order.
+FilmColors colors_by_matrix(const Image& image, const std::vector<std::string>& wanted) {
   const auto white = recorded_white(image);
-  const std::vector<std::string> observer{"X", "Y", "Z"};
-  if (std::all_of(observer.begin(), observer.end(),
-                  [&](const std::string& name) { return image.find(name) != nullptr; }))
-    return {observer, Matrix3(), false, white};
-  const std::vector<std::string> rgb{"R", "G", "B"};
-  if (!image.metadata.contains("channel.R")) {
-    const auto space = recorded_primaries(image);
-    return {rgb, rgb_to_xyz(space.value_or(kRec709)), false,
-            white || !space ? white : std::optional(space->white)};
-  }
   const auto matrix = image.metadata.find("to_xyz_d65");
   const bool mosaic = image.metadata.contains("mosaic");
   const auto names = image.metadata.find(mosaic ? "mosaic_channels" : "sensor_channels");
-  if (matrix == image.metadata.end() || names == image.metadata.end()) return {rgb, {}, false, white};
+  if (matrix == image.metadata.end() || names == image.metadata.end()) return {wanted, {}, false, white};
   const std::vector<std::string> channels = intensities(split(names->second, ','));
-  if (!std::is_permutation(channels.begin(), channels.end(), rgb.begin(), rgb.end()))
-    return {rgb, {}, false, white};
+  if (!std::is_permutation(channels.begin(), channels.end(), wanted.begin(), wanted.end()))
+    return {wanted, {}, false, white};
   return {channels, parse_matrix3(matrix->second), true, white};
+}
+
+// Whether X, Y, Z may be tristimulus values: those that are not, their film tells to be of another unit.
+bool tells_tristimulus_values(const Image& image) {
+  const auto told = image.metadata.find("channel.X");
+  return told == image.metadata.end() || told->second.starts_with("photometric");
+}
+
+}  // namespace
+
+FilmColors film_colors(const Image& image) {
+  const std::vector<std::string> observer{"X", "Y", "Z"};
+  const std::vector<std::string> rgb{"R", "G", "B"};
+  const auto white = recorded_white(image);
+  if (std::all_of(observer.begin(), observer.end(),
+                  [&](const std::string& name) { return image.find(name) != nullptr; })) {
+    if (!tells_tristimulus_values(image)) return colors_by_matrix(image, observer);
+    return {observer, Matrix3(), false, white};
+  }
+  if (image.metadata.contains("channel.R")) return colors_by_matrix(image, rgb);
+  const auto space = recorded_primaries(image);
+  return {rgb, rgb_to_xyz(space.value_or(kRec709)), false,
+          white || !space ? white : std::optional(space->white)};
 }
 
 }  // namespace abbe

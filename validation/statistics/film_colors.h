@@ -18,10 +18,11 @@ struct FilmColors {
   std::optional<Chromaticity> white;  ///< What the film tells to be white.
 };
 
-/// X, Y, Z are the observer. R, G, B of a sensor, which its film tells by `channel.R`, go by the film's own
-/// matrix `to_xyz_d65`, in the order of `sensor_channels`, or of `mosaic_channels` under a mosaic; without
-/// one that can be read, nothing is known of their colours. R, G, B of any other image are linear, of the
-/// primaries it tells (`recorded_primaries`) or of Rec.709.
+/// X, Y, Z are the observer's, unless `channel.X` tells that they count anything but photometric values.
+/// Those, and R, G, B of a sensor, which its film tells by `channel.R`, go by the film's own matrix
+/// `to_xyz_d65`, in the order of `sensor_channels`, or of `mosaic_channels` under a mosaic; without one that
+/// can be read, nothing is known of their colours. R, G, B of any other image are linear, of the primaries it
+/// tells (`recorded_primaries`) or of Rec.709.
 [[nodiscard]] FilmColors film_colors(const Image& image);
 
 }  // namespace abbe

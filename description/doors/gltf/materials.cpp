@@ -70,6 +70,9 @@ spec::Reflectance base_colour(const JsonValue* material, const SourcePosition& w
     if (auto file = image(*texture, document)) {
       if (factor != LinearRgb{1, 1, 1})
         document.door.note(texture->where, "the factor of an image has no counterpart here: dropped");
+      const auto path = document.door.folder / file->image.value;
+      if (const auto mean = colour_for_refused(path, texture->where, document.door))
+        return curve_of(*mean, texture->where, document.door);
       return spec::Texture{*std::move(file), spec::Rgb{{{true}, texture->where}}};
     }
   }
@@ -79,7 +82,7 @@ spec::Reflectance base_colour(const JsonValue* material, const SourcePosition& w
 // An index of so much at the d line, with the Abbe number 20/dispersion, by the formula of
 // KHR_materials_dispersion, and the absorption [1/m] of colours.
 spec::Ior index_of_volume(double n, double dispersion, const std::optional<LinearRgb>& absorption_per_m,
-                          const SourcePosition& where) {
+                          const SourcePosition& where, Door& door) {
   Samples index;
   Samples k;
   constexpr double kStep = 10;
@@ -87,12 +90,12 @@ spec::Ior index_of_volume(double n, double dispersion, const std::optional<Linea
     index.nm.push_back(nm);
     index.values.push_back(std::max(n + (n - 1) * dispersion / 20 * (523655 / (nm * nm) - 1.5168), 1.0));
   }
-  if (!absorption_per_m) return index_of(index, 0.0, where);
+  if (!absorption_per_m) return index_of(index, 0.0, where, door);
   // A mixture of what absorbs as the colour's parts do; k = alpha lambda/(4 pi).
   const Curve alpha = rgb_spectrum(*absorption_per_m);
   k.nm = index.nm;
   for (const double nm : k.nm) k.values.push_back(alpha(nm) * nm * 1e-9 / (4 * std::numbers::pi));
-  return index_of(index, k, where);
+  return index_of(index, k, where, door);
 }
 
 // What a length of matter takes away, if it has a colour.
@@ -130,7 +133,7 @@ void set_glass(const JsonValue* material, const SourcePosition& where, spec::Mat
   const auto absorption = absorption_per_m(material, document);
   spec::Dielectric glass;
   if (dispersion > 0) {
-    glass.ior.ior = index_of_volume(n, dispersion, absorption, where);
+    glass.ior.ior = index_of_volume(n, dispersion, absorption, where, door);
   } else {
     glass.ior.ior = index;
     if (absorption) glass.ior.absorption_per_m = curve_of(*absorption, where, door);

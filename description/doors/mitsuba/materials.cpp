@@ -69,7 +69,8 @@ spec::Ior metal_index(const Object& bsdf, const World& world) {
   spec::Ior ior;
   ior.where = bsdf.where();
   if (bsdf.has("eta") || bsdf.has("k"))
-    return index_of(spectrum(bsdf, "eta", 0.0, world), spectrum(bsdf, "k", 1.0, world), bsdf.where());
+    return index_of(spectrum(bsdf, "eta", 0.0, world), spectrum(bsdf, "k", 1.0, world), bsdf.where(),
+                    world.door);
   const std::string name = bsdf.text("material", "none");
   ior.value = spec::MetalIor{{0, 0}};  // which reflects everything
   if (name == "none") return ior;

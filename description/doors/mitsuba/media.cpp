@@ -1,5 +1,7 @@
 #include "description/doors/mitsuba/media.h"
 
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include <fmt/format.h>
@@ -39,15 +41,29 @@ spec::Curve product_of(const Spectrum& share, const Spectrum& extinction, const 
   return curve;
 }
 
+// What samples leave of 1: where these are 0 beyond their ends, all of it, from the next number on.
+Samples rest_of(const Samples& share) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  Samples rest = share;
+  for (double& value : rest.values) value = 1 - value;
+  rest.outside = Outside::clamp;
+  if (share.outside != Outside::zero) return rest;
+  if (share.nm.front() > kMinWavelengthNm) {
+    rest.nm.insert(rest.nm.begin(), std::nextafter(share.nm.front(), -kFar));
+    rest.values.insert(rest.values.begin(), 1);
+  }
+  if (share.nm.back() < kMaxWavelengthNm) {
+    rest.nm.push_back(std::nextafter(share.nm.back(), kFar));
+    rest.values.push_back(1);
+  }
+  return rest;
+}
+
 // What of a share is left of 1.
 Spectrum rest_of(const Spectrum& share) {
   if (const auto* rgb = std::get_if<LinearRgb>(&share))
     return LinearRgb{1 - (*rgb)[0], 1 - (*rgb)[1], 1 - (*rgb)[2]};
-  if (const auto* samples = std::get_if<Samples>(&share)) {
-    Samples rest = *samples;
-    for (double& value : rest.values) value = 1 - value;
-    return rest;
-  }
+  if (const auto* samples = std::get_if<Samples>(&share)) return rest_of(*samples);
   return 1 - number_of(share).value_or(0);
 }
 

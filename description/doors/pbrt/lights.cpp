@@ -112,14 +112,21 @@ void add_infinite(const Made& light, World& world) {
 
 }  // namespace
 
-spec::Emission area_emission(const Made& light, World& world) {
+spec::Emission area_emission(const Made& light, const std::vector<double>& faces, World& world) {
   if (light.type != "diffuse")
     world.door.diagnostics.error(light.where,
                                  unknown_name("area light", light.type, std::vector<std::string>{"diffuse"}));
   LampSpectrum sent = lamp(light, "L", world);
   const double power = light.parameters.number("power", 0, world.door);
   if (!(power > 0) || !sent.photometric) return emission_of<spec::LampEmission, Quantity::luminance>(sent);
-  *sent.photometric *= power;
+  *sent.photometric *= power * static_cast<double>(faces.size());
+  constexpr double kAlike = 1e-5;
+  const auto [least, most] = std::ranges::minmax(faces);
+  if (most - least > kAlike * most)
+    world.door.note(
+        light.where,
+        "faces of different areas with a \"power\" each are not equally bright there: their power "
+        "is spread evenly here");
   return emission_of<spec::LampEmission, Quantity::luminous_flux>(sent);
 }
 

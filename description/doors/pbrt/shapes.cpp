@@ -13,6 +13,7 @@
 
 #include "description/doors/pbrt/lights.h"
 #include "description/meshes/mesh_file.h"
+#include "scene/shapes/mesh.h"
 
 namespace abbe::doors::pbrt {
 namespace {
@@ -207,6 +208,50 @@ std::optional<Surface> surface_of(const Made& made, World& world) {
   return std::nullopt;
 }
 
+// The triangles of a surface where it stands; none of one that is analytic here. What is wrong with a file
+// has been told.
+Mesh placed_triangles(const GivenShape& shape, World& world) {
+  Mesh mesh;
+  if (const auto* said = std::get_if<spec::InlineMesh>(&shape.surface)) {
+    for (const auto& [x, y, z] : said->vertices) mesh.vertices.emplace_back(x, y, z);
+    mesh.triangles = said->triangles;
+  }
+  if (const auto* said = std::get_if<MeshFileSurface>(&shape.surface)) {
+    Diagnostics told;
+    auto file = load_mesh_file(said->file, FileMaterials::ignored, shape.where, told,
+                               FileCoordinates::ignored, world.door.inputs);
+    if (file && !file->submeshes.empty()) mesh = std::move(file->submeshes.front().mesh);
+  }
+  for (Imath::V3d& vertex : mesh.vertices) vertex *= shape.to_world;
+  return mesh;
+}
+
+// The areas of the faces that are a light each there: of meshes each triangle, or each patch, which is two
+// triangles here. All else is one face, even where triangles stand for it here.
+std::vector<double> emitting_faces(const GivenShape& shape, const std::string& type, World& world) {
+  const bool patches = type == "bilinearmesh";
+  if (!patches && type != "trianglemesh" && type != "plymesh") return {1};
+  const Mesh mesh = placed_triangles(shape, world);
+  std::vector<double> areas;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    if (patches && i % 2 == 1)
+      areas.back() += area_vector(mesh, i).length();
+    else
+      areas.push_back(area_vector(mesh, i).length());
+  std::erase(areas, 0);
+  return areas.empty() ? std::vector<double>{1} : areas;
+}
+
+spec::Emission emission_of_faces(const Made& light, const GivenShape& shape, const std::string& type,
+                                 World& world) {
+  if (!light.parameters.has("power")) return area_emission(light, {1}, world);
+  if (type == "plymesh")
+    world.door.note(shape.where,
+                    "\"power\" is that of each face of a \"plymesh\": one of four corners, a single light "
+                    "there, counts as two here");
+  return area_emission(light, emitting_faces(shape, type, world), world);
+}
+
 }  // namespace
 
 void add_shape(const ShapeUse& use, Among among, std::vector<spec::Shape>& shapes, World& world) {
@@ -222,7 +267,7 @@ void add_shape(const ShapeUse& use, Among among, std::vector<spec::Shape>& shape
   if (use.emission && among == Among::object) {
     world.door.note(use.made.where, "what instances place does not emit here: its light is dropped");
   } else if (use.emission) {
-    shape.emission = area_emission(*use.emission, world);
+    shape.emission = emission_of_faces(*use.emission, shape, use.made.type, world);
     shape.two_sided = use.emission->parameters.truth("twosided", false, world.door);
     use.emission->parameters.note_unused("area light", world.door);
   }

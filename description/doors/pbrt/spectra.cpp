@@ -221,7 +221,7 @@ spec::Ior metal_index(const Parameters& parameters, std::string_view eta, std::s
   const auto said_or = [&](const Parameter* said, const char* copper) {
     return (said ? spectrum_of(*said, world) : file_or_name(copper, ior.where, world)).value_or(1.0);
   };
-  return index_of(said_or(n, kCopperEta), said_or(extinction, kCopperK), ior.where);
+  return index_of(said_or(n, kCopperEta), said_or(extinction, kCopperK), ior.where, world.door);
 }
 
 spec::Ior glass_index(const Parameters& parameters, std::string_view eta, World& world) {
@@ -237,8 +237,8 @@ spec::Ior glass_index(const Parameters& parameters, std::string_view eta, World&
     }
   }
   const Spectrum value = spectrum(parameters, eta, 1.5, world);
-  if (std::holds_alternative<Samples>(value)) return index_of(value, 0.0, n->where);
-  ior.value = number_of(value).value_or(1.5);
+  ior = index_of(value, 0.0, n->where, world.door);
+  if (const auto* constant = std::get_if<spec::MetalIor>(&ior.value)) ior.value = double{constant->n};
   return ior;
 }
 

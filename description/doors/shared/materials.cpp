@@ -40,9 +40,9 @@ spec::Ior index_for(const Spectrum& reflectance, const SourcePosition& where, Do
   const auto* rgb = std::get_if<LinearRgb>(&reflectance);
   const auto* samples = std::get_if<Samples>(&reflectance);
   if (rgb != nullptr || samples != nullptr) {
-    return index_of(1.0, mapped(rgb ? samples_of(*rgb) : *samples, k_of), where);
+    return index_of(1.0, mapped(rgb ? samples_of(*rgb) : *samples, k_of), where, door);
   }
-  return index_of(1.0, k_of(number_of(reflectance).value_or(0.5)), where);
+  return index_of(1.0, k_of(number_of(reflectance).value_or(0.5)), where, door);
 }
 
 namespace {

@@ -60,6 +60,46 @@ spec::Spectrum spectrum(spec::Curve curve) {
   return said;
 }
 
+// n or k as a number or as samples, which are those of `curve_of` where a colour says it: these are above 0,
+// as n is in tables.
+Spectrum part_of_index(const Spectrum& given, const SourcePosition& where, Door& door) {
+  constexpr double kLeast = 1e-6;
+  if (const auto* rgb = std::get_if<LinearRgb>(&given)) {
+    if (is_grey(*rgb)) return (*rgb)[0];
+    if (*std::ranges::min_element(*rgb) < 0)
+      door.refuse(where, fmt::format("n and k are not negative (got {})", fmt::join(*rgb, ", ")));
+    note_colour(where, door);
+    Samples samples = samples_of(*rgb);
+    for (double& value : samples.values) value = std::max(value, kLeast);
+    return samples;
+  }
+  if (std::holds_alternative<Temperature>(given) || std::holds_alternative<Shipped>(given))
+    door.refuse(where, "n and k are numbers, colours or samples (got the spectrum of a lamp)");
+  return given;
+}
+
+// Numbers or samples of n and k at all wavelengths that either has.
+spec::TableIor index_table(const Spectrum& n, const Spectrum& k) {
+  spec::TableIor table;
+  std::vector<double>& all = table.wavelength_nm;
+  for (const Spectrum* part : {&n, &k})
+    if (const auto* samples = std::get_if<Samples>(part))
+      all.insert(all.end(), samples->nm.begin(), samples->nm.end());
+  std::ranges::sort(all);
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  const auto at_all = [&all](const Spectrum& of) {
+    const auto* samples = std::get_if<Samples>(&of);
+    const Curve curve = samples ? table_curve(samples->nm, samples->values, Outside::clamp)
+                                : Curve(number_of(of).value_or(0));
+    std::vector<double> values;
+    for (const double nm : all) values.push_back(curve(nm));
+    return values;
+  };
+  table.n = at_all(n);
+  table.k = at_all(k);
+  return table;
+}
+
 LampSpectrum coloured_lamp(const LinearRgb& rgb, double y, const SourcePosition& where, Door& door) {
   LampSpectrum lamp;
   lamp.photometric = kLuminousEfficacy * y * luminance_of(rgb);
@@ -189,33 +229,18 @@ std::optional<double> number_of(const Spectrum& spectrum) {
   return std::nullopt;
 }
 
-spec::Ior index_of(const Spectrum& n, const Spectrum& k, const SourcePosition& where) {
+spec::Ior index_of(const Spectrum& said_n, const Spectrum& said_k, const SourcePosition& where, Door& door) {
+  const Spectrum n = part_of_index(said_n, where, door);
+  const Spectrum k = part_of_index(said_k, where, door);
   spec::Ior ior;
   ior.where = where;
   const auto* n_samples = std::get_if<Samples>(&n);
   const auto* k_samples = std::get_if<Samples>(&k);
-  if (n_samples == nullptr && k_samples == nullptr) {
+  const bool reflects_all = n_samples == nullptr && number_of(n) == 0;  // whatever k is
+  if (reflects_all || (n_samples == nullptr && k_samples == nullptr))
     ior.value = spec::MetalIor{{number_of(n).value_or(1), number_of(k).value_or(0)}};
-    return ior;
-  }
-  spec::TableIor table;
-  for (const Samples* samples : {n_samples, k_samples})
-    if (samples != nullptr)
-      table.wavelength_nm.insert(table.wavelength_nm.end(), samples->nm.begin(), samples->nm.end());
-  std::ranges::sort(table.wavelength_nm);
-  table.wavelength_nm.erase(std::unique(table.wavelength_nm.begin(), table.wavelength_nm.end()),
-                            table.wavelength_nm.end());
-  const auto at_all = [&table](const Spectrum& of) {
-    const auto* samples = std::get_if<Samples>(&of);
-    const Curve curve = samples ? table_curve(samples->nm, samples->values, Outside::clamp)
-                                : Curve(number_of(of).value_or(0));
-    std::vector<double> values;
-    for (const double nm : table.wavelength_nm) values.push_back(curve(nm));
-    return values;
-  };
-  table.n = at_all(n);
-  table.k = at_all(k);
-  ior.value = std::move(table);
+  else
+    ior.value = index_table(n, k);
   return ior;
 }
 

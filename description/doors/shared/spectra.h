@@ -57,8 +57,10 @@ using TextureValue = std::variant<Spectrum, spec::Texture>;
 /// The number that stands for a spectrum where only one can: of samples the value at 589.3 nm, of a colour
 /// the mean; nothing for a temperature or a table.
 [[nodiscard]] std::optional<double> number_of(const Spectrum& spectrum);
-/// Samples of n and k as one index, a metal's or a glass's.
-[[nodiscard]] spec::Ior index_of(const Spectrum& n, const Spectrum& k, const SourcePosition& where);
+/// Numbers, colours or samples of n and k as one index, a metal's or a glass's: colours by their smooth
+/// spectra, as by `curve_of`. Reports the spectrum of a lamp and parts of colours below 0.
+[[nodiscard]] spec::Ior index_of(const Spectrum& said_n, const Spectrum& said_k, const SourcePosition& where,
+                                 Door& door);
 
 /// The spectrum of a lamp and, unless the spectrum has a unit of its own, its luminance [cd/m2], luminous
 /// intensity [cd] or illuminance [lx].

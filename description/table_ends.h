@@ -1,0 +1,23 @@
+#pragma once
+
+#include <span>
+
+#include "description/load_context.h"
+#include "spectral/curve_use.h"
+
+namespace abbe::description {
+
+/// A table that is used so, with what is taken to lie beyond its rows; noted where it ends.
+[[nodiscard]] NamedCurve with_ends(NamedCurve table, const CurveUse& use, const SourcePosition& where,
+                                   TableEnds& ends);
+
+/// A context in which lights and filters go on as their tables end. What it has to complain of, which has
+/// been told before, goes to `unheard`, and it remembers no files.
+[[nodiscard]] LoadContext going_on(const LoadContext& context, Diagnostics& unheard);
+
+/// Reports each of these tables by whose ends a share of what its channels count is lost that is not
+/// negligible. The weights of `channels` are what they count where lights and filters go on.
+void check_ends(std::span<const EndedTable> tables, std::span<const Channel> channels,
+                Diagnostics& diagnostics);
+
+}  // namespace abbe::description

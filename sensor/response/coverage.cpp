@@ -1,0 +1,67 @@
+#include "sensor/response/coverage.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+namespace abbe {
+namespace {
+
+/// The share of what a channel counts that lies beyond the rows of a table.
+struct LostShare {
+  double share = 0;
+  std::string channel;
+};
+
+LostShare most_lost(const NamedCurve& table, std::span<const Channel> held) {
+  LostShare most;
+  for (const Channel& channel : held)
+    if (const double share = share_beyond(channel.weight, table.low_nm, table.high_nm); share > most.share)
+      most = {share, channel.name};
+  return most;
+}
+
+}  // namespace
+
+NeededRange needed_by(std::span<const Channel> channels) {
+  NeededRange needed;
+  for (const Channel& channel : channels) {
+    const NeededRange own = main_range(channel.weight);
+    needed = {std::min(needed.low_nm, own.low_nm), std::max(needed.high_nm, own.high_nm)};
+  }
+  return needed;
+}
+
+std::vector<Channel> exposed_to(const Curve& spectrum, std::span<const Channel> channels) {
+  std::vector<Channel> exposed;
+  for (const Channel& channel : channels) exposed.push_back(behind(channel, FilterStack{spectrum}));
+  return exposed;
+}
+
+bool check_ends(const NamedCurve& table, std::span<const Channel> held, const SourcePosition& where,
+                Diagnostics& diagnostics) {
+  if (table.outside == Outside::clamp) return true;
+  const auto [share, channel] = most_lost(table, held);
+  if (!(share > kNegligibleShare)) return true;
+  if (table.outside == Outside::zero) {
+    diagnostics.warning(
+        where, fmt::format("\"{}\" is 0 beyond its table, {:g} to {:g} nm: {:.3g} % of what channel \"{}\" "
+                           "would count, if it went on as it ends, lies there",
+                           table.name, table.low_nm, table.high_nm, 100 * share, channel));
+    return true;
+  }
+  diagnostics.error(where,
+                    fmt::format("\"{}\" covers {:g} to {:g} nm only, where {:.3g} % of what channel \"{}\" "
+                                "counts is not (a line \"# outside: clamp\" or \"# outside: zero\" says what "
+                                "holds there)",
+                                table.name, table.low_nm, table.high_nm, 100 * share, channel),
+                    ErrorCode::input);
+  return false;
+}
+
+bool check_ends_of_light(const NamedCurve& light, std::span<const Channel> channels,
+                         const SourcePosition& where, Diagnostics& diagnostics) {
+  return check_ends(light, exposed_to(held_beyond(light), channels), where, diagnostics);
+}
+
+}  // namespace abbe

@@ -1,0 +1,179 @@
+// Whether a table tells all that a sensor counts.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include "description.h"
+
+namespace abbe {
+namespace {
+
+using test::lit;
+using test::Loaded;
+using test::painted;
+
+/// Scenes that name a level table, `t.csv:a`.
+class TableEndsTest : public test::DescriptionTest {
+ protected:
+  // What is complained of; the table says nothing of what lies beyond, or `outside`.
+  std::string complaint(const std::string& fragment, const std::string& outside = "", int low_nm = 380,
+                        int high_nm = 780) {
+    write_table(outside, low_nm, high_nm);
+    const Loaded loaded = load(fragment);
+    EXPECT_EQ(loaded.scene.has_value(), !loaded.diagnostics.has_errors());
+    return loaded.text();
+  }
+  void write_table(const std::string& outside, int low_nm, int high_nm) {
+    const std::string line = outside.empty() ? "" : "# outside: " + outside + "\n";
+    test::write(folder_ / "t.csv",
+                fmt::format("# unit: 1\n{}wavelength_nm,a\n{},0.5\n{},0.5\n", line, low_nm, high_nm));
+  }
+};
+
+// A lamp that a sensor of even response on [300, 1100] nm sees, so that there is no word of others.
+std::string with_lamp(const std::string& sensor) {
+  return fmt::format(
+      R"({{"lights": [{{"environment": {{}}, "emission": {{"spectrum": 1}}}}], "sensor": {{"resolution": [1, 1], {}}}}})",
+      sensor);
+}
+// Of photons of even power at each wavelength, on [300, 1100] nm, those within.
+constexpr double share_of_photons(double low_nm, double high_nm) {
+  return (high_nm * high_nm - low_nm * low_nm) / (1100.0 * 1100.0 - 300.0 * 300.0);
+}
+std::string percent_beyond(double low_nm, double high_nm) {
+  return fmt::format("{:.3g} %", 100 * (1 - share_of_photons(low_nm, high_nm)));
+}
+
+TEST_F(TableEndsTest, AFilterTellsAllThatTheDetectorBehindItSees) {
+  const std::string beyond = percent_beyond(380, 780);
+  EXPECT_EQ(beyond, "58.6 %");
+  for (const char* filtered :
+       {R"("quantum_efficiency": 0.5, "channels": {"mono": {"filters": ["t.csv:a"]}})",
+        R"("quantum_efficiency": 0.5, "channels": {"mono": "t.csv:a"})",
+        R"("quantum_efficiency": 0.5, "channels": {"mono": 1}, "lens_transmission": "t.csv:a")",
+        R"("quantum_efficiency": 0.5, "channels": {"mono": 1}, "filters": [0.9, "t.csv:a"])"}) {
+    const std::string scene = with_lamp(filtered);
+    EXPECT_NE(complaint(scene).find("error: \"t.csv:a\" covers 380 to 780 nm only, where " + beyond +
+                                    " of what channel \"mono\" counts is not"),
+              std::string::npos)
+        << complaint(scene);
+    EXPECT_NE(
+        complaint(scene, "zero").find("warning: \"t.csv:a\" is 0 beyond its table, 380 to 780 nm: " + beyond),
+        std::string::npos)
+        << complaint(scene, "zero");
+    EXPECT_EQ(complaint(scene, "clamp"), "");
+  }
+}
+
+// Each table is asked for what the others let count, and each channel for its own.
+TEST_F(TableEndsTest, WhatOthersKeepAwayNeedNotBeTold) {
+  for (const char* filters :
+       {R"("t.csv:a", {"band": [400, 700]})", R"({"product": ["t.csv:a", {"band": [400, 700]}]})"})
+    for (const char* outside : {"", "zero"}) {
+      const std::string scene = with_lamp(
+          fmt::format(R"("quantum_efficiency": 0.5, "channels": {{"mono": {{"filters": [{}]}}}})", filters));
+      EXPECT_EQ(complaint(scene, outside), "") << filters;
+    }
+  const std::string two = with_lamp(
+      R"("quantum_efficiency": 0.5, "channels": {"a": {"filters": ["t.csv:a", {"band": [400, 700]}]}, "b": {"band": [800, 900]}})");
+  EXPECT_EQ(complaint(two, "zero"), "");
+}
+
+TEST_F(TableEndsTest, AResponseTellsAllOrSaysThatItEnds) {
+  const std::string beyond = percent_beyond(350, 1000);
+  EXPECT_EQ(beyond, "21.7 %");
+  const std::string sensor = with_lamp(R"("quantum_efficiency": "t.csv:a", "channels": {"mono": 1})");
+  EXPECT_NE(complaint(sensor, "", 350, 1000).find("covers 350 to 1000 nm only, where " + beyond),
+            std::string::npos)
+      << complaint(sensor, "", 350, 1000);
+  EXPECT_EQ(complaint(sensor, "zero", 350, 1000), "") << "it is what it says";
+  EXPECT_EQ(complaint(with_lamp(R"("channels": {"mono": "t.csv:a"})"), "zero", 350, 1000), "");
+  const std::string camera = with_lamp(R"("camera": "t.csv")");
+  EXPECT_NE(complaint(camera, "", 350, 1050).find("covers 350 to 1050 nm only, where 12.5 %"),
+            std::string::npos)
+      << complaint(camera, "", 350, 1050);
+  EXPECT_EQ(complaint(camera, "zero", 350, 1050), "");
+}
+
+TEST_F(TableEndsTest, ALampTellsAllThatTheSensorSees) {
+  const std::string seen = lit(R"({"illuminant": "t.csv:a", "luminous_intensity": 1})");
+  EXPECT_NE(complaint(seen).find("covers 380 to 780 nm, but 300 to 1100 nm are needed"), std::string::npos)
+      << complaint(seen);
+  const std::string dark = complaint(seen, "zero", 400, 700);
+  EXPECT_NE(dark.find("/lights/0/emission"), std::string::npos) << dark;
+  EXPECT_NE(dark.find("warning: \"t.csv:a\" is 0 beyond its table, 400 to 700 nm: 62.5 % of what channel "
+                      "\"all\" would count, if it went on as it ends, lies there"),
+            std::string::npos)
+      << dark;
+  EXPECT_EQ(complaint(seen, "clamp"), "");
+  EXPECT_EQ(complaint(lit(R"({"spectrum": {"product": ["t.csv:a", {"band": [400, 700]}]}})"), "zero"), "");
+}
+
+TEST_F(TableEndsTest, NamedLightsThatAreDarkWhereTheSensorSeesAreTold) {
+  const auto told = [&](const std::string& light, const std::string& counts) {
+    return load(
+               fmt::format(
+                   R"({{"lights": [{{"environment": {{}}, "emission": {{{}, "luminance": 100}}}}], "sensor": {{"resolution": [1, 1], {}}}}})",
+                   light, counts))
+        .text();
+  };
+  const std::string ccd = R"("quantum_efficiency": "kodak_kaf-3200me", "channels": {"mono": 1})";
+  EXPECT_NE(told(R"("illuminant": "D65")", ccd)
+                .find("warning: \"D65\" is 0 beyond its table, 300 to 830 nm: 13 % of what channel "
+                      "\"mono\" would count"),
+            std::string::npos);
+  EXPECT_NE(told(R"("daylight_K": 6504)", ccd).find("\"daylight:6504\" is 0 beyond its table, 300 to 830 nm"),
+            std::string::npos);
+  for (const char* light : {R"("illuminant": "A")", R"("blackbody_K": 3000)", R"("spectrum": 1)"})
+    EXPECT_EQ(told(light, ccd), "") << light;
+  for (const char* light : {R"("illuminant": "D65")", R"("illuminant": "E")", R"("illuminant": "FL11")",
+                            R"("illuminant": "LED-B3")", R"("daylight_K": 5000)"})
+    for (const char* counts :
+         {R"("observer": "1931")", R"("camera": "Nikon_D5100")",
+          R"("quantum_efficiency": "kodak_kaf-3200me", "channels": {"R": {"band": [590, 680]}})"})
+      EXPECT_EQ(told(light, counts), "") << light << counts;
+}
+
+TEST_F(TableEndsTest, MatterTellsAllThatTheSensorSees) {
+  const std::string paint = painted(R"("t.csv:a")");
+  const auto seen = [&](const std::string& counts) {
+    return fmt::format(R"({{"lights": [{{"environment": {{}}, "emission": {{"spectrum": 1}}}}], {}, {}}})",
+                       paint.substr(1, paint.size() - 2),
+                       fmt::format(R"("sensor": {{"resolution": [1, 1], {}}})", counts));
+  };
+  EXPECT_NE(complaint(seen(R"("channels": {"a": {"band": [400, 900]}})"))
+                .find("covers 380 to 780 nm, but 380 to 900 nm are needed"),
+            std::string::npos);
+  EXPECT_EQ(complaint(seen(R"("channels": {"a": {"band": [400, 700]}})")), "");
+  EXPECT_EQ(complaint(seen(R"("observer": "1931")")), "");
+}
+
+// All of the power of a lamp scales it, whatever the sensor sees.
+TEST_F(TableEndsTest, ALampThatIsScaledByItsPowerTellsAllOfIt) {
+  const auto seen = [](const std::string& scale) {
+    return fmt::format(
+        R"({{"lights": [{{"environment": {{}}, "emission": {{"spectrum": "t.csv:a", {}}}}}], "sensor": {{"resolution": [1, 1], "observer": "1931"}}}})",
+        scale);
+  };
+  EXPECT_NE(complaint(seen(R"("radiance": 5)")).find("but 300 to 1100 nm are needed"), std::string::npos);
+  EXPECT_EQ(complaint(seen(R"("luminance": 5)")), "");
+}
+
+// A meter tells the light there is: of a lamp that ends it is all of it, of one that does not say so nobody
+// knows.
+TEST_F(TableEndsTest, AMeterNeedsWhatItCountsWithoutAWordOfLampsThatEnd) {
+  const auto metered = [&](const std::string& outside) {
+    write_table(outside, 380, 780);
+    test::write(folder_ / "scene.json",
+                R"({"abbe": 1, "meters": {"m": {"at": [0, 0, 0], "normal": [0, 0, 1]}},
+        "lights": [{"point": {"at": [0, 0, 1]}, "emission": {"illuminant": "t.csv:a", "luminous_intensity": 1}}]})");
+    Diagnostics diagnostics;
+    const auto scene = load_meters(folder_ / "scene.json", {}, diagnostics);
+    if (scene) (void)scene_of(*scene, scene->meters.at(0), diagnostics);
+    return diagnostics.text();
+  };
+  EXPECT_EQ(metered("zero"), "");
+  EXPECT_NE(metered("").find("but 300 to 1100 nm are needed"), std::string::npos) << metered("");
+}
+
+}  // namespace
+}  // namespace abbe

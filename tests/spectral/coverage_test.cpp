@@ -1,0 +1,49 @@
+#include "spectral/coverage.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+
+#include "spectral/sources.h"
+
+namespace abbe {
+namespace {
+
+TEST(Coverage, TheShareBeyondIsOfTheMagnitude) {
+  EXPECT_NEAR(share_beyond(Curve(2), 380, 780), 0.5, 1e-12);
+  EXPECT_NEAR(share_beyond(Curve(2), 300, 1100), 0, 1e-12);
+  const Curve both = sum(band(400, 500, -1), band(500, 600, 1));
+  EXPECT_NEAR(share_beyond(both, 300, 525), 0.375, 1e-12);
+  EXPECT_EQ(share_beyond(Curve(), 400, 500), 0);
+}
+
+TEST(Coverage, TheMainRangeLeavesAThousandthAtEitherEnd) {
+  const auto range = [](const Curve& curve) {
+    const NeededRange found = main_range(curve);
+    return std::pair(found.low_nm, found.high_nm);
+  };
+  EXPECT_EQ(range(Curve(-1.0)), std::pair(300.0, 1100.0));
+  EXPECT_EQ(range(band(400.5, 699.5)), std::pair(400.0, 700.0));
+  const auto with_tail = [](double value) { return sum(band(400, 700), band(700, 1100, value)); };
+  EXPECT_EQ(range(with_tail(5e-4)), std::pair(400.0, 700.0)) << "0.2 nm in 300.2";
+  EXPECT_EQ(range(with_tail(1e-3)), std::pair(400.0, 1100.0)) << "0.4 nm in 300.4";
+  const auto [low, high] = main_range(Curve());
+  EXPECT_GT(low, high) << "nothing is needed";
+}
+
+TEST(Coverage, ATableGoesOnAsItEnds) {
+  constexpr std::array kNm{400.0, 700.0};
+  constexpr std::array kValues{1.0, 3.0};
+  for (const Outside outside : {Outside::zero, Outside::clamp, Outside::error}) {
+    const NamedCurve table{"t", "", "", 400, 700, table_curve(kNm, kValues, outside), outside};
+    const Curve held = held_beyond(table);
+    EXPECT_EQ(held(300), 1);
+    EXPECT_EQ(held(400), 1);
+    EXPECT_EQ(held(550), 2);
+    EXPECT_EQ(held(700), 3);
+    EXPECT_EQ(held(1100), 3);
+  }
+}
+
+}  // namespace
+}  // namespace abbe
