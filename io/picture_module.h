@@ -47,9 +47,9 @@ struct LibraryColors {
 ColorsTold colors_told(const std::string& path, const LibraryColors& library);
 
 /// What the bytes of an ICC profile say of a picture, which may be of grey alone and then needs no primaries
-/// [ICC]: all but the profile's name. Its encoding is none, a text that says so, where the profile has tables
-/// of colours or no tone curves and primaries, where its channels differ in them, or where they are neither
-/// powers nor those of sRGB.
+/// [ICC]: all but the profile's name. Its encoding is none, a text that says why, where the profile has
+/// tables of colours or no tone curves and primaries, where its channels differ in them, or where they are
+/// neither powers nor those of sRGB.
 ColorsTold icc_colors(std::span<const std::uint8_t> profile, bool is_grey);
 
 /// The number of 4 bytes from `at` on, the most significant first; 0 where they are not all there.

@@ -17,7 +17,9 @@ namespace {
 using Bytes = std::span<const std::uint8_t>;
 
 constexpr double kNoCurve = std::numeric_limits<double>::quiet_NaN();
-constexpr const char* kOtherCurves = "tone curves of a profile";
+// What `kColorSpace` is of profiles that no curve and three primaries stand for.
+constexpr const char* kOtherCurves = "tone curves or primaries of another kind";
+constexpr const char* kTables = "tables of colours or L*a*b*";
 
 bool has_word(Bytes bytes, std::size_t at, std::string_view word) {
   return bytes.size() >= at + word.size() &&
@@ -139,7 +141,8 @@ ColorsTold icc_colors(std::span<const std::uint8_t> profile, bool is_grey) {
   std::set<std::string> encodings;
   for (const char* const name : names) encodings.insert(curve_encoding(tag(profile, name)));
   ColorsTold told{*encodings.begin(), profile_primaries(profile), ""};
-  if (has_table || encodings.size() > 1 || (!is_grey && told.primaries.empty())) told.encoding = kOtherCurves;
+  if (encodings.size() > 1 || (!is_grey && told.primaries.empty())) told.encoding = kOtherCurves;
+  if (has_table) told.encoding = kTables;
   return told;
 }
 

@@ -333,7 +333,7 @@ std::optional<TableColumn> find_table(std::string_view folder, const std::string
   const Names& names = names_in(folder);
   const auto found = names.find(name);
   if (found != names.end()) return found->second;
-  if (const auto elsewhere = column_elsewhere(name)) return elsewhere;
+  if (auto elsewhere = column_elsewhere(name)) return elsewhere;
   diagnostics.error(where, unknown_name(folder, name, table_names(folder)));
   return std::nullopt;
 }

@@ -157,9 +157,10 @@ std::optional<std::string> rec709_fault(const Image& image) {
   const bool is_encoded = recorded_encoding(image).has_value();
   if (is_encoded && is_of(is_profiled ? kRec709InProfiles : kRec709, image)) return std::nullopt;
   if (is_profiled)
-    return "its colours are those of the profile \"" + profile->second +
-           "\" (allowed the primaries of sRGB, with floats that are linear or codes that are linear, encoded "
-           "as sRGB or by a gamma)";
+    return "its colours are those of the profile \"" + profile->second + "\" (" +
+           (is_encoded ? "" : "got " + image.metadata.at(kColorSpace) + ", ") +
+           "allowed the primaries of sRGB, with floats that are linear or codes that are linear, encoded as "
+           "sRGB or by a gamma)";
   if (!is_encoded)
     return "its colour space is unknown (got \"" + image.metadata.at(kColorSpace) +
            "\", allowed linear, sRGB or a gamma)";

@@ -38,8 +38,8 @@ inline constexpr RgbSpace kRec709{kRec709Primaries[0], kRec709Primaries[1], kRec
 /// anything but numbers.
 [[nodiscard]] std::optional<RgbSpace> recorded_primaries(const Image& image);
 /// Why R, G and B of an image cannot be taken as those of Rec.709, by what it tells of its primaries and its
-/// encoding, in its own words or by an ICC profile, which is named then; nothing where it tells no primaries,
-/// or these to two digits, and an encoding that is known.
+/// encoding, in its own words or by an ICC profile, which is named then, with its encoding where that is
+/// unknown; nothing where it tells no primaries, or these to two digits, and an encoding that is known.
 [[nodiscard]] std::optional<std::string> rec709_fault(const Image& image);
 
 /// Linear RGB to XYZ, such that (1, 1, 1) is the white with Y = 1 [Lindbloom].

@@ -91,7 +91,7 @@ TEST(PictureColors, AreEncodedByTheCurvesOfAProfile) {
         std::lround(65535 * (code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4)))));
   }
   EXPECT_EQ(encoding_with(curve_tag(table)), "sRGB");
-  const std::string other = "tone curves of a profile";
+  const std::string other = "tone curves or primaries of another kind";
   EXPECT_EQ(encoding_with(parametric_tag(3, {1 / 0.45, 1 / 1.099, 0.099 / 1.099, 1 / 4.5, 0.081})), other)
       << "of Rec.709";
   EXPECT_EQ(encoding_with(parametric_tag(2, {2.2, 1, 0, 0.1})), other) << "with black at 0.1";
@@ -108,8 +108,9 @@ TEST(PictureColors, OfProfilesWithoutThreePrimariesAreUnknown) {
   lacking.erase(lacking.begin());
   ProfileTags table = sound;
   table.emplace_back("A2B0", std::string(32, '\0'));
-  for (const ProfileTags& tags : {uneven, lacking, table})
-    EXPECT_TRUE(told_with(tags).starts_with("tone curves of a profile|"));
+  for (const ProfileTags& tags : {uneven, lacking})
+    EXPECT_TRUE(told_with(tags).starts_with("tone curves or primaries of another kind|"));
+  EXPECT_TRUE(told_with(table).starts_with("tables of colours or L*a*b*|"));
   EXPECT_TRUE(told_with({{"kTRC", curve}}, "GRAY").starts_with("tone curves")) << "of grey";
 }
 
@@ -173,6 +174,67 @@ TEST(PictureColors, OfPngsAreThoseOfTheirChunks) {
   EXPECT_EQ(told(chunk("cICP", {1, 13, 0, 1})), "sRGB||");
   write_raw_picture(path, image);
   EXPECT_EQ(told(chunk("iCCP", std::string("p\0\0damaged", 10))), "a profile that is not read||");
+}
+
+/// What is told by a PNG of one pixel that OpenImageIO writes, with those chunks.
+std::string told_with_chunks(const std::string& chunks, int channels = 3) {
+  const auto path = test_folder() / "a.png";
+  write_pixel(path, OIIO::ImageSpec(1, 1, channels, OIIO::TypeDesc::UINT8));
+  const std::string png = bytes_of(path);
+  EXPECT_EQ(png.find("gAMA"), std::string::npos);
+  EXPECT_EQ(png.find("sRGB"), std::string::npos);
+  constexpr std::size_t kAfterHeader = 33;
+  put(path, png.substr(0, kAfterHeader) + chunks + png.substr(kAfterHeader));
+  return told_by(path);
+}
+
+/// Of white, red, green and blue.
+std::string primaries_chunk(const std::vector<std::uint32_t>& numbers) {
+  std::string data;
+  for (const std::uint32_t number : numbers) data += test::in_bytes(number);
+  return chunk("cHRM", data);
+}
+
+TEST(PictureColors, OfPngsWithTheGammaOfSrgbAreSrgb) {
+  const std::string gamma = chunk("gAMA", test::in_bytes(45455));
+  const std::string rec709 = primaries_chunk({31270, 32900, 64000, 33000, 30000, 60000, 15000, 6000});
+  EXPECT_EQ(told_with_chunks(gamma), "sRGB||");
+  EXPECT_EQ(told_with_chunks(gamma, 1), "sRGB||");
+  EXPECT_EQ(told_with_chunks(gamma + rec709), "sRGB|0.64 0.33 0.3 0.6 0.15 0.06 0.3127 0.329|");
+  EXPECT_EQ(told_with_chunks(chunk("gAMA", test::in_bytes(50000))), "Gamma2||") << "1/0.5";
+}
+
+TEST(PictureColors, OfPngsAreNotThoseOfChunksThatReadersLeaveOut) {
+  const std::string profile = chunk("iCCP", std::string("p\0\0damaged", 10));
+  EXPECT_EQ(told_with_chunks(chunk("sRGB", {0}) + profile), "sRGB||");
+  EXPECT_EQ(told_with_chunks(profile, 1), "sRGB||") << "of grey";
+  EXPECT_EQ(told_with_chunks(profile), "a profile that is not read||");
+  EXPECT_EQ(told_with_chunks(primaries_chunk({0, 0, 0, 0, 0, 0, 0, 0})), "sRGB||");
+  EXPECT_EQ(told_with_chunks(primaries_chunk({31270, 32900})), "sRGB||");
+  EXPECT_EQ(told_with_chunks(primaries_chunk({31270, 32900, 0xFFFFFFFBU, 33000, 30000, 60000, 15000, 6000})),
+            "sRGB||")
+      << "of -5 as red's x";
+  EXPECT_EQ(told_with_chunks(primaries_chunk({31270, 32900, 70800, 29200, 17000, 79700, 13100, 4600})),
+            "sRGB|0.708 0.292 0.17 0.797 0.131 0.046 0.3127 0.329|")
+      << "of Rec.2020, whose red is at the edge of what is";
+}
+
+TEST(PictureColors, OfJpegsWithoutAllOfTheirProfileAreUnknown) {
+  const auto path = test_folder() / "a.jpg";
+  write_pixel(path, OIIO::ImageSpec(1, 1, 3, OIIO::TypeDesc::UINT8));
+  const std::string plain = bytes_of(path);
+  const std::string profile = icc_profile("p", "RGB ", primaries_and_curve(kP3Columns, test::srgb_curve()));
+  const auto told = [&](const std::string& data, const std::string& fill = "") {
+    const std::string size = test::in_bytes(static_cast<std::uint32_t>(data.size() + 2), 2);
+    put(path, plain.substr(0, 2) + fill + "\xFF\xE2" + size + data + plain.substr(2));
+    return told_by(path);
+  };
+  const auto segment = [](char count) { return std::string("ICC_PROFILE\0\1", 13) + count; };
+  EXPECT_TRUE(told(segment(1) + profile).ends_with("|p"));
+  EXPECT_EQ(told(segment(2) + profile.substr(0, 200)), "a profile that is not read||");
+  EXPECT_EQ(told(segment(2) + profile.substr(0, 200), "\xFF\xFF"), "a profile that is not read||");
+  EXPECT_EQ(told(segment(1)), "a profile that is not read||") << "of no bytes";
+  EXPECT_EQ(told("MPF and more of that"), "sRGB||");
 }
 
 TEST(PictureColors, OfWhatAbbeWritesAreSrgbsOrUntold) {
@@ -246,15 +308,20 @@ TEST(PictureColors, OfTiffsAreThoseOfTheirTags) {
             "|0.68 0.32 0.265 0.69 0.15 0.06 0.3127 0.329|");
   EXPECT_EQ(told(tiff(kRgb, 3, {{319, p3}})), "|0.68 0.32 0.265 0.69 0.15 0.06 0.3127 0.329|");
   EXPECT_EQ(told(tiff(kRgb, 3, {{318, {3457, 3585}}})), "|0.64 0.33 0.3 0.6 0.15 0.06 0.3457 0.3585|");
+  EXPECT_EQ(told(tiff(kRgb, 3, {{319, {0, 0, 0, 0, 0, 0}}})), "||") << "of a writer that knows none";
+  EXPECT_EQ(told(tiff(kRgb, 3, {{318, {0, 0}}, {319, p3}})), "|0.68 0.32 0.265 0.69 0.15 0.06 0.3127 0.329|");
   EXPECT_EQ(told(tiff(kInks, 4, {})), "CMYK||");
 }
 
-TEST(PictureColors, OfJpegsThatExifCallsUncalibratedAreUnknown) {
+TEST(PictureColors, OfJpegsThatExifCallsAnythingButSrgbAreUnknown) {
   const auto path = test_folder() / "a.jpg";
   OIIO::ImageSpec spec(1, 1, 3, OIIO::TypeDesc::UINT8);
   spec.attribute("Exif:ColorSpace", 65535);
   write_pixel(path, spec);
   EXPECT_EQ(told_by(path), "uncalibrated||");
+  spec.attribute("Exif:ColorSpace", 2);
+  write_pixel(path, spec);
+  EXPECT_EQ(told_by(path), "number 2 of Exif||") << "as some write Adobe RGB";
   spec.attribute("Exif:ColorSpace", 1);
   write_pixel(path, spec);
   EXPECT_EQ(told_by(path), "sRGB||");

@@ -92,12 +92,12 @@ TEST(Rgb, ColoursOfAnotherProfileThanSrgbAreAFault) {
   EXPECT_EQ(fault({{kProfileKey, "p"}, {kPrimariesKey, srgb_text}, {kColorSpace, "Gamma1.8"}}), "");
   EXPECT_NE(fault({{kPrimariesKey, srgb_text}}), "") << "without a profile they are what they are";
   const std::string allowed =
-      " (allowed the primaries of sRGB, with floats that are linear or codes that are linear, encoded as "
+      "allowed the primaries of sRGB, with floats that are linear or codes that are linear, encoded as "
       "sRGB or by a gamma)";
   EXPECT_EQ(fault({{kProfileKey, "Display P3"}, {kPrimariesKey, text_in_profiles(p3)}}),
-            "its colours are those of the profile \"Display P3\"" + allowed);
-  EXPECT_EQ(fault({{kProfileKey, "Rec.709"}, {kPrimariesKey, srgb_text}, {kColorSpace, "other"}}),
-            "its colours are those of the profile \"Rec.709\"" + allowed);
+            "its colours are those of the profile \"Display P3\" (" + allowed);
+  EXPECT_EQ(fault({{kProfileKey, "sRGB"}, {kPrimariesKey, srgb_text}, {kColorSpace, "tables"}}),
+            "its colours are those of the profile \"sRGB\" (got tables, " + allowed);
   EXPECT_EQ(fault({{kProfileKey, "grey"}, {kColorSpace, "Gamma2.2"}}), "") << "which has no primaries";
   EXPECT_NE(fault({{kPrimariesKey, "nan nan 0.3 0.6 0.15 0.06 0.3127 0.329"}}), "");
   EXPECT_NE(fault({{kPrimariesKey, "wide"}}), "");
