@@ -13,6 +13,7 @@
 #include "cli/interrupt.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
+#include "cli/warnings.h"
 #include "film/measure_meter.h"
 #include "film/rendered_film.h"
 #include "io/atomic_file.h"
@@ -172,7 +173,11 @@ std::vector<MeterMeasurement> measure_all(const MeteredScene& metered,
     Diagnostics diagnostics(options.strict ? Strictness::strict : Strictness::lenient);
     std::optional<Scene> scene = scene_of(metered, *one, diagnostics, all.empty() ? &inputs : nullptr);
     if (all.empty() || !scene) scene = accepted(std::move(scene), diagnostics);
-    if (all.empty()) require_distinct(std::array{options.spectra}, inputs.files());
+    if (all.empty()) {
+      require_distinct(std::array{options.spectra}, inputs.files());
+      warn_of_hidden_sheet(*scene, options.strict);
+      warn_of_hidden_lamp(*scene, options.strict);
+    }
     all.push_back(measure(*std::move(scene), *one, options, watch, inputs));
     if (!options.json) print_text(all.back());
   }

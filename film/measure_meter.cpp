@@ -53,8 +53,6 @@ MeterMeasurement measure_meter(Scene scene, const Meter& meter, RenderOptions ho
   scene.render.integrator = choice.integrator;
   how.guides = choice.guides;
   tell_shortcoming(caller, meter, dark_camera(scene), caller.strict);
-  tell_shortcoming(caller, meter, hidden_sheet(scene), caller.strict);
-  tell_shortcoming(caller, meter, hidden_lamp(scene), caller.strict);
   tell_shortcoming(caller, meter, lost_light(scene), caller.strict && !chooses);
   tell_shortcoming(caller, meter, unused_settings(scene), false);
   inputs.take_memory("the film", film_bytes(scene, how));

@@ -40,7 +40,8 @@ struct MeterCaller {
 
 /// Renders the scene as the meter sees it, which `scene_of` built, and reads the meter. A target error is
 /// that of the meter's three figures. Memory is counted in `inputs` meanwhile. Throws Error{resource} for too
-/// large a film, and Error{scene} where the caller is strict and light is missing.
+/// large a film, and Error{scene} where the caller is strict and light is missing. What lies on what is the
+/// same for all meters of a scene, so that the caller tells it, by `hidden_sheet` and `hidden_lamp`.
 [[nodiscard]] MeterMeasurement measure_meter(Scene scene, const Meter& meter, RenderOptions how,
                                              const MeterCaller& caller, Inputs& inputs);
 

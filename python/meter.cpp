@@ -10,6 +10,7 @@
 
 #include "film/measure_meter.h"
 #include "film/rendered_film.h"
+#include "film/shortcomings.h"
 #include "python/arguments.h"
 #include "python/arrays.h"
 #include "python/errors.h"
@@ -142,6 +143,9 @@ std::vector<MeterMeasurement> measure(const SceneSource& source, const std::vect
     Diagnostics diagnostics;
     std::optional<abbe::Scene> scene = scene_of(metered, *one, diagnostics, all.empty() ? &inputs : nullptr);
     if (all.empty() || !scene) scene = accepted(std::move(scene), diagnostics);
+    if (all.empty())
+      for (const auto& hidden : {hidden_sheet(*scene), hidden_lamp(*scene)})
+        if (hidden) warn(*hidden);
     all.push_back(measure_meter(*std::move(scene), *one, how, caller, inputs));
   }
   return all;

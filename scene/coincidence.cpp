@@ -84,6 +84,24 @@ bool coincide(const Face& a, const Face& b, double reach, double by) {
          (has_corner_in_plane(a, b, reach) || has_corner_in_plane(b, a, reach)) && overlap(a, b, by);
 }
 
+// A triangle has all of its corners there, and a parallelogram where it has three.
+bool is_in_plane(const Face& face, const Face& plane, double reach) {
+  return std::all_of(face.corners.begin(), face.corners.begin() + 3, [&](const V3d& corner) {
+    return std::abs((corner - plane.corners[0]).dot(plane.normal)) <= reach;
+  });
+}
+
+bool lies_in(const Face& a, const Face& b, double reach) {
+  return coincide(a, b, reach, reach) && (is_in_plane(a, b, reach) || is_in_plane(b, a, reach));
+}
+
+bool are_one_ball(const Ellipsoid& a, const Ellipsoid& b, double reach) {
+  const std::optional<double> radius_a = a.radius_of_ball(reach);
+  const std::optional<double> radius_b = b.radius_of_ball(reach);
+  return radius_a && radius_b && std::abs(*radius_a - *radius_b) <= reach &&
+         (a.center - b.center).length() <= reach;
+}
+
 bool touch(const Ellipsoid& a, const Ellipsoid& b, double reach) {
   const std::optional<double> radius_a = a.radius_of_ball(reach);
   const std::optional<double> radius_b = b.radius_of_ball(reach);
@@ -135,9 +153,18 @@ double rounding_across(const Face& face) {
   return sum;
 }
 
-// From low x to high. Nothing where too many faces meet to be compared.
-std::optional<bool> faces_coincide(const std::vector<Face>& of_a, const std::vector<Face>& of_b, double reach,
-                                   double by) {
+bool stands_on_ball(const V3d& point, const Ellipsoid& ball, const Box3d& box) {
+  const V3d out = point - ball.center;
+  const double rounding = rounding_across({{point, point, point, point}, box, out.normalized()});
+  const std::optional<double> radius = ball.radius_of_ball(rounding);
+  return radius && std::abs(out.length() - *radius) <= rounding;
+}
+
+// Whether a pair of faces fits that are near each other along x, from low x to high. Nothing where too many
+// are to be compared.
+template <typename Fits>
+std::optional<bool> any_pair(const std::vector<Face>& of_a, const std::vector<Face>& of_b, double reach,
+                             const Fits& fits) {
   std::size_t pairs = 0;
   auto first = of_b.begin();
   double widest = 0;  // of the faces of b along x
@@ -146,7 +173,7 @@ std::optional<bool> faces_coincide(const std::vector<Face>& of_a, const std::vec
     while (first != of_b.end() && first->box.min.x + widest < face.box.min.x - reach) ++first;
     for (auto other = first; other != of_b.end() && other->box.min.x <= face.box.max.x + reach; ++other) {
       if (++pairs > kMostPairs) return std::nullopt;
-      if (coincide(face, *other, reach, by)) return true;
+      if (fits(face, *other)) return true;
     }
   }
   return false;
@@ -161,19 +188,36 @@ bool may_coincide(const Shape& a, const Shape& b, double reach, FaceFinder& face
   if (motion_of(a) != nullptr || motion_of(b) != nullptr) return true;
   if (ellipsoid_of(a) || ellipsoid_of(b))
     return ellipsoid_touches(a, b, reach, faces) || ellipsoid_touches(b, a, reach, faces);
-  return faces_coincide(faces.near(a, grown(box_b, reach)), faces.near(b, near_a), reach, -reach)
+  return any_pair(faces.near(a, grown(box_b, reach)), faces.near(b, near_a), reach,
+                  [&](const Face& one, const Face& other) { return coincide(one, other, reach, -reach); })
       .value_or(true);
 }
 
-bool lies_on(const Shape& a, const Shape& b, double reach, FaceFinder& faces) {
+bool lies_on(const Shape& a, const Shape& b, double reach, FaceFinder& faces, Facing facing) {
   if (motion_of(a) != nullptr || motion_of(b) != nullptr) return false;
+  const std::optional<Ellipsoid> ball_a = ellipsoid_of(a);
+  const std::optional<Ellipsoid> ball_b = ellipsoid_of(b);
+  if (ball_a && ball_b) return are_one_ball(*ball_a, *ball_b, reach);
   const std::vector<Face> of_a = sure_faces(a, grown(faces.box_of(b), reach), faces);
   const std::vector<Face> of_b = sure_faces(b, grown(faces.box_of(a), reach), faces);
-  return faces_coincide(of_a, of_b, reach, reach).value_or(false);
+  const auto fits = [&](const Face& one, const Face& other) {
+    return (facing == Facing::any || one.normal.dot(other.normal) > 0) && lies_in(one, other, reach);
+  };
+  return any_pair(of_a, of_b, reach, fits).value_or(false);
+}
+
+bool lies_on_itself(const Shape& shape, double reach, FaceFinder& faces) {
+  const std::vector<Face> all = faces.near(shape, grown(faces.box_of(shape), reach));
+  const auto fits = [&](const Face& one, const Face& other) {
+    return &one < &other && lies_in(one, other, reach);
+  };
+  return any_pair(all, all, reach, fits).value_or(false);
 }
 
 bool stands_on(const V3d& point, const Shape& shape, FaceFinder& faces) {
   if (motion_of(shape) != nullptr) return false;
+  if (const std::optional<Ellipsoid> ball = ellipsoid_of(shape))
+    return stands_on_ball(point, *ball, bounds(shape));
   const double most = 2 * float_step(largest_coordinate(faces.box_of(shape)));  // of all its faces
   const std::vector<Face> near = sure_faces(shape, grown(Box3d(point), most), faces);
   return std::ranges::any_of(near, [&](const Face& face) {

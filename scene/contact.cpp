@@ -51,17 +51,45 @@ std::vector<BoxedLamp> lamps_of(const Scene& scene) {
   return found;
 }
 
-// Whether light may be lost of a lamp where it touches a wall, or where it, being one, touches itself.
-bool is_hidden(const Scene& scene, const BoxedLamp& lamp, const Boxed& wall, FaceFinder& faces) {
+// Whether light may be lost of a lamp where it touches a wall whose faces are so turned, or where it, being
+// one, touches itself.
+bool is_hidden(const Scene& scene, const BoxedLamp& lamp, const Boxed& wall, Facing facing,
+               FaceFinder& faces) {
   const Shape& shape = scene.shapes[wall.shape].shape;
   const auto* emitter = std::get_if<AreaLight>(&scene.lights[lamp.light].kind);
   const std::uint32_t own = emitter != nullptr ? emitter->shape : wall.shape;
   const double reach = scene.touch_distance(Imath::V3d(largest_coordinate(lamp.box)), own, wall.shape);
   if (!grown(lamp.box, reach).intersects(wall.box)) return false;
   if (emitter == nullptr) return stands_on(lamp.box.min, shape, faces);
-  if (own != wall.shape) return lies_on(scene.shapes[own].shape, shape, reach, faces);
+  if (own != wall.shape) return lies_on(scene.shapes[own].shape, shape, reach, faces, facing);
   const auto* mesh = plain<Mesh>(shape);
-  return mesh != nullptr && has_doubled_triangles(*mesh);
+  return mesh != nullptr && (has_doubled_triangles(*mesh) || lies_on_itself(shape, reach, faces));
+}
+
+// Whether a lamp is the outside of a closed body. A copy is looked at, since what is closed is found where a
+// mesh is made solid.
+bool is_body(const Scene& scene, const BoxedLamp& lamp) {
+  const auto* emitter = std::get_if<AreaLight>(&scene.lights[lamp.light].kind);
+  if (emitter == nullptr || emitter->two_sided) return false;
+  const auto* mesh = plain<Mesh>(scene.shapes[emitter->shape].shape);
+  if (mesh == nullptr) return false;
+  Mesh copy = *mesh;
+  const SolidReport report = make_solid(copy);
+  return report.encloses() && !report.mended();
+}
+
+// The first of the walls that light of a lamp is lost on. Faces that a body and a wall turn to each other are
+// seen by nobody.
+std::optional<LampContact> contact_of(const Scene& scene, const BoxedLamp& lamp,
+                                      const std::vector<const Boxed*>& walls, FaceFinder& faces) {
+  const auto hiding = [&](Facing facing) {
+    return std::ranges::find_if(
+        walls, [&](const Boxed* wall) { return is_hidden(scene, lamp, *wall, facing, faces); });
+  };
+  auto wall = hiding(Facing::any);
+  if (wall != walls.end() && is_body(scene, lamp)) wall = hiding(Facing::same);
+  if (wall == walls.end()) return std::nullopt;
+  return LampContact{lamp.light, (*wall)->shape};
 }
 
 // Finds the walls that are near a shape of that box.
@@ -196,9 +224,7 @@ std::optional<LampContact> lost_lamp(const Scene& scene) {
     std::erase_if(beside, [&](const Boxed* wall) { return wall->box.max.x < lamp.box.min.x - reach; });
     pairs += beside.size();
     if (pairs > kMostPairs) return std::nullopt;
-    const auto hides = [&](const Boxed* wall) { return is_hidden(scene, lamp, *wall, faces); };
-    if (const auto wall = std::ranges::find_if(beside, hides); wall != beside.end())
-      return LampContact{lamp.light, (*wall)->shape};
+    if (const auto contact = contact_of(scene, lamp, beside, faces)) return contact;
   }
   return std::nullopt;
 }

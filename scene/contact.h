@@ -36,10 +36,12 @@ struct LampContact {
 /// The first lamp, from low x to high, that light may be lost of, as rays meet but one of the opaque surfaces
 /// at one place while the lamp's points are reached all the same: an opaque surface that emits and, by
 /// `lies_on`, lies on an opaque one, which may be a lamp too; a mesh that emits and has triangles with the
-/// same corners; or a point or spot that, by `stands_on`, stands on something opaque. Lamps under glass are
-/// not. It looks at pairs of boxes that meet along x, and at triangles within the boxes of lamps alone, so
-/// that it takes as long as sorting where lamps are small; none is told where there are more than
-/// `kMostPairs`.
+/// same corners or, by `lies_on_itself`, in each other; or a point or spot that, by `stands_on`, stands on
+/// something opaque. Lamps under glass are not, nor is a closed mesh that emits outward alone where it and
+/// what it touches face each other: a sheet counts as seen from where it faces. Of spheres, those alone are
+/// found that are balls of the same middle and radius. It looks at pairs of boxes that meet along x, and at
+/// triangles within the boxes of lamps alone, so that it takes as long as sorting where lamps are small; none
+/// is told where there are more than `kMostPairs`.
 [[nodiscard]] std::optional<LampContact> lost_lamp(const Scene& scene);
 
 /// Where anything opaque comes as near to a shape that lets light on as floats tell, or crosses it.

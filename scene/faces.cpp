@@ -1,6 +1,7 @@
 #include "scene/faces.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <variant>
 
@@ -33,6 +34,7 @@ const FaceFinder::MeshBoxes& boxes_of(const Mesh& mesh, KnownBoxes& known) {
 // Adds those of a shape, placed by a matrix, that are flat and meet the box.
 struct FaceCollector {
   const M44d& to_world;
+  double handedness;  // of the matrix: -1 of a mirror, across which corners wind the other way
   const Box3d& within;
   KnownBoxes& known;
   std::vector<Face>& faces;
@@ -44,7 +46,8 @@ struct FaceCollector {
       box.extendBy(corner);
     }
     if (!box.intersects(within)) return;
-    faces.push_back({corners, box, (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized()});
+    const V3d across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    faces.push_back({corners, box, across.normalized() * handedness});
   }
   void operator()(const Mesh& mesh) const {
     const std::vector<Box3d>& runs = boxes_of(mesh, known).runs;
@@ -71,7 +74,9 @@ struct FaceCollector {
   }
   void operator()(const Sphere&) const {}
   void operator()(const PlacedShape& placed) const {
-    std::visit(FaceCollector{placed.at->to_world, within, known, faces}, placed.of->shape);
+    const M44d& at = placed.at->to_world;
+    std::visit(FaceCollector{at, std::copysign(1.0, at.determinant()), within, known, faces},
+               placed.of->shape);
   }
 };
 
@@ -86,7 +91,7 @@ bool has_faces(const Shape& shape) {
 std::vector<Face> FaceFinder::near(const Shape& shape, const Box3d& box) {
   std::vector<Face> faces;
   const M44d unmoved;
-  std::visit(FaceCollector{unmoved, box, known_, faces}, shape);
+  std::visit(FaceCollector{unmoved, 1, box, known_, faces}, shape);
   std::sort(faces.begin(), faces.end(),
             [](const Face& a, const Face& b) { return a.box.min.x < b.box.min.x; });
   return faces;

@@ -15,7 +15,7 @@ namespace abbe {
 struct Face {
   std::array<Imath::V3d, 4> corners;  ///< Of a triangle the last one twice.
   Imath::Box3d box;
-  Imath::V3d normal;  ///< Unit.
+  Imath::V3d normal;  ///< Unit, to where the shape faces.
 };
 
 /// Whether a shape is made of flat faces.

@@ -139,8 +139,7 @@ TEST(MeterCommand, TellsOfALampOnACeilingAndMeasuresOneThatIsApart) {
   };
   const Outcome flush = read(0.5);
   EXPECT_EQ(flush.code, 3);
-  EXPECT_NE(flush.err.find("floor: the lamp \"light 0\" lies on \"shape 0\""), std::string::npos)
-      << flush.err;
+  EXPECT_NE(flush.err.find("the lamp \"light 0\" lies on \"shape 0\""), std::string::npos) << flush.err;
   const Outcome apart = read(0.499);
   ASSERT_EQ(apart.code, 0) << apart.err;
   const auto luminous = apart.json()["meters"][0]["luminous"];
@@ -148,6 +147,20 @@ TEST(MeterCommand, TellsOfALampOnACeilingAndMeasuresOneThatIsApart) {
   EXPECT_NEAR(luminous["value"].get<double>(), 4000 * share * std::atan(share),
               3 * luminous["half_interval_95"].get<double>());
   EXPECT_LT(luminous["half_interval_95"].get<double>(), 10);
+}
+
+TEST(MeterCommand, TellsOnceForAllMetersWhatLampsLieOn) {
+  const auto scene = scratch().write("meters_under_ceiling.json", R"({"abbe": 1,
+    "materials": {"black": {"diffuse": {"reflectance": 0}}},
+    "shapes": [{"quad": {"corner": [-2, -2, 0.5], "edge_u": [0, 4, 0], "edge_v": [4, 0, 0]}, "material": "black"}],
+    "lights": [{"quad": {"corner": [-1, -1, 0.5], "edge_u": [0, 2, 0], "edge_v": [2, 0, 0]},
+                "emission": {"illuminant": "A", "luminance": 1000}}],
+    "meters": {"floor": {"at": [0, 0, 0], "normal": [0, 0, 1]}, "step": {"at": [0, 0, 0.2], "normal": [0, 0, 1]}}})");
+  const Outcome run = abbe("meter --quiet --spp 1 " + scene.string());
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(run.err,
+            "abbe: warning: the lamp \"light 0\" lies on \"shape 0\", which may be met instead: keep them "
+            "apart\n");
 }
 
 TEST(MeterCommand, TellsWhichMetersFoundNoLight) {

@@ -2,6 +2,7 @@
 import json
 import math
 import unittest
+import warnings
 
 import numpy
 
@@ -52,6 +53,16 @@ class Meters(Test):
         self.compare(abbe.meter(scene, spp=8, seed=5, integrator="bdpt", only=["grid", "floor"]),
                      self.told("--spp", 8, "--seed", 5, "--integrator", "bdpt", "--only", "grid", "--only", "floor"))
         self.compare(abbe.meter(scene, only="sight", error=0.01), self.told("--only", "sight", "--error", "1%"))
+
+    def test_what_lamps_lie_on_is_told_once_for_all_meters(self):
+        panel = {"corner": [-1, -1, 3], "edge_u": [0, 2, 0], "edge_v": [2, 0, 0]}
+        scene = {"abbe": 1, "materials": {"black": {"diffuse": {"reflectance": 0}}}, "shapes": [{"quad": panel, "material": "black"}],
+                 "lights": [{"quad": panel, "emission": {"spectrum": 1}}], "meters": {name: METERS["floor"] for name in ("a", "b")}}
+        with warnings.catch_warnings(record=True) as told:
+            warnings.simplefilter("always")
+            abbe.meter(scene, spp=1)
+        self.assertEqual([str(warning.message) for warning in told],
+                         ['the lamp "light 0" lies on "shape 0", which may be met instead: keep them apart'])
 
     def test_a_scene_with_meters_needs_no_camera(self):
         scene = self.scene()

@@ -4,6 +4,7 @@
 
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "floor_scenes.h"
@@ -46,6 +47,9 @@ TEST(Contact, FindsWhereMatterIsAtWalls) {
 void add_lamp_surface(Scene& scene, const Shape& shape) {
   scene.lights.push_back({"lamp", AreaLight{static_cast<std::uint32_t>(scene.shapes.size())}, Curve(1.0)});
   scene.shapes.push_back({"lamp", shape, kDiffuse});
+}
+Shape placed(PlainShape shape, const Imath::M44d& at) {
+  return PlacedShape{make_prototype(std::move(shape)), std::make_shared<Placement>(placement(at))};
 }
 // What light of the lamps is lost on: a wall, which comes before them as in scene files, or "lamp"; "" of
 // none.
@@ -93,6 +97,73 @@ TEST(Contact, TellsLampsThatLieOnLamps) {
   EXPECT_EQ(lost_on({}, {joined(both, inside_out(both))}), "lamp") << "triangles for each side";
   both.triangles.push_back({2, 1, 0});
   EXPECT_EQ(lost_on({}, {both}), "lamp");
+  both.triangles = {{0, 1, 2}, {0, 2, 3}, {1, 0, 3}, {1, 3, 2}};
+  EXPECT_EQ(lost_on({}, {both}), "lamp") << "triangles for each side, by the other diagonal";
+  for (V3d& vertex : both.vertices)
+    vertex = vertex * Imath::M44d().setAxisAngle(V3d(1, 2, 3).normalized(), 0.6);
+  EXPECT_EQ(lost_on({}, {both}), "lamp") << "turned";
+  EXPECT_EQ(lost_on({}, {box({-1, -1, 0}, {1, 1, 1})}), "");
+  EXPECT_EQ(lost_on({}, {icosphere(4, false)}), "");
+}
+
+// What closed lamps and what they stand on turn to each other nobody sees.
+TEST(Contact, ClosedLampsLoseNothingBetweenThemAndWhatTheyTouch) {
+  const Mesh lamp = box({-1, -1, 0}, {1, 1, 1});
+  const Mesh socket = box({-1, -1, -1}, {1, 1, 0});
+  const Mesh block = box({-2, -2, -2}, {2, 2, 1});
+  const Quad ceiling{{-2, -2, 1}, {0, 4, 0}, {4, 0, 0}};
+  const Quad below{{-2, -2, 0}, {0, 4, 0}, {4, 0, 0}};
+  EXPECT_EQ(lost_on({socket}, {lamp}), "");
+  EXPECT_EQ(lost_on({box({-2, -2, -1}, {2, 2, 0})}, {lamp}), "") << "a table";
+  EXPECT_EQ(lost_on({inside_out(box({-3, -3, 0}, {3, 3, 1}))}, {lamp}), "") << "a room";
+  EXPECT_EQ(lost_on({}, {lamp, box({1, -1, 0}, {3, 1, 1})}), "") << "side by side";
+  EXPECT_EQ(lost_on({ceiling}, {lamp}), "");
+  EXPECT_EQ(lost_on({block}, {lamp}), "wall") << "let into it";
+  EXPECT_EQ(lost_on({below}, {lamp}), "wall") << "above a ceiling without an opening";
+  EXPECT_EQ(lost_on({}, {lamp, lamp}), "lamp") << "listed twice";
+  Mesh open = lamp;
+  open.triangles.erase(open.triangles.begin());
+  EXPECT_EQ(lost_on({socket}, {open}), "wall");
+  EXPECT_EQ(lost_on({socket}, {inside_out(lamp)}), "wall");
+  const Imath::M44d mirror = Imath::M44d().setScale(V3d(-1, 1, 1));
+  EXPECT_EQ(lost_on({placed(socket, mirror)}, {lamp}), "");
+  EXPECT_EQ(lost_on({placed(block, mirror)}, {lamp}), "wall");
+}
+
+TEST(Contact, AClosedLampThatShinesInwardTooLosesLight) {
+  Scene scene = floor_scene();
+  scene.shapes = {{"wall", box({-1, -1, -1}, {1, 1, 0}), kDiffuse}};
+  add_lamp_surface(scene, box({-1, -1, 0}, {1, 1, 1}));
+  scene.commit();
+  EXPECT_FALSE(lost_lamp(scene));
+  std::get<AreaLight>(scene.lights[0].kind).two_sided = true;
+  scene.commit();
+  EXPECT_TRUE(lost_lamp(scene));
+}
+
+TEST(Contact, LampsThatTouchAlongAnEdgeOrAtAPointLoseNothing) {
+  const Quad ceiling{{-2, -2, 0.5}, {0, 4, 0}, {4, 0, 0}};
+  const auto hinged = [](double down) { return Quad{{-1, -1, 0.5}, {0, 2, 0}, {2, 0, -down}}; };
+  EXPECT_EQ(lost_on({ceiling}, {hinged(0.07)}), "") << "by 2 degrees";
+  EXPECT_EQ(lost_on({ceiling}, {hinged(0.001)}), "");
+  EXPECT_EQ(lost_on({ceiling}, {hinged(1e-8)}), "wall");
+  Mesh pyramid;
+  pyramid.vertices = {{0, 0, 0.5}, {0.5, 0, 0.49}, {0, 0.5, 0.49}, {-0.5, 0, 0.49}, {0, -0.5, 0.49}};
+  pyramid.triangles = {{0, 1, 2}, {0, 2, 3}, {0, 3, 4}, {0, 4, 1}};
+  EXPECT_EQ(lost_on({ceiling}, {pyramid}), "");
+}
+
+TEST(Contact, TellsBallsAtOnePlace) {
+  const Sphere ball{{0.1, 0.2, 0.3}, 2};
+  const Sphere beside{{0.101, 0.2, 0.3}, 2};
+  const Sphere larger{{0.1, 0.2, 0.3}, 2.001};
+  EXPECT_EQ(lost_on({ball}, {ball}), "wall");
+  EXPECT_EQ(lost_on({}, {ball, ball}), "lamp") << "listed twice";
+  EXPECT_EQ(lost_on({}, {ball}), "");
+  for (const Sphere& apart : {beside, larger}) EXPECT_EQ(lost_on({apart}, {ball}), "");
+  const Imath::M44d larger_by_half = Imath::M44d().setScale(1.5);
+  EXPECT_EQ(lost_on({placed(ball, larger_by_half)}, {Sphere{ball.center * 1.5, 3}}), "wall");
+  EXPECT_EQ(lost_on({placed(ball, larger_by_half)}, {ball}), "");
 }
 
 // A disc reaches to 1 from its middle, and the square around it to 1.41.
@@ -121,16 +192,17 @@ TEST(Contact, LampsThatAreDarkOrMoveLoseNothing) {
   EXPECT_FALSE(is_lost(PlacedShape{make_prototype(wall), moving}, 1));
 }
 
+// Whether a point or spot is lost on a wall.
+bool is_lost(const Shape& wall, const decltype(Light::kind)& lamp, std::uint32_t material = kDiffuse) {
+  Scene scene = floor_scene();
+  scene.shapes = {{"wall", wall, material}};
+  scene.lights.push_back({"lamp", lamp, Curve(1.0)});
+  scene.commit();
+  return lost_lamp(scene).has_value();
+}
+
 // Of a ceiling that slopes, floats of points in it are on one side or the other.
 TEST(Contact, TellsPointsInOpaqueFaces) {
-  const auto is_lost = [](const Shape& shape, const decltype(Light::kind)& lamp,
-                          std::uint32_t material = kDiffuse) {
-    Scene scene = floor_scene();
-    scene.shapes = {{"wall", shape, material}};
-    scene.lights.push_back({"lamp", lamp, Curve(1.0)});
-    scene.commit();
-    return lost_lamp(scene).has_value();
-  };
   const V3d u = V3d(3, 1, -1).normalized();
   const V3d v = V3d(-1, 2, -1).normalized();
   const V3d normal = u.cross(v);
@@ -148,6 +220,18 @@ TEST(Contact, TellsPointsInOpaqueFaces) {
   EXPECT_TRUE(is_lost(diamond, PointLight{{0.3F, 0.3F, 0}}));
   EXPECT_FALSE(is_lost(diamond, PointLight{{0.3F, 0.3F, 1e-12F}})) << "floats tell so much from 0";
   EXPECT_FALSE(is_lost(diamond, PointLight{{0.9F, 0.9F, 0}})) << "beside it, in its box";
+}
+
+TEST(Contact, TellsPointsOnOpaqueBalls) {
+  const Sphere ball{{0.1, 0.2, 0.3}, 2};
+  Random random(5);
+  for (int i = 0; i < 50; ++i) {
+    const V3d out = random.in_cube(1).normalized();
+    const auto point_at = [&](double radius) { return PointLight{Imath::V3f(ball.center + out * radius)}; };
+    EXPECT_TRUE(is_lost(ball, point_at(2))) << out;
+    EXPECT_FALSE(is_lost(ball, point_at(2), kGlass)) << out;
+    for (const double radius : {1.99999, 2.00001}) EXPECT_FALSE(is_lost(ball, point_at(radius))) << out;
+  }
 }
 
 TEST(Contact, FindsALampAmongThousands) {
