@@ -85,14 +85,29 @@ namespace {
 /// What a table is of the curve that it stands in, of which its unit is asked.
 enum class TablePart { whole, factor, scaled };
 
-// A number other than 1 scales the other factors, as `scale` does.
+// A number other than 1 scales the other factors, as `scale` does, also one within a product of products.
+bool scales(const spec::Curve& factor) {
+  if (const auto* number = std::get_if<double>(&factor.value)) return *number != 1;
+  const auto* formula = std::get_if<spec::CurveFormula>(&factor.value);
+  const auto* product = formula != nullptr ? std::get_if<spec::Product>(&formula->of) : nullptr;
+  return product != nullptr && std::any_of(product->value.begin(), product->value.end(), scales);
+}
 TablePart part_in(const std::vector<spec::Curve>& factors, TablePart product) {
-  const bool scaled = std::any_of(factors.begin(), factors.end(), [](const spec::Curve& factor) {
-    const auto* number = std::get_if<double>(&factor.value);
-    return number != nullptr && *number != 1;
-  });
+  const bool scaled = std::any_of(factors.begin(), factors.end(), scales);
   return scaled || product == TablePart::scaled ? TablePart::scaled : TablePart::factor;
 }
+
+/// What is to be said of the tables of a product that are relative, unless another factor gives it a unit: a
+/// table in watts, or a formula or a `scale`, of which the user has chosen the values.
+struct ProductDoubts {
+  bool has_unit = false;
+  std::vector<std::pair<SourcePosition, std::string>> doubts;
+
+  void report(Diagnostics& diagnostics) const {
+    if (has_unit) return;
+    for (const auto& [where, doubt] : doubts) diagnostics.error_if_strict(where, doubt);
+  }
+};
 
 std::optional<std::string> fault_of_unit(const NamedCurve& table, const CurveUse& use, TablePart part) {
   if (part == TablePart::scaled) return std::nullopt;
@@ -103,7 +118,7 @@ std::optional<std::string> fault_of_unit(const NamedCurve& table, const CurveUse
 std::optional<std::string> doubt_of_unit(const NamedCurve& table, const CurveUse& use, TablePart part) {
   if (part == TablePart::scaled) return std::nullopt;
   if (use.unit == CurveUnit::unsaid_response) return unsaid_response(table.name, table.unit);
-  return part == TablePart::whole ? relative_power(table.name, table.unit, use.unit) : std::nullopt;
+  return relative_power(table.name, table.unit, use.unit);
 }
 
 /// Builds each form of a curve, without regard to the values it may take.
@@ -112,6 +127,7 @@ struct CurveBuilder {
   const SourcePosition& where;
   LoadContext& context;
   TablePart part = TablePart::whole;
+  ProductDoubts* product_doubts = nullptr;  ///< Of the outermost product that it stands in.
 
   [[nodiscard]] std::optional<NamedCurve> named(const std::string& words) const {
     const std::optional<std::string> name = context.table(words, where);
@@ -127,11 +143,19 @@ struct CurveBuilder {
     if (fault)
       context.diagnostics.error(where, *std::move(fault));
     else if (auto doubt = doubt_of_unit(table, use, part))
-      context.diagnostics.error_if_strict(where, *std::move(doubt));
+      tell(*std::move(doubt));
+    if (product_doubts != nullptr && tells_power(table.unit)) product_doubts->has_unit = true;
     return !fault;
   }
+  // Of what other factors may give a unit it is said when all are known.
+  void tell(std::string doubt) const {
+    if (product_doubts != nullptr && use.unit != CurveUnit::unsaid_response)
+      product_doubts->doubts.emplace_back(where, std::move(doubt));
+    else
+      context.diagnostics.error_if_strict(where, std::move(doubt));
+  }
   [[nodiscard]] std::optional<Curve> of(const spec::Curve& curve, TablePart entry) const {
-    return std::visit(CurveBuilder{use, curve.where, context, entry}, curve.value);
+    return std::visit(CurveBuilder{use, curve.where, context, entry, product_doubts}, curve.value);
   }
   // A product or a sum of one curve or more.
   template <typename Combine>
@@ -154,6 +178,9 @@ struct CurveBuilder {
     return std::move(table->curve);
   }
   std::optional<Curve> operator()(const spec::CurveFormula& formula) const {
+    const bool combines =
+        std::holds_alternative<spec::Product>(formula.of) || std::holds_alternative<spec::Sum>(formula.of);
+    if (!combines && product_doubts != nullptr) product_doubts->has_unit = true;
     return std::visit(*this, formula.of);
   }
   std::optional<Curve> operator()(std::monostate) const { return std::nullopt; }
@@ -198,7 +225,12 @@ struct CurveBuilder {
     return with_ends(named_daylight(day.value), use, where, context.ends).curve;
   }
   std::optional<Curve> operator()(const spec::Product& factors) const {
-    return combined(factors.value, part_in(factors.value, part), product);
+    ProductDoubts found;
+    CurveBuilder outermost = *this;
+    if (product_doubts == nullptr) outermost.product_doubts = &found;
+    auto all = outermost.combined(factors.value, part_in(factors.value, part), product);
+    found.report(context.diagnostics);
+    return all;
   }
   std::optional<Curve> operator()(const spec::Sum& terms) const {
     return combined(terms.value, part, [](const Curve& a, const Curve& b) { return sum(a, b); });

@@ -68,10 +68,11 @@ namespace abbe::description {
 /// The curve, sampled. Reports what no table can say: wavelengths that do not ascend, an empty band, an
 /// unknown name, values that the use does not allow, a table that says nothing of wavelengths that
 /// `context.ends` needs, or one whose unit is another one, as 1/cm is for 1/m and percent for a share;
-/// nothing then. A table that is scaled, by `scale` or by a number other than 1 in a product, may be in any
-/// unit; one that is another factor of a product may be another quantity, but no part or multiple. Warns of
-/// units that speak of photons where the response is unsaid, and of relative spectra where a quantity is
-/// needed. Tables that end are noted in `context.ends`.
+/// nothing then. A table that is scaled, by `scale` or by a number other than 1 in a product or a product
+/// within it, may be in any unit; one that is another factor of a product may be another quantity, but no
+/// part or multiple. Warns of units that speak of photons where the response is unsaid, and of relative
+/// spectra where a quantity is needed, in products unless another factor is in watts or a formula. Tables
+/// that end are noted in `context.ends`.
 [[nodiscard]] std::optional<Curve> build(const spec::Curve& curve, const CurveUse& use, LoadContext& context);
 [[nodiscard]] Curve build(const spec::Lines& lines);
 

@@ -51,7 +51,8 @@ inline constexpr CurveUse kQuantumResponseUse{"camera", {-10, 10}, CurveUnit::sh
 /// Why a table called `name` whose line `# unit:` says `told` is not in the unit that is needed, as one in
 /// percent or of densities is not in shares, one in 1/cm not in 1/m, and one of photons or per Hz no power
 /// per nm. `remedy` ends what is said to be allowed, where a factor makes the one of the other. Nothing when
-/// it may be in that unit: a unit is prose, such as "reflectance (0-1); wavelength in nm".
+/// it is in that unit, or in prose that may mean it, such as "reflectance (0-1); wavelength in nm"; for a
+/// coefficient prose does not do.
 [[nodiscard]] std::optional<std::string> unit_fault(std::string_view name, std::string_view told,
                                                     CurveUnit needed, std::string_view remedy = {});
 
@@ -61,13 +62,16 @@ inline constexpr CurveUse kQuantumResponseUse{"camera", {-10, 10}, CurveUnit::sh
 [[nodiscard]] std::optional<std::string> factor_unit_fault(std::string_view name, std::string_view told,
                                                            CurveUnit needed, std::string_view remedy = {});
 
-/// What is to be said of a table called `name` whose unit says that it is relative, where a radiance, an
-/// intensity, an irradiance or a flux is needed.
+/// What is to be said of a table called `name` whose unit says that it is relative, in counts or in percent,
+/// where a radiance, an intensity, an irradiance or a flux is needed.
 [[nodiscard]] std::optional<std::string> relative_power(std::string_view name, std::string_view unit,
                                                         CurveUnit needed);
 
+/// Whether the unit of a table is one of watts, as W/nm and erg/s are.
+[[nodiscard]] bool tells_power(std::string_view unit);
+
 /// What is to be said of a table called `name` that is taken as a response to energy for lack of a word about
-/// it, when its unit speaks of quantum efficiencies or of photons.
+/// it, when its unit states quantum efficiencies or a response per photon, and no energy.
 [[nodiscard]] std::optional<std::string> unsaid_response(std::string_view name, std::string_view unit);
 
 /// Whether the unit and the values of a table called `name` are those of the use; reports both when not.

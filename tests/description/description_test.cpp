@@ -295,6 +295,7 @@ TEST_F(DescriptionTest, TablesWithinSumsAndProductsAreInThatUnitToo) {
   }
   for (const char* curve :
        {R"({"sum": [{"scale": 0.01, "of": "t.csv:a"}, 0]})", R"({"product": ["t.csv:a", 0.01]})",
+        R"({"product": ["t.csv:a", {"product": [1, {"product": [0.01]}]}]})",
         R"({"product": [0.01, {"sum": ["t.csv:a", {"product": ["t.csv:a", 1]}]}]})"}) {
     EXPECT_EQ(complaint(fog, curve, "1/cm"), "") << curve;
     EXPECT_EQ(complaint(paint, curve, "%"), "") << curve;

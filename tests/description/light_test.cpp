@@ -66,8 +66,18 @@ TEST_F(DescriptionTest, RelativeSpectraWithoutAScaleAreTold) {
       << told(R"({"spectrum": "D65"})");
   EXPECT_NE(told(R"({"spectral_flux_W_per_nm": {"sum": ["D65", 0]}})").find(taken + "W/nm"),
             std::string::npos);
+  test::write(folder_ / "t.csv", "# unit: transmittance\n# outside: clamp\nwavelength_nm,a\n500,1\n600,1\n");
+  test::write(folder_ / "w.csv", "# unit: W/nm\n# outside: clamp\nwavelength_nm,a\n500,1\n600,1\n");
+  for (const char* product : {R"(["D65", "t.csv:a"])", R"(["D65", 1])", R"([{"product": ["D65", 1]}, 1])"})
+    EXPECT_NE(told(fmt::format(R"({{"spectrum": {{"product": {}}}}})", product)).find(taken),
+              std::string::npos)
+        << product;
   for (const char* sound :
-       {R"({"spectrum": "D65", "luminous_intensity": 1})", R"({"spectrum": {"scale": 0.01, "of": "D65"}})",
+       {R"({"spectrum": {"product": ["D65", "w.csv:a"]}})",
+        R"({"spectrum": {"product": ["w.csv:a", "D65"]}})",
+        R"({"spectrum": {"product": ["D65", {"product": ["t.csv:a", 0.01]}]}})",
+        R"({"spectrum": {"product": ["D65", {"scale": 0.01, "of": "t.csv:a"}]}})",
+        R"({"spectrum": "D65", "luminous_intensity": 1})", R"({"spectrum": {"scale": 0.01, "of": "D65"}})",
         R"({"spectrum": {"product": ["D65", {"band": [400, 700]}]}})"})
     EXPECT_EQ(told(sound).find("is taken to be"), std::string::npos) << sound;
 }

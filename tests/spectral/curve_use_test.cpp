@@ -5,6 +5,9 @@
 #include <filesystem>
 #include <fstream>
 #include <set>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -95,7 +98,7 @@ TEST_F(CurveUseTest, AreasAndSolidAnglesAreThoseOfTheQuantity) {
                            {"W/(m^2 nm)", false, false, true},
                            {"spectral irradiance, W/m2/nm", false, false, true},
                            {"Wm-2nm-1", false, false, true},
-                           {"W/(sr nm)", true, true, false},
+                           {"W/(sr nm)", false, true, false},
                            {"mW/(sr nm)", false, false, false},
                            {"relative spectral radiance", true, true, true}}) {
     EXPECT_EQ(fits(told.unit, CurveUnit::spectral_radiance), told.radiance) << told.unit;
@@ -175,13 +178,117 @@ TEST_F(CurveUseTest, FactorsMayBeOtherQuantitiesButNoPartsOfThem) {
     EXPECT_EQ(!factor_unit_fault("t.csv", told.unit, told.needed), told.fits) << told.unit;
 }
 
+TEST_F(CurveUseTest, RemarksMakeNoOtherUnit) {
+  struct Case {
+    CurveUnit needed;
+    std::vector<const char*> units;
+  };
+  for (const Case& told :
+       {Case{CurveUnit::per_metre,
+             {"1/m; converted from decadic by ln 10", "1/m; decadic absorbance x 2.303",
+              "1/m; a = 2.303 A/l, A base 10", "1/m; from log10 transmittance", "m^{-1}",
+              "absorption coefficient (1/m)", "absorption coefficient, m-1"}},
+        {CurveUnit::share,
+         {"transmittance (0-1), OD > 6 blocking",
+          "transmittance, OD 4 blocking",
+          "transmittance (OD6 blocking)",
+          "throughput (0-1) including atmospheric extinction at airmass 1.3",
+          "transmittance of a neutral density filter, OD 1",
+          "transmittance = 10^-absorbance",
+          "1 - absorbance",
+          "reflectance of high density polyethylene",
+          "reflectance, 50 dB SNR",
+          "reflectance factor of film of optical density 0.1",
+          "fraction (100% = 1)",
+          "1 means 100 %",
+          "1 corresponds to 100 %",
+          "reflectance of 100% cotton",
+          "fraction, not %",
+          "% / 100",
+          "transmittance (uncertainty in %)",
+          "99% Spectralon",
+          "reflectance, 45% relative humidity",
+          "R = 0..1 (not percent)",
+          "electrons per photon",
+          "e-/photon",
+          "internal transmittance (0-1), 10 mm",
+          "1.0 = 100.0 %"}},
+        {CurveUnit::power,
+         {"relative power of a quantum-dot LED", "relative power at 60 Hz mains",
+          "relative spectral power in energy units, not photons", "W/(m2 nm), resolution 5 cm-1",
+          "PWM at 1 kHz, relative", "relative energy (not quanta)", "W/nm, measured with a photon counter",
+          "W/cm3", "J/(m2 nm)", "relative, 50 dB SNR", "a.u.", "counts", "nm, relative"}},
+        {CurveUnit::spectral_radiance,
+         {"W/(m2 sr nm), 100 Hz flicker averaged", "W/(m2 sr nm) of 2 mm2 LED",
+          "W/(m2 sr nm) with 1 cm2 aperture", "W/(m2 sr nm) vs wavelength / um", "kW/(m2 sr um)",
+          "GW/(m2 sr m)", "W/(m2 sr nm), measured with a photon counter", "W/(m2 sr nm), luminance 250 nit"}},
+        {CurveUnit::spectral_irradiance, {"W/m2/nm, FOV 0.006 sr", "GW/m3", "W/m2/nm at 1 W"}},
+        {CurveUnit::spectral_flux,
+         {"W/nm (2 pi sr)", "W/nm into 4 pi sr", "W/nm, integrated over all sr", "W/nm in an m2-sphere",
+          "W/nm (1000 lm)", "a.u."}}})
+    for (const char* unit : told.units)
+      EXPECT_EQ(unit_fault("t.csv", unit, told.needed).value_or(""), "") << unit;
+}
+
+TEST_F(CurveUseTest, OtherUnitsAreOthersInAllSpellings) {
+  struct Case {
+    CurveUnit needed;
+    const char* allowed;
+    std::vector<const char*> units;
+  };
+  for (const Case& told :
+       {Case{CurveUnit::spectral_irradiance,
+             "allowed W/(m^2 nm); a factor converts)",
+             {"W/cm^3", "W/cm3", "W m-3", "W/nm", "watts", "mW/m2/nm at 1 W", "1/nm",
+              "uW/cm2/nm (1000 W FEL)"}},
+        {CurveUnit::spectral_radiance,
+         "allowed W/(m^2 sr nm); a factor converts)",
+         {"W m-3 sr-1", "W/m^3/sr", "W/(m2.sr.um)", "W/(m2.µm.sr)", "W/(sr nm)", "1e-3 W/(m2 sr nm)"}},
+        {CurveUnit::spectral_flux,
+         "allowed W/nm; a factor converts)",
+         {"mW/nm, 1 W in all", "W/5nm", "W/m", "W"}},
+        {CurveUnit::power,
+         "allowed power per nm: c/lambda^2 times that per Hz)",
+         {"mJy", "uJy", "Jansky", "erg s^-1 cm^-2 Hz^-1", "relative power per THz"}},
+        {CurveUnit::power,
+         "allowed power per nm: hc/lambda^2 times that per unit of energy)",
+         {"W/m2/eV", "W/(m^2 meV)"}},
+        {CurveUnit::power,
+         "allowed power per nm: 10^7 nm cm^-1/lambda^2 times that per cm^-1)",
+         {"W/(m2 1/cm)", "W m-2 / cm^-1", "W m-2 sr-1 cm-1", "relative power per cm-1"}},
+        {CurveUnit::power,
+         "allowed power per nm: hc/lambda for each photon)",
+         {"uE/m2/s", "μE m-2 s-1 nm-1", "photon counts", "counts (photons)", "relative photon flux",
+          "micromoles"}},
+        {CurveUnit::power, "allowed power per nm: 10^(A/10) of A dB)", {"dBm/nm", "dB", "dBm"}},
+        {CurveUnit::share,
+         "allowed shares of 1; a factor converts)",
+         {"pct", "‰", "0-100", "norm. to 100", "0..100", "0…100 %", "from 0% to 100%", "% R", "%R",
+          "Percentage", "reflectance (in %)", "relative (max 100)", "per mille"}},
+        {CurveUnit::per_metre,
+         "allowed 1/m; a factor converts)",
+         {"absorption coefficient (1/cm)", "cm^{-1}", "1/m2", "absorption"}}})
+    for (const char* unit : told.units) {
+      const std::string fault = unit_fault("t.csv", unit, told.needed, "; a factor converts").value_or("");
+      EXPECT_TRUE(fault.ends_with(told.allowed)) << unit << ": " << fault;
+    }
+  EXPECT_TRUE(unit_fault("t.csv", "W/m2/nm", CurveUnit::share)) << "no share at all";
+}
+
 TEST_F(CurveUseTest, RelativeSpectraAreNoQuantities) {
+  for (const char* unit :
+       {"a.u.", "A.U.", "arb. u.", "arbitrary units", "rel.", "norm.", "counts", "counts/s", "%",
+        "relative intensity (%)", "SPD normalized to 560 nm", "unitless", "relative power per nm"})
+    EXPECT_TRUE(relative_power("t.csv", unit, CurveUnit::spectral_flux)) << unit;
+  EXPECT_FALSE(relative_power("t.csv", "W/m2/nm, relative to 1 AU", CurveUnit::spectral_irradiance));
   EXPECT_EQ(relative_power("D65", "relative spectrum", CurveUnit::spectral_radiance).value_or(""),
             "\"D65\" is taken to be in W/(m^2 sr nm), though its unit is \"relative spectrum\": scale the "
             "emission to a quantity");
   for (const char* unit : {"W/(m2 sr nm), relative error 1 %", "1", "spectral radiance"})
     EXPECT_FALSE(relative_power("t.csv", unit, CurveUnit::spectral_flux)) << unit;
   EXPECT_FALSE(relative_power("t.csv", "relative", CurveUnit::power)) << "of any scale";
+  for (const auto& [unit, power] : {std::pair{"mW/nm", true}, {"erg/s", true}, {"relative; W/nm", false}})
+    EXPECT_EQ(tells_power(unit), power) << unit;
 }
 
 TEST_F(CurveUseTest, LampsByNameArePowers) {
@@ -193,12 +300,16 @@ TEST_F(CurveUseTest, LampsByNameArePowers) {
 }
 
 TEST_F(CurveUseTest, UnitsThatSpeakOfPhotonsLeaveAResponseUnsaid) {
-  for (const char* unit : {"e-/photon", "electrons/photon", "QE", "QE (0-1)", "quantum yield", "per Photon",
-                           "Quantum efficiency"})
+  for (const char* unit :
+       {"e-/photon", "electrons/photon", "QE", "QE (0-1)", "quantum yield", "per Photon",
+        "Quantum efficiency", "response (electrons/photon)", "sensitivity, electrons per photon"})
     EXPECT_NE(unsaid_response("t.csv", unit).value_or("").find("is taken as a response to energy"),
               std::string::npos)
         << unit;
-  for (const char* unit : {"relative", "photopic response", "A/W", "relative to an opaque plate", "e-/J"})
+  for (const char* unit :
+       {"relative", "photopic response", "A/W", "relative to an opaque plate", "e-/J",
+        "relative energy response; converted from photon response", "relative (energy, not quantum)",
+        "energy response of a photon counter", "relative, photon noise removed"})
     EXPECT_FALSE(unsaid_response("t.csv", unit)) << unit;
 }
 

@@ -1,0 +1,222 @@
+#include "spectral/told_unit.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <utility>
+
+#include "io/text.h"
+
+namespace abbe {
+namespace {
+
+constexpr std::string_view kDigits = "0123456789";
+
+std::string_view trimmed(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t");
+  if (first == text.npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t") + 1 - first);
+}
+bool is_letter_at(std::string_view text, std::size_t place) {
+  return place < text.size() &&
+         ((text[place] >= 'a' && text[place] <= 'z') || (text[place] >= 'A' && text[place] <= 'Z'));
+}
+bool is_digit_at(std::string_view text, std::size_t place) {
+  return place < text.size() && kDigits.find(text[place]) != kDigits.npos;
+}
+
+constexpr std::array<std::pair<std::string_view, std::string_view>, 10> kPlainLetters{{{"−", "-"},
+                                                                                       {"–", "-"},
+                                                                                       {"µ", "u"},
+                                                                                       {"μ", "u"},
+                                                                                       {"·", "*"},
+                                                                                       {"⋅", "*"},
+                                                                                       {"Å", "Angstrom"},
+                                                                                       {"Å", "Angstrom"},
+                                                                                       {"…", "..."},
+                                                                                       {"\t", " "}}};
+constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kSuperscripts{{{"⁻", "-"},
+                                                                                       {"⁰", "0"},
+                                                                                       {"¹", "1"},
+                                                                                       {"²", "2"},
+                                                                                       {"³", "3"},
+                                                                                       {"⁴", "4"},
+                                                                                       {"⁵", "5"},
+                                                                                       {"⁶", "6"},
+                                                                                       {"⁷", "7"},
+                                                                                       {"⁸", "8"},
+                                                                                       {"⁹", "9"}}};
+
+// What a list has for the sign that a text begins with.
+template <std::size_t size>
+const std::pair<std::string_view, std::string_view>* leading_sign(
+    const std::array<std::pair<std::string_view, std::string_view>, size>& list, std::string_view text) {
+  const auto found = std::find_if(list.begin(), list.end(),
+                                  [text](const auto& sign) { return text.starts_with(sign.first); });
+  return found == list.end() ? nullptr : &*found;
+}
+
+// A line in the letters that all spellings have: "W m^-2 um^-1".
+std::string plain_letters(std::string_view line) {
+  std::string plain;
+  bool raised = false;
+  while (!line.empty()) {
+    const auto* superscript = leading_sign(kSuperscripts, line);
+    const auto* sign = superscript != nullptr ? superscript : leading_sign(kPlainLetters, line);
+    if (superscript != nullptr && !raised) plain += '^';
+    raised = superscript != nullptr;
+    plain += sign != nullptr ? sign->second : line.substr(0, 1);
+    line.remove_prefix(sign != nullptr ? sign->first.size() : 1);
+  }
+  return plain;
+}
+
+// Whether parentheses that open at `at` are of a unit, behind a sign of division or multiplication or before
+// an exponent, and no remark.
+bool are_of_a_unit(std::string_view text, std::size_t at) {
+  const std::string_view before = trimmed(text.substr(0, at));
+  const bool joined = !before.empty() && std::string_view("/*.^").find(before.back()) != before.npos;
+  const std::size_t behind = text.find(')', at) + 1;
+  const bool raised =
+      behind != 0 && (text.substr(behind).starts_with('^') || text.substr(behind).starts_with('-') ||
+                      text.substr(behind).starts_with('/') || text.substr(behind).starts_with("**"));
+  return joined || before.ends_with(" per") || before == "per" || raised;
+}
+
+// The parts of a line that commas, brackets and the parentheses of remarks make of it.
+std::vector<std::string_view> parts_of(std::string_view text) {
+  std::vector<std::string_view> parts;
+  std::size_t begin = 0;
+  int depth = 0;  // of parentheses of a unit
+  for (std::size_t at = 0; at <= text.size(); ++at) {
+    const char sign = at < text.size() ? text[at] : ',';
+    if (sign == '(' && (depth > 0 || are_of_a_unit(text, at))) {
+      ++depth;
+    } else if (sign == ')' && depth > 0) {
+      --depth;
+    } else if (at == text.size() ||
+               (depth == 0 && std::string_view(",()[]").find(sign) != std::string_view::npos)) {
+      if (const auto part = trimmed(text.substr(begin, at - begin)); !part.empty()) parts.push_back(part);
+      begin = at + 1;
+    }
+  }
+  return parts;
+}
+
+// A unit from a place of the text on, where none of a length alone stands.
+std::optional<Unit> unit_at(std::string_view text, std::size_t at) {
+  const auto unit = leading_unit(text.substr(at));
+  return unit && !unit->is_extent() ? unit : std::nullopt;
+}
+
+// Within words a unit is compound or stands behind "in": "spectral radiance W/(m2 sr nm)", "flux in mW".
+std::optional<Unit> unit_within(std::string_view text) {
+  for (std::size_t blank = text.find(' '); blank != text.npos; blank = text.find(' ', blank + 1)) {
+    const std::string_view before = text.substr(0, blank);
+    if (is_digit_at(before, blank - 1) || before.ends_with(" per")) continue;
+    if (is_digit_at(text, blank + 1) && !text.substr(blank + 1).starts_with("1/")) continue;
+    const auto unit = unit_at(text, blank + 1);
+    if (unit && (unit->is_compound() || before.ends_with(" in"))) return unit;
+  }
+  return std::nullopt;
+}
+
+// An addition with a number before it tells an amount, as "100 cd/m2" does, and no unit.
+std::optional<Unit> unit_of_addition(std::string_view text) {
+  if (text.starts_with("in ")) text.remove_prefix(3);
+  if (is_digit_at(text, 0) && !text.starts_with("1/") && !text.starts_with("1 /")) return std::nullopt;
+  return unit_at(text, 0);
+}
+
+std::optional<Unit> unit_among(const std::vector<std::string_view>& parts) {
+  if (parts.empty()) return std::nullopt;
+  if (const auto unit = unit_at(parts.front(), 0)) return unit;
+  if (const auto unit = unit_within(parts.front())) return unit;
+  for (std::size_t i = 1; i < parts.size(); ++i)
+    if (const auto unit = unit_of_addition(parts[i])) return unit;
+  return std::nullopt;
+}
+
+bool begins_with(std::string_view text, std::string_view phrase) {
+  if (!text.starts_with(phrase) ||
+      (is_letter_at(phrase, phrase.size() - 1) && is_letter_at(text, phrase.size())))
+    return false;
+  const std::string_view behind = text.substr(phrase.size());
+  const bool hyphened = behind.starts_with('-') && is_letter_at(behind, 1);
+  const std::string_view next = trimmed(behind);
+  return !hyphened && !is_digit_at(next, 0) && !next.starts_with('>') && !next.starts_with('<');
+}
+
+// Whether words before a phrase at the end of a quantity speak of something else.
+bool is_of_something_else(std::string_view before) {
+  static const Phrases kElse{"of", "for",  "from",        "with",  "without",  "including", "not",
+                             "no", "than", "uncertainty", "error", "accuracy", "x",         "by"};
+  return says(before, kElse) || before.find_first_of("=^") != before.npos ||
+         before.find(" - ") != before.npos;
+}
+bool ends_with(std::string_view text, std::string_view phrase) {
+  if (!text.ends_with(phrase)) return false;
+  const std::string_view before = text.substr(0, text.size() - phrase.size());
+  const std::string_view last = trimmed(before);
+  return !is_letter_at(before, before.size() - 1) && !is_digit_at(last, last.size() - 1) &&
+         !is_of_something_else(before);
+}
+
+// Percent that is divided by 100 is none.
+bool is_divided(std::string_view text) {
+  return text.ends_with("100") && (text.find('/') != text.npos || says(text, {"divided by"}));
+}
+// Whether a text ends at 100 of what is 100 at most, as "0-100" and "norm. to 100", and not "1 equal to 100".
+bool ends_at_100(std::string_view text) {
+  text = trimmed(text);
+  if (!text.ends_with("100")) return false;
+  std::string_view before = trimmed(text.substr(0, text.size() - 3));
+  if (before.ends_with("max") || before.ends_with("maximum")) return true;
+  const bool to = before.ends_with(" to");
+  before = trimmed(before.substr(0, to ? before.size() - 2 : before.find_last_not_of("-.") + 1));
+  const bool scaled = to && before.find_last_of(' ') == before.npos &&
+                      (before.starts_with("norm") || before.starts_with("scaled"));
+  return scaled || (before.size() + 3 < text.size() && (before.ends_with("0") || before.ends_with("0%")));
+}
+
+}  // namespace
+
+ToldUnit told_unit(std::string_view line) {
+  const std::string plain = plain_letters(line);
+  const auto parts = parts_of(std::string_view(plain).substr(0, plain.find(';')));
+  ToldUnit told{{}, {}, lower_case(plain), unit_among(parts)};
+  if (!parts.empty()) told.quantity = lower_case(parts.front());
+  for (std::size_t i = 1; i < parts.size(); ++i) told.additions.push_back(lower_case(parts[i]));
+  return told;
+}
+
+bool says(std::string_view text, const Phrases& phrases) {
+  for (const std::string_view phrase : phrases)
+    for (std::size_t at = text.find(phrase); at != text.npos; at = text.find(phrase, at + 1))
+      if (!is_letter_at(text, at - 1) && !is_letter_at(text, at + phrase.size())) return true;
+  return false;
+}
+
+bool is_told_as(const ToldUnit& told, const Phrases& phrases) {
+  return std::any_of(phrases.begin(), phrases.end(), [&](std::string_view phrase) {
+    const auto is_phrase = [phrase](std::string_view addition) {
+      return addition == phrase || addition == "in " + std::string(phrase);
+    };
+    return begins_with(told.quantity, phrase) || ends_with(told.quantity, phrase) ||
+           std::any_of(told.additions.begin(), told.additions.end(), is_phrase);
+  });
+}
+
+bool is_told_in_percent(const ToldUnit& told) {
+  static const Phrases kPercent{"%",   "percent", "per cent",  "percentage", "pct",
+                                "ppm", "‰",       "per mille", "permille",   "per mil"};
+  const auto is_to_100 = [](std::string_view text) {
+    for (const std::string_view sign : {"%", "percent", "per cent"})
+      if (text.ends_with(sign)) text.remove_suffix(sign.size());
+    return ends_at_100(text);
+  };
+  return (is_told_as(told, kPercent) && !is_divided(told.quantity)) || is_to_100(told.quantity) ||
+         std::any_of(told.additions.begin(), told.additions.end(), is_to_100);
+}
+
+}  // namespace abbe
