@@ -279,7 +279,7 @@ void build_covered(const spec::Sensor& said, Sensor& sensor, LoadContext& contex
   LoadContext on = going_on(context, unheard);
   Sensor longer;
   build_filtered(said, longer, on);
-  check_ends(ended, longer.channels, context.diagnostics);
+  check_ends(ended, Curve(1.0), longer.channels, context);
 }
 
 // What stands in the way of measuring all of the light's polarisation.

@@ -11,7 +11,6 @@
 
 #include "description/table_ends.h"
 #include "io/schema/write.h"
-#include "sensor/response/coverage.h"
 #include "spectral/colorimetry.h"
 #include "spectral/library.h"
 
@@ -196,7 +195,7 @@ std::optional<Curve> build_curve(const spec::Emission& emission, const SpectrumU
   Diagnostics unheard;
   LoadContext on = going_on(context, unheard);
   if (const auto longer = std::visit(SpectrumBuilder{on, use, emission.where}, emission.spectrum))
-    check_ends(ended, exposed_to(*longer, context.ends.channels), context.diagnostics);
+    check_ends(ended, *longer, context.ends.channels, context);
   return curve;
 }
 

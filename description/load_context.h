@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -55,7 +56,8 @@ struct TableEnds {
   std::span<const Channel> channels{};       ///< That sensor's; none of a meter, which takes what it is told.
   std::vector<EndedTable>* noted = nullptr;  ///< Those of the lamp or sensor that is being built, if wanted,
   std::string channel{};                     ///< and the channel that is.
-  bool go_on = false;  ///< Whether lights and filters go on beyond their tables as they end.
+  bool go_on = false;            ///< Whether lights and filters go on beyond their tables as they end.
+  std::set<std::string> told{};  ///< What has been warned of.
 };
 
 /// What the readers of one scene file share.

@@ -1,12 +1,20 @@
 #include "description/table_ends.h"
 
-#include <algorithm>
-#include <iterator>
-#include <vector>
-
 #include "sensor/response/coverage.h"
 
 namespace abbe::description {
+namespace {
+
+// Errors stand at each of their places.
+void tell_once(const Diagnostics& found, LoadContext& context) {
+  for (const Diagnostic& one : found.all())
+    if (one.severity == Diagnostic::Severity::error)
+      context.diagnostics.error(one.where, one.message, one.code);
+    else if (context.ends.told.insert(one.message).second)
+      context.diagnostics.warning(one.where, one.message);
+}
+
+}  // namespace
 
 NamedCurve with_ends(NamedCurve table, const CurveUse& use, const SourcePosition& where, TableEnds& ends) {
   const bool covers = table.low_nm <= kMinWavelengthNm && table.high_nm >= kMaxWavelengthNm;
@@ -24,15 +32,15 @@ LoadContext going_on(const LoadContext& context, Diagnostics& unheard) {
   return same;
 }
 
-void check_ends(std::span<const EndedTable> tables, std::span<const Channel> channels,
-                Diagnostics& diagnostics) {
-  for (const EndedTable& ended : tables) {
-    std::vector<Channel> own;
-    std::copy_if(channels.begin(), channels.end(), std::back_inserter(own), [&](const Channel& channel) {
-      return ended.channel.empty() || channel.name == ended.channel;
-    });
-    abbe::check_ends(ended.table, own, ended.where, diagnostics);
+void check_ends(std::span<const EndedTable> tables, const Curve& light, std::span<const Channel> channels,
+                LoadContext& context) {
+  Diagnostics found;
+  for (const auto& [table, where, own] : tables) {
+    if (own.empty()) abbe::check_ends(table, light, channels, where, found);
+    for (const Channel& channel : channels)
+      if (channel.name == own) abbe::check_ends(table, light, {&channel, 1}, where, found);
   }
+  tell_once(found, context);
 }
 
 }  // namespace abbe::description

@@ -16,8 +16,9 @@ namespace abbe::description {
 [[nodiscard]] LoadContext going_on(const LoadContext& context, Diagnostics& unheard);
 
 /// Reports each of these tables by whose ends a share of what its channels count is lost that is not
-/// negligible. The weights of `channels` are what they count where lights and filters go on.
-void check_ends(std::span<const EndedTable> tables, std::span<const Channel> channels,
-                Diagnostics& diagnostics);
+/// negligible. The channels count `light` by their weights, in which lights and filters go on. What is warned
+/// of is told once in `context`, however many lamps have the table and lose as much by it.
+void check_ends(std::span<const EndedTable> tables, const Curve& light, std::span<const Channel> channels,
+                LoadContext& context);
 
 }  // namespace abbe::description

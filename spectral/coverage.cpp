@@ -1,7 +1,9 @@
 #include "spectral/coverage.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <span>
 #include <utility>
 #include <vector>
@@ -28,11 +30,75 @@ double last_within(std::span<const Knot> knots, double integral) {
   return knots[i].wavelength_nm;
 }
 
+// The wavelengths between the knots around all values other than 0; its ends are in the other order where
+// there are none.
+NeededRange support_range(const Curve& curve) {
+  const std::span<const Knot> knots = curve.knots();
+  const auto is_lit = [](const Knot& knot) { return knot.value != 0; };
+  const auto first = std::find_if(knots.begin(), knots.end(), is_lit);
+  if (first == knots.end()) return {kMaxWavelengthNm, kMinWavelengthNm};
+  const auto after = std::find_if(knots.rbegin(), knots.rend(), is_lit).base();
+  return {(first == knots.begin() ? first : std::prev(first))->wavelength_nm,
+          (after == knots.end() ? std::prev(after) : after)->wavelength_nm};
+}
+
+/// The straight piece of a curve that holds from a wavelength on.
+class StraightPiece {
+ public:
+  StraightPiece(const Curve& curve, double from_nm) : knots_(curve.knots()) { go_to(from_nm); }
+
+  [[nodiscard]] double end_nm() const { return knots_[at_ + 1].wavelength_nm; }
+  [[nodiscard]] double operator()(double nm) const {
+    const Knot& a = knots_[at_];
+    const Knot& b = knots_[at_ + 1];
+    return a.value + (b.value - a.value) * ((nm - a.wavelength_nm) / (b.wavelength_nm - a.wavelength_nm));
+  }
+  /// Goes up to the piece that holds from `nm` on.
+  void go_to(double nm) {
+    const auto after = std::upper_bound(knots_.begin() + static_cast<std::ptrdiff_t>(at_), knots_.end(), nm,
+                                        [](double x, const Knot& knot) { return x < knot.wavelength_nm; });
+    at_ = static_cast<std::size_t>(after - knots_.begin()) - 1;
+  }
+
+ private:
+  std::span<const Knot> knots_;
+  std::size_t at_ = 0;
+};
+
+struct Integral {
+  double value = 0;
+  std::size_t pieces = 0;
+};
+
+// The integral of |a b| over a range, exact but where one of them changes its sign between two knots.
+Integral magnitude_of_product(const Curve& a, const Curve& b, double low_nm, double high_nm) {
+  StraightPiece piece_a(a, low_nm);
+  StraightPiece piece_b(b, low_nm);
+  const auto magnitude = [&](double nm) { return std::abs(piece_a(nm) * piece_b(nm)); };
+  Integral sum;
+  for (double from = low_nm; from < high_nm; ++sum.pieces) {
+    const double to = std::min({piece_a.end_nm(), piece_b.end_nm(), high_nm});
+    // Simpson's rule, exact for the product of two lines.
+    sum.value += (to - from) / 6 * (magnitude(from) + 4 * magnitude((from + to) / 2) + magnitude(to));
+    piece_a.go_to(to);
+    piece_b.go_to(to);
+    from = to;
+  }
+  return sum;
+}
+
 }  // namespace
 
-double share_beyond(const Curve& curve, double low_nm, double high_nm) {
-  const Curve all = magnitude(curve);
-  return all.max() > 0 ? 1 - all.integral(low_nm, high_nm) / all.integral() : 0;
+ShareBeyond share_beyond(const Curve& weight, const Curve& light, double low_nm, double high_nm) {
+  const NeededRange seen = support_range(weight);
+  if (seen.low_nm >= low_nm && seen.high_nm <= high_nm) return {};
+  const double from = std::clamp(low_nm, seen.low_nm, seen.high_nm);
+  const double to = std::clamp(high_nm, seen.low_nm, seen.high_nm);
+  const Integral below = magnitude_of_product(weight, light, seen.low_nm, from);
+  const Integral within = magnitude_of_product(weight, light, from, to);
+  const Integral above = magnitude_of_product(weight, light, to, seen.high_nm);
+  const double beyond = below.value + above.value;
+  return {beyond > 0 ? beyond / (beyond + within.value) : 0, below.pieces + within.pieces + above.pieces};
 }
 
 NeededRange main_range(const Curve& curve) {

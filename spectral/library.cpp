@@ -11,6 +11,7 @@
 #include "io/json_values.h"
 #include "io/table.h"
 #include "io/text.h"
+#include "spectral/coverage.h"
 #include "spectral/curve_use.h"
 #include "spectral/sources.h"
 
@@ -195,7 +196,7 @@ double illuminant_a(double wavelength_nm) {
          std::expm1(kSecond / wavelength_nm);
 }
 
-void extend_by_definition(NamedCurve& a) {
+void extend_a(NamedCurve& a) {
   std::vector<Knot> knots;
   for (const Knot& knot : a.curve.knots()) {
     if (knot.wavelength_nm <= a.high_nm) knots.push_back(knot);
@@ -205,6 +206,18 @@ void extend_by_definition(NamedCurve& a) {
   }
   a.curve = Curve(std::move(knots));
   a.high_nm = kMaxWavelengthNm;
+}
+
+// Illuminant E is of even power at all wavelengths.
+void extend_e(NamedCurve& e) {
+  e.curve = held_beyond(e);
+  e.low_nm = kMinWavelengthNm;
+  e.high_nm = kMaxWavelengthNm;
+}
+
+void extend_by_definition(const std::string& name, NamedCurve& illuminant) {
+  if (name == "A" || name == "cie_A") extend_a(illuminant);
+  if (name == "E" || name == "cie_E") extend_e(illuminant);
 }
 
 /// The temperature of "family:<K>" if `name` is of that family; reports one that is not in [low, high] and
@@ -310,7 +323,7 @@ std::optional<NamedCurve> load_illuminant(const std::string& name, const SourceP
     return day;
   }
   auto illuminant = load_curve(kIlluminantUse, name, where, diagnostics, needed);
-  if (illuminant && (name == "A" || name == "cie_A")) extend_by_definition(*illuminant);
+  if (illuminant) extend_by_definition(name, *illuminant);
   return illuminant;
 }
 

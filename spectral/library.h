@@ -70,8 +70,8 @@ struct TableSamples {
 /// nm.
 [[nodiscard]] NamedCurve named_daylight(double kelvin);
 
-/// Illuminants by name: those of `data/illuminant`, "blackbody:<K>" and "daylight:<K>". Illuminant A beyond
-/// its table follows its definition. Reports a table with negative power.
+/// Illuminants by name: those of `data/illuminant`, "blackbody:<K>" and "daylight:<K>". Illuminants A and E
+/// beyond their tables follow their definitions. Reports a table with negative power.
 [[nodiscard]] std::optional<NamedCurve> load_illuminant(const std::string& name, const SourcePosition& where,
                                                         Diagnostics& diagnostics, NeededRange needed = {});
 

@@ -57,32 +57,43 @@ bool each_once(const std::vector<std::string>& names, const Table& table, Diagno
 
 constexpr std::array kDeviations{"R_deviation", "G_deviation", "B_deviation"};
 
-// Whether a patch tells nothing of its noise, of which a warning then names the first: an empty cell, or the
-// 0 of one pixel, which has no spread and would pass for certain.
-bool is_noise_unknown(const Table& table, const std::vector<std::string>& names,
-                      const std::vector<Raw>& pixels, Diagnostics& diagnostics) {
+// An empty cell, or the 0 of one pixel, which has no spread and would pass for certain.
+bool is_unknown(const std::string& deviation, double pixels) {
+  return deviation.empty() || (pixels == 1 && parse_number(deviation) == 0.0);
+}
+
+// Whether a patch that counts tells nothing of its noise, of which a warning then names the first.
+bool is_noise_unknown(const Table& table, const MeasuredPatches& patches, const std::vector<Raw>& pixels,
+                      Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < table.rows.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto column = table.column(kDeviations[k]);
-      if (!column) continue;
-      const std::string& cell = table.rows[i][*column];
-      if (!cell.empty() && !(pixels[i][k] == 1 && parse_number(cell) == 0.0)) continue;
+      const std::size_t column = table.column(kDeviations[k]).value();
+      if (patches.saturated.contains(patches.names[i]) || !is_unknown(table.rows[i][column], pixels[i][k]))
+        continue;
       diagnostics.warning(table.position(i),
                           fmt::format("patch \"{}\" has no {}, as one pixel has none: all patches count "
                                       "alike; show the chart on more pixels",
-                                      names[i], kDeviations[k]));
+                                      patches.names[i], kDeviations[k]));
       return true;
     }
   return false;
 }
 
+// Of single pixels, 0 where a cell is empty.
+std::optional<std::vector<Raw>> pixel_deviations(Table table, Diagnostics& diagnostics) {
+  for (const char* name : kDeviations)
+    if (const auto column = table.column(name))
+      for (std::vector<std::string>& row : table.rows)
+        if (row[*column].empty()) row[*column] = "0";
+  return triples(table, kDeviations, diagnostics);
+}
+
 // Of the means over so many pixels; none where the table does not tell of noise.
-std::optional<std::vector<Raw>> deviations_of(const Table& table, const std::vector<std::string>& names,
+std::optional<std::vector<Raw>> deviations_of(const Table& table, const MeasuredPatches& patches,
                                               Diagnostics& diagnostics) {
   if (!table.column(kDeviations[0])) return std::vector<Raw>{};
   const auto pixels = triples(table, {"R_pixels", "G_pixels", "B_pixels"}, diagnostics);
-  if (pixels && is_noise_unknown(table, names, *pixels, diagnostics)) return std::vector<Raw>{};
-  auto deviations = triples(table, kDeviations, diagnostics);
+  auto deviations = pixel_deviations(table, diagnostics);
   if (!deviations || !pixels) return std::nullopt;
   for (std::size_t i = 0; i < deviations->size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -92,7 +103,8 @@ std::optional<std::vector<Raw>> deviations_of(const Table& table, const std::vec
                           ErrorCode::input);
       deviation /= std::sqrt((*pixels)[i][k]);
     }
-  return diagnostics.has_errors() ? std::nullopt : deviations;
+  if (diagnostics.has_errors()) return std::nullopt;
+  return is_noise_unknown(table, patches, *pixels, diagnostics) ? std::vector<Raw>{} : deviations;
 }
 
 // Patches with saturated pixels, each of which is warned of.
@@ -197,12 +209,14 @@ std::optional<MeasuredPatches> load_measured_patches(const std::filesystem::path
   auto names = patch_names(*table, diagnostics);
   auto values = triples(*table, {"R", "G", "B"}, diagnostics);
   if (!names || !values || !each_once(*names, *table, diagnostics)) return std::nullopt;
-  auto deviations = deviations_of(*table, *names, diagnostics);
-  auto saturated = saturated_in(*table, *names, diagnostics);
-  if (!deviations) return std::nullopt;
   const auto unit = table->keys.find("unit");
-  return MeasuredPatches{*std::move(names), *std::move(values), *std::move(deviations),
-                         unit == table->keys.end() ? "" : unit->second, std::move(saturated)};
+  MeasuredPatches patches{*std::move(names), *std::move(values)};
+  patches.unit = unit == table->keys.end() ? "" : unit->second;
+  patches.saturated = saturated_in(*table, patches.names, diagnostics);
+  auto deviations = deviations_of(*table, patches, diagnostics);
+  if (!deviations) return std::nullopt;
+  patches.deviations = *std::move(deviations);
+  return patches;
 }
 
 void scale_to_codes(MeasuredPatches& patches, const std::optional<double>& full_scale_dn,

@@ -36,9 +36,10 @@ void warn_of_codes(const std::filesystem::path& file, const std::string& instead
 
 /// A camera's values of named patches, each named once, from a table with the columns `patch`, `R`, `G`, `B`;
 /// with `R_deviation` (of a pixel), `R_pixels` and those of G and B, as `abbe measure` writes them, it tells
-/// their noise too, unless that of a patch is unknown: of an empty cell, or a deviation of 0 of one pixel, a
-/// warning tells that all count alike. Where `R_saturated`, `G_saturated` or `B_saturated` is above 0, a
-/// warning names the patch as left out.
+/// their noise too, unless that of a patch that is not left out is unknown: of an empty cell, or a
+/// deviation of 0 of one pixel, a warning tells that all count alike. Deviations below 0 and fewer pixels
+/// than 1 are errors at any rate. Where `R_saturated`, `G_saturated` or `B_saturated` is above 0, a warning
+/// names the patch as left out.
 struct MeasuredPatches {
   std::vector<std::string> names;
   std::vector<Raw> values;

@@ -58,14 +58,15 @@ void require_alike(const Frame& frame, const Frame& first, const std::filesystem
                              *gain, *expected));
 }
 
-// What lies below the lowest code is cut off there: the mean is too high and the scatter too small.
+// What lies below the lowest code is cut off there: the mean is too high and the scatter too small. Codes
+// that are all the lowest, as of an ideal read-out in the dark, have no scatter that could be cut.
 void require_no_underflow(const Frame& frame, const std::filesystem::path& file) {
   const double lowest = frame.scale.linear(0);
   for (std::size_t c = 0; c < frame.codes.size(); ++c) {
     const std::vector<std::uint16_t>& codes = frame.codes[c];
     const auto cut = std::count_if(codes.begin(), codes.end(), [&](auto code) { return code <= lowest; });
     const double share = static_cast<double>(cut) / static_cast<double>(codes.size());
-    if (share > kUnderflow)
+    if (share > kUnderflow && share < 1)
       refuse(file, fmt::format("{:.3g} % of its codes in {} are {}, the lowest, at which noise is cut off "
                                "(allowed {} %), so that neither gain, read noise nor dark current can be "
                                "told: give the read-out an offset_dn",

@@ -60,7 +60,7 @@ bool tells_its_ends(const NamedCurve& curve, const std::string& column, const Ch
   if (curve.outside != Outside::error) return true;
   NamedCurve named = curve;
   named.name = column;
-  return check_ends(named, {&channel, 1}, where, diagnostics);
+  return check_ends(named, Curve(1.0), {&channel, 1}, where, diagnostics);
 }
 
 }  // namespace

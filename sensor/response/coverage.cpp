@@ -13,11 +13,12 @@ struct LostShare {
   std::string channel;
 };
 
-LostShare most_lost(const NamedCurve& table, std::span<const Channel> held) {
+LostShare most_lost(const NamedCurve& table, const Curve& light, std::span<const Channel> channels) {
   LostShare most;
-  for (const Channel& channel : held)
-    if (const double share = share_beyond(channel.weight, table.low_nm, table.high_nm); share > most.share)
-      most = {share, channel.name};
+  for (const Channel& channel : channels) {
+    const double share = share_beyond(channel.weight, light, table.low_nm, table.high_nm).share;
+    if (share > most.share) most = {share, channel.name};
+  }
   return most;
 }
 
@@ -32,22 +33,18 @@ NeededRange needed_by(std::span<const Channel> channels) {
   return needed;
 }
 
-std::vector<Channel> exposed_to(const Curve& spectrum, std::span<const Channel> channels) {
-  std::vector<Channel> exposed;
-  for (const Channel& channel : channels) exposed.push_back(behind(channel, FilterStack{spectrum}));
-  return exposed;
-}
-
-bool check_ends(const NamedCurve& table, std::span<const Channel> held, const SourcePosition& where,
-                Diagnostics& diagnostics) {
+bool check_ends(const NamedCurve& table, const Curve& light, std::span<const Channel> channels,
+                const SourcePosition& where, Diagnostics& diagnostics) {
   if (table.outside == Outside::clamp) return true;
-  const auto [share, channel] = most_lost(table, held);
+  const auto [share, channel] = most_lost(table, light, channels);
   if (!(share > kNegligibleShare)) return true;
   if (table.outside == Outside::zero) {
     diagnostics.warning(
-        where, fmt::format("\"{}\" is 0 beyond its table, {:g} to {:g} nm: {:.3g} % of what channel \"{}\" "
-                           "would count, if it went on as it ends, lies there",
-                           table.name, table.low_nm, table.high_nm, 100 * share, channel));
+        where,
+        fmt::format(
+            "\"{}\" is 0 beyond its table, {:g} to {:g} nm: {:.3g} % of what channel \"{}\" "
+            "would count, if it went on as it ends, lies there; a row of 0 at its end says that it does not",
+            table.name, table.low_nm, table.high_nm, 100 * share, channel));
     return true;
   }
   diagnostics.error(where,
@@ -61,7 +58,7 @@ bool check_ends(const NamedCurve& table, std::span<const Channel> held, const So
 
 bool check_ends_of_light(const NamedCurve& light, std::span<const Channel> channels,
                          const SourcePosition& where, Diagnostics& diagnostics) {
-  return check_ends(light, exposed_to(held_beyond(light), channels), where, diagnostics);
+  return check_ends(light, held_beyond(light), channels, where, diagnostics);
 }
 
 }  // namespace abbe

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "io/diagnostics.h"
 #include "sensor/response/channel.h"
@@ -13,14 +12,12 @@ namespace abbe {
 /// colorimetric sum, and all but what holds a negligible share of a channel's response (`main_range`).
 [[nodiscard]] NeededRange needed_by(std::span<const Channel> channels);
 
-/// The channels as counters of one spectrum: their weights are what they count of it at each wavelength.
-[[nodiscard]] std::vector<Channel> exposed_to(const Curve& spectrum, std::span<const Channel> channels);
-
 /// Reports a table by whose ends a share of what a channel counts is lost that is not negligible: it is an
 /// error where the table does not say what holds there, which gives false, and warned of where it says 0.
-/// The weights of `held` are what the channels count if the table goes on as it ends.
-bool check_ends(const NamedCurve& table, std::span<const Channel> held, const SourcePosition& where,
-                Diagnostics& diagnostics);
+/// The channels count `light` by their weights; the table is part of the one or the others, in which it goes
+/// on as it ends.
+bool check_ends(const NamedCurve& table, const Curve& light, std::span<const Channel> channels,
+                const SourcePosition& where, Diagnostics& diagnostics);
 
 /// Warns of a light that is 0 beyond its table where channels count so much of it, and reports one that says
 /// nothing of these wavelengths.

@@ -180,6 +180,32 @@ TEST_F(Measured, PatchesOfOnePixelTellNoNoise) {
   EXPECT_TRUE(diagnostics_.all().empty()) << diagnostics_.text();
 }
 
+// Of a table whose second patch has these deviations, pixels and saturated shares.
+TEST_F(Measured, PatchesThatAreLeftOutMayTellNoNoise) {
+  const auto with_second = [&](const std::string& cells) {
+    diagnostics_ = {};
+    return read(
+        "patch,R,G,B,R_deviation,G_deviation,B_deviation,R_pixels,G_pixels,B_pixels,"
+        "R_saturated,G_saturated,B_saturated\n"
+        "red,3,2,1,0.2,0.4,0.5,4,16,25,0,0,0\nlamp,9,9,9," +
+        cells + "\ngrey,2,2,2,0.6,0.4,0.5,4,16,25,0,0,0\n");
+  };
+  const auto left_out = with_second(",0,0.3,1,1,1,0,1,0");
+  ASSERT_TRUE(left_out) << diagnostics_.text();
+  ASSERT_EQ(left_out->deviations.size(), 3U);
+  test::expect_near(left_out->deviations[0], {0.1, 0.1, 0.1}, 1e-15);
+  test::expect_near(left_out->deviations[2], {0.3, 0.1, 0.1}, 1e-15);
+  EXPECT_EQ(diagnostics_.all().size(), 1U) << diagnostics_.text();
+  EXPECT_NE(diagnostics_.text().find("patch \"lamp\" has saturated pixels"), std::string::npos);
+  const auto counted = with_second(",0,0.3,1,1,1,0,0,0");
+  ASSERT_TRUE(counted) << diagnostics_.text();
+  EXPECT_TRUE(counted->deviations.empty());
+  for (const char* wrong : {",0,-0.3,1,1,1,0,0,0", ",0,0.3,1,1,0,0,0,0", ",0,much,1,1,1,0,0,0"}) {
+    EXPECT_FALSE(with_second(wrong)) << wrong;
+    EXPECT_EQ(diagnostics_.code(), ErrorCode::input);
+  }
+}
+
 TEST_F(Measured, SaysWhatIsMissingOrUnknown) {
   const ChartTargets chart = colors_of("colorchecker24_after_nov2014");
   const auto few = read("patch,R,G,B\nperfect diffuser,1,1,1\ndark skin,0.1,0.1,0.1\n");

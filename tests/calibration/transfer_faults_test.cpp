@@ -27,6 +27,21 @@ class TransferFaults : public test::PlantedFrames {
     return file;
   }
 
+  // A frame of a read-out of 2 e/DN that adds neither noise nor an offset.
+  fs::path ideal_frame(double electrons, double exposure_s) {
+    Readout readout;
+    readout.gain_e_per_dn = 2;
+    readout.bits = 12;
+    const std::vector<float> expected(kEdge * kEdge, static_cast<float>(electrons));
+    const RawFrame raw = read_out(readout, expected, {exposure_s, static_cast<std::uint64_t>(frames_), 0});
+    Image image{kEdge, kEdge, {{"raw", {raw.dn.begin(), raw.dn.end()}}}, {}};
+    image.metadata = {{"exposure_s", fmt::format("{}", exposure_s)},
+                      {"sensor", R"({"readout":{"bits":12}})"}};
+    const fs::path file = folder_ / fmt::format("{}.tif", ++frames_);
+    write_raw_picture(file, image);
+    return file;
+  }
+
   static void refused(const Files& dark, const Files& lit, const fs::path& file, const std::string& text) {
     PlantedFrames::refused(dark, lit, file.filename().string() + ": " + text);
   }
@@ -79,6 +94,20 @@ TEST_F(TransferFaults, FramesWhoseNoiseIsCutOffAreRefused) {
   const Files cut = dark(21);
   refused(cut, lit, cut[3], "0.513 % of its codes in ");
   PlantedFrames::refused(cut, lit, " are 0, the lowest, at which noise is cut off (allowed 0.5 %), so that");
+}
+
+// In the dark all of their codes are 0, and rightly so; where only some are, they are refused as ever.
+TEST_F(TransferFaults, FramesOfAnIdealReadOutAreDarkThroughout) {
+  const Files dark{ideal_frame(0, 0.01), ideal_frame(0, 0.01), ideal_frame(0, 1), ideal_frame(0, 1)};
+  Files lit;
+  for (const double e : {300, 300, 1000, 1000, 3000, 3000}) lit.push_back(ideal_frame(e, 0.01));
+  Inputs inputs;
+  const PhotonTransfer found = measure_transfer(dark, lit, inputs).at(0).transfer;
+  EXPECT_NEAR(found.gain_e_per_dn, 2, 0.1);
+  EXPECT_EQ(found.read_noise_e, 0);
+  EXPECT_EQ(found.dark_e_per_s, 0);
+  const Files dim{ideal_frame(2, 0.01), ideal_frame(2, 0.01)};
+  PlantedFrames::refused(dark, dim, " are 0, the lowest, at which noise is cut off (allowed 0.5 %), so that");
 }
 
 }  // namespace

@@ -2,6 +2,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <string>
+#include <vector>
+
 #include "description.h"
 
 namespace abbe {
@@ -28,6 +31,8 @@ class TableEndsTest : public test::DescriptionTest {
                 fmt::format("# unit: 1\n{}wavelength_nm,a\n{},0.5\n{},0.5\n", line, low_nm, high_nm));
   }
 };
+
+constexpr const char* kDark = "\"t.csv:a\" is 0 beyond its table";
 
 // A lamp that a sensor of even response on [300, 1100] nm sees, so that there is no word of others.
 std::string with_lamp(const std::string& sensor) {
@@ -101,7 +106,8 @@ TEST_F(TableEndsTest, ALampTellsAllThatTheSensorSees) {
   const std::string dark = complaint(seen, "zero", 400, 700);
   EXPECT_NE(dark.find("/lights/0/emission"), std::string::npos) << dark;
   EXPECT_NE(dark.find("warning: \"t.csv:a\" is 0 beyond its table, 400 to 700 nm: 62.5 % of what channel "
-                      "\"all\" would count, if it went on as it ends, lies there"),
+                      "\"all\" would count, if it went on as it ends, lies there; a row of 0 at its end says "
+                      "that it does not"),
             std::string::npos)
       << dark;
   EXPECT_EQ(complaint(seen, "clamp"), "");
@@ -123,7 +129,8 @@ TEST_F(TableEndsTest, NamedLightsThatAreDarkWhereTheSensorSeesAreTold) {
             std::string::npos);
   EXPECT_NE(told(R"("daylight_K": 6504)", ccd).find("\"daylight:6504\" is 0 beyond its table, 300 to 830 nm"),
             std::string::npos);
-  for (const char* light : {R"("illuminant": "A")", R"("blackbody_K": 3000)", R"("spectrum": 1)"})
+  for (const char* light :
+       {R"("illuminant": "A")", R"("illuminant": "E")", R"("blackbody_K": 3000)", R"("spectrum": 1)"})
     EXPECT_EQ(told(light, ccd), "") << light;
   for (const char* light : {R"("illuminant": "D65")", R"("illuminant": "E")", R"("illuminant": "FL11")",
                             R"("illuminant": "LED-B3")", R"("daylight_K": 5000)"})
@@ -131,6 +138,36 @@ TEST_F(TableEndsTest, NamedLightsThatAreDarkWhereTheSensorSeesAreTold) {
          {R"("observer": "1931")", R"("camera": "Nikon_D5100")",
           R"("quantum_efficiency": "kodak_kaf-3200me", "channels": {"R": {"band": [590, 680]}})"})
       EXPECT_EQ(told(light, counts), "") << light << counts;
+}
+
+// The detector is even, so that 500 nm of 800 lie beyond the table, and 400 nm of the 700 that a filter
+// leaves.
+TEST_F(TableEndsTest, ATableIsToldOnceForEachShareThatIsLost) {
+  const std::string lamp = R"({"point": {"at": [0, 0, 1]}, "emission": {"spectrum": )";
+  const std::string scaled = lamp + R"({"scale": 2, "of": "t.csv:a"}, )";
+  const std::string filtered = lamp + R"({"product": [3, "t.csv:a", {"band": [400, 1100]}]}, )";
+  const std::string told =
+      complaint(R"({"lights": [)" + scaled + R"("intensity": 1}}, )" + scaled +
+                    R"("luminous_intensity": 2}}, )" + lamp + R"({"scale": 5, "of": "t.csv:a"}, )" +
+                    R"("intensity": 1}}, )" + filtered + R"("intensity": 1}}]})",
+                "zero", 400, 700);
+  std::vector<std::size_t> at;
+  for (std::size_t i = told.find(kDark); i != std::string::npos; i = told.find(kDark, i + 1)) at.push_back(i);
+  ASSERT_EQ(at.size(), 2U) << told;
+  EXPECT_NE(told.find("/lights/0/emission"), std::string::npos) << told;
+  EXPECT_NE(told.find("62.5 %", at[0]), std::string::npos) << told;
+  EXPECT_NE(told.find("57.1 %", at[1]), std::string::npos) << told;
+}
+
+TEST_F(TableEndsTest, RowsOfZeroSayThatALampEnds) {
+  const auto told = [&](const char* last) {
+    test::write(
+        folder_ / "t.csv",
+        fmt::format("# unit: 1\n# outside: zero\nwavelength_nm,a\n399,0\n400,0.5\n700,0.5\n{}", last));
+    return load(lit(R"({"spectrum": "t.csv:a", "luminous_intensity": 1})")).text();
+  };
+  EXPECT_NE(told("").find(kDark), std::string::npos) << told("");
+  EXPECT_EQ(told("701,0\n"), "");
 }
 
 TEST_F(TableEndsTest, MatterTellsAllThatTheSensorSees) {

@@ -57,8 +57,8 @@ TEST(Meter, ASphereAroundALampTakesItsFlux) {
   const MeterReading inwards = read(scene_of(sphere("inwards"), kBulb));
   expect_equal(inwards.whole.luminous, 1000);
   EXPECT_EQ(read(scene_of(sphere("outwards"), kBulb)).whole.luminous.mean, 0) << "its back is to the lamp";
-  // Of a spectrum that is even from 360 to 830 nm a watt has in the mean 595 nm over hc photons per second.
-  EXPECT_NEAR(inwards.whole.photons.mean / inwards.whole.radiant.mean / (595e-9 / 1.98644586e-25), 1, 1e-3);
+  // Of a spectrum that is even from 300 to 1100 nm a watt has in the mean 700 nm over hc photons per second.
+  EXPECT_NEAR(inwards.whole.photons.mean / inwards.whole.radiant.mean / (700e-9 / 1.98644586e-25), 1, 1e-3);
 }
 
 struct OfTheSky {

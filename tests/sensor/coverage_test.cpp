@@ -40,7 +40,7 @@ TEST(ResponseCoverage, ALightThatEndsWithinWhatChannelsCountIsTold) {
   };
   EXPECT_EQ(told(Outside::zero, channels),
             "warning: \"lamp\" is 0 beyond its table, 400 to 700 nm: 62.5 % of what channel \"all\" would "
-            "count, if it went on as it ends, lies there\n");
+            "count, if it went on as it ends, lies there; a row of 0 at its end says that it does not\n");
   EXPECT_NE(told(Outside::zero, std::span(channels).first(1)).find("14.3 % of what channel \"red\""),
             std::string::npos);
   EXPECT_NE(
@@ -50,6 +50,21 @@ TEST(ResponseCoverage, ALightThatEndsWithinWhatChannelsCountIsTold) {
   EXPECT_EQ(told(Outside::clamp, channels), "");
   const std::array within{energy_channel("green", band(500, 600))};
   for (const Outside outside : {Outside::zero, Outside::error}) EXPECT_EQ(told(outside, within), "");
+}
+
+// Of 800 bins of 1 nm those from 830 nm on lie beyond, in which light and response have no bend: one piece
+// for each is summed, and none for the others.
+TEST(ResponseCoverage, OfABinOnlyWhatItCountsIsLookedAt) {
+  const Curve efficiency({{300, 0.2}, {1100, 0.8}});
+  const Curve light = planck(5000);
+  std::size_t pieces = 0;
+  for (int nm = 300; nm < 1100; ++nm) {
+    const Channel bin = behind(energy_channel("bin", band(nm, nm + 1)), FilterStack{efficiency});
+    const ShareBeyond beyond = share_beyond(bin.weight, light, 300, 830);
+    EXPECT_EQ(beyond.share, nm < 830 ? 0 : 1) << nm;
+    pieces += beyond.pieces;
+  }
+  EXPECT_EQ(pieces, 270U);
 }
 
 /// A user's table of a camera whose curves are level from its first row to its last.

@@ -10,11 +10,23 @@ namespace abbe {
 namespace {
 
 TEST(Coverage, TheShareBeyondIsOfTheMagnitude) {
-  EXPECT_NEAR(share_beyond(Curve(2), 380, 780), 0.5, 1e-12);
-  EXPECT_NEAR(share_beyond(Curve(2), 300, 1100), 0, 1e-12);
+  EXPECT_NEAR(share_beyond(Curve(2), Curve(1.0), 380, 780).share, 0.5, 1e-12);
+  EXPECT_NEAR(share_beyond(Curve(2), Curve(1.0), 300, 1100).share, 0, 1e-12);
   const Curve both = sum(band(400, 500, -1), band(500, 600, 1));
-  EXPECT_NEAR(share_beyond(both, 300, 525), 0.375, 1e-12);
-  EXPECT_EQ(share_beyond(Curve(), 400, 500), 0);
+  EXPECT_NEAR(share_beyond(both, Curve(1.0), 300, 525).share, 0.375, 1e-12);
+  EXPECT_EQ(share_beyond(Curve(), Curve(1.0), 400, 500).share, 0);
+}
+
+// Of x^2 on [0, 1] an eighth lies below 1/2, also where the light goes on beyond the weight.
+TEST(Coverage, TheShareBeyondIsOfWhatIsCountedOfALight) {
+  const Curve weight({{400, 0}, {500, 1}, {500, 0}});
+  const Curve light({{400, 0}, {1100, 7}});
+  EXPECT_NEAR(share_beyond(weight, light, 300, 450).share, 0.875, 1e-12);
+  EXPECT_NEAR(share_beyond(weight, light, 450, 1100).share, 0.125, 1e-12);
+  EXPECT_NEAR(share_beyond(light, weight, 450, 1100).share, 0.125, 1e-12);
+  EXPECT_EQ(share_beyond(weight, light, 600, 1100).share, 1);
+  EXPECT_EQ(share_beyond(weight, light, 400, 500).share, 0);
+  EXPECT_EQ(share_beyond(weight, band(600, 700), 300, 450).share, 0) << "nothing is counted";
 }
 
 TEST(Coverage, TheMainRangeLeavesAThousandthAtEitherEnd) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "spectral/colorimetry.h"
 #include "spectral/sources.h"
 
 namespace abbe {
@@ -66,6 +67,21 @@ TEST(Library, illuminant_a_follows_its_definition_beyond_the_table) {
     EXPECT_NEAR(a->curve(nm) / 100, planck_radiance(kelvin, nm) / planck_radiance(kelvin, 560), 1e-9);
   }
   EXPECT_NEAR(a->curve(300), 0.930483, 1e-9);
+}
+
+// The power of E is even, so that a watt of it has 683.002 times the mean of V over [300, 1100] nm, the sum
+// of which is 106.857 nm.
+TEST(Library, illuminant_e_follows_its_definition_beyond_the_table) {
+  for (const char* name : {"E", "cie_E"}) {
+    Diagnostics diagnostics;
+    const auto e = load_illuminant(name, {}, diagnostics, kEveryWavelength);
+    ASSERT_TRUE(e) << diagnostics.text();
+    EXPECT_EQ(e->low_nm, 300);
+    EXPECT_EQ(e->high_nm, 1100);
+    for (const double nm : {300.0, 359.9, 360.0, 560.0, 830.0, 830.1, 1100.0})
+      EXPECT_EQ(e->curve(nm), 100) << nm;
+    EXPECT_NEAR(photometric(e->curve) / e->curve.integral(), 683.002 * 106.857 / 800, 1e-3);
+  }
 }
 
 // D65 is tabulated so far in ISO/CIE 11664-2; the others are S0 + M1 S1 + M2 S2 with the CIE's rounded
