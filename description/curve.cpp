@@ -139,9 +139,9 @@ struct CurveBuilder {
   }
   // Whether its unit is that of the use.
   [[nodiscard]] bool fits(const NamedCurve& table) const {
-    auto fault = fault_of_unit(table, use, part);
+    const auto fault = fault_of_unit(table, use, part);
     if (fault)
-      context.diagnostics.error(where, *std::move(fault));
+      context.diagnostics.error(where, *fault);
     else if (auto doubt = doubt_of_unit(table, use, part))
       tell(*std::move(doubt));
     if (product_doubts != nullptr && tells_power(table.unit)) product_doubts->has_unit = true;
