@@ -215,9 +215,9 @@ void extend_e(NamedCurve& e) {
   e.high_nm = kMaxWavelengthNm;
 }
 
-void extend_by_definition(const std::string& name, NamedCurve& illuminant) {
-  if (name == "A" || name == "cie_A") extend_a(illuminant);
-  if (name == "E" || name == "cie_E") extend_e(illuminant);
+void extend_by_definition(std::string_view name, NamedCurve& illuminant) {
+  if (name == "A" || name == "cie_A" || name == "cie_A:A") extend_a(illuminant);
+  if (name == "E" || name == "cie_E" || name == "cie_E:E") extend_e(illuminant);
 }
 
 /// The temperature of "family:<K>" if `name` is of that family; reports one that is not in [low, high] and
@@ -239,7 +239,9 @@ std::optional<NamedCurve> load_curve(std::string_view folder, const std::string&
                                      const SourcePosition& where, Diagnostics& diagnostics,
                                      NeededRange needed) {
   const auto read = read_named(folder, name, where, diagnostics);
-  return read ? curve_of(read->table, read->column, name, diagnostics, needed) : std::nullopt;
+  auto curve = read ? curve_of(read->table, read->column, name, diagnostics, needed) : std::nullopt;
+  if (curve && folder == kIlluminantUse.folder) extend_by_definition(name, *curve);
+  return curve;
 }
 
 std::optional<TableSamples> load_samples(std::string_view folder, const std::string& name,
@@ -322,9 +324,7 @@ std::optional<NamedCurve> load_illuminant(const std::string& name, const SourceP
     day.name = name;
     return day;
   }
-  auto illuminant = load_curve(kIlluminantUse, name, where, diagnostics, needed);
-  if (illuminant) extend_by_definition(name, *illuminant);
-  return illuminant;
+  return load_curve(kIlluminantUse, name, where, diagnostics, needed);
 }
 
 }  // namespace abbe

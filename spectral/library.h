@@ -48,7 +48,8 @@ struct TableSamples {
 /// outside [300, 1100] nm (a wrong unit), and a table declared `outside: error` that does not cover `needed`.
 /// Between its samples the table is read as its line `# interpolation:` says (default linear), overshoot cut
 /// to its line `# value_range: low, high`; without one, what has no negative sample is not interpolated below
-/// 0. Reports an unknown rule, samples that the rule cannot take, and those outside the range.
+/// 0. Reports an unknown rule, samples that the rule cannot take, and those outside the range. Illuminants A
+/// and E beyond their tables follow their definitions.
 [[nodiscard]] std::optional<NamedCurve> load_curve(std::string_view folder, const std::string& name,
                                                    const SourcePosition& where, Diagnostics& diagnostics,
                                                    NeededRange needed = {});
@@ -70,8 +71,8 @@ struct TableSamples {
 /// nm.
 [[nodiscard]] NamedCurve named_daylight(double kelvin);
 
-/// Illuminants by name: those of `data/illuminant`, "blackbody:<K>" and "daylight:<K>". Illuminants A and E
-/// beyond their tables follow their definitions. Reports a table with negative power.
+/// Illuminants by name: those of `data/illuminant`, as `load_curve` has them, "blackbody:<K>" and
+/// "daylight:<K>". Reports a table with negative power.
 [[nodiscard]] std::optional<NamedCurve> load_illuminant(const std::string& name, const SourcePosition& where,
                                                         Diagnostics& diagnostics, NeededRange needed = {});
 

@@ -31,7 +31,8 @@ struct Unit {
 /// The unit that a text is, or that it begins with before words of another kind where that is compound, as
 /// "mW/nm at 25 C". Symbols may be written out and have prefixes of SI, exponents stand behind "^", "**" or
 /// nothing, in braces too, and all that follows a "/" or "per" is divided by, but for what has a negative
-/// exponent of its own. Nothing where a text is no unit. Expects the letters that `plain_letters` gives.
+/// exponent of its own. Nothing where a text is no unit. It is to be in ASCII, with "u" for micro and "^2"
+/// for a raised 2.
 [[nodiscard]] std::optional<Unit> leading_unit(std::string_view text);
 
 }  // namespace abbe

@@ -84,6 +84,18 @@ TEST(Library, illuminant_e_follows_its_definition_beyond_the_table) {
   }
 }
 
+TEST(Library, illuminants_are_the_same_within_curves) {
+  for (const std::string name : {"A", "E"})
+    for (const std::string& said : {name, "cie_" + name, "cie_" + name + ":" + name}) {
+      Diagnostics diagnostics;
+      const auto lamp = load_illuminant(name, {}, diagnostics);
+      const auto curve = load_curve("illuminant", said, {}, diagnostics);
+      ASSERT_TRUE(lamp && curve) << diagnostics.text();
+      EXPECT_EQ(curve->high_nm, 1100) << said;
+      for (const double nm : {310.0, 560.0, 1000.0}) EXPECT_EQ(curve->curve(nm), lamp->curve(nm)) << said;
+    }
+}
+
 // D65 is tabulated so far in ISO/CIE 11664-2; the others are S0 + M1 S1 + M2 S2 with the CIE's rounded
 // factors, as 61.9 + 1.039 * 9.8 + 0.363 * 6.5 for D50.
 TEST(Library, daylight_illuminants_go_on_to_830_nm) {
