@@ -65,9 +65,10 @@ std::string encode(const std::filesystem::path& path, const PictureHeader& heade
 std::string display_bytes(const std::filesystem::path& path, const Image& image) {
   const std::size_t channels = image.channels.size() < 3 ? 1 : 3;
   PictureHeader header = described(path, image, channels);
+  header.metadata.emplace(kColorSpace, "sRGB");
   // Without a tag 8-bit TIFF means sRGB, and the tag's EXIF folder breaks the library's TIFF writing in
   // memory.
-  if (!is_tiff(path)) header.metadata[kColorSpace] = "sRGB";
+  if (is_tiff(path)) header.metadata.erase(kColorSpace);
   return encode(path, header, interleaved(image, channels, code_value));
 }
 

@@ -5,8 +5,12 @@
 #include <algorithm>
 #include <csetjmp>
 #include <cstddef>
+#include <optional>
+#include <string_view>
 
 #include "io/error.h"
+#include "io/exr.h"
+#include "io/text.h"
 
 namespace abbe {
 namespace {
@@ -17,6 +21,13 @@ struct Png {
   png_infop info = nullptr;
   std::string bytes = {};
   std::string said = {};
+};
+
+// What a file says of its codes.
+struct Tags {
+  bool is_srgb = false;
+  std::optional<double> gamma = {};
+  std::vector<double> primaries = {};  // x and y of red, green, blue and white
 };
 
 struct Pixels {
@@ -40,7 +51,7 @@ void append(png_structp write, png_bytep bytes, std::size_t count) {
 std::vector<png_text> texts_of(const PictureHeader& header) {
   std::vector<png_text> texts;
   for (const auto& [key, value] : header.metadata) {
-    if (key == kColorSpace) continue;
+    if (key == kColorSpace || key == kPrimariesKey) continue;
     const bool ascii = std::all_of(value.begin(), value.end(), [](char c) { return c > 0; });
     png_text& text = texts.emplace_back();
     text.compression = ascii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
@@ -51,17 +62,41 @@ std::vector<png_text> texts_of(const PictureHeader& header) {
   return texts;
 }
 
+std::string told(const PictureHeader& header, const char* key) {
+  const auto text = header.metadata.find(key);
+  return text == header.metadata.end() ? "" : text->second;
+}
+
+// The gamma of a file is the power that made its codes, the inverse of `kColorSpace`'s.
+Tags tags_of(const PictureHeader& header) {
+  const std::string space = told(header, kColorSpace);
+  Tags tags{.is_srgb = space == "sRGB"};
+  if (space == kLinear) tags.gamma = 1;
+  if (space.starts_with(kGamma))
+    if (const auto power = parse_number(space.substr(std::string_view(kGamma).size()))) tags.gamma = 1 / *power;
+  if (!tags.gamma) return tags;
+  for (const std::string& number : split(told(header, kPrimariesKey), ' '))
+    tags.primaries.push_back(parse_number(number).value_or(0));
+  return tags;
+}
+
+void write_tags(const Png& png, const Tags& tags) {
+  if (tags.is_srgb) png_set_sRGB_gAMA_and_cHRM(png.write, png.info, PNG_sRGB_INTENT_ABSOLUTE);
+  if (tags.gamma) png_set_gAMA(png.write, png.info, *tags.gamma);
+  if (const std::vector<double>& p = tags.primaries; p.size() == 8)
+    png_set_cHRM(png.write, png.info, p[6], p[7], p[0], p[1], p[2], p[3], p[4], p[5]);
+}
+
 // Whether libpng has not given up. As it jumps back here then, nothing between has a destructor.
-bool write(Png& png, const PictureHeader& header, const std::string& space,
-           const std::vector<png_text>& texts, const Pixels& pixels) {
+bool write(Png& png, const PictureHeader& header, const Tags& tags, const std::vector<png_text>& texts,
+           const Pixels& pixels) {
   if (setjmp(png_jmpbuf(png.write)) != 0) return false;
   png_set_write_fn(png.write, &png, append, nullptr);
   png_set_IHDR(png.write, png.info, static_cast<png_uint_32>(header.width),
                static_cast<png_uint_32>(header.height), pixels.bits,
                header.channels.size() == 1 ? PNG_COLOR_TYPE_GRAY : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  if (space == "sRGB") png_set_sRGB_gAMA_and_cHRM(png.write, png.info, PNG_sRGB_INTENT_ABSOLUTE);
-  if (space == kLinear) png_set_gAMA(png.write, png.info, 1);
+  write_tags(png, tags);
   png_set_text(png.write, png.info, texts.data(), static_cast<int>(texts.size()));
   png_write_info(png.write, png.info);
   if (pixels.bits == 16) png_set_swap(png.write);
@@ -88,10 +123,8 @@ std::string encode_png(const std::string& path, const PictureHeader& header, con
   Png png;
   png.write = png_create_write_struct(PNG_LIBPNG_VER_STRING, &png, give_up, say_nothing);
   if (png.write != nullptr) png.info = png_create_info_struct(png.write);
-  const auto space = header.metadata.find(kColorSpace);
-  const bool written =
-      png.info != nullptr && write(png, header, space == header.metadata.end() ? "" : space->second,
-                                   texts_of(header), pixels_of(header, codes));
+  const bool written = png.info != nullptr && write(png, header, tags_of(header), texts_of(header),
+                                                    pixels_of(header, codes));
   png_destroy_write_struct(&png.write, &png.info);
   if (!written) throw Error(ErrorCode::output, path, "libpng: " + png.said);
   return std::move(png.bytes);

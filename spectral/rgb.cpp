@@ -151,6 +151,12 @@ std::optional<RgbSpace> recorded_primaries(const Image& image) {
   return RgbSpace{xy[0], xy[1], xy[2], xy[3]};
 }
 
+std::string primaries_text(const RgbSpace& space) {
+  const auto& [red, green, blue, white] = space;
+  return fmt::format("{} {} {} {}", fmt::join(red, " "), fmt::join(green, " "), fmt::join(blue, " "),
+                     fmt::join(white, " "));
+}
+
 std::optional<std::string> rec709_fault(const Image& image) {
   const auto profile = image.metadata.find(kProfileKey);
   const bool is_profiled = profile != image.metadata.end();

@@ -37,6 +37,8 @@ inline constexpr RgbSpace kRec709{kRec709Primaries[0], kRec709Primaries[1], kRec
 /// The space of the R, G and B of an image by its attribute `kPrimariesKey`; nothing where it tells none, or
 /// anything but numbers.
 [[nodiscard]] std::optional<RgbSpace> recorded_primaries(const Image& image);
+/// A space as that attribute tells it.
+[[nodiscard]] std::string primaries_text(const RgbSpace& space);
 /// Why R, G and B of an image cannot be taken as those of Rec.709, by what it tells of its primaries and its
 /// encoding, in its own words or by an ICC profile, which is named then, with its encoding where that is
 /// unknown; nothing where it tells no primaries, or these to two digits, and an encoding that is known.

@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <functional>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <sstream>
 
@@ -15,6 +16,8 @@
 #include "calibration/output/gamut.h"
 #include "calibration/output/ocio.h"
 #include "io/error.h"
+#include "io/exr.h"
+#include "io/picture_codec.h"
 #include "sensor/film/recorded_crop.h"
 
 namespace abbe {
@@ -117,7 +120,14 @@ ChosenView choose_view(const ViewOptions& options) {
 // What the view can take in, in Abbe's own configuration or a user's.
 Gamut gamut_of(bool own, const std::string& display, const std::string& view) {
   if (!own || view != kPlainView) return Gamut(kAcesCg);
-  return Gamut(display == kP3Display ? kP3D65 : kRec709, 1);
+  return Gamut(codes_of_display(display).space, 1);
+}
+
+// What a picture tells of its codes. A user's configuration says of its displays what they are called alone.
+std::map<std::string, std::string> told_of_codes(bool own, const std::string& display) {
+  if (!own) return {{kColorSpace, "that of " + display}};
+  const DisplayCodes& codes = codes_of_display(display);
+  return {{kColorSpace, codes.color_space}, {kPrimariesKey, primaries_text(codes.space)}};
 }
 
 DisplayTransform grey_display(const Channel& channel, const ViewOptions& options) {
@@ -131,6 +141,7 @@ struct DisplayTransform::Processor {
   Gamut gamut;
   Matrix3 to_input;  // from the gamut's RGB
   OCIO::ConstCPUProcessorRcPtr cpu;
+  std::map<std::string, std::string> told;  // of the codes
 };
 
 std::filesystem::path users_configuration() {
@@ -164,9 +175,9 @@ DisplayTransform::DisplayTransform(std::vector<std::string> channels, const Matr
     // some processors gross ones) that nobody bounds.
     const OCIO::ConstProcessorRcPtr processor =
         config->getProcessor(input.c_str(), display.c_str(), view.c_str(), OCIO::TRANSFORM_DIR_FORWARD);
-    processor_ = std::make_shared<const Processor>(
-        Processor{gamut, from_xyz * gamut.to_xyz_d65,
-                  processor->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS)});
+    processor_ = std::make_shared<const Processor>(Processor{
+        gamut, from_xyz * gamut.to_xyz_d65, processor->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS),
+        told_of_codes(own, display)});
     if (own) return;
     files_.push_back(options.config);
     const OCIO::ConstProcessorMetadataRcPtr used = processor->getProcessorMetadata();
@@ -181,7 +192,7 @@ DisplayPicture DisplayTransform::operator()(const Image& film, std::optional<dou
   DisplayPicture picture;
   picture.scale = scale ? *scale : automatic_scale(film);
   if (film.pixels() == 0) return picture;
-  const auto& [gamut, to_input, cpu] = *processor_;
+  const auto& [gamut, to_input, cpu, told] = *processor_;
   const Matrix3 to_gamut = gamut.from_xyz_d65 * to_xyz_d65_ * picture.scale;
   std::vector<float> packed(3 * film.pixels(), 0.0F);
   std::vector<bool> too_bright(film.pixels());
@@ -206,6 +217,7 @@ DisplayPicture DisplayTransform::operator()(const Image& film, std::optional<dou
   picture.outside_share = std::accumulate(outside.values.begin(), outside.values.end(), 0.0) / count;
   picture.outside = {film.width, film.height, {std::move(outside)}, film.metadata};
   picture.image = split_planes(packed, film, channels_.size() == 1);
+  for (const auto& [key, text] : told) picture.image.metadata[key] = text;
   return picture;
 }
 

@@ -17,7 +17,10 @@ namespace abbe {
 
 /// A film made fit for a display.
 struct DisplayPicture {
-  Image image;               ///< Channels R, G, B (or Y for a film of one channel): code values in [0, 1].
+  /// Channels R, G, B (or Y for a film of one channel): code values in [0, 1]. Its attributes `kColorSpace`
+  /// and `kPrimariesKey` tell how Abbe's own displays read them; those of a user's configuration it does not
+  /// know.
+  Image image;
   Image outside;             ///< Channel Y: 1 where the colour lay outside the gamut, 0 elsewhere.
   double scale = 1;          ///< What the film values were multiplied by.
   double outside_share = 0;  ///< Share of pixels whose colour lay outside the gamut, whatever its brightness.

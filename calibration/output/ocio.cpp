@@ -1,5 +1,6 @@
 #include "calibration/output/ocio.h"
 
+#include <array>
 #include <cctype>
 #include <random>
 #include <sstream>
@@ -23,10 +24,23 @@ constexpr const char* kAcesSpace = "ACES2065-1";
 constexpr const char* kAcesCgSpace = "ACEScg";
 constexpr const char* kRawSpace = "Raw";
 constexpr const char* kDisplayReferenceSpace = "CIE-XYZ-D65";
-constexpr const char* kDisplaySpaces[][3] = {
-    {kSrgbDisplay, "DISPLAY - CIE-XYZ-D65_to_sRGB", "Code values of an sRGB display."},
-    {kRec1886Display, "DISPLAY - CIE-XYZ-D65_to_REC.1886-REC.709", "Code values of a Rec.709 video display."},
-    {kP3Display, "DISPLAY - CIE-XYZ-D65_to_G2.6-P3-D65", "Code values of a P3 projector with white D65."}};
+struct DisplaySpace {
+  const char* name;
+  const char* style;
+  const char* description;
+  DisplayCodes codes;
+};
+const std::array kDisplaySpaces{
+    DisplaySpace{
+        kSrgbDisplay, "DISPLAY - CIE-XYZ-D65_to_sRGB", "Code values of an sRGB display.", {"sRGB", kRec709}},
+    DisplaySpace{kRec1886Display,
+                 "DISPLAY - CIE-XYZ-D65_to_REC.1886-REC.709",
+                 "Code values of a Rec.709 video display.",
+                 {"Gamma2.4", kRec709}},
+    DisplaySpace{kP3Display,
+                 "DISPLAY - CIE-XYZ-D65_to_G2.6-P3-D65",
+                 "Code values of a P3 projector with white D65.",
+                 {"Gamma2.6", kP3D65}}};
 constexpr const char* kAcesOutput = "ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - SDR-VIDEO_1.0";
 constexpr std::size_t kMaxCurveSize = std::size_t{1} << 20;
 constexpr int kCubeEdge = 65;
@@ -151,7 +165,7 @@ void add_displays(OCIO::Config& config) {
   aces->appendTransform(builtin(kAcesOutput));
   add_view_transform(config, kAcesView, "The rendering and output transform of ACES 1.0.", aces);
   config.setDefaultViewTransformName(kPlainView);
-  for (const auto& [name, style, description] : kDisplaySpaces) {
+  for (const auto& [name, style, description, codes] : kDisplaySpaces) {
     const OCIO::ColorSpaceRcPtr space = color_space(name, description, OCIO::REFERENCE_SPACE_DISPLAY);
     space->setEncoding("sdr-video");
     space->setTransform(builtin(style), OCIO::COLORSPACE_DIR_FROM_REFERENCE);
@@ -270,6 +284,12 @@ auto with_ocio_errors(ErrorCode code, const F& f) {
 }
 
 }  // namespace
+
+const DisplayCodes& codes_of_display(const std::string& display) {
+  for (const DisplaySpace& space : kDisplaySpaces)
+    if (display == space.name) return space.codes;
+  throw Error(ErrorCode::internal, display, "is no display of the configuration");
+}
 
 std::string camera_space(const CameraProfile& profile) {
   return "Camera " + profile.light;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibration/output/camera_profile.h"
+#include "spectral/rgb.h"
 
 namespace abbe {
 
@@ -16,6 +17,14 @@ inline constexpr const char* kRec1886Display = "Rec.1886 Rec.709 - Display";
 inline constexpr const char* kP3Display = "P3-D65 - Display";
 inline constexpr const char* kPlainView = "Un-tone-mapped";
 inline constexpr const char* kAcesView = "ACES 1.0 - SDR Video";
+
+/// How the code values of a display of the configuration are to be read.
+struct DisplayCodes {
+  std::string color_space;  ///< In the words of `kColorSpace`.
+  RgbSpace space;           ///< Their primaries and the white of equal codes.
+};
+/// Throws Error{internal} for another display.
+[[nodiscard]] const DisplayCodes& codes_of_display(const std::string& display);
 
 /// The colour space of a profile, e.g. "Camera D65".
 [[nodiscard]] std::string camera_space(const CameraProfile& profile);

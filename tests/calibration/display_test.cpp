@@ -229,6 +229,22 @@ TEST(Display, ShowsThroughTheViewAskedFor) {
       ErrorCode::usage, "--view: got film, allowed Un-tone-mapped, ");
 }
 
+TEST(Display, PicturesTellHowTheirCodesAreRead) {
+  const XYZ shown{0.25, 0.3, 0.2};
+  const Image film = film_of({"X", "Y", "Z"}, {shown});
+  for (const char* screen : {kSrgbDisplay, kRec1886Display, kP3Display}) {
+    const DisplayPicture picture =
+        DisplayTransform({"X", "Y", "Z"}, Matrix3(), {}, {"", screen, ""})(film, 1.0);
+    const auto encoding = recorded_encoding(picture.image);
+    const auto space = recorded_primaries(picture.image);
+    ASSERT_TRUE(encoding && space) << screen;
+    std::array<double, 3> rgb = pixel(picture, 0);
+    for (double& value : rgb) value = encoding->decoded(value);
+    const XYZ read = multiply(rgb_to_xyz(*space), rgb);
+    for (std::size_t i = 0; i < 3; ++i) EXPECT_NEAR(read[i], shown[i], 1e-5) << screen << i;
+  }
+}
+
 TEST(Display, P3ShowsColoursThatSrgbCannot) {
   const XYZ green = multiply(rgb_to_xyz(kP3D65), {0, 1, 0});
   const Image film = film_of({"X", "Y", "Z"}, {green});
@@ -246,6 +262,7 @@ TEST(Display, UsesAUsersConfigurationThatKnowsAces) {
   const Image grey = film_of({"X", "Y", "Z"}, {unit_xyz(kD65)});
   const DisplayTransform own({"X", "Y", "Z"}, Matrix3(), {}, {folder / "config.ocio", "", ""});
   EXPECT_NEAR(pixel(own(grey, 0.18), 0)[1], srgb_code(0.18), 2e-6);
+  EXPECT_FALSE(recorded_encoding(own(grey, 0.18).image)) << "of which the configuration says nothing";
   const auto refuse = [&](const std::string& text, const std::string& complaint) {
     std::ofstream(folder / "bad.ocio") << text;
     test::expect_error(

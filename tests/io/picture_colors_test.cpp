@@ -341,5 +341,25 @@ TEST(PictureColors, OfWebpsWithAProfileAreUnknown) {
   EXPECT_EQ(told_by(path), "a profile that is not read||");
 }
 
+// Of a display with the primaries of P3 and a gamma of 2.6, and of one that nobody knows.
+TEST(PictureColors, APngTellsHowItsCodesAreRead) {
+  const auto path = test_folder() / "a.png";
+  const Image image{1, 1, {{"R", {0.2F}}, {"G", {0.4F}}, {"B", {0.6F}}}, {}};
+  const auto written = [&](const std::map<std::string, std::string>& told) {
+    Image picture = image;
+    picture.metadata = told;
+    write_picture(path, picture);
+    return read_picture(path).metadata;
+  };
+  const std::string p3 = "0.68 0.32 0.265 0.69 0.15 0.06 0.3127 0.329";
+  const auto told = written({{kColorSpace, "Gamma2.6"}, {kPrimariesKey, p3}});
+  EXPECT_EQ(told.at(kPrimariesKey), p3);
+  EXPECT_NEAR(std::stod(told.at(kColorSpace).substr(std::string_view(kGamma).size())), 2.6, 1e-3);
+  const auto unknown = written({{kColorSpace, "that of a projector"}});
+  EXPECT_FALSE(unknown.contains(kPrimariesKey));
+  for (const char* chunk : {"gAMA", "cHRM", "sRGB"})
+    EXPECT_EQ(bytes_of(path).find(chunk), std::string::npos) << chunk;
+}
+
 }  // namespace
 }  // namespace abbe
