@@ -224,6 +224,15 @@ Curve normal_reflectance(const RefractiveIndex& index) {
   return Curve(std::move(knots));
 }
 
+// Where the user says by numbers that matter absorbs, if at all: tables of glass tell of traces.
+const SourcePosition* where_absorption_is_said(const spec::TintedIor& said) {
+  if (said.absorption_per_m) return &said.absorption_per_m->where;
+  const auto* constant = std::get_if<spec::ConstantIor>(&said.ior.value);
+  const auto* table = std::get_if<spec::TableIor>(&said.ior.value);
+  return (constant != nullptr && constant->k > 0) || (table != nullptr && table->k) ? &said.ior.where
+                                                                                    : nullptr;
+}
+
 // The material of its first part and more, if that could be built.
 template <typename M, typename Part, typename... More>
 std::optional<MaterialModel> made(std::optional<Part> part, More... more) {
@@ -285,8 +294,9 @@ struct ModelBuilder {
   }
   Model operator()(const spec::ThinGlass& said) const {
     auto ior = build(said.ior, context);
-    if (said.ior.absorption_per_m && said.thickness == 0)
-      context.diagnostics.warning(said.ior.absorption_per_m->where,
+    const SourcePosition* absorption = where_absorption_is_said(said.ior);
+    if (absorption != nullptr && said.thickness == 0)
+      context.diagnostics.warning(*absorption,
                                   "an absorption without effect: without a thickness nothing is absorbed");
     if (!ior) return std::nullopt;
     return ThinGlassMaterial{std::move(ior->name), std::move(ior->index), said.thickness * context.unit_m};

@@ -15,7 +15,9 @@ using Imath::V3f;
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kCoatIndex = 1.5F;
-constexpr float kCoatStrength = 0.25F;
+constexpr auto kCoatStrength = static_cast<float>(kCoatShare);
+constexpr auto kDullCoat = static_cast<float>(kDullCoatWidth);
+constexpr auto kGlossyCoat = static_cast<float>(kGlossyCoatWidth);
 constexpr float kCoatShadowing = 0.25F;  // alpha
 constexpr int kCosines = 32;
 constexpr int kSteps = 64;
@@ -70,7 +72,7 @@ struct Principled::Facet {
 Principled::Principled(const PrincipledLook& look)
     : look_(look),
       alpha_(std::max(static_cast<float>(kLeastAlpha), look.roughness * look.roughness)),
-      coat_alpha_(0.1F + (0.001F - 0.1F) * look.clearcoat_gloss) {
+      coat_alpha_(kDullCoat + (kGlossyCoat - kDullCoat) * look.clearcoat_gloss) {
   const float root = std::sqrt(0.08F * look.specular);
   n_ = (1 + root) / (1 - root);
   probability_ = {1 - look.metallic, std::max(look.metallic, 0.5F), kCoatStrength * look.clearcoat};

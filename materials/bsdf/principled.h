@@ -18,6 +18,12 @@ struct PrincipledLook {
   float clearcoat_gloss = 1;
 };
 
+/// Share that a clear coat of strength 1 has of what a layer of its index reflects, and the widths of its
+/// facets at a gloss of 0 and of 1.
+inline constexpr double kCoatShare = 0.25;
+inline constexpr double kDullCoatWidth = 0.1;
+inline constexpr double kGlossyCoatWidth = 0.001;
+
 /// A look with what it needs of all directions: how much light from one leaves in all. Both `white` and,
 /// times the base colour, `coloured` are held at 32 cosines.
 class Principled {

@@ -94,6 +94,13 @@ TEST_F(GltfDoorTest, WhatIsDroppedIsTold) {
   EXPECT_FALSE(tells("no counterpart")) << told_;
 }
 
+TEST_F(GltfDoorTest, TexturesOfExtensionsAreToldToBeDropped) {
+  const std::string coat =
+      R"({"name": "m", "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 0.25, "clearcoatTexture": {"index": 0}}}})";
+  ASSERT_TRUE(convert("a.gltf", two(coat + R"(, {"name": "n"})").text())) << told_;
+  EXPECT_TRUE(tells("clearcoatTexture has no counterpart here: dropped")) << told_;
+}
+
 TEST_F(GltfDoorTest, BinaryFilesAreOfVersion2) {
   std::string old = test::whole_glb();
   old[4] = 1;

@@ -87,7 +87,10 @@ TEST_F(PbrtTest, IndicesThatAreColoursHaveTheirSpectra) {
   EXPECT_EQ(std::get<double>(glass("[1.6 1.6 1.6]").value), 1.6);
   expect_refused(
       {{"a lamp", kBegin + "Material \"conductor\" \"spectrum eta\" \"stdillum-D65\"\nShape \"sphere\"\n",
-        "a.pbrt:5:22: error: n and k are numbers, colours or samples (got the spectrum of a lamp)"}});
+        "a.pbrt:5:22: error: n and k are numbers, colours or samples (got the spectrum of a lamp)"},
+       {"a lamp as a metal's colour",
+        kBegin + "Material \"conductor\" \"spectrum reflectance\" \"stdillum-D65\"\nShape \"sphere\"\n",
+        "n and k are numbers, colours or samples (got the spectrum of a lamp)"}});
 }
 
 TEST_F(PbrtTest, SpectraMayBeThoseOfMetalsAndGlasses) {

@@ -143,6 +143,16 @@ TEST_F(DescriptionTest, PanesAbsorbByTheirThickness) {
     EXPECT_NE(text(none).find(told), std::string::npos) << text(none);
   for (const char* sound : {"", R"(, "absorption_per_m": 10, "thickness": 0.01)", R"(, "thickness": 0.01)"})
     EXPECT_EQ(text(sound).find("effect"), std::string::npos) << text(sound);
+  const auto of_index = [&](const char* ior) {
+    return load(fmt::format(R"({{"materials": {{"pane": {{"thin_glass": {{"ior": {}}}}}}}}})", ior)).text();
+  };
+  for (const char* absorbing :
+       {R"({"n": 1.5, "k": 1e-6})", R"({"wavelength_nm": [400, 700], "n": [1.5, 1.5], "k": [0, 1e-6]})"})
+    EXPECT_NE(of_index(absorbing).find("/materials/pane/thin_glass/ior: warning: an absorption without effect"),
+              std::string::npos)
+        << of_index(absorbing);
+  for (const char* clear : {R"({"n": 1.5, "k": 0})", R"("N-BK7")"})
+    EXPECT_EQ(of_index(clear).find("effect"), std::string::npos) << of_index(clear);
 }
 
 TEST_F(DescriptionTest, WhatIsTakenAsClearIsClear) {

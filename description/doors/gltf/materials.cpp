@@ -11,6 +11,7 @@
 #include "description/doors/shared/materials.h"
 #include "description/doors/shared/picture.h"
 #include "description/meshes/gltf_names.h"
+#include "materials/bsdf/principled.h"
 #include "spectral/colorimetry.h"
 
 namespace abbe::doors::gltf {
@@ -142,23 +143,22 @@ void set_glass(const JsonValue* material, const SourcePosition& where, spec::Mat
   to.model = std::move(glass);
 }
 
-// Here a coat of strength 1 has a quarter of what the layer of factor 1 reflects there, and facets of the
-// widths from 0.001 to 0.1.
+// There a layer of factor 1 reflects all that its index has it reflect.
 void set_coat(const JsonValue* material, const SourcePosition& where, spec::Principled& surface,
               const Document& document) {
-  constexpr double kMostFactor = 0.25;
-  constexpr double kLeastWidth = 0.001;
-  constexpr double kMostWidth = 0.1;
   const double factor = number(material, extension("materials_clearcoat", "clearcoatFactor"), 0, document);
   const double roughness =
       number(material, extension("materials_clearcoat", "clearcoatRoughnessFactor"), 0, document);
   if (factor == 0) return;
   const double width = roughness * roughness;
-  if (factor > kMostFactor) document.door.note(where, "a clear coat of a factor above 0.25 is cut to that");
-  if (width > kMostWidth)
-    document.door.note(where, "a width of a clear coat's facets above 0.1 is cut to that");
-  surface.clearcoat = std::min(factor / kMostFactor, 1.0);
-  surface.clearcoat_gloss = std::clamp((kMostWidth - width) / (kMostWidth - kLeastWidth), 0.0, 1.0);
+  const auto cut = [&](const char* what, double value, double most) {
+    if (value > most) document.door.note(where, fmt::format("{} above {} is cut to that", what, most));
+  };
+  cut("a clear coat of a factor", factor, kCoatShare);
+  cut("a width of a clear coat's facets", width, kDullCoatWidth);
+  surface.clearcoat = std::min(factor / kCoatShare, 1.0);
+  surface.clearcoat_gloss =
+      std::clamp((kDullCoatWidth - width) / (kDullCoatWidth - kGlossyCoatWidth), 0.0, 1.0);
 }
 
 void set_surface(const JsonValue* material, const SourcePosition& where, spec::Material& to,
@@ -194,9 +194,14 @@ void note_rest(const JsonValue* material, const SourcePosition& where, const Doc
   const JsonValue* extensions = find(material, "extensions");
   const auto* all = extensions ? std::get_if<JsonValue::Object>(&extensions->value) : nullptr;
   if (all == nullptr) return;
-  for (const JsonValue::Member& member : *all)
-    if (std::ranges::find(kKnown, member.first) == kKnown.end())
-      door.note(member.second.where, fmt::format("{} has no counterpart here: dropped", member.first));
+  for (const auto& [name, value] : *all) {
+    if (std::ranges::find(kKnown, name) == kKnown.end())
+      door.note(value.where, fmt::format("{} has no counterpart here: dropped", name));
+    else if (const auto* keys = std::get_if<JsonValue::Object>(&value.value))
+      for (const auto& [key, texture] : *keys)
+        if (key.ends_with("Texture"))
+          door.note(texture.where, fmt::format("{} has no counterpart here: dropped", key));
+  }
 }
 
 }  // namespace

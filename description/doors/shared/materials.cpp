@@ -42,7 +42,8 @@ spec::Ior index_for(const Spectrum& reflectance, const SourcePosition& where, Do
   if (rgb != nullptr || samples != nullptr) {
     return index_of(1.0, mapped(rgb ? samples_of(*rgb) : *samples, k_of), where, door);
   }
-  return index_of(1.0, k_of(number_of(reflectance).value_or(0.5)), where, door);
+  const auto* number = std::get_if<double>(&reflectance);
+  return index_of(1.0, number ? Spectrum(k_of(*number)) : reflectance, where, door);
 }
 
 namespace {

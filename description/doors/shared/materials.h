@@ -15,7 +15,8 @@ namespace abbe::doors {
                                                           FacetShape distribution,
                                                           const SourcePosition& where, Door& door);
 
-/// The index without a real part of n = 1 whose reflectance along the normal is that: k = 2 sqrt(R/(1 - R)).
+/// The index with n = 1 whose reflectance R along the normal is that: k = 2 sqrt(R/(1 - R)). Reports the
+/// spectrum of a lamp.
 [[nodiscard]] spec::Ior index_for(const Spectrum& reflectance, const SourcePosition& where, Door& door);
 
 /// Whether a material of the scene, or a part of its mixture, varies over surfaces by an image.
