@@ -1,5 +1,7 @@
 #include "scene/shapes/triangles.h"
 
+#include <algorithm>
+
 #include "scene/shapes/mesh.h"
 #include "scene/shapes/quad.h"
 
@@ -21,6 +23,24 @@ TriangleSet completed(const S& shape) {
   return set;
 }
 
+constexpr double kMostShare = 0.25;  // of what makes 1: small shapes have no place further off their edges
+
+// In a quad, by the shares of its edges that lead to the point.
+Imath::V3d shift_off_sides(const std::vector<Imath::V3f>& corners, const Imath::V3d& point, double clear) {
+  const Imath::V3d corner(corners[0]);
+  const Imath::V3d u = Imath::V3d(corners[1]) - corner;
+  const Imath::V3d v = Imath::V3d(corners[2]) - corner;
+  const Imath::V3d normal = u.cross(v);
+  const double area = normal.length();
+  if (!(area > 0)) return Imath::V3d(0);
+  const auto more = [&](const Imath::V3d& to_share, const Imath::V3d& other) {
+    const double share = to_share.dot(point - corner) / (area * area);
+    const double least = std::min(clear * other.length() / area, kMostShare);
+    return std::clamp(share, least, 1 - least) - share;
+  };
+  return u * more(v.cross(normal), v) + v * more(normal.cross(u), u);
+}
+
 }  // namespace
 
 TriangleSet triangles_of(const Mesh& mesh) {
@@ -33,7 +53,7 @@ TriangleSet triangles_of(const Mesh& mesh) {
 
 TriangleSet triangles_of(const Quad& quad) {
   const std::array<Imath::V3f, 4> c = corners(quad);
-  return {{c.begin(), c.end()}, {kQuadTriangles.begin(), kQuadTriangles.end()}, {}};
+  return {{c.begin(), c.end()}, {kQuadTriangles.begin(), kQuadTriangles.end()}, {}, true};
 }
 
 Imath::V3d triangle_normal(const PlainShape& shape, std::size_t triangle) {
@@ -55,7 +75,7 @@ std::size_t memory_bytes_of(const TriangleSet& set) {
 
 Imath::V3d shift_off_edges(const TriangleSet& set, std::uint32_t triangle, const Imath::V3d& point,
                            double clear) {
-  constexpr double kMostShare = 0.25;  // of three that make 1: small triangles have no place further off
+  if (set.is_quad) return shift_off_sides(set.vertices, point, clear);
   std::array<Imath::V3d, 3> corner;
   for (std::size_t i = 0; i < 3; ++i) corner.at(i) = Imath::V3d(set.vertices[set.triangles[triangle].at(i)]);
   const Imath::V3d normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);

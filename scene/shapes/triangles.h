@@ -14,6 +14,7 @@ struct TriangleSet {
   std::vector<Imath::V3f> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   std::vector<Imath::V3f> normals;  ///< Per triangle, from the unrounded vertices; none in a prototype.
+  bool is_quad = false;             ///< Its triangles are the halves of a parallelogram.
 };
 
 [[nodiscard]] TriangleSet triangles_of(const Mesh& mesh);
@@ -38,7 +39,8 @@ struct TriangleSet {
 
 /// How a point of a triangle is to be moved within it to be `clear` of its edges, as far as that goes:
 /// nowhere, unless it is nearer. Beside an edge rounding may put a point beyond the other face that ends
-/// there, and a path that goes on from it would have left a closed mesh.
+/// there, and a path that goes on from it would have left a closed mesh. The diagonal of a quad is no edge:
+/// beside it Embree takes the one half for the other, as far off as floats tell places on a large quad apart.
 [[nodiscard]] Imath::V3d shift_off_edges(const TriangleSet& set, std::uint32_t triangle,
                                          const Imath::V3d& point, double clear);
 
