@@ -2,10 +2,12 @@
 #include <mpi.h>
 
 #include <algorithm>
+#include <cstdio>
 #include <cstdlib>
 #include <vector>
 
 #include "cli/crew.h"
+#include "io/error.h"
 
 namespace abbe::cli {
 namespace {
@@ -16,7 +18,11 @@ constexpr std::size_t kNumbersAtOnce = std::size_t{1} << 20;
 void add(void* from, void* to, int* count, MPI_Datatype*) {
   const auto* numbers = static_cast<const Int128*>(from);
   auto* sums = static_cast<Int128*>(to);
-  std::transform(numbers, numbers + *count, sums, sums, std::plus<>());
+  for (int i = 0; i < *count; ++i)
+    if (!add_exactly(sums[i], numbers[i])) {  // MPI lets no exception through
+      (void)std::fputs("abbe: film: the processes' samples add up to more than a film can hold\n", stderr);
+      MPI_Abort(MPI_COMM_WORLD, static_cast<int>(ErrorCode::scene));
+    }
 }
 
 /// The type of the film's sums, and how to add them, which commutes and associates to the bit.

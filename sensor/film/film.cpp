@@ -4,7 +4,6 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
-#include <functional>
 #include <numeric>
 
 #include "io/error.h"
@@ -12,8 +11,10 @@
 namespace abbe {
 namespace {
 
-constexpr int kFractionBits = 80;
+// Of the 127 bits beside the sign: below the nominal value, above it, and for as many values as those.
 constexpr int kHeadroomBits = 44;
+constexpr int kCountBits = 23;
+constexpr int kFractionBits = 127 - kHeadroomBits - kCountBits;
 
 std::size_t sums_of(const FilmShape& shape) {
   return pixel_count(pixels_of(shape)) * static_cast<std::size_t>(shape.channels) *
@@ -24,6 +25,21 @@ FilmShape without_needless_crop(FilmShape shape) {
   if (shape.crop == Crop{0, 0, shape.width, shape.height}) shape.crop.reset();
   return shape;
 }
+
+/// Holds a lock for as long as it lives.
+class Locked {
+ public:
+  explicit Locked(std::atomic_flag& lock) : lock_(lock) {
+    while (lock_.test_and_set(std::memory_order_acquire)) {
+    }
+  }
+  ~Locked() { lock_.clear(std::memory_order_release); }
+  Locked(const Locked&) = delete;
+  Locked& operator=(const Locked&) = delete;
+
+ private:
+  std::atomic_flag& lock_;
+};
 
 // As exact as a sum of doubles can be told, and of no bound, where the integers of many pixels have one.
 // [Kahan1965]
@@ -38,6 +54,14 @@ struct CompensatedSum {
     value = next;
   }
 };
+
+void add_to(Int128& sum, Int128 more) {
+  if (!add_exactly(sum, more))
+    throw Error(
+        ErrorCode::scene, "film",
+        "a pixel is far brighter than the lights of the scene let expect, and its samples add up to more "
+        "than a film can hold: is a lamp next to a surface or a meter?");
+}
 
 template <typename SumOf>
 double total_of(std::size_t replicates, SumOf sum_of) {
@@ -137,15 +161,12 @@ std::size_t Film::index(std::size_t pixel, int replicate) const {
 }
 
 void Film::add(std::size_t pixel, int replicate, std::span<const double> values, std::size_t first) {
-  std::atomic_flag& lock = locks_[pixel % kLocks];
-  while (lock.test_and_set(std::memory_order_acquire)) {
-  }
+  const Locked locked(locks_[pixel % kLocks]);
   Int128* sum = &sums_[index(pixel, replicate) + first];
   for (const double value : values) {
-    if (value != 0) *sum += to_fixed(value, shape_.unit_exponent);  // most samples of a dark pixel
+    if (value != 0) add_to(*sum, to_fixed(value, shape_.unit_exponent));  // most of a dark pixel are 0
     ++sum;
   }
-  lock.clear(std::memory_order_release);
 }
 
 void Film::set_samples(std::vector<std::uint64_t> per_replicate) {
@@ -161,7 +182,7 @@ void Film::add(const Film& other) {
   for (int y = std::max(own.y0, of.y0); row > 0 && y < std::min(own.y1, of.y1); ++y) {
     const Int128* more = &other.sums_[other.index(pixel_at(x0, y), 0)];
     Int128* sums = &sums_[index(pixel_at(x0, y), 0)];
-    std::transform(more, more + row, sums, sums, std::plus<>());
+    for (std::ptrdiff_t i = 0; i < row; ++i) add_to(sums[i], more[i]);
   }
 }
 

@@ -22,6 +22,12 @@ __extension__ using Int128 = __int128;
 /// 2^(unit_exponent + 126).
 [[nodiscard]] Int128 to_fixed(double value, int unit_exponent);
 [[nodiscard]] double from_fixed(Int128 fixed, int unit_exponent);
+/// Adds to a sum. Whether it holds that; else it stays as it is.
+[[nodiscard]] inline bool add_exactly(Int128& sum, Int128 more) {
+  if (__builtin_add_overflow(sum, more, &more)) return false;
+  sum = more;
+  return true;
+}
 
 /// How large a film is and in what unit it counts; films of equal shape can be added.
 struct FilmShape {
@@ -50,15 +56,15 @@ struct FilmShape {
 /// of the pixel.
 class Film {
  public:
-  /// `nominal` is the order of magnitude of a film value: values from 2^-80 to 2^44 times it are kept exactly
-  /// to 2^-80 of it.
+  /// `nominal` is the order of magnitude of a film value: values up to 2^44 times it are kept, each rounded
+  /// to 2^-60 of it, and 2^23 of the greatest in a sum.
   Film(int width, int height, int channels, int replicates, double nominal, std::uint64_t photons = 0,
        std::uint32_t path_interval = 1, std::optional<Crop> crop = {});
   /// A crop of all pixels is none. Throws Error{resource} when there is no memory for the sums.
   explicit Film(const FilmShape& shape);
 
   /// Adds one sample's or splat's values, of the channels from `first` on, to a pixel of the crop; any thread
-  /// may, at any time.
+  /// may, at any time. Throws Error{scene} where a sum would be more than it can hold.
   void add(std::size_t pixel, int replicate, std::span<const double> values, std::size_t first = 0);
   /// Whether a value is finite and within what the film can hold.
   [[nodiscard]] bool holds(double value) const { return std::abs(value) < limit_; }
@@ -66,7 +72,7 @@ class Film {
   /// Sets how many samples per pixel each replicate has received.
   void set_samples(std::vector<std::uint64_t> per_replicate);
   /// Adds the sums of a film that differs in its crop at most, of the pixels that both have; its samples are
-  /// for the caller to add.
+  /// for the caller to add. Throws Error{scene} where a sum would be more than it can hold.
   void add(const Film& other);
   /// A copy of some replicates, in that order; and they put back, in place of what is there.
   [[nodiscard]] Film only(std::span<const int> replicates) const;

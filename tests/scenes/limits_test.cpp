@@ -223,6 +223,29 @@ TEST(Limits, ANarrowSpotSendsOutItsFlux) {
   }
 }
 
+// A lamp of 1 W, millimetres above a ground ten kilometres wide and from a meter, by I/d^2.
+TEST(Limits, ALampNextToWhatItLightsIsCountedInAWideScene) {
+  const auto lit = [](double height_m, const char* samples) {
+    return render(test::load_text(fmt::format(R"({{"abbe": 1,
+              "camera": {{"irradiance_probe": {{"at": [0, 0, {}], "normal": [0, 0, 1]}}}},
+              "sensor": {{"resolution": [1, 1], "channels": {{"all": {{"band": [300, 1100]}}}}}},
+              "materials": {{"black": {{"diffuse": {{"reflectance": 0}}}}}},
+              "lights": [{{"point": {{"at": [0, 0, {}]}}, "emission": {{"illuminant": "E", "radiant_flux_W": 1}}}}],
+              "shapes": [{{"quad": {{"corner": [-5000, -5000, 0], "edge_u": [10000, 0, 0], "edge_v": [0, 10000, 0]}}, "material": "black"}}]}})",
+                                              0.5 * height_m, 1.5 * height_m),
+                                  {{"/render/samples", samples}}),
+                  {});
+  };
+  for (const double distance_m : {2e-3, 2e-5}) {
+    const RenderResult once = lit(distance_m, "16");
+    const RenderResult often = lit(distance_m, "2048");
+    EXPECT_EQ(often.stats.nonfinite_samples, 0U);
+    EXPECT_GT(mean(once), 0);
+    EXPECT_NEAR(mean(often) / mean(once), 1, 1e-6) << distance_m;
+  }
+  EXPECT_NEAR(mean(lit(2e-5, "64")) / mean(lit(2e-3, "64")), 1e4, 0.1);
+}
+
 TEST(Limits, NegativeResponsesAreKept) {
   const auto with = [](const char* channels) {
     return rendered_small(

@@ -1,4 +1,5 @@
 #include "sensor/film/film.h"
+#include "io/error.h"
 #include "sensor/film/patch.h"
 #include "sensor/film/recorded_crop.h"
 #include "sensor/film/relative_error.h"
@@ -154,6 +155,20 @@ TEST(Film, HoldsRefusesWhatWouldOverflow) {
   EXPECT_FALSE(film.holds(1e15));
   EXPECT_FALSE(film.holds(std::nan("")));
   EXPECT_FALSE(film.holds(-INFINITY));
+}
+
+// What no sum holds is an error, and no other number.
+TEST(Film, SumsHoldMillionsOfTheLargestValuesAndRefuseMore) {
+  Film film(1, 1, 1, 1, 1.0);
+  const double value = std::ldexp(0.75, 44);
+  ASSERT_TRUE(film.holds(value));
+  film.add(0, 0, {&value, 1});
+  const auto twice = [&film] { film.add(film.only(std::array{0})); };
+  for (int doublings = 0; doublings < 23; ++doublings) twice();
+  film.set_samples({1});
+  EXPECT_EQ(film.total(0, 0), std::ldexp(value, 23));
+  EXPECT_THROW(twice(), Error);
+  EXPECT_EQ(film.total(0, 0), std::ldexp(value, 23));
 }
 
 TEST(Film, AveragesTheLargestValuesItHolds) {

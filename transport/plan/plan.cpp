@@ -26,12 +26,26 @@ std::vector<bool> traced_lights(const Scene& scene) {
   return traced;
 }
 
+// How far [m] the nearest of what a lamp at a point lights is: the camera, and what rays along the axes meet;
+// not so near that what is lit evenly would be lost beside it.
+double nearest_lit(const Scene& scene, const Imath::V3f& lamp) {
+  constexpr double kLeast = 1e-6;  // of the scene's radius
+  const double radius = scene_radius(scene.bounds);
+  double nearest = std::min(radius, (position(scene.camera) - Imath::V3d(lamp)).length());
+  for (const Imath::V3f& axis : {Imath::V3f(1, 0, 0), Imath::V3f(0, 1, 0), Imath::V3f(0, 0, 1)})
+    for (const Imath::V3f& direction : {axis, -axis})
+      if (const auto hit = scene.intersect(ray_at(lamp, direction, 0)))
+        nearest = std::min(nearest, static_cast<double>(hit->t));
+  return std::max(nearest, kLeast * radius);
+}
+
 // What a pixel sees of a light, over its emission, to within a few orders of magnitude: the light fills the
-// view, or shines from a scene's size away. Of a far lamp that is half way between its radiance and what it
+// view, or shines on what is nearest to it. Of a far lamp that is half way between its radiance and what it
 // lights.
 double strength(const Scene& scene, const Light& light) {
   const auto lamp = far_away(light, scene);
-  if (place(light) != nullptr) return std::pow(lamp ? lamp->distance : scene_radius(scene.bounds), -2);
+  if (const Imath::V3f* at = place(light); at != nullptr)
+    return std::pow(lamp ? lamp->distance : nearest_lit(scene, *at), -2);
   return lamp ? std::min(1.0, lamp->radius / lamp->distance) : 1;
 }
 
