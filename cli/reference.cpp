@@ -17,7 +17,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kExitCod
     {"4", "an input file is missing or corrupt"},
     {"5", "an output cannot be written"},
     {"6", "a limit on memory or size would be exceeded"},
-    {"70", "a fault of Abbe, or with --strict a sample that was not finite"},
+    {"70", "a fault of Abbe, or with --strict a sample that was left out"},
     {"129", "the terminal was closed; what was rendered is written"},
     {"130", "interrupted from the keyboard; what was rendered is written"},
     {"143", "asked to end; what was rendered is written"},

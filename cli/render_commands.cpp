@@ -134,7 +134,7 @@ void add_render(CLI::App& app, Command& command) {
       "Refuse a scene of which a warning means a wrong image (exit 3): no light, a lamp that emits nothing, "
       "matter in an open mesh or with vertex normals, a camera in opaque matter, a sheet or a lamp on a "
       "surface, light that an integrator named for the scene loses, not what auto says is missing; exit with "
-      "70 if any sample was not finite");
+      "70 if any sample was left out");
   render.add_flag("--quiet", sub->quiet, "Show no progress and no notes, only warnings");
 }
 
@@ -156,7 +156,7 @@ void add_meter(CLI::App& app, Command& command) {
   add_max_memory(options, sub.options);
   options.add_flag("--strict", sub->strict,
                    "Refuse a scene of which a warning means a wrong reading (exit 3); exit with 70 if any "
-                   "sample was not finite");
+                   "sample was left out");
   options.add_flag("--quiet", sub->quiet, "Show no progress and no notes, only warnings");
   add_json(options, sub->json);
 }

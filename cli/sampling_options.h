@@ -22,7 +22,7 @@ struct SamplingOptions {
   std::size_t max_memory_bytes = default_memory_limit();
   std::vector<Override> overrides;
   bool strict = false;  ///< What makes the figures wrong ends the command: of the scene before it starts (3),
-                        ///< a sample that is not finite after they are written (70).
+                        ///< a sample that was left out after they are written (70).
   bool quiet = false;
 };
 

@@ -8,7 +8,6 @@
 #include "cli/answer.h"
 #include "film/shortcomings.h"
 #include "io/error.h"
-#include "sensor/response/stokes_channels.h"
 
 namespace abbe::cli {
 namespace {
@@ -73,12 +72,7 @@ void note_polarisation(const Scene& scene) {
 }
 
 void warn_of_unpolarised_measurement(const Scene& scene, bool strict) {
-  if (any_analyser(scene.channels) && !scene.render.polarisation)
-    warn(
-        "the sensor measures how light is polarised, and render/polarisation is \"off\": all light will "
-        "count "
-        "as unpolarised",
-        strict);
+  if (const auto unpolarised = unpolarised_measurement(scene)) warn(*unpolarised, strict);
 }
 
 }  // namespace abbe::cli

@@ -7,6 +7,7 @@
 
 #include "scene/contact.h"
 #include "scene/dark_enclosure.h"
+#include "sensor/response/stokes_channels.h"
 #include "transport/path/roulette.h"
 #include "transport/plan/emissions.h"
 #include "transport/plan/photon_settings.h"
@@ -73,6 +74,13 @@ std::optional<std::string> hidden_lamp(const Scene& scene) {
                      on);
 }
 
+std::optional<std::string> unpolarised_measurement(const Scene& scene) {
+  if (!any_analyser(scene.channels) || scene.render.polarisation) return std::nullopt;
+  return "the sensor measures how light is polarised, and render/polarisation is \"off\": all light will "
+         "count "
+         "as unpolarised";
+}
+
 std::optional<std::string> unused_settings(const Scene& scene) {
   std::vector<std::string> keys;
   for (const std::string_view key : unused_photon_settings(scene))
@@ -86,7 +94,8 @@ std::vector<std::string> left_out(const Scene& scene, const RenderResult& result
   const RenderStats& stats = result.stats;
   std::vector<std::string> told;
   if (stats.nonfinite_samples > 0)
-    told.push_back(fmt::format("{} samples were not finite and were left out", stats.nonfinite_samples));
+    told.push_back(fmt::format("{} samples were left out: not finite, or more than the film can hold",
+                               stats.nonfinite_samples));
   if (stats.cut.paths > 0 && !scene.render.max_depth)
     told.push_back(
         fmt::format("{} of {} paths were cut after {} events, with {:.3g} % of what all set out with: their "

@@ -22,13 +22,17 @@ namespace abbe {
 /// That light is lost of a lamp which touches something opaque, as a sentence; nothing when none does.
 [[nodiscard]] std::optional<std::string> hidden_lamp(const Scene& scene);
 
+/// That the sensor measures how light is polarised in a scene that leaves polarisation out, as a sentence;
+/// nothing when it does not.
+[[nodiscard]] std::optional<std::string> unpolarised_measurement(const Scene& scene);
+
 /// Which settings of the scene its integrator makes no use of, as a sentence; nothing when it uses all.
 [[nodiscard]] std::optional<std::string> unused_settings(const Scene& scene);
 
-/// What a render left out of the scene's film, a sentence each: samples that were not finite, paths that were
-/// cut although the scene does not say so, and all light where none was found on the whole film although
-/// lights emit what its sensor sees. Of the camera of `dark_camera`, and of a crop, which may well be of
-/// what is black, the last is not told.
+/// What a render left out of the scene's film, a sentence each: samples that were not finite or more than
+/// the film can hold, paths that were cut although the scene does not say so, and all light where none was
+/// found on the whole film although lights emit what its sensor sees. Of the camera of `dark_camera`, and of
+/// a crop, which may well be of what is black, the last is not told.
 [[nodiscard]] std::vector<std::string> left_out(const Scene& scene, const RenderResult& result);
 
 }  // namespace abbe

@@ -9,11 +9,10 @@
 #include <pybind11/numpy.h>
 
 #include "io/error.h"
+#include "python/lock.h"
+#include "python/numbers.h"
 
 namespace abbe::python {
-
-/// What functions take for numbers: a number, or anything that numpy makes an array of.
-using Numbers = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
 
 [[nodiscard]] inline std::span<const double> all(const Numbers& numbers) {
   return {numbers.data(), static_cast<std::size_t>(numbers.size())};
@@ -37,7 +36,7 @@ template <typename F>
   double* to = results.mutable_data();
   const std::span<const double> from = all(numbers);
   {
-    const pybind11::gil_scoped_release released;
+    const Released released;
     for (std::size_t i = 0; i < from.size(); ++i) to[i] = f(from[i]);
   }
   return results[pybind11::tuple()];  // of an array without axes, its number

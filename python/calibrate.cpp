@@ -10,6 +10,7 @@
 #include "calibration/calibration_case.h"
 #include "python/develop.h"
 #include "python/errors.h"
+#include "python/lock.h"
 #include "python/query.h"
 
 namespace abbe::python {
@@ -101,7 +102,7 @@ py::dict calibrate(const std::string& camera, const std::string& illuminant, con
   std::optional<CalibrationCase> made;
   Diagnostics diagnostics;
   {
-    const py::gil_scoped_release released;
+    const Released released;
     Inputs photographs;
     made = measured ? measured_calibration(source, illuminant, photographs, diagnostics)
                     : simulated_calibration(source, illuminant, diagnostics);
@@ -114,7 +115,7 @@ py::dict responses_of(const fs::path& series) {
   RecoveredResponses recovered;
   Diagnostics diagnostics;
   {
-    const py::gil_scoped_release released;
+    const Released released;
     Inputs photographs;
     recovered = recover_responses(series, photographs, diagnostics);
   }

@@ -14,6 +14,8 @@
 #include "python/errors.h"
 #include "python/film.h"
 #include "python/json.h"
+#include "python/lock.h"
+#include "python/request.h"
 #include "python/scene.h"
 #include "sensor/film/recorded_white.h"
 
@@ -96,13 +98,14 @@ ExposedFilm exposed(const FilmHandle& film, SceneHandle* looker, const py::objec
 }
 
 Developed develop_film(const FilmHandle& film, const py::object& readout, const py::object& white,
-                       std::optional<std::uint64_t> seed, SceneHandle* scene) {
+                       std::optional<std::int64_t> seed, SceneHandle* scene) {
+  require_seed(seed);
   const auto asked = white.is_none() ? std::nullopt : std::optional(to_text(to_json(white, kWhitePointer)));
   ExposedFilm source = exposed(film, scene, readout, asked);
   if (seed && !source.sensor.readout)
     throw Error(ErrorCode::usage, "seed", "the film has no read-out whose noise it could draw");
-  const std::uint64_t noise = seed.value_or(render_seed(source.film));
-  const py::gil_scoped_release released;
+  const std::uint64_t noise = seed ? static_cast<std::uint64_t>(*seed) : render_seed(source.film);
+  const Released released;
   DevelopedFilm planes = develop(source, noise);
   return {std::move(source.sensor), std::move(planes)};
 }

@@ -1,8 +1,12 @@
 #include "python/errors.h"
 
+#include <algorithm>
+#include <cstddef>
+
 #include <pybind11/stl.h>
 
 #include "python/arguments.h"
+#include "python/lock.h"
 
 namespace abbe::python {
 namespace {
@@ -41,9 +45,18 @@ std::string encoded(const py::str& text) {
   return py::bytes(text.attr("encode")("utf-8", "surrogateescape"));
 }
 
+// What rooms call an option of the command is here a keyword: "camera_response", not "--camera-response".
+std::string with_keyword(const std::string& text) {
+  if (!text.starts_with("--")) return text;
+  const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(text.find(':'), text.size()));
+  std::string named(text.begin() + 2, end);
+  std::replace(named.begin(), named.end(), '-', '_');
+  return named.append(end, text.end());
+}
+
 void raise(const Error& error, const std::vector<Diagnostic>& diagnostics) {
   const py::object type = py::module_::import(kErrors).attr(class_of(error.code));
-  PyErr_SetObject(type.ptr(), type(decoded(error.what()), diagnostics).ptr());
+  PyErr_SetObject(type.ptr(), type(decoded(with_keyword(error.what())), diagnostics).ptr());
 }
 
 // With the parameter that pybind11 calls it with. NOLINTNEXTLINE(performance-unnecessary-value-param)
@@ -85,9 +98,12 @@ Diagnostic diagnostic_from(const py::tuple& state) {
 }  // namespace
 
 void warn(const std::string& text) {
-  const py::gil_scoped_acquire held;
+  const Held held;
   const py::object category = py::module_::import(kErrors).attr("SceneWarning");
-  if (PyErr_WarnFormat(category.ptr(), 1, "%U", decoded(text).ptr()) != 0) throw py::error_already_set();
+  const py::str words = decoded(text);
+  int failed = 0;
+  unless_python_ends([&] { failed = PyErr_WarnFormat(category.ptr(), 1, "%U", words.ptr()); });
+  if (failed != 0) throw py::error_already_set();
 }
 
 void check(const Diagnostics& diagnostics) {

@@ -16,6 +16,7 @@
 #include "python/arguments.h"
 #include "python/arrays.h"
 #include "python/errors.h"
+#include "python/lock.h"
 #include "python/picture.h"
 #include "sensor/film/film_planes.h"
 #include "sensor/film/recorded_error.h"
@@ -27,29 +28,22 @@ namespace {
 namespace py = pybind11;
 namespace fs = std::filesystem;
 
-struct BandChannel {
-  double center_nm;
-  std::string name;
-};
-
-// The radiances of a spectral film, by ascending wavelength.
-std::vector<BandChannel> band_channels(const Image& image) {
-  std::vector<BandChannel> bands;
-  if (!is_spectral(image)) return bands;
-  for (const ImageChannel& channel : image.channels)
-    if (const auto name = parse_spectral_channel(channel.name, "film"); name && name->kind == '0')
-      bands.push_back({name->center_nm, channel.name});
-  std::sort(bands.begin(), bands.end(),
-            [](const BandChannel& a, const BandChannel& b) { return a.center_nm < b.center_nm; });
-  return bands;
+// The middles of the bands of a spectral film, ascending; none of others. Of the image its layout alone is
+// asked, without values.
+std::vector<double> band_centers_nm(const Image& image) {
+  std::vector<double> centers_nm;
+  if (!is_spectral(image)) return centers_nm;
+  Image layout{image.width, image.height, {}, image.metadata};
+  for (const ImageChannel& channel : image.channels) layout.channels.push_back({channel.name, {}});
+  for (const SpectralBand& band : spectral_image(std::move(layout), "film").bands)
+    centers_nm.push_back(band.center_nm);
+  return centers_nm;
 }
 
 py::object wavelengths(const FilmHandle& film) {
-  const std::vector<BandChannel> bands = band_channels(film.image());
-  if (bands.empty()) return py::none();
-  std::vector<double> centers;
-  for (const BandChannel& band : bands) centers.push_back(band.center_nm);
-  return py::array_t<double>(static_cast<py::ssize_t>(centers.size()), centers.data());
+  const std::vector<double> centers_nm = band_centers_nm(film.image());
+  if (centers_nm.empty()) return py::none();
+  return py::array_t<double>(static_cast<py::ssize_t>(centers_nm.size()), centers_nm.data());
 }
 
 py::object spectrum(const FilmHandle& film, int x, int y) {
@@ -61,12 +55,12 @@ py::object spectrum(const FilmHandle& film, int x, int y) {
     throw Error(ErrorCode::usage, "spectrum",
                 fmt::format("no such pixel (got {}, {}, allowed up to {}, {})", x, y, image.width - 1,
                             image.height - 1));
-  const auto bands = static_cast<py::ssize_t>(band_channels(image).size());
+  const auto bands = static_cast<py::ssize_t>(band_centers_nm(image).size());
   return film.array()[py::make_tuple(y, x, py::slice(0, bands, 1))];
 }
 
 FilmHandle film_of_file(const fs::path& path) {
-  const py::gil_scoped_release released;
+  const Released released;
   if (extension_of(path) == kPartExtension) return FilmHandle(read_part(path));
   return FilmHandle(read_film(path));
 }
@@ -79,7 +73,7 @@ void write_film(const FilmHandle& film, const fs::path& path) {
                 "the film was read from an image: only a film with its exact sums can be written as a part");
   if (!is_part && extension_of(path) != ".exr") return write_picture(path, shown(film).image);
   const Image* const image = is_part ? nullptr : &film.image();
-  const py::gil_scoped_release released;
+  const Released released;
   if (is_part)
     write_part(path, film.part()->identity, film.part()->result, film.part()->areas);
   else
@@ -110,6 +104,8 @@ struct Given {
 };
 
 std::vector<Given> given(const py::sequence& films) {
+  if (py::isinstance<py::str>(films))  // a sequence of letters
+    throw py::type_error("films: expected a list of films or paths (got a str)");
   std::vector<Given> all;
   for (std::size_t i = 0; i < films.size(); ++i) {
     const fs::path name = fmt::format("films[{}]", i);
@@ -141,9 +137,13 @@ py::object stats(const FilmHandle& film) {
   if (!film.part()) return py::none();
   const RenderStats& stats = film.part()->result.stats;
   py::dict all;
-  all["wall_s"] = stats.wall_s;
-  all["cpu_s"] = stats.cpu_s;
-  all["threads"] = stats.threads;
+  const bool ran_here = stats.wall_s > 0;  // parts and their sums tell no costs
+  for (const char* cost : {"wall_s", "cpu_s", "threads"}) all[cost] = py::none();
+  if (ran_here) {
+    all["wall_s"] = stats.wall_s;
+    all["cpu_s"] = stats.cpu_s;
+    all["threads"] = stats.threads;
+  }
   all["samples_per_pixel"] = stats.samples_per_pixel;
   all["paths"] = stats.paths;
   all["rays"] = stats.rays;
@@ -174,11 +174,13 @@ void add_values(py::class_<FilmHandle, std::shared_ptr<FilmHandle>>& film) {
       .def_property_readonly(
           "wavelengths", wavelengths,
           "The middles of the bands of a spectral film in nm, in the order of `array`; None for "
-          "other films.")
+          "other films. Raises InputError for a spectral image that is in another unit than W/(m^2 sr) or "
+          "not of bands of radiance.")
       .def("spectrum", spectrum, py::arg("x"), py::arg("y"),
            "Returns the radiance in each band at the pixel of column x and row y, in W/(m^2 sr), a view of "
            "`array`. "
-           "Raises UsageError for a film whose sensor is not spectral and for a pixel beyond it.");
+           "Raises UsageError for a film whose sensor is not spectral and for a pixel beyond it, and as "
+           "`wavelengths` does.");
 }
 
 }  // namespace
@@ -245,8 +247,9 @@ void add_film(py::module_& module) {
                              "What the film's file tells of it, as strings by name.")
       .def_property_readonly(
           "stats", stats,
-          "What the render did, as a dict; None for a film read from an image. Its errors are None unless "
-          "the render was given `error` or `progress`.")
+          "What the render did, as a dict; None for a film read from an image. `wall_s`, `cpu_s` and "
+          "`threads` are None of a film that was merged or read from a part, and its errors unless the "
+          "render was given `error` or `progress`.")
       .def_property_readonly(
           "width", [](const FilmHandle& f) { return f.image().width; }, "The film's columns of pixels.")
       .def_property_readonly(

@@ -9,6 +9,8 @@
 #include <thread>
 #include <utility>
 
+#include "python/lock.h"
+
 namespace abbe::python {
 namespace {
 
@@ -26,8 +28,9 @@ class Job {
     thread_ = std::jthread([this, &scene] { run(scene); });
   }
 
-  /// Calls `listen` with what is new every moment until the render ends; where it throws, the render stops
-  /// after the pass that runs, and that exception is thrown again. To be called without Python's lock.
+  /// Calls `listen` with what is new every moment until the render ends, and with what stops it; where it
+  /// throws, the render stops after the pass that runs, and that exception is thrown again. To be called
+  /// without Python's lock.
   template <typename F>
   RenderResult wait(F listen) {
     std::exception_ptr interruption;
@@ -37,7 +40,7 @@ class Job {
       const std::optional<Progress> news = std::exchange(news_, std::nullopt);
       lock.unlock();
       if (!interruption) try {
-          listen(news);
+          listen(news, stop_);
         } catch (...) {
           interruption = std::current_exception();
           stop_ = true;
@@ -77,18 +80,27 @@ class Job {
   std::jthread thread_;  // last, since it uses all of the others
 };
 
-// Lets Python handle its signals, and tells what is new.
-void listen(const py::object& callback, const std::optional<Progress>& news) {
-  const py::gil_scoped_acquire held;
+// Lets Python handle its signals, and tells what is new. Where Python ends, the render stops, as nobody will
+// have its film.
+void listen(const py::object& callback, const std::optional<Progress>& news, std::atomic<bool>& stop) {
+  const auto stop_render = [&stop] { stop = true; };
+  const Held held(stop_render);
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  if (news && !callback.is_none()) callback(*news);
+  if (!news || callback.is_none()) return;
+  const py::object told = py::cast(*news);
+  py::object answer;
+  unless_python_ends(
+      [&] { answer = py::reinterpret_steal<py::object>(PyObject_CallOneArg(callback.ptr(), told.ptr())); },
+      stop_render);
+  if (!answer) throw py::error_already_set();
 }
 
 }  // namespace
 
 RenderResult render_listening(const abbe::Scene& scene, RenderOptions how, const py::object& progress) {
   Job job(scene, std::move(how), !progress.is_none());
-  return job.wait([&](const std::optional<Progress>& news) { listen(progress, news); });
+  return job.wait(
+      [&](const std::optional<Progress>& news, std::atomic<bool>& stop) { listen(progress, news, stop); });
 }
 
 }  // namespace abbe::python

@@ -12,6 +12,7 @@
 #include "materials/interface/surface_index.h"
 #include "python/arrays.h"
 #include "python/errors.h"
+#include "python/lock.h"
 #include "python/query.h"
 #include "sampling/angle.h"
 
@@ -91,7 +92,7 @@ py::tuple reflectance(const std::string& name, const Numbers& wavelengths_nm, co
   double* const s = rs.mutable_data();
   double* const p = rp.mutable_data();
   {
-    const py::gil_scoped_release released;
+    const Released released;
     for (std::size_t i = 0; i < all(nm).size(); ++i) {
       const double at = all(nm)[i];
       const double cos_i = all(angle)[i] == 90 ? 0 : std::cos(all(angle)[i] * kDegree);
@@ -129,7 +130,7 @@ void add_matter(py::module_& module) {
       "relative "
       "to air or vacuum, as `material(name)` tells.\n\nNames are those of `names(\"material\")` and "
       "`names(\"glass\")`, or files. Raises InputError for an unknown name and UsageError for a wavelength "
-      "without data.");
+      "without data or outside [300, 1100] nm.");
   module.def("extinction", extinction, py::arg("name"), py::arg("wavelengths_nm"),
              "Returns the extinction coefficient k of a material, the imaginary part of its index n + ik, as "
              "catalogued; NaN where it is not measured. Raises as `ior` does.");

@@ -16,6 +16,7 @@
 #include "python/errors.h"
 #include "python/job.h"
 #include "python/json.h"
+#include "python/lock.h"
 #include "python/render.h"
 #include "python/request.h"
 #include "python/scene.h"
@@ -100,9 +101,12 @@ py::dict told_of(const MeterMeasurement& measured) {
 // What the call says otherwise than the scene, which its loader checks.
 std::vector<Override> settings_of(const Request& request, const py::object& integrator) {
   std::vector<Override> settings;
-  if (request.spp) settings.push_back({"/render/samples", fmt::format("{}", *request.spp)});
-  if (request.seed) settings.push_back({"/render/seed", fmt::format("{}", *request.seed)});
-  if (!integrator.is_none()) settings.push_back({"/render/integrator", to_text(to_json(integrator))});
+  if (request.spp) settings.push_back({"/render/samples", fmt::format("{}", *request.spp), "spp"});
+  if (request.seed) settings.push_back({"/render/seed", fmt::format("{}", *request.seed), "seed"});
+  if (!integrator.is_none()) {
+    const char* const pointer = "/render/integrator";
+    settings.push_back({pointer, to_text(to_json(integrator, pointer)), "integrator"});
+  }
   return settings;
 }
 
@@ -159,7 +163,7 @@ py::dict meter(const py::object& scene, const py::object& only, const Request& r
   const std::vector<std::string> names = names_of(only);
   std::vector<MeterMeasurement> all;
   {
-    const py::gil_scoped_release released;
+    const Released released;
     all = measure(source, names, how_to_stop(request), progress);
   }
   py::dict told;

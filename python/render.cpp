@@ -1,5 +1,7 @@
 #include "transport/render/render.h"
 
+#include <cmath>
+
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
@@ -9,6 +11,7 @@
 #include "python/errors.h"
 #include "python/film.h"
 #include "python/job.h"
+#include "python/lock.h"
 #include "python/render.h"
 #include "python/request.h"
 #include "python/scene.h"
@@ -44,7 +47,7 @@ std::optional<abbe::Scene> changed(const abbe::Scene& scene, const Request& requ
 
 FilmHandle render_scene(SceneHandle& handle, const Request& request, const py::object& progress) {
   require_valid(request);
-  const py::gil_scoped_release released;
+  const Released released;
   const abbe::Scene& own = handle.with_white(static_cast<int>(request.threads));
   const std::optional<abbe::Scene> copy = changed(own, request);
   const abbe::Scene& scene = copy ? *copy : own;
@@ -54,10 +57,12 @@ FilmHandle render_scene(SceneHandle& handle, const Request& request, const py::o
   inputs.take_memory("the film", film_bytes(scene, how));
   inputs.take_memory("the paths from lights of a sample", bytes_of_light_paths(scene));
   FilmIdentity identity = identity_of(scene, handle.name(), how);
-  for (const auto& shortcoming : {dark_camera(scene), hidden_sheet(scene), hidden_lamp(scene),
-                                  lost_light(scene), unused_settings(scene)})
+  for (const auto& shortcoming : {unpolarised_measurement(scene), dark_camera(scene), hidden_sheet(scene),
+                                  hidden_lamp(scene), lost_light(scene), unused_settings(scene)})
     if (shortcoming) warn(*shortcoming);
   RenderResult result = render_listening(scene, how, progress);
+  if (how.target_error && !how.time_limit_s && !std::isfinite(result.stats.error.median))
+    warn("a pilot found no light on the film: error had nothing to wait for");
   for (const std::string& loss : left_out(scene, result)) warn(loss);
   return FilmHandle(RenderPart{std::move(identity), std::move(result)});
 }

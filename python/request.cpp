@@ -31,9 +31,13 @@ void require(bool holds, const char* argument, const std::string& got, const cha
   if (!holds) throw Error(ErrorCode::usage, argument, fmt::format("got {}, allowed {}", got, allowed));
 }
 
+void require_seed(const std::optional<std::int64_t>& seed) {
+  if (seed) require_within("seed", *seed, 0, kMaxSeed);
+}
+
 void require_valid(const Request& request) {
   if (request.spp) require_within("spp", *request.spp, 1, kMaxSamples);
-  if (request.seed) require_within("seed", *request.seed, 0, kMaxSeed);
+  require_seed(request.seed);
   require_within("threads", request.threads, 0, kMaxThreads);
   require(!request.error || (*request.error > 0 && *request.error < 1), "error",
           fmt::format("{}", request.error.value_or(0)), "(0, 1)");

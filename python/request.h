@@ -22,6 +22,9 @@ struct Request {
 /// Throws Error{usage} naming the argument that is out of its range, or that another excludes.
 void require_valid(const Request& request);
 
+/// Throws Error{usage} naming the argument `seed` unless it is one that scenes may have, or not given.
+void require_seed(const std::optional<std::int64_t>& seed);
+
 /// Throws Error{usage} unless it holds: "`argument`: got `got`, allowed `allowed`".
 void require(bool holds, const char* argument, const std::string& got, const char* allowed);
 

@@ -15,6 +15,7 @@
 #include "python/arguments.h"
 #include "python/errors.h"
 #include "python/json.h"
+#include "python/lock.h"
 #include "transport/render/choose_integrator.h"
 #include "transport/render/threads.h"
 
@@ -92,7 +93,7 @@ SceneHandle::SceneHandle(const py::object& source, const py::object& folder, con
   Diagnostics diagnostics;
   std::optional<abbe::Scene> scene;
   {
-    const py::gil_scoped_release released;
+    const Released released;
     scene = source_.text
                 ? load_scene(source_.text, source_.folder, source_.overrides, diagnostics, &inputs_, &said_)
                 : load_scene(source_.name, source_.overrides, diagnostics, &inputs_, &said_);
@@ -107,7 +108,7 @@ const abbe::Scene& SceneHandle::with_white(int threads) {
   const IntegratorChoice choice = choose_integrator(settled, thread_count(threads));
   settled.render.integrator = choice.integrator;
   settle_white(settled, name(), thread_count(threads), choice.guides);
-  const py::gil_scoped_acquire held;  // for those who read the scene meanwhile
+  const Held held;  // for those who read the scene meanwhile
   scene_.render.integrator = settled.render.integrator;
   scene_.output = std::move(settled.output);
   guides_ = choice.guides;

@@ -126,6 +126,13 @@ void require_data_at(const NamedIndex& material, std::span<const double> wavelen
                      const std::string& where) {
   const double low = std::max<double>(material.index.low_nm(), kMinWavelengthNm);
   const double high = std::min<double>(material.index.high_nm(), kMaxWavelengthNm);
+  const DataRange data{material.index.low_nm(), material.index.high_nm()};
+  for (const double nm : wavelengths_nm)
+    if (data.contains(nm) && !(nm >= low && nm <= high))
+      throw Error(ErrorCode::usage, where,
+                  fmt::format("beyond the wavelengths of Abbe, though within the data of {} (got {} nm, "
+                              "allowed [{:g}, {:g}] nm)",
+                              material.name, nm, low, high));
   require_between(material.name, low, high, wavelengths_nm, where);
 }
 

@@ -87,10 +87,10 @@ class Film:
 
     @property
     def wavelengths(self) -> NDArray[numpy.float64] | None:
-        """The middles of the bands of a spectral film in nm, in the order of `array`; None for other films."""
+        """The middles of the bands of a spectral film in nm, in the order of `array`; None for other films. Raises InputError for a spectral image that is in another unit than W/(m^2 sr) or not of bands of radiance."""
 
     def spectrum(self: Film, x: int, y: int) -> NDArray[numpy.float32]:
-        """Returns the radiance in each band at the pixel of column x and row y, in W/(m^2 sr), a view of `array`. Raises UsageError for a film whose sensor is not spectral and for a pixel beyond it."""
+        """Returns the radiance in each band at the pixel of column x and row y, in W/(m^2 sr), a view of `array`. Raises UsageError for a film whose sensor is not spectral and for a pixel beyond it, and as `wavelengths` does."""
 
     @staticmethod
     def read(path: str | os.PathLike[str]) -> Film:
@@ -105,7 +105,7 @@ class Film:
 
     @property
     def stats(self) -> dict[str, typing.Any] | None:
-        """What the render did, as a dict; None for a film read from an image. Its errors are None unless the render was given `error` or `progress`."""
+        """What the render did, as a dict; None for a film read from an image. `wall_s`, `cpu_s` and `threads` are None of a film that was merged or read from a part, and its errors unless the render was given `error` or `progress`."""
 
     @property
     def width(self) -> int:
@@ -234,7 +234,7 @@ def illuminant(name: str, wavelengths_nm: ArrayLike) -> typing.Any:
 def ior(name: str, wavelengths_nm: ArrayLike) -> typing.Any:
     """Returns the real refractive index n of a material at wavelengths in standard air, as catalogued: relative to air or vacuum, as `material(name)` tells.
 
-    Names are those of `names("material")` and `names("glass")`, or files. Raises InputError for an unknown name and UsageError for a wavelength without data."""
+    Names are those of `names("material")` and `names("glass")`, or files. Raises InputError for an unknown name and UsageError for a wavelength without data or outside [300, 1100] nm."""
 
 
 def material(name: str) -> dict:

@@ -41,6 +41,9 @@ class Develops(Test):
             plain.write(self.scratch / "c.tif")
         with self.assertRaisesRegex(abbe.UsageError, "^seed: the film has no read-out whose noise it could draw$"):
             abbe.develop(film, seed=7)
+        for seed in (-1, 2 ** 53):
+            with self.assertRaisesRegex(abbe.UsageError, rf"^seed: got {seed}, allowed whole numbers in \[0, 9007199254740991\]$"):
+                abbe.develop(film, seed=seed)
         with self.assertRaisesRegex(abbe.InputError, "counts no electrons"):
             abbe.develop(film, readout={"bits": 12})
         with self.assertRaises(abbe.Error) as caught:
@@ -180,6 +183,9 @@ class Develops(Test):
                                  ("bits: are those of a simulated camera", {"measured": measured, "bits": 12}),
                                  ("camera: is allowed with measured only for training", {"camera": "nosuch", "measured": measured}),
                                  ("camera_response: needs camera", {"measured": measured, "camera_response": "energy"}),
+                                 ("^bits: expected 0 to 16 .got 17.$", {"camera": "Nikon_D5100", "bits": 17}),
+                                 ("^response: expected .*got foo", {"camera": "Nikon_D5100", "response": "foo"}),
+                                 ("^camera: expected three bands .got 1.$", {"camera": "box:400-500"}),
                                  ("correction: expected matrix, root-polynomial-2, root-polynomial-3 or auto .got cubic",
                                   {"camera": "Nikon_D5100", "correction": "cubic"})):
             with self.assertRaisesRegex(abbe.UsageError, words):

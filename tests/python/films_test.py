@@ -1,9 +1,11 @@
 """What films tell, how they are written, read and added up."""
+import importlib.util
 import pathlib
 import threading
 import unittest
 
 import numpy
+import OpenImageIO
 
 import abbe
 from common import CORNELL, SCENES, Test, box
@@ -59,6 +61,30 @@ class Films(Test):
             film.write(self.scratch / name)
             numpy.testing.assert_array_equal(abbe.Film.read(self.scratch / name).array, film.array)
 
+    def write_bands(self, middles_nm, unit="W.m^-2.sr^-1"):
+        """A spectral image of one pixel, of 100 W/(m^2 sr) in each band."""
+        layout = OpenImageIO.ImageSpec(1, 1, len(middles_nm), "float")
+        layout.channelnames = [f"S0.{nm},000000nm" for nm in middles_nm]
+        layout.attribute("spectralLayoutVersion", "1.0")
+        layout.attribute("emissiveUnits", unit)
+        image = OpenImageIO.ImageOutput.create("bands.exr")
+        self.assertTrue(image.open(str(self.scratch / "bands.exr"), layout), image.geterror())
+        image.write_image(numpy.full((1, 1, len(middles_nm)), 100, numpy.float32))
+        image.close()
+        return abbe.Film.read(self.scratch / "bands.exr")
+
+    def test_spectra_in_another_unit_or_without_widths_are_refused(self):
+        for film, message in ((self.write_bands([400, 500, 600], "W.m^-2.sr^-1.nm^-1"), '^film: another emissiveUnits .got "W'),
+                              (self.write_bands([550]), "^film: too few bands of radiance to tell their widths .got 1, allowed 2 or more.$")):
+            for call in (lambda: film.wavelengths, lambda: film.spectrum(0, 0), lambda: abbe.plot_spectrum(film, (0, 0))):
+                with self.subTest(message=message), self.assertRaisesRegex(abbe.InputError, message):
+                    call()
+
+    @unittest.skipUnless(importlib.util.find_spec("matplotlib"), "matplotlib is not installed")
+    def test_spectra_are_drawn_per_nm_of_each_band(self):
+        axes = abbe.plot_spectrum(self.write_bands([400, 500, 700]), (0, 0))
+        numpy.testing.assert_array_equal(axes.lines[-1].get_xydata(), [[400, 100 / 100], [500, 100 / 150], [700, 100 / 200]])
+
     def test_threads_write_a_film_whose_image_is_not_made_yet(self):
         film = abbe.render(abbe.Scene(box(sensor={**box()["sensor"], "resolution": [300, 300]}, render={"samples": 1})))
         film.write(self.scratch / "f.abbepart")
@@ -86,6 +112,17 @@ class Films(Test):
         self.assertEqual([abbe.render(scene).stats[key] for key in ("relative_error", "frame_mean_error")], [None, None])
         measured = abbe.render(scene, progress=lambda p: None).stats
         self.assertTrue(0 < measured["relative_error"] < 1 and 0 < measured["frame_mean_error"] < 1, measured)
+
+    def test_costs_of_films_that_were_not_rendered_here_are_none(self):
+        scene = abbe.Scene(box())
+        costs = ("wall_s", "cpu_s", "threads")
+        whole = abbe.render(scene, threads=1)
+        self.assertGreater(whole.stats["wall_s"], 0)
+        self.assertEqual(whole.stats["threads"], 1)
+        whole.write(self.scratch / "f.abbepart")
+        for film in (abbe.Film.read(self.scratch / "f.abbepart"), abbe.merge([abbe.render(scene, sample_range=(i, i + 2)) for i in (0, 2)])):
+            self.assertEqual([film.stats[key] for key in costs], [None, None, None])
+            self.assertEqual([film.stats[key] for key in ("samples_per_pixel", "paths")], [4, whole.stats["paths"]])
 
     def test_one_sample_tells_no_variance(self):
         film = abbe.render(abbe.Scene(box()), spp=1)
@@ -143,6 +180,9 @@ class Films(Test):
         for other in (None, 3):
             with self.assertRaisesRegex(TypeError, rf"^films\[0\]: expected a film or the path of a part \(got a {type(other).__name__}\)$"):
                 abbe.merge([other])
+        for text in ("p.abbepart", str(self.scratch / "p.abbepart")):
+            with self.assertRaisesRegex(TypeError, r"^films: expected a list of films or paths \(got a str\)$"):
+                abbe.merge(text)
         with self.assertRaisesRegex(abbe.UsageError, "read from an image"):
             abbe.merge([abbe.Film.read(self.scratch / "w.exr")])
 

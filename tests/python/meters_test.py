@@ -80,7 +80,7 @@ class Meters(Test):
             abbe.meter(scene, spp=4, error=0.1)
         with self.assertRaisesRegex(abbe.SceneError, "the scene has no meters"):
             abbe.meter(SCENES / "cornell.json")
-        with self.assertRaisesRegex(abbe.SceneError, "/render/integrator"):
+        with self.assertRaisesRegex(abbe.SceneError, "integrator:1:1: /render/integrator: error:"):
             abbe.meter(scene, integrator="paths")
         with self.assertRaises(TypeError):
             abbe.meter(scene, only=3)

@@ -104,6 +104,8 @@ class Queries(Test):
                                      (lambda: abbe.camera(str(ended), 500), abbe.InputError, "covers 380 to 780 nm only, where 58.6 % of what channel \"QE\" counts is not"),
                                      (lambda: abbe.ior("N-BK", 500), abbe.InputError, 'did you mean "N-BK7"'),
                                      (lambda: abbe.ior("N-BK7", [500, 200]), abbe.UsageError, "wavelengths_nm: N-BK7 has no data there"),
+                                     (lambda: abbe.ior("N-BK7", 2000), abbe.UsageError,
+                                      r"^wavelengths_nm: beyond the wavelengths of Abbe, though within the data of N-BK7 \(got 2000 nm, allowed \[300, 1100\] nm\)$"),
                                      (lambda: abbe.ior("N-BK7", [numpy.nan]), abbe.UsageError, "got nan nm"),
                                      (lambda: abbe.reflectance("N-BK7", 500, 91), abbe.UsageError, "angle_deg: got 91"),
                                      (lambda: abbe.names("lens"), abbe.UsageError, "unknown kind"),
@@ -121,6 +123,21 @@ class Queries(Test):
                                      (lambda: abbe.delta_e([1, 2], [1, 2, 3]), abbe.UsageError, "lab1: has no shape in common with lab2")):
             with self.subTest(message=message), self.assertRaisesRegex(error, message):
                 call()
+
+    def test_what_is_no_real_number_is_refused(self):
+        wavelengths = numpy.ma.array([500.0, 600.0], mask=[False, True])
+        grid = [500.0, 600.0]
+        for call in (lambda: abbe.ior("N-BK7", wavelengths), lambda: abbe.illuminant("A", wavelengths), lambda: abbe.reflectance("N-BK7", 550, wavelengths),
+                     lambda: abbe.color("D65", (grid, numpy.ma.array([0.5, 0.9], mask=[False, True])))):
+            with self.assertRaisesRegex(abbe.UsageError, r"^masked elements have no value \(got 1 of 2 masked, allowed none\)$"):
+                call()
+        unmasked = numpy.ma.array(grid, mask=[False, False])
+        self.assertEqual(abbe.ior("N-BK7", unmasked).tolist(), abbe.ior("N-BK7", grid).tolist())
+        self.assertEqual(abbe.ior("N-BK7", numpy.array(["500", "600"])).tolist(), abbe.ior("N-BK7", grid).tolist())
+        for wrong, kind in (([500 + 1j], "complex128"), (550 + 20j, "complex128"), (numpy.array([500, 600], "m8[s]"), r"timedelta64\[s\]"),
+                            (numpy.array(["2001-01-01"], "M8[D]"), r"datetime64\[D\]")):
+            with self.subTest(kind=kind), self.assertRaisesRegex(abbe.UsageError, rf"^expected real numbers \(got {kind}, allowed whole and floating-point numbers\)$"):
+                abbe.ior("N-BK7", wrong)
 
     def test_what_is_no_spectrum_is_refused(self):
         for spectra, message in (((3,), "illuminant: expected a name, or wavelengths and values (got a int)"),

@@ -83,6 +83,14 @@ class Renders(Test):
         self.assertLess(time.monotonic() - begin, 30)
         self.assertEqual(abbe.render(abbe.Scene(box())).stats["samples_per_pixel"], 4)  # and the next runs as ever
 
+    def test_python_ends_while_a_thread_of_its_own_renders(self):
+        for call in ("abbe.render(abbe.Scene(box()), spp=10**6, threads=1)", "abbe.render(abbe.Scene(box()), spp=10**6, threads=1, progress=lambda p: sum(range(20000)))",
+                     "abbe.meter(box(meters={'floor': {'at': [0, 0, 0.5], 'normal': [0, 0, 1]}}), spp=10**6)", "[abbe.ior('N-BK7', 500.0) for _ in range(10**9)]"):
+            program = ("import threading, time\nimport abbe\nfrom common import box\n"
+                       f"threading.Thread(target=lambda: {call}, daemon=True).start()\ntime.sleep(0.3)\n")
+            ended = subprocess.run([sys.executable, "-B", "-c", program], capture_output=True, text=True, timeout=60)
+            self.assertEqual((ended.returncode, ended.stderr), (0, ""), call)
+
     def test_time_and_error_end_renders(self):
         scene = abbe.Scene(CORNELL, sensor=cornell_sensor(96))
         self.assertLess(abbe.render(scene, error=0.3).stats["relative_error"], 0.3)

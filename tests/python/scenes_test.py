@@ -155,6 +155,20 @@ class Scenes(Test):
         with self.assertWarnsRegex(abbe.SceneWarning, 'light that integrator "path" does not reach is missing'):
             abbe.render(scene)
 
+    def test_renders_warn_of_a_sensor_that_measures_polarisation_left_out(self):
+        sensor = {**box()["sensor"], "stokes": True}
+        with self.assertWarnsRegex(abbe.SceneWarning, '^the sensor measures how light is polarised, and render/polarisation is "off"'):
+            abbe.render(abbe.Scene(box(sensor=sensor, render={"samples": 1, "polarisation": "off"})))
+        with warnings.catch_warnings(record=True) as heard:
+            warnings.simplefilter("always")
+            abbe.render(abbe.Scene(box(sensor=sensor, render={"samples": 1})))
+        self.assertEqual(heard, [])
+
+    def test_renders_warn_of_an_error_that_no_light_tells(self):
+        scene = abbe.Scene(box(lights=[{"directional": {"towards": [0, 0, -1], "irradiance": 1}}]))
+        with self.assertWarnsRegex(abbe.SceneWarning, "^a pilot found no light on the film: error had nothing to wait for$"):
+            abbe.render(scene, error=0.01)
+
     def test_renders_warn_of_what_does_nothing(self):
         lamp = {"name": "lamp", "point": {"at": [0, 0, 3]}, "emission": {"spectrum": 1}}
         scene = abbe.Scene(box(lights=[lamp], shapes=[], render={"samples": 1, "integrator": "path", "photons": {"radius": 1}}))

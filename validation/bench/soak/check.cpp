@@ -137,7 +137,7 @@ std::string difference_of_crop(const Scene& scene, const Whole& whole) {
 std::string failure_of(const Scene& scene, const Whole& whole, const DrawnScene& drawn) {
   const RenderResult& result = whole.result;
   if (result.stats.nonfinite_samples > 0)
-    return fmt::format("{} samples are not finite", result.stats.nonfinite_samples);
+    return fmt::format("{} samples were left out", result.stats.nonfinite_samples);
   if (std::string fault = faulty_value(result.film, scene.film_planes(), drawn); !fault.empty()) return fault;
   if (std::string fault = difference_of_parts(scene, whole); !fault.empty()) return fault;
   if (std::string fault = difference_of_crop(scene, whole); !fault.empty()) return fault;
