@@ -1,7 +1,10 @@
 #include "cli/lab.h"
 
 #include <array>
+#include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -27,12 +30,28 @@ GoniometerSettings settings_of(const LabOptions& options) {
           options.observer, options.samples};
 }
 
-// What its formulas do not hold for is refused, and what its data do not reach is told.
+// The first thing that `said_of` has to say of a material at one of some wavelengths.
+std::optional<std::string> first_said(const Material& material, const std::vector<double>& nm,
+                                      std::optional<std::string> (*said_of)(const Material&, double)) {
+  for (const double at : nm)
+    if (auto said = said_of(material, at)) return said;
+  return std::nullopt;
+}
+
+// What its formulas do not hold for is refused where it is asked for, and told where colours alone look; what
+// its data do not reach is told of both.
 void check_matter(const Material& material, const std::vector<double>& at_nm) {
-  for (const double nm : at_nm)
-    if (const auto fault = clear_fault(material, nm)) throw Error(ErrorCode::scene, "", *fault);
-  for (const double nm : at_nm)
-    if (const auto held = held_index(material, nm)) return say("warning: " + *held);
+  if (const auto fault = first_said(material, at_nm, clear_fault)) throw Error(ErrorCode::scene, "", *fault);
+  const std::vector<double> visible = visible_wavelengths();
+  const auto say_of_colors = [&](const std::string& said) {
+    say(fmt::format("warning: {}; colours are sums from {:g} to {:g} nm", said, visible.front(),
+                    visible.back()));
+  };
+  if (const auto fault = first_said(material, visible, clear_fault)) say_of_colors(*fault);
+  const auto asked = first_said(material, at_nm, held_index);
+  const auto seen = first_said(material, visible, held_index);
+  if (seen) say_of_colors(*seen);
+  if (asked && asked != seen) say("warning: " + *asked);
 }
 
 Json means(const std::vector<Estimate>& estimates) {
@@ -57,8 +76,10 @@ Json rows_of(const GoniometerReport& report) {
                     {"T", means(at.transmitted)},
                     {"T_error", errors(at.transmitted)},
                     {"reflected_XYZ", at.reflected_color.xyz},
+                    {"reflected_Y_error", at.reflected_color.Y_error},
                     {"reflected_Lab", at.reflected_color.lab},
                     {"transmitted_XYZ", at.transmitted_color.xyz},
+                    {"transmitted_Y_error", at.transmitted_color.Y_error},
                     {"transmitted_Lab", at.transmitted_color.lab},
                     {"sampling_p", at.sampling_p},
                     {"spread", at.spread_integral}});

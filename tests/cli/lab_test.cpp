@@ -99,6 +99,42 @@ TEST(Lab, ColoursAreSumsAtOneNanometre) {
     }
 }
 
+// What is neutral has no colour of the noise, and how far Y is off is told; R has more samples.
+TEST(Lab, NoiseHasNoColourAndIsTold) {
+  cli::LabOptions options = about(R"({"phong": {"reflectance": 1, "exponent": 10}})");
+  options.angles_deg = {60, 80};
+  options.samples = 8192;
+  const json lab = json_output(cli::lab, options);
+  for (const json& row : lab["angles"]) {
+    EXPECT_NEAR(row["reflected_Lab"][1].get<double>(), 0, 1e-3);
+    EXPECT_NEAR(row["reflected_Lab"][2].get<double>(), 0, 1e-3);
+    const double error = row["reflected_Y_error"].get<double>();
+    EXPECT_GT(error, 0.01);
+    EXPECT_LT(error, 2);
+    EXPECT_NEAR(row["reflected_XYZ"][1].get<double>(), 100 * row["R"][1].get<double>(), 4 * error);
+    EXPECT_EQ(row["transmitted_Y_error"], 0);
+  }
+  const json exact = json_output(cli::lab, about(R"({"mirror": {"reflectance": 0.3}})"));
+  for (const json& row : exact["angles"]) EXPECT_EQ(row["reflected_Y_error"], 0);
+}
+
+// Lobes of a milliradian and half spheres that are cut off by the surface.
+TEST(Lab, NarrowLobesAndEdgesAreDrawnAsTheySay) {
+  const auto expect_sound = [](const char* words, double angle_deg, double spread) {
+    cli::LabOptions options = about(words);
+    options.angles_deg = {angle_deg};
+    const json row = json_output(cli::lab, options)["angles"][0];
+    EXPECT_NEAR(row["spread"].get<double>(), spread, 1e-4) << words;
+    EXPECT_GT(row["sampling_p"].get<double>(), 1e-4) << words;
+  };
+  expect_sound(
+      R"({"conductor": {"ior": "Au_Johnson", "roughness": {"alpha": 0.005, "distribution": "beckmann"}}})",
+      85, 1);
+  expect_sound(R"({"dielectric": {"ior": "water", "roughness": 0.001}})", 0, 1);
+  expect_sound(R"({"phong": {"reflectance": 1, "exponent": 0}})", 75, 105.0 / 180);
+  expect_sound(R"({"retroreflector": {"reflectance": 1, "exponent": 0}})", 89.9, 90.1 / 180);
+}
+
 TEST(Lab, WhatReflectsAllHasTheXyzOfTheLight) {
   cli::LabOptions options = about(R"({"mirror": {"reflectance": 1}})");
   options.illuminant = "A";
@@ -175,6 +211,35 @@ TEST(Lab, TellsOfAnExtinctionThatIsHeldWhereTheIndexIsMeasured) {
   EXPECT_NE(held.find("warning: the extinction of material "), std::string::npos) << held;
   EXPECT_NE(held.find("is held from the end of its data, [334, 2500] nm"), std::string::npos) << held;
   EXPECT_EQ(heard_at({334, 550}).find("is held"), std::string::npos);
+}
+
+// Colours look from 380 to 780 nm, whatever wavelengths are asked for.
+TEST(Lab, TellsOfIndicesThatColoursAloneAskFor) {
+  const auto heard = [](const std::string& material) {
+    cli::LabOptions options = about(material);
+    options.at_nm = {600};
+    options.angles_deg = {0};
+    testing::internal::CaptureStderr();
+    (void)json_output(cli::lab, options);
+    return testing::internal::GetCapturedStderr();
+  };
+  const std::string held = heard(R"({"dielectric": {"ior": "ZnSe"}})");
+  EXPECT_NE(held.find("warning: the index of material "), std::string::npos) << held;
+  EXPECT_NE(
+      held.find("is held from the end of its data, [540, 18200] nm; colours are sums from 380 to 780 nm"),
+      std::string::npos)
+      << held;
+  const auto ruby = scratch().write("ruby.csv",
+                                    "# unit: n, k dimensionless\n# outside: clamp\nwavelength_nm,n,k\n"
+                                    "300,1.5,0.3\n500,1.5,0.3\n501,1.5,0\n900,1.5,0\n");
+  const std::string fault = heard(fmt::format(R"({{"dielectric": {{"ior": "{}"}}}})", ruby.string()));
+  EXPECT_NE(fault.find("warning: \"material\" is not clear: with n = 1.5 and k = 0.3 at 380 nm"),
+            std::string::npos)
+      << fault;
+  for (const char* sound :
+       {R"({"dielectric": {"ior": "N-BK7"}})", R"({"conductor": {"ior": "Au_Johnson"}})",
+        R"({"coated_diffuse": {"ior": "water", "reflectance": 1}})", R"({"diffuse": {"reflectance": 0.5}})"})
+    EXPECT_EQ(heard(sound), "") << sound;
 }
 
 TEST(Lab, SaysWhatIsWrongWithAMaterial) {

@@ -52,6 +52,27 @@ TEST(SphereCells, IntegrateALobeAsNarrowAsANeedle) {
   EXPECT_NEAR(total, 1, 1e-3);
 }
 
+// Without guides a lobe of a thousandth lies in cells of a tenth of a steradian, and no node meets it: what
+// is found in the lobe tells where it is.
+TEST(SphereCells, FindALobeBetweenTheNodes) {
+  const double sigma = 1e-3;
+  std::vector<V3f> found;
+  for (int i = 0; i < 100; ++i) {
+    const double radius = sigma * std::sqrt(-2 * std::log((i + 0.5) / 100));
+    found.push_back(direction_at(std::sqrt(1 - radius * radius), 2.39996 * i));
+  }
+  const SphereCells cells({}, 10);
+  double total = 0;
+  for (const double part : cells.integrate(
+           [&](const V3f& w) {
+             const double r2 = static_cast<double>(w.x) * w.x + static_cast<double>(w.y) * w.y;
+             return w.z > 0 ? std::exp(-r2 / (2 * sigma * sigma)) / (2 * kPi * sigma * sigma) * w.z : 0.0;
+           },
+           found))
+    total += part;
+  EXPECT_NEAR(total, 1, 1e-4);
+}
+
 // Directions even over a hemisphere against densities that are and are not.
 TEST(CheckDensity, SeesAFewPerCentOfTilt) {
   const LobeSampler uniform = [](const BsdfRandom& u, int) {
@@ -97,6 +118,68 @@ TEST(CheckDensity, LeavesSingleDirectionsOut) {
   EXPECT_NEAR(check.integral, 0.5, 1e-6);
 }
 
+// A fiftieth of the light in a lobe of a thousandth, as glass reflects: too few guides to make cells for it.
+TEST(CheckDensity, JudgesANeedleOfFewSamples) {
+  const double sigma = 1e-3;
+  const auto needle_of = [&](float share) {
+    return [&, share](const BsdfRandom& u, int) {
+      if (u.lobe >= share) return event(-cosine_hemisphere(u.direction));
+      const double radius = sigma * std::sqrt(-2 * std::log1p(-static_cast<double>(u.direction.x)));
+      const double phi = 2 * kPi * static_cast<double>(u.direction.y);
+      return event(
+          V3f(Imath::V3d(radius * std::cos(phi), radius * std::sin(phi), std::sqrt(1 - radius * radius))));
+    };
+  };
+  const auto density = [&](const V3f& w) {
+    if (w.z <= 0) return 0.98 * static_cast<double>(-w.z) / kPi;
+    const double r2 = static_cast<double>(w.x) * w.x + static_cast<double>(w.y) * w.y;
+    return 0.02 * std::exp(-r2 / (2 * sigma * sigma)) / (2 * kPi * sigma * sigma) * w.z;
+  };
+  const DensityCheck check = check_density(needle_of(0.02F), density, 0);
+  EXPECT_NEAR(check.integral, 1, 1e-5);
+  EXPECT_GT(check.p, 1e-3);
+  EXPECT_LT(check_density(needle_of(0.03F), density, 0).p, 1e-12);
+}
+
+// Half a sphere that leans by `tilt_deg`, as far as it is above the surface: beside the edge lie slices of
+// cells that are thinner than the distances between nodes.
+LobeSampler leaning(double tilt_deg) {
+  return [tilt_deg](const BsdfRandom& u, int) -> std::optional<BsdfSample> {
+    const V3f w =
+        direction_at(static_cast<double>(u.direction.x), 2 * kPi * static_cast<double>(u.direction.y));
+    const auto sine = static_cast<float>(std::sin(tilt_deg * kPi / 180));
+    const auto cosine = static_cast<float>(std::cos(tilt_deg * kPi / 180));
+    const V3f leant(cosine * w.x + sine * w.z, w.y, cosine * w.z - sine * w.x);
+    if (leant.z <= 0) return std::nullopt;
+    return event(leant);
+  };
+}
+SphereDensity leaning_density(double tilt_deg) {
+  return [tilt_deg](const V3f& w) {
+    const double along = std::sin(tilt_deg * kPi / 180) * static_cast<double>(w.x) +
+                         std::cos(tilt_deg * kPi / 180) * static_cast<double>(w.z);
+    return w.z > 0 && along > 0 ? 0.5 / kPi : 0.0;
+  };
+}
+
+TEST(CheckDensity, JudgesASliceAtTheHorizon) {
+  for (const double tilt_deg : {60.0, 75.0, 80.0, 89.9}) {
+    const DensityCheck check = check_density(leaning(tilt_deg), leaning_density(tilt_deg), 0);
+    EXPECT_NEAR(check.integral, 1 - tilt_deg / 180, 1e-4) << tilt_deg;
+    EXPECT_GT(check.p, 1e-4) << tilt_deg;
+  }
+}
+
+TEST(CheckDensity, SeesWhatIsDrawnWhereThereShouldBeNothing) {
+  constexpr float kAstray = 1e-4F;
+  for (const double tilt_deg : {0.0, 75.0}) {
+    const LobeSampler astray = [&](const BsdfRandom& u, int hero) {
+      return u.lobe < kAstray ? event(-cosine_hemisphere(u.direction)) : leaning(tilt_deg)(u, hero);
+    };
+    EXPECT_LT(check_density(astray, leaning_density(tilt_deg), 0).p, 1e-12) << tilt_deg;
+  }
+}
+
 // A lobe of 1e-4 about the normal, where z has hardly a digit left.
 TEST(CheckDensity, JudgesANeedle) {
   const LobeSampler needle = [](const BsdfRandom& u, int) {
@@ -138,6 +221,30 @@ TEST(Albedo, SeesLanesLeftOutOfTheBalance) {
               if (!s.transmitted) s.weight = SampledSpectrum::only(hero, s.weight[hero]);
             }),
             0.01);
+}
+
+// Matter that is lit by the same numbers at every wavelength is as bright at each, replicate by replicate.
+TEST(Albedo, HasReplicatesByTheSameNumbers) {
+  const V3f wo = direction_at(0.2, 0);
+  const auto replicates = [&](float reflectance) {
+    return albedo_replicates(
+        [&](const BsdfRandom& u, int hero) {
+          auto s = event(cosine_hemisphere(u.direction));
+          s->lane_pdf = SampledSpectrum(1);
+          s->weight = SampledSpectrum(hero % 2 == 0 ? reflectance * u.lobe : reflectance);
+          return s;
+        },
+        wo, 256);
+  };
+  const AlbedoReplicates bright = replicates(1);
+  const AlbedoReplicates dim = replicates(0.5F);
+  for (std::size_t r = 0; r < kReplicates; ++r)
+    EXPECT_NEAR(dim.reflected[3][r], bright.reflected[3][r] / 2, 1e-12);
+  EXPECT_NE(bright.reflected[3][0], bright.reflected[3][1]);
+  const Estimate equal =
+      estimate({0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1});
+  EXPECT_EQ(equal.mean, 0.1);
+  EXPECT_EQ(equal.standard_error, 0);
 }
 
 TEST(Albedo, TellsReflectionFromTransmission) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/poisson.hpp>
 
 #include "sampling/sampler.h"
 
@@ -49,9 +50,12 @@ std::vector<Imath::V3f> spread_directions(const LobeSampler& sampler, int hero, 
   return directions;
 }
 
-// Pearson's statistic, cells that expect too little counted as one.
+// Pearson's statistic, cells that expect too little counted as one. Where all of these together do, they are
+// judged by Poisson's law instead.
 class ChiSquare {
  public:
+  explicit ChiSquare(int samples) : unresolved_(kUnresolved * samples) {}
+
   void add(double counted, double expected) {
     if (expected < kLeastExpected) {
       pool_counted_ += counted;
@@ -60,23 +64,32 @@ class ChiSquare {
       count(counted, expected);
     }
   }
-  // What cannot happen must not: below this many expected there is nothing to divide by.
   double p() {
-    constexpr double kNothing = 1e-3;
-    if (pool_expected_ < kNothing && pool_counted_ > 0) return 0;
-    if (pool_expected_ >= kNothing) count(pool_counted_, pool_expected_);
-    if (cells_ < 2) return 1;
-    return boost::math::cdf(complement(boost::math::chi_squared(cells_ - 1), statistic_));
+    const bool rare = pool_expected_ < kLeastExpected;
+    if (!rare) count(pool_counted_, pool_expected_);
+    const double common =
+        cells_ < 2 ? 1 : boost::math::cdf(complement(boost::math::chi_squared(cells_ - 1), statistic_));
+    if (!rare || pool_counted_ < 1) return common;
+    const double least = std::min(common, rare_p());
+    return least * (2 - least);  // Sidak, of the two
   }
 
  private:
   static constexpr double kLeastExpected = 5;
+  // Of the whole: what quadrature and the rounding of directions miss at the edges of a density.
+  static constexpr double kUnresolved = 1e-6;
 
+  // Of at least as many as were counted.
+  [[nodiscard]] double rare_p() const {
+    const boost::math::poisson law(pool_expected_ + unresolved_);
+    return boost::math::cdf(complement(law, pool_counted_ - 1));
+  }
   void count(double counted, double expected) {
     statistic_ += (counted - expected) * (counted - expected) / expected;
     ++cells_;
   }
 
+  double unresolved_;
   double statistic_ = 0;
   double pool_counted_ = 0;
   double pool_expected_ = 0;
@@ -129,14 +142,12 @@ DensityCheck check_density(const LobeSampler& sampler, const SphereDensity& dens
   constexpr std::size_t kCells = 400;
   const std::vector<Imath::V3f> guides = spread_directions(sampler, hero, samples / 2, seed, Stream::cells);
   const SphereCells cells(guides, std::max<std::size_t>(guides.size() / kCells, 10));
+  const std::vector<Imath::V3f> drawn = spread_directions(sampler, hero, samples, seed, Stream::counts);
   std::vector<double> counted(cells.count(), 0.0);
-  double elsewhere = samples;
-  for (const Imath::V3f& wi : spread_directions(sampler, hero, samples, seed, Stream::counts)) {
-    counted[cells.of(wi)] += 1;
-    elsewhere -= 1;
-  }
-  const std::vector<double> expected = cells.integrate(density);
-  ChiSquare chi_square;
+  for (const Imath::V3f& wi : drawn) counted[cells.of(wi)] += 1;
+  const double elsewhere = samples - static_cast<double>(drawn.size());
+  const std::vector<double> expected = cells.integrate(density, drawn);
+  ChiSquare chi_square(samples);
   double integral = 0;
   for (std::size_t i = 0; i < counted.size(); ++i) {
     chi_square.add(counted[i], expected[i] * samples);
@@ -146,33 +157,39 @@ DensityCheck check_density(const LobeSampler& sampler, const SphereDensity& dens
   return {chi_square.p(), integral};
 }
 
-Albedo albedo(const LobeSampler& sampler, const Imath::V3f& wo, int samples, std::uint64_t seed) {
-  constexpr int kBatches = 16;  // scrambles of their own, for the standard errors
-  std::array<std::array<std::array<double, kBatches>, kLanes>, 2> sums{};
-  const int per_batch = std::max(samples / kBatches, 1);
-  for (std::size_t batch = 0; batch < kBatches; ++batch) {
-    const Numbers numbers(seed * kBatches + batch, Stream::albedo);
-    for (int i = 0; i < per_batch; ++i)
+Estimate estimate(const Replicates& replicates) {
+  double mean = replicates[0];  // exact where all are the same
+  for (const double r : replicates) mean += (r - replicates[0]) / kReplicates;
+  double squares = 0;
+  for (const double r : replicates) squares += (r - mean) * (r - mean);
+  return {mean, std::sqrt(squares / (kReplicates * (kReplicates - 1)))};
+}
+
+AlbedoReplicates albedo_replicates(const LobeSampler& sampler, const Imath::V3f& wo, int samples,
+                                   std::uint64_t seed) {
+  AlbedoReplicates sums{};
+  const int each = std::max(samples / static_cast<int>(kReplicates), 1);
+  for (std::size_t replicate = 0; replicate < kReplicates; ++replicate) {
+    const Numbers numbers(seed * kReplicates + replicate, Stream::albedo);
+    for (int i = 0; i < each; ++i)
       for (int hero = 0; hero < kLanes; ++hero) {
         const auto s = sampler(numbers.event(static_cast<std::uint32_t>(i)), hero);
         if (!s) continue;
-        auto& side = sums[s->wi.z * wo.z < 0 ? 1 : 0];
-        const double balance = static_cast<double>(s->lane_pdf.sum()) * per_batch;
+        auto& side = s->wi.z * wo.z < 0 ? sums.transmitted : sums.reflected;
+        const double balance = static_cast<double>(s->lane_pdf.sum()) * each;
         for (int j = 0; j < kLanes; ++j)
-          side[static_cast<std::size_t>(j)][batch] += static_cast<double>(s->weight[j]) / balance;
+          side[static_cast<std::size_t>(j)][replicate] += static_cast<double>(s->weight[j]) / balance;
       }
   }
-  const auto estimate = [](const std::array<double, kBatches>& batches) {
-    double mean = 0;
-    double squares = 0;
-    for (const double b : batches) mean += b / kBatches;
-    for (const double b : batches) squares += (b - mean) * (b - mean);
-    return Estimate{mean, std::sqrt(squares / (kBatches * (kBatches - 1)))};
-  };
+  return sums;
+}
+
+Albedo albedo(const LobeSampler& sampler, const Imath::V3f& wo, int samples, std::uint64_t seed) {
+  const AlbedoReplicates replicates = albedo_replicates(sampler, wo, samples, seed);
   Albedo result{};
   for (std::size_t j = 0; j < kLanes; ++j) {
-    result.reflected[j] = estimate(sums[0][j]);
-    result.transmitted[j] = estimate(sums[1][j]);
+    result.reflected[j] = estimate(replicates.reflected[j]);
+    result.transmitted[j] = estimate(replicates.transmitted[j]);
   }
   return result;
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -25,8 +26,16 @@ struct DensityCheck {
 };
 /// Chi-square of the events of `sampler` that are not delta against `density`, over cells refined by other
 /// samples; what expects fewer than 5 is pooled, and what sends nothing, or a delta event, counts as a cell.
+/// A pool that expects fewer than 5 itself is judged by Poisson's law, with a millionth of all samples to
+/// spare.
 [[nodiscard]] DensityCheck check_density(const LobeSampler& sampler, const SphereDensity& density, int hero,
                                          int samples = 200000, std::uint64_t seed = 0);
+
+/// Equally good means of one quantity, each by random numbers of its own.
+inline constexpr std::size_t kReplicates = 16;
+using Replicates = std::array<double, kReplicates>;
+/// Their mean, and its standard error by how they differ: 0 where they do not.
+[[nodiscard]] Estimate estimate(const Replicates& replicates);
 
 /// What leaves of light that arrives along `wo`: the directional-hemispherical reflectance and transmittance,
 /// lane by lane, by the balanced estimator with a hero drawn evenly. Photons carry it (TransportMode::power),
@@ -42,6 +51,15 @@ struct Albedo {
 };
 [[nodiscard]] Albedo albedo(const LobeSampler& sampler, const Imath::V3f& wo, int samples = 4096,
                             std::uint64_t seed = 0);
+
+/// The replicates whose mean is an albedo, lane by lane. Those of one number and one seed have the same
+/// random numbers, whatever they sample.
+struct AlbedoReplicates {
+  std::array<Replicates, kLanes> reflected;
+  std::array<Replicates, kLanes> transmitted;
+};
+[[nodiscard]] AlbedoReplicates albedo_replicates(const LobeSampler& sampler, const Imath::V3f& wo,
+                                                 int samples, std::uint64_t seed = 0);
 
 /// The single directions light leaves in, each with its probability and weights, by trying choices of lobe:
 /// an event that fewer than one in 64 choices lead to may be missed in the midst of others.

@@ -10,19 +10,21 @@ namespace abbe {
 namespace {
 
 // What matter without spread lobes sends on: nothing needs to be sampled.
-Albedo exact_albedo(const Bsdf& bsdf, const Imath::V3f& wo) {
-  Albedo all{};
+AlbedoReplicates exact_albedo(const Bsdf& bsdf, const Imath::V3f& wo) {
+  AlbedoReplicates all{};
   for (int lane = 0; lane < kLanes; ++lane)
     for (const BsdfSample& event : delta_events(bsdf, wo, lane, TransportMode::power)) {
       auto& side = event.transmitted ? all.transmitted : all.reflected;
-      side[static_cast<std::size_t>(lane)].mean += static_cast<double>(event.pdf * event.weight[lane]);
+      for (double& replicate : side[static_cast<std::size_t>(lane)])
+        replicate += static_cast<double>(event.pdf * event.weight[lane]);
     }
   return all;
 }
 
-// Reflectance and transmittance at many wavelengths, packet by packet, each by random numbers of its own.
+// Reflectance and transmittance at many wavelengths, packet by packet, all by the same random numbers: what
+// is neutral stays so, and each replicate is a spectrum.
 struct Spectra {
-  std::vector<Estimate> reflected, transmitted;
+  std::vector<Replicates> reflected, transmitted;
 };
 Spectra spectra(const Material& material, const std::vector<double>& wavelengths_nm, const Imath::V3f& wo,
                 int samples) {
@@ -30,9 +32,9 @@ Spectra spectra(const Material& material, const std::vector<double>& wavelengths
   for (std::size_t first = 0; first < wavelengths_nm.size(); first += kLanes) {
     const SampledSpectrum packet = packet_of(wavelengths_nm, first);
     const Bsdf bsdf = make_bsdf(material, {packet});
-    const Albedo part = scatters(bsdf)
-                            ? albedo(sampler_of(bsdf, wo, TransportMode::power), wo, samples, first / kLanes)
-                            : exact_albedo(bsdf, wo);
+    const AlbedoReplicates part =
+        scatters(bsdf) ? albedo_replicates(sampler_of(bsdf, wo, TransportMode::power), wo, samples)
+                       : exact_albedo(bsdf, wo);
     for (std::size_t j = 0; j < kLanes && first + j < wavelengths_nm.size(); ++j) {
       all.reflected.push_back(part.reflected[j]);
       all.transmitted.push_back(part.transmitted[j]);
@@ -41,17 +43,35 @@ Spectra spectra(const Material& material, const std::vector<double>& wavelengths
   return all;
 }
 
-ScatteredColor color_of(const std::vector<Estimate>& visible, const GoniometerSettings& settings) {
-  std::vector<Knot> knots;
-  for (const double nm : visible_wavelengths()) knots.push_back({nm, visible[knots.size()].mean});
-  const XYZ xyz = tristimulus(settings.illuminant, Curve(std::move(knots)), settings.observer);
-  return {xyz, xyz_to_lab(xyz, tristimulus(settings.illuminant, Curve(1.0), settings.observer))};
+std::vector<Estimate> estimates(const std::vector<Replicates>& spectrum) {
+  std::vector<Estimate> all;
+  for (const Replicates& at : spectrum) all.push_back(estimate(at));
+  return all;
 }
 
-// A colour is a mean over wavelengths, so that few samples of each are enough.
+// By the Y of each replicate.
+double standard_error_of_Y(const std::vector<Replicates>& visible, const GoniometerSettings& settings) {
+  const std::vector<XYZ> weights = tristimulus_weights(settings.illuminant, settings.observer);
+  double white = 0;
+  for (const XYZ& weight : weights) white += weight[1];
+  Replicates Y{};
+  for (std::size_t i = 0; i < visible.size(); ++i)
+    for (std::size_t r = 0; r < kReplicates; ++r) Y[r] += 100 * weights[i][1] / white * visible[i][r];
+  return estimate(Y).standard_error;
+}
+
+ScatteredColor color_of(const std::vector<Replicates>& visible, const GoniometerSettings& settings) {
+  std::vector<Knot> knots;
+  for (const double nm : visible_wavelengths()) knots.push_back({nm, estimate(visible[knots.size()]).mean});
+  const XYZ xyz = tristimulus(settings.illuminant, Curve(std::move(knots)), settings.observer);
+  return {xyz, xyz_to_lab(xyz, tristimulus(settings.illuminant, Curve(1.0), settings.observer)),
+          standard_error_of_Y(visible, settings)};
+}
+
+// Of fewer samples than R and T, as there are many wavelengths.
 void add_colors(const Material& material, const Imath::V3f& wo, const GoniometerSettings& settings,
                 GoniometerAngle& at) {
-  constexpr int kShare = 32;
+  constexpr int kShare = 16;
   constexpr int kLeast = 64;
   const Spectra found =
       spectra(material, visible_wavelengths(), wo, std::max(settings.samples / kShare, kLeast));
@@ -62,8 +82,8 @@ void add_colors(const Material& material, const Imath::V3f& wo, const Goniometer
 GoniometerAngle measure_angle(const Material& material, const GoniometerSettings& settings,
                               double angle_deg) {
   const Imath::V3f wo = incidence(settings, angle_deg);
-  Spectra found = spectra(material, settings.wavelengths_nm, wo, settings.samples);
-  GoniometerAngle at{angle_deg, std::move(found.reflected), std::move(found.transmitted), {}, {}, 1, 0};
+  const Spectra found = spectra(material, settings.wavelengths_nm, wo, settings.samples);
+  GoniometerAngle at{angle_deg, estimates(found.reflected), estimates(found.transmitted), {}, {}, 1, 0};
   add_colors(material, wo, settings, at);
   const SampledSpectrum packet = packet_of(settings.wavelengths_nm, 0);
   const Bsdf bsdf = make_bsdf(material, {packet});

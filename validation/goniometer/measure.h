@@ -21,8 +21,9 @@ struct GoniometerSettings {
 
 /// A colour in the light of the bench.
 struct ScatteredColor {
-  XYZ xyz;  ///< Y = 100 for what sends on all of the beam.
-  Lab lab;  ///< Relative to that.
+  XYZ xyz;         ///< Y = 100 for what sends on all of the beam.
+  Lab lab;         ///< Relative to that.
+  double Y_error;  ///< Standard error of Y; 0 where nothing needs to be sampled.
 };
 
 /// What a beam at one angle turns into.

@@ -40,6 +40,18 @@ Imath::V3f SphereCells::at(bool above, double depth, double phi) {
   return Imath::V3f(Imath::V3d(sine * std::cos(phi), sine * std::sin(phi), above ? 1 - depth : depth - 1));
 }
 
+SphereCells::Halves SphereCells::halved(const Cell& cell) {
+  const double depth = (cell.depth_low + cell.depth_high) / 2;
+  const double phi = (cell.phi_low + cell.phi_high) / 2;
+  const double sine = std::sqrt(depth * (2 - depth));
+  const bool by_depth = (cell.depth_high - cell.depth_low) / sine >
+                        (cell.phi_high - cell.phi_low) * sine;  // angles along both sides
+  Halves halves{by_depth, by_depth ? depth : phi, cell, cell};
+  (by_depth ? halves.low.depth_high : halves.low.phi_high) = halves.at;
+  (by_depth ? halves.high.depth_low : halves.high.phi_low) = halves.at;
+  return halves;
+}
+
 void SphereCells::build(std::size_t node, const Cell& cell, std::vector<Place> held, std::size_t most) {
   const double height = cell.depth_high - cell.depth_low;
   const double width = cell.phi_high - cell.phi_low;
@@ -48,27 +60,23 @@ void SphereCells::build(std::size_t node, const Cell& cell, std::vector<Place> h
     leaves_.push_back(cell);
     return;
   }
-  const double depth = (cell.depth_low + cell.depth_high) / 2;
-  const double phi = (cell.phi_low + cell.phi_high) / 2;
-  const double sine = std::sqrt(depth * (2 - depth));
-  const bool by_depth = height / sine > width * sine;  // angles along both sides
-  const auto middle = std::partition(
-      held.begin(), held.end(), [&](const Place& p) { return by_depth ? p.depth < depth : p.phi < phi; });
+  const Halves halves = halved(cell);
+  const auto middle =
+      std::partition(held.begin(), held.end(), [&](const Place& p) { return halves.in_low(p); });
   std::vector<Place> second(middle, held.end());
   held.erase(middle, held.end());
   const std::size_t first_child = nodes_.size();
-  nodes_[node] = {first_child, 0, by_depth, by_depth ? depth : phi};
+  nodes_[node] = {first_child, 0, halves.by_depth, halves.at};
   nodes_.resize(first_child + 2);
-  Cell low = cell;
-  Cell high = cell;
-  (by_depth ? low.depth_high : low.phi_high) = nodes_[node].at;
-  (by_depth ? high.depth_low : high.phi_low) = nodes_[node].at;
-  build(first_child, low, std::move(held), most);
-  build(first_child + 1, high, std::move(second), most);
+  build(first_child, halves.low, std::move(held), most);
+  build(first_child + 1, halves.high, std::move(second), most);
 }
 
 std::size_t SphereCells::of(const Imath::V3f& w) const {
-  const Place p = place(w);
+  return of(place(w));
+}
+
+std::size_t SphereCells::of(const Place& p) const {
   std::size_t node = p.above ? 1 : 0;
   while (nodes_[node].first_child != 0) {
     const double value = nodes_[node].by_depth ? p.depth : p.phi;
@@ -77,25 +85,43 @@ std::size_t SphereCells::of(const Imath::V3f& w) const {
   return nodes_[node].leaf;
 }
 
-// Halved both ways until that makes no difference: a cell may hold the edge of a lobe, or one too narrow for
-// samples to have found it.
-double SphereCells::integral(const Cell& cell, const SphereDensity& density) {
+// A lobe narrower than the distances between nodes, or what an edge leaves of a cell beside them, agrees with
+// a density of nothing however the cell is divided once: where a direction was found along which there is
+// much more than at any node, the cell is halved about it.
+double SphereCells::integral(const Cell& cell, const SphereDensity& density, std::span<Found> found) {
   constexpr double kTolerance = 1e-6;  // of the whole
-  constexpr int kHalvings = 10;
-  return refined(cell, density, by_rule(cell, density), kTolerance, kHalvings);
+  constexpr int kQuarterings = 10;
+  constexpr double kSeen = 0.5;
+  const RuleSum whole = by_rule(cell, density);
+  const auto unseen = [&](const Found& f) { return kSeen * f.density > whole.most; };
+  if (cell.depth_high - cell.depth_low < kLeastDepth || std::none_of(found.begin(), found.end(), unseen))
+    return refined(cell, density, whole.integral, kTolerance, kQuarterings);
+  const Halves halves = halved(cell);
+  const auto middle =
+      std::partition(found.begin(), found.end(), [&](const Found& f) { return halves.in_low(f.place); });
+  return integral(halves.low, density, {found.begin(), middle}) +
+         integral(halves.high, density, {middle, found.end()});
 }
 
-double SphereCells::by_rule(const Cell& cell, const SphereDensity& density) {
+SphereCells::RuleSum SphereCells::by_rule(const Cell& cell, const SphereDensity& density) {
   using Rule = boost::math::quadrature::gauss<double, 5>;
+  double most = 0;
   const auto along_phi = [&](double depth) {
-    return Rule::integrate([&](double phi) { return density(at(cell.above, depth, phi)); }, cell.phi_low,
-                           cell.phi_high);
+    return Rule::integrate(
+        [&](double phi) {
+          const double value = density(at(cell.above, depth, phi));
+          most = std::max(most, value);
+          return value;
+        },
+        cell.phi_low, cell.phi_high);
   };
-  return Rule::integrate(along_phi, cell.depth_low, cell.depth_high);
+  const double integral = Rule::integrate(along_phi, cell.depth_low, cell.depth_high);
+  return {integral, most};
 }
 
+// Halved both ways until that makes no difference: a cell may hold the edge of a lobe.
 double SphereCells::refined(const Cell& cell, const SphereDensity& density, double whole, double tolerance,
-                            int halvings) {
+                            int quarterings) {
   const double depth = (cell.depth_low + cell.depth_high) / 2;
   const double phi = (cell.phi_low + cell.phi_high) / 2;
   const std::array<Cell, 4> quarters{{{cell.above, cell.depth_low, depth, cell.phi_low, phi},
@@ -103,19 +129,26 @@ double SphereCells::refined(const Cell& cell, const SphereDensity& density, doub
                                       {cell.above, depth, cell.depth_high, cell.phi_low, phi},
                                       {cell.above, depth, cell.depth_high, phi, cell.phi_high}}};
   std::array<double, 4> parts{};
-  for (std::size_t i = 0; i < 4; ++i) parts[i] = by_rule(quarters[i], density);
+  for (std::size_t i = 0; i < 4; ++i) parts[i] = by_rule(quarters[i], density).integral;
   const double sum = parts[0] + parts[1] + parts[2] + parts[3];
-  if (halvings == 0 || std::abs(sum - whole) < tolerance) return sum;
+  if (quarterings == 0 || std::abs(sum - whole) < tolerance) return sum;
   double total = 0;
   for (std::size_t i = 0; i < 4; ++i)
-    total += refined(quarters[i], density, parts[i], tolerance / 2, halvings - 1);
+    total += refined(quarters[i], density, parts[i], tolerance / 2, quarterings - 1);
   return total;
 }
 
-std::vector<double> SphereCells::integrate(const SphereDensity& density) const {
+std::vector<double> SphereCells::integrate(const SphereDensity& density,
+                                           std::span<const Imath::V3f> found) const {
+  std::vector<std::vector<Found>> held(leaves_.size());
+  for (const Imath::V3f& w : found) {
+    const Place p = place(w);
+    held[of(p)].push_back({p, density(w)});
+  }
   std::vector<double> integrals;
   integrals.reserve(leaves_.size());
-  for (const Cell& cell : leaves_) integrals.push_back(integral(cell, density));
+  for (std::size_t i = 0; i < leaves_.size(); ++i)
+    integrals.push_back(integral(leaves_[i], density, held[i]));
   return integrals;
 }
 
