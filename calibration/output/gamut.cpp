@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "calibration/output/color_spaces.h"
+
 namespace abbe {
 namespace {
 

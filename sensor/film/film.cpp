@@ -13,7 +13,7 @@ namespace {
 
 // Of the 127 bits beside the sign: below the nominal value, above it, and for as many values as those.
 constexpr int kHeadroomBits = 44;
-constexpr int kCountBits = 23;
+constexpr int kCountBits = 16;
 constexpr int kFractionBits = 127 - kHeadroomBits - kCountBits;
 
 std::size_t sums_of(const FilmShape& shape) {

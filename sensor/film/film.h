@@ -57,7 +57,7 @@ struct FilmShape {
 class Film {
  public:
   /// `nominal` is the order of magnitude of a film value: values up to 2^44 times it are kept, each rounded
-  /// to 2^-60 of it, and 2^23 of the greatest in a sum.
+  /// to 2^-67 of it, and 2^16 of the greatest in a sum.
   Film(int width, int height, int channels, int replicates, double nominal, std::uint64_t photons = 0,
        std::uint32_t path_interval = 1, std::optional<Crop> crop = {});
   /// A crop of all pixels is none. Throws Error{resource} when there is no memory for the sums.

@@ -26,12 +26,14 @@ std::vector<bool> traced_lights(const Scene& scene) {
   return traced;
 }
 
-// How far [m] the nearest of what a lamp at a point lights is: the camera, and what rays along the axes meet;
+// How far [m] the nearest of what a lamp at a point lights is: a meter, and what rays along the axes meet;
 // not so near that what is lit evenly would be lost beside it.
 double nearest_lit(const Scene& scene, const Imath::V3f& lamp) {
   constexpr double kLeast = 1e-6;  // of the scene's radius
   const double radius = scene_radius(scene.bounds);
-  double nearest = std::min(radius, (position(scene.camera) - Imath::V3d(lamp)).length());
+  double nearest = radius;
+  if (is_meter(scene.camera))
+    nearest = std::min(nearest, (position(scene.camera) - Imath::V3d(lamp)).length());
   for (const Imath::V3f& axis : {Imath::V3f(1, 0, 0), Imath::V3f(0, 1, 0), Imath::V3f(0, 0, 1)})
     for (const Imath::V3f& direction : {axis, -axis})
       if (const auto hit = scene.intersect(ray_at(lamp, direction, 0)))
