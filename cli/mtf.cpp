@@ -1,10 +1,14 @@
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <span>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "calibration/chart/measured_patches.h"
 #include "calibration/chart/raw_scale.h"
+#include "calibration/chart/white_level.h"
 #include "calibration/judge/slanted_edge.h"
 #include "cli/answer.h"
 #include "cli/arguments.h"
@@ -57,6 +61,26 @@ void warn_of_nonlinear(const Image& image, const std::filesystem::path& path) {
   check(diagnostics);
 }
 
+// Warns of values at the end of the codes, where brighter ones are cut off; but for hot pixels, which reach
+// it beside any edge.
+void warn_of_cut_codes(const RawImage& read, std::span<const double> values,
+                       const std::filesystem::path& path) {
+  constexpr double kMostPercent = 1;
+  if (extension_of(path) == ".exr") return;
+  const std::optional<EndOfCodes> end = end_of_codes(read);
+  if (!end) return;
+  const auto saturated = std::count_if(values.begin(), values.end(), [&](double value) {
+    return code_of(static_cast<float>(value)) >= end->dn;
+  });
+  const double percent = 100 * static_cast<double>(saturated) / static_cast<double>(values.size());
+  if (percent > kMostPercent)
+    say(fmt::format(
+        "warning: {}: the bright side of the edge {} saturated (got {:.3g} % of its pixels at {}, "
+        "allowed {} %), so that its mtf is not that of the light: expose it less",
+        path.string(), end->is_told ? "is" : "may be", percent,
+        end->is_told ? "the white level or above" : "the highest code", kMostPercent));
+}
+
 EdgeResponse measure_edge(const MtfOptions& options, Inputs& inputs) {
   inputs.add_file(options.image);
   const RawImage read = read_raw_image(options.image, &inputs);
@@ -71,6 +95,7 @@ EdgeResponse measure_edge(const MtfOptions& options, Inputs& inputs) {
       values.push_back(static_cast<double>(
           channel.values[static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) +
                          static_cast<std::size_t>(x)]));
+  warn_of_cut_codes(read, values, options.image);
   return slanted_edge(values, crop.x1 - crop.x0, crop.y1 - crop.y0);
 }
 

@@ -62,13 +62,14 @@ LinearImage of_film(const std::filesystem::path& path, Inputs* inputs) {
   return read;
 }
 
-// Makes of codes what they stand for on a straight line above black, which is a code of that line.
+// Makes of codes what they stand for on a straight line above black, which is a code of that line. White is
+// rounded as they are, so that pixels of just that code are saturated.
 void take_black(LinearImage& read, const RawScale& scale, double black, double white) {
+  const auto above_black = [&](double code) { return static_cast<float>(scale.linear(code) - black); };
   read.unit = kNumbersAboveBlack;
-  read.saturation = scale.linear(white) - black;
+  read.saturation = static_cast<double>(above_black(white));
   for (ImageChannel& plane : read.image.channels)
-    for (float& code : plane.values)
-      code = static_cast<float>(scale.linear(static_cast<double>(code)) - black);
+    for (float& code : plane.values) code = above_black(static_cast<double>(code));
 }
 
 LinearImage of_raw(const std::filesystem::path& path, Inputs* inputs) {

@@ -15,9 +15,9 @@ namespace abbe {
 struct LinearImage {
   Image image;
   std::vector<std::string> channels;
-  std::optional<Mosaic> mosaic;  ///< Then the image has one plane.
-  std::optional<double> saturation;
-  std::string unit;  ///< What the values are, in words.
+  std::optional<Mosaic> mosaic;      ///< Then the image has one plane.
+  std::optional<double> saturation;  ///< Rounded to single precision, as the values are.
+  std::string unit;                  ///< What the values are, in words.
 
   [[nodiscard]] MeasuredPlanes planes() const;
 };

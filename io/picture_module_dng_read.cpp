@@ -21,8 +21,8 @@ void read_lines(TIFF* tiff, RawPicture& raw) {
   if (TIFFGetField(tiff, TIFFTAG_IMAGEDESCRIPTION, &lines) == 1) raw.metadata["ImageDescription"] = lines;
 }
 
-// The channels of a DNG in its order: red, green and blue, unless its description names three others.
-std::vector<std::string> channels_of(const RawPicture& raw, const std::string& key) {
+// The names that the description lists under a key.
+std::vector<std::string> told_names(const RawPicture& raw, const std::string& key) {
   const auto description = raw.metadata.find("ImageDescription");
   std::istringstream lines(description == raw.metadata.end() ? "" : description->second);
   std::vector<std::string> names;
@@ -31,6 +31,12 @@ std::vector<std::string> channels_of(const RawPicture& raw, const std::string& k
     std::istringstream told(line.substr(key.size() + 2));
     for (std::string name; std::getline(told, name, ',');) names.push_back(name);
   }
+  return names;
+}
+
+// The channels of a DNG in its order: red, green and blue, unless its description names three others.
+std::vector<std::string> channels_of(const RawPicture& raw, const std::string& key) {
+  const std::vector<std::string> names = told_names(raw, key);
   if (names.size() != 3) return {"R", "G", "B"};
   const auto order = rgb_order(names);
   return order ? std::vector{names[(*order)[0]], names[(*order)[1]], names[(*order)[2]]} : names;
@@ -64,7 +70,10 @@ void read_layout(TIFF* tiff, RawPicture& raw) {
     raw.planes = {"raw"};
     return;
   }
-  if (raw.planes.size() == 3) raw.planes = channels_of(raw, "sensor_channels");
+  if (raw.planes.size() == 3)
+    raw.planes = channels_of(raw, "sensor_channels");
+  else if (auto names = told_names(raw, "sensor_channels"); names.size() == raw.planes.size())
+    raw.planes = std::move(names);
   raw.channels = raw.planes;
 }
 

@@ -6,6 +6,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <regex>
 #include <sstream>
@@ -119,10 +120,14 @@ double number_of(fitsfile* fits, const char* key, double otherwise) {
   return fits_read_key(fits, TDOUBLE, key, &value, nullptr, &status) == 0 ? value : otherwise;
 }
 
+// Whole, on however many cards.
 std::string text_of(fitsfile* fits, const char* key) {
-  std::array<char, FLEN_VALUE> value{};
+  char* value = nullptr;
   int status = 0;
-  return fits_read_key(fits, TSTRING, key, value.data(), nullptr, &status) == 0 ? value.data() : "";
+  std::string text = fits_read_key_longstr(fits, key, &value, nullptr, &status) == 0 ? value : "";
+  status = 0;
+  if (value != nullptr) fits_free_memory(value, &status);
+  return text;
 }
 
 std::size_t shift_of(fitsfile* fits, const char* key) {
@@ -215,6 +220,21 @@ std::vector<std::uint16_t> read_codes(fitsfile* fits, const std::string& path, s
   return {numbers.begin(), numbers.end()};
 }
 
+// Opens a file by its very name and goes to its first image that has pixels. The library's other functions
+// take brackets in a name for what they are to make of the file, and this one blanks before it for none of it
+// and ~ for a user's folder.
+void open_image(fitsfile** fits, const std::string& path, int& status) {
+  fits_open_diskfile(fits, std::filesystem::absolute(path).c_str(), READONLY, &status);
+  while (status == 0) {
+    int kind = 0;
+    int axes = 0;
+    fits_get_hdu_type(*fits, &kind, &status);
+    if (kind == IMAGE_HDU) fits_get_img_dim(*fits, &axes, &status);
+    if (status != 0 || axes > 0) return;
+    fits_movrel_hdu(*fits, 1, nullptr, &status);
+  }
+}
+
 // Turns the picture upside down.
 void flip(RawPicture& raw) {
   const auto row = static_cast<std::ptrdiff_t>(raw.planes.size()) * raw.width;
@@ -237,7 +257,7 @@ std::vector<std::uint16_t> pixel_by_pixel(const std::vector<std::uint16_t>& code
 RawPicture read_fits(const std::string& path) {
   int status = 0;
   MemoryFits file;
-  fits_open_image(&file.fits, path.c_str(), READONLY, &status);
+  open_image(&file.fits, path, status);
   int type = 0;
   int axes = 0;
   std::array<long, 3> size{1, 1, 1};
@@ -259,7 +279,8 @@ RawPicture read_fits(const std::string& path) {
   read_history(file.fits, raw);
   read_pattern(file.fits, path, raw);
   raw.black_level_dn = pedestal_of(file.fits, path);
-  raw.white_level_dn = number_of(file.fits, "SATURATE", 65535);
+  const double saturate = number_of(file.fits, "SATURATE", 65535);
+  raw.white_level_dn = saturate > raw.black_level_dn ? saturate : 65535;  // 0 where it is not known
   raw.gain_e_per_dn = number_of(file.fits, "GAIN", 1);
   if (const double seconds = number_of(file.fits, "EXPTIME", 0); seconds > 0) raw.exposure_s = seconds;
   return raw;

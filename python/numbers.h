@@ -15,8 +15,15 @@ namespace abbe::python {
 /// of them masked. Throws Error{usage} as an argument for others.
 using Numbers = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
 
-/// Throws Error{usage} for elements of a masked array that have no value, as numpy makes numbers of them.
+/// Throws Error{usage} for elements of a masked array, or of one in a list, that have no value, as numpy
+/// makes numbers of them.
 inline void require_unmasked(const pybind11::handle& object) {
+  if (PyFloat_CheckExact(object.ptr()) || PyLong_CheckExact(object.ptr())) return;
+  if (PyList_Check(object.ptr()) || PyTuple_Check(object.ptr())) {
+    for (const pybind11::object element : pybind11::reinterpret_borrow<pybind11::sequence>(object))
+      require_unmasked(element);
+    return;
+  }
   const pybind11::object numpy_ma = pybind11::module_::import("numpy.ma");
   if (!pybind11::isinstance(object, numpy_ma.attr("MaskedArray"))) return;
   const auto masked = numpy_ma.attr("count_masked")(object).cast<std::int64_t>();

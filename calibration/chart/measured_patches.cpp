@@ -232,7 +232,7 @@ void scale_to_codes(MeasuredPatches& patches, const std::optional<double>& full_
     for (std::size_t k = 0; k < 3; ++k) {
       if (is_raw) patches.values[i][k] /= *full_scale_dn;
       if (is_raw && !patches.deviations.empty()) patches.deviations[i][k] /= *full_scale_dn;
-      if (patches.values[i][k] > 1)
+      if (patches.values[i][k] > 1 && !patches.saturated.contains(patches.names[i]))
         throw Error(ErrorCode::input, file.string(),
                     fmt::format("patch \"{}\" has a value of {} (allowed 0 to 1 at full scale, of which the "
                                 "response is)",

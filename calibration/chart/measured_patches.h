@@ -53,7 +53,7 @@ struct MeasuredPatches {
 
 /// Makes values those of the codes that a recovered response is of, 0 to 1: numbers above black are divided
 /// by `full_scale_dn`, which a series of raw files tells. Throws Error{input} naming `file` where it tells
-/// none, and for a patch with a value beyond 1.
+/// none, and for a patch with a value beyond 1 that is not left out as saturated.
 void scale_to_codes(MeasuredPatches& patches, const std::optional<double>& full_scale_dn,
                     const std::filesystem::path& file);
 

@@ -8,8 +8,10 @@
 #include <fmt/format.h>
 
 #include "calibration/chart/raw_scale.h"
+#include "calibration/chart/white_level.h"
 #include "io/schema/read.h"
 #include "io/text.h"
+#include "sensor/film/film_planes.h"
 #include "sensor/film/patch.h"
 
 namespace abbe {
@@ -43,7 +45,7 @@ struct Listing {
 struct Scale {
   double black = 0;
   double full = 1;
-  int bits = 0;
+  double rounding = 0;  ///< Standard deviation of codes by their steps, over the range.
 };
 
 schema::Fields fields(schema::Tag<Photograph>) {
@@ -101,14 +103,32 @@ std::optional<Listing> read_listing(const std::filesystem::path& path, Diagnosti
   return listing;
 }
 
-// The channels that are responses, neither alpha nor variances: R, G, B, then others in the file's order.
+// The names of channels that are responses: the planes of the sensor that the file tells of, of any other
+// file all but alpha and variances.
+std::vector<std::string> responses_of(const Image& image) {
+  std::vector<std::string> names = plane_names(image);
+  const bool are_told = image.metadata.contains("sensor_channels");
+  if (!are_told ||
+      std::any_of(names.begin(), names.end(), [&](const std::string& n) { return !image.find(n); })) {
+    names.clear();
+    for (const ImageChannel& channel : image.channels)
+      if (channel.name != "A") names.push_back(channel.name);
+  }
+  std::erase_if(names, [](const std::string& name) { return name.find('.') != std::string::npos; });
+  return names;
+}
+
+// These channels: R, G, B, then others in the file's order.
 std::vector<const ImageChannel*> planes_of(const Image& image) {
+  const std::vector<std::string> names = responses_of(image);
+  const auto is_response = [&](const std::string& name) {
+    return std::find(names.begin(), names.end(), name) != names.end();
+  };
   std::vector<const ImageChannel*> found;
   for (const char* name : {"R", "G", "B"})
-    if (const ImageChannel* channel = image.find(name)) found.push_back(channel);
+    if (is_response(name)) found.push_back(image.find(name));
   for (const ImageChannel& channel : image.channels)
-    if (std::find(found.begin(), found.end(), &channel) == found.end() && channel.name != "A" &&
-        channel.name.find('.') == std::string::npos)
+    if (std::find(found.begin(), found.end(), &channel) == found.end() && is_response(channel.name))
       found.push_back(&channel);
   return found;
 }
@@ -125,13 +145,15 @@ std::vector<std::string> channels_of(const Image& image, const std::optional<Raw
   return names;
 }
 
-Scale scale_of(const Listing& listing, const std::optional<RawScale>& told) {
+Scale scale_of(const Image& image, const Listing& listing, const std::optional<RawScale>& told) {
   constexpr double kSixteenBits = 65535;
   Scale scale;
-  if (told && !listing.full_scale)
-    scale = {told->offset_dn / kSixteenBits, told->highest() / kSixteenBits, told->bits};
+  if (told && !listing.full_scale) {
+    scale = {told->offset_dn / kSixteenBits, white_dn(image, *told) / kSixteenBits};
+    scale.rounding = 1 / (std::sqrt(12.0) * kSixteenBits * (scale.full - scale.black));
+  }
   if (listing.full_scale) scale.full = *listing.full_scale;
-  if (listing.bits) scale.bits = *listing.bits;
+  if (listing.bits) scale.rounding = CodeNoise{*listing.bits, 0, 0}.deviation(0);
   return scale;
 }
 
@@ -157,13 +179,15 @@ struct Code {
 // The mean of a patch and its standard error, 0 where one pixel tells none; an end of the scale where a pixel
 // has reached it.
 Code patch_code(const PatchChannel& patch, const Scale& scale) {
+  // Of pixels, which are in single precision; codes of 16 bits are 15 times as far apart.
+  constexpr double kRounding = 1e-6;
   const double range = scale.full - scale.black;
-  if (patch.lowest <= scale.black) return {0, 0};
-  if (patch.highest >= scale.full) return {1, 0};
+  if (patch.lowest <= scale.black * (1 + kRounding)) return {0, 0};
+  if (patch.highest >= scale.full * (1 - kRounding)) return {1, 0};
   const double value = (patch.mean - scale.black) / range;
   if (!patch.deviation) return {value, 0};
   const double error = *patch.deviation / range / std::sqrt(static_cast<double>(patch.pixels));
-  return {value, std::hypot(error, CodeNoise{scale.bits, 0, 0}.deviation(0))};
+  return {value, std::hypot(error, scale.rounding)};
 }
 
 PatchOutline outline_of(const Region& r) {
@@ -196,7 +220,7 @@ std::string objection(const Image& image, const Image& first, const Listing& lis
 
 void add(const Image& image, const std::optional<RawScale>& told, const std::vector<Region>& regions,
          const Listing& listing, PhotographedSeries& all) {
-  const Scale scale = scale_of(listing, told);
+  const Scale scale = scale_of(image, listing, told);
   MeasuredPlanes planes{planes_of(image), all.channels, mosaic_of(image, told), {}};
   std::vector<PatchOutline> outlines;
   std::transform(regions.begin(), regions.end(), std::back_inserter(outlines), outline_of);
@@ -254,7 +278,7 @@ std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
         all.channels.push_back(channel);
         all.series.push_back({{}, none, none});
       }
-      if (told && !listing.full_scale) all.full_scale_dn = told->highest() - told->offset_dn;
+      if (told && !listing.full_scale) all.full_scale_dn = white_dn(image, *told) - told->offset_dn;
       first = image;
     }
     add(image, told, regions, listing, all);

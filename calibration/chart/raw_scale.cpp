@@ -12,6 +12,7 @@
 #include "io/picture.h"
 #include "io/picture_codec.h"
 #include "io/text.h"
+#include "sensor/film/recorded_crop.h"
 #include "sensor/film/recorded_mosaic.h"
 #include "sensor/readout/readout_json.h"
 
@@ -61,14 +62,14 @@ bool holds_codes(const Attributes& told) {
   return told.contains("white_level_dn");
 }
 
-// What undoes the response curve of the read-out that the description of a sensor has.
-std::vector<std::uint16_t> linear_codes_of(const std::string& sensor, std::optional<double> sensitivity) {
+// The read-out that the description of a sensor has.
+Readout readout_of(const std::string& sensor, std::optional<double> sensitivity) {
   Diagnostics diagnostics;
   const auto json = parse_json(std::make_shared<const SourceText>(SourceText{"sensor", sensor}), diagnostics);
   const JsonValue* said = json ? json->find("readout") : nullptr;
-  const auto readout = said != nullptr ? read_readout(*said, sensitivity, diagnostics) : std::nullopt;
+  auto readout = said != nullptr ? read_readout(*said, sensitivity, diagnostics) : std::nullopt;
   if (!readout) throw Error(ErrorCode::input, "attribute \"sensor\"", diagnostics.text());
-  return linear_codes(*readout);
+  return *std::move(readout);
 }
 
 void straighten(Image& image, const RawScale& scale) {
@@ -141,8 +142,10 @@ std::optional<RawScale> raw_scale(const Image& image) {
   scale.own_exposure_s = own_exposures(told);
   scale.gain_e_per_dn = number(told, "gain_e_per_dn");
   scale.electrons_per_lx_s = number(told, "electrons_per_lx_s");
-  if (readout.contains("response_curve") && holds_codes(told))
-    scale.linear_codes = linear_codes_of(told.at("sensor"), scale.electrons_per_lx_s);
+  if (readout.contains("response_curve") && holds_codes(told)) {
+    scale.curved = readout_of(told.at("sensor"), scale.electrons_per_lx_s);
+    scale.linear_codes = linear_codes(*scale.curved);
+  }
   if (auto mosaic = recorded_mosaic(told)) {
     scale.channels = std::move(mosaic->channels);
     scale.mosaic = std::move(mosaic->pattern);
@@ -155,6 +158,7 @@ RawImage read_raw_image(const std::filesystem::path& path, Inputs* inputs) {
     Image image = read_image(path, inputs);
     auto scale = raw_scale(image);
     if (scale && holds_codes(all_told(image))) {
+      tell_lines(image);
       name_planes(image);
       image.metadata[kColorSpace] = kLinear;
     }
@@ -164,6 +168,7 @@ RawImage read_raw_image(const std::filesystem::path& path, Inputs* inputs) {
   const RawPicture raw = read_raw_picture(path);
   if (inputs != nullptr) inputs->take_memory(path.string(), raw.codes.size() * sizeof(float));
   RawImage read{code_planes(raw), {}};
+  tell_lines(read.image);
   read.image.metadata[kColorSpace] = kLinear;
   const auto share = static_cast<float>(1 / kSixteenBits);  // with which OpenImageIO rounds alike
   for (ImageChannel& plane : read.image.channels)
@@ -179,20 +184,21 @@ double code_of(float value) {
 }
 
 std::vector<ChannelCodes> raw_codes(const Image& image, const RawScale& scale) {
+  const bool is_mosaic = scale.mosaic && image.channels.size() == 1;
   std::vector<ChannelCodes> all;
-  if (scale.mosaic && image.channels.size() == 1) {
-    for (const std::string& name : scale.channels) all.push_back({name, {}});
-    std::size_t pixel = 0;
-    for (int y = 0; y < image.height; ++y)
-      for (int x = 0; x < image.width; ++x)
-        all[static_cast<std::size_t>(scale.mosaic->at(x, y))].dn.push_back(
-            code_of(image.channels.front().values[pixel++]));
-    return all;
-  }
-  for (const ImageChannel& channel : image.channels) {
-    ChannelCodes& codes = all.emplace_back(ChannelCodes{channel.name, {}});
-    for (const float value : channel.values) codes.dn.push_back(code_of(value));
-  }
+  for (const ImageChannel& channel : image.channels)
+    if (!is_mosaic) all.push_back({channel.name, {}});
+  for (const std::string& name : scale.channels)
+    if (is_mosaic) all.push_back({name, {}});
+  for (const Crop& area : recorded_areas(image))
+    for (int y = area.y0; y < area.y1; ++y)
+      for (int x = area.x0; x < area.x1; ++x) {
+        const std::size_t pixel =
+            static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
+        for (std::size_t c = 0; c < image.channels.size(); ++c)
+          all[is_mosaic ? static_cast<std::size_t>(scale.mosaic->at(x, y)) : c].dn.push_back(
+              code_of(image.channels[c].values[pixel]));
+      }
   return all;
 }
 

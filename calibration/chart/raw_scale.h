@@ -12,6 +12,7 @@
 #include "io/image.h"
 #include "io/inputs.h"
 #include "io/raw_picture.h"
+#include "sensor/readout/readout.h"
 #include "sensor/response/mosaic.h"
 
 namespace abbe {
@@ -25,7 +26,8 @@ struct RawScale {
   std::map<std::string, double> own_exposure_s;  ///< Of channels that have one of their own.
   std::optional<double> gain_e_per_dn;
   std::optional<double> electrons_per_lx_s;  ///< Of the most sensitive channel.
-  std::vector<std::uint16_t> linear_codes;   ///< What codes stand for on a line; empty where they are.
+  std::optional<Readout> curved;             ///< The read-out, where its codes lie on no line.
+  std::vector<std::uint16_t> linear_codes;   ///< What they stand for on one; empty where they are.
   std::vector<std::string> channels;         ///< Of the mosaic, in its order.
   std::optional<Mosaic> mosaic;
 
@@ -76,13 +78,15 @@ struct RawImage {
 /// and any other image by `read_image`, as stored beside an alpha channel; codes by a response curve that the
 /// file tells are those of a straight line, as the table of a DNG makes them. What a DNG or FITS of another
 /// program tells of its levels, pattern and exposure counts too. Codes of a sensor are "Linear" by the
-/// attribute `kColorSpace`, as floats are. Throws Error{input} and Error{resource}.
+/// attribute `kColorSpace`, as floats are, and lines of their description are attributes (`tell_lines`).
+/// Throws Error{input} and Error{resource}.
 [[nodiscard]] RawImage read_raw_image(const std::filesystem::path& path, Inputs* inputs = nullptr);
 /// The 16-bit code that a value of an image from `read_image` stands for.
 [[nodiscard]] double code_of(float value);
 
-/// The codes of each channel of a raw file, those of a mosaic apart: whole numbers as `double`s, pixel by
-/// pixel. `image` is as `read_raw_image` gives it, in which 65535 is 1.
+/// The codes of each channel of a raw file, those of a mosaic apart: whole numbers as `double`s, of the
+/// pixels that were rendered (`recorded_pixels`). `image` is as `read_raw_image` gives it, in which 65535 is
+/// 1.
 struct ChannelCodes {
   std::string channel;
   std::vector<double> dn;

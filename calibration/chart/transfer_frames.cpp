@@ -9,6 +9,7 @@
 
 #include "calibration/chart/raw_scale.h"
 #include "io/error.h"
+#include "sensor/film/recorded_crop.h"
 
 namespace abbe {
 namespace {
@@ -23,6 +24,9 @@ constexpr double kUnderflow = 0.005;  // of a channel's pixels
 struct Frame {
   double exposure_s;
   RawScale scale;
+  int width;
+  int height;
+  std::vector<Crop> areas;  // whose pixels were rendered
   std::vector<std::string> channels;
   std::vector<std::vector<std::uint16_t>> codes;
 };
@@ -36,10 +40,13 @@ Frame read_frame(const std::filesystem::path& file, Inputs& inputs) {
   const auto [image, scale] = read_raw_image(file, &inputs);
   if (!scale || !scale->exposure_s)
     refuse(file, "tells neither bits nor exposure time: a raw file of `abbe develop` is needed");
-  Frame frame{*scale->exposure_s, *scale, {}, {}};
+  Frame frame{*scale->exposure_s, *scale, image.width, image.height, recorded_areas(image), {}, {}};
   for (const ChannelCodes& channel : raw_codes(image, *scale)) {
     frame.channels.push_back(channel.channel);
     frame.codes.emplace_back(channel.dn.begin(), channel.dn.end());
+    if (channel.dn.size() < 2)
+      refuse(file, fmt::format("has too few pixels in {} to tell noise (got {}, allowed 2 or more)",
+                               channel.channel, channel.dn.size()));
   }
   inputs.give_back_memory(image.memory_bytes());
   return frame;
@@ -47,8 +54,12 @@ Frame read_frame(const std::filesystem::path& file, Inputs& inputs) {
 
 // Whether a frame is of the first one's sensor and settings.
 void require_alike(const Frame& frame, const Frame& first, const std::filesystem::path& file) {
-  if (frame.channels != first.channels || frame.codes.front().size() != first.codes.front().size())
+  if (frame.channels != first.channels || frame.width != first.width || frame.height != first.height)
     refuse(file, "has other pixels or channels than the first frame");
+  if (frame.areas != first.areas)
+    refuse(file, fmt::format("was rendered at the pixels {}, the first frame at {}: patterns are those of "
+                             "the same pixels",
+                             to_text(frame.areas), to_text(first.areas)));
   if (frame.scale.bits != first.scale.bits)
     refuse(file, fmt::format("has {} bits, the first frame {}", frame.scale.bits, first.scale.bits));
   const auto& gain = frame.scale.gain_e_per_dn;
@@ -56,6 +67,8 @@ void require_alike(const Frame& frame, const Frame& first, const std::filesystem
   if (gain && expected && std::abs(*gain - *expected) > kSameGain * *expected)
     refuse(file, fmt::format("was read out at {} e/DN, the first frame at {}: a gain is measured by itself",
                              *gain, *expected));
+  if (frame.scale.linear_codes != first.scale.linear_codes)
+    refuse(file, "has another response curve, offset_dn or saturation_dn than the first frame");
 }
 
 // What lies below the lowest code is cut off there: the mean is too high and the scatter too small. Codes
@@ -140,10 +153,11 @@ std::vector<ChannelTransfer> measure_transfer(std::span<const std::filesystem::p
     throw Error(ErrorCode::usage, "photon transfer", "needs dark and lit frames, two of each exposure");
   const Frame& first = lit_frames.front();
   require_alike(first, dark_frames.front(), lit.front());
+  const std::vector<CodeLevel> levels = code_levels(first.scale.curved.value_or(Readout{}));
   std::vector<ChannelTransfer> all;
   for (std::size_t c = 0; c < first.channels.size(); ++c) {
     PhotonTransfer found =
-        photon_transfer(pairs_of(dark_frames, c), pairs_of(lit_frames, c), first.scale.bits);
+        photon_transfer(pairs_of(dark_frames, c), pairs_of(lit_frames, c), first.scale.bits, levels);
     // What fills the codes tells nothing of the well.
     const double range_e = (first.scale.highest() - first.scale.offset_dn) * found.gain_e_per_dn;
     if (found.full_well_e && *found.full_well_e > kOfTheCodes * range_e) found.full_well_e.reset();

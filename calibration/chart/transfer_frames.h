@@ -24,11 +24,12 @@ struct ChannelTransfer {
 };
 
 /// The photon transfer of raw files that Abbe wrote, of any kind: two frames of each exposure, one after the
-/// other, dark ones of two exposure times or more. Exposure times, bits and mosaic are read of the files.
-/// Throws Error{input} naming a file that tells of no read-out or differs from the first in size, bits,
-/// mosaic or gain, one of which more than 0.5 % of a channel's codes, but not all, are the lowest, where
-/// noise is cut off [EMVA1288], and one without a second of its exposure that saw the same light and is
-/// another frame; otherwise as `photon_transfer`.
+/// other, dark ones of two exposure times or more. Exposure times, bits, mosaic and the pixels that were
+/// rendered, which alone count, are read of the files.
+/// Throws Error{input} naming a file that tells of no read-out or differs from the first in size, rendered
+/// pixels, channels, bits, gain or response curve, one of which more than 0.5 % of a channel's codes, but not
+/// all, are the lowest, where noise is cut off [EMVA1288], and one without a second of its exposure that saw
+/// the same light and is another frame; otherwise as `photon_transfer`.
 [[nodiscard]] std::vector<ChannelTransfer> measure_transfer(std::span<const std::filesystem::path> dark,
                                                             std::span<const std::filesystem::path> lit,
                                                             Inputs& inputs);

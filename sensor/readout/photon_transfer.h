@@ -5,7 +5,20 @@
 #include <span>
 #include <vector>
 
+#include "sensor/readout/readout.h"
+
 namespace abbe {
+
+/// What a code tells of the signal that gave it, in DN of a straight response.
+struct CodeLevel {
+  double signal_dn;     ///< The middle of the signals that give it.
+  double rounding_dn2;  ///< The variance that rounding to it adds: w^2/12 of their width w.
+};
+
+/// That of each 16-bit code that `linear_codes` makes of those of a read-out with a response curve: as steep
+/// as the curve is there, one of the read-out's codes stands for more than 1 DN, or several for less. Codes
+/// that it makes of none, and all without a curve, stand for themselves.
+[[nodiscard]] std::vector<CodeLevel> code_levels(const Readout& readout);
 
 /// Two exposures of one evenly lit (or dark) sensor, taken one after the other: all they differ in is
 /// temporal noise. Their codes, of equally many pixels.
@@ -34,15 +47,17 @@ struct PhotonTransfer {
   std::optional<double> read_noise_standard_error = {};  ///< [e]; nothing where rounding hides the noise.
 };
 
-/// The photon transfer method of [EMVA1288]: temporal variance, from the difference of two exposures, grows
-/// with the mean by 1/K DN per DN, the 1/12 DN^2 of rounding and the read noise being what darkness leaves;
-/// fixed patterns are the rest of the variance over pixels. `dark` holds pairs of two or more exposure times,
+/// The photon transfer method of [EMVA1288]: temporal variance, from the difference of two exposures, less
+/// that of rounding, grows with the mean by 1/K DN per DN, the read noise being what darkness leaves; fixed
+/// patterns are the rest of the variance over pixels. `dark` holds pairs of two or more exposure times,
 /// `lit` pairs from weak light to light beyond saturation: K is fitted up to 70 % of saturation, PRNU taken
 /// nearest to 50 %, the full well from the brightest pair. Standard errors are of the pairs' temporal
-/// variances, each known by its pixels' fourth moment, carried through the fits; pixels count as independent,
-/// which those of a row with noise of its own are not. `bits`: of the codes. Throws Error{input} for pairs
-/// that do not determine this.
+/// variances, each known by its pixels' fourth moment and, of noise that is narrower than a code, as far as
+/// rounding is; they are carried through the fits. Pixels count as independent, which those of a row with
+/// noise of its own are not. `bits`: of the codes; `levels`: what each of them stands for. Throws
+/// Error{input} for pairs that do not determine this.
 [[nodiscard]] PhotonTransfer photon_transfer(std::span<const FlatPair> dark, std::span<const FlatPair> lit,
-                                             int bits);
+                                             int bits,
+                                             const std::vector<CodeLevel>& levels = code_levels({}));
 
 }  // namespace abbe

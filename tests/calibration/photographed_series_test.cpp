@@ -10,6 +10,7 @@
 
 #include "io/exr.h"
 #include "io/picture.h"
+#include "io/raw_picture.h"
 #include "tests/calibration/response_fixture.h"
 
 namespace abbe::test {
@@ -175,8 +176,69 @@ TEST_F(Photographs, RawFilesTellTheirOwnScale) {
             << extension << k;
         EXPECT_NEAR(all->series[k].times_s[stop], 0.01 * static_cast<double>(stop + 1), 1e-12);
       }
-    EXPECT_NEAR(all->series[0].deviations[0][0], 1 / 4095.0 / std::sqrt(12), 1e-9) << "rounding alone";
+    EXPECT_NEAR(all->series[0].deviations[0][0], 1 / full / std::sqrt(12), 1e-9) << "rounding alone";
   }
+}
+
+// Ends of the scale are no numbers of single precision, as pixels are.
+TEST_F(Photographs, TheEndsOfAnyScaleAreReached) {
+  std::ofstream(folder_ / "ends.json") << R"({"exposures": [{"file": "ends.tif", "exposure_s": 1}],
+    "regions": [[0, 0, 1, 1], [1, 0, 2, 1], [2, 0, 3, 1], [3, 0, 4, 1]]})";
+  const auto expect_ends = [&](int black, int full, const std::string& levels) {
+    Image raw{
+        4, 1, {{"raw", {}}}, {{"sensor", R"({"readout":{"offset_dn":)" + fmt::format("{}", black) + levels}}};
+    for (const int code : {black, black + 1, full - 1, full})
+      raw.channels[0].values.push_back(static_cast<float>(code));
+    write_raw_picture(folder_ / "ends.tif", raw);
+    const auto all = read(folder_ / "ends.json");
+    ASSERT_TRUE(all) << diagnostics_.text();
+    const std::vector<std::vector<double>>& codes = all->series[0].codes;
+    EXPECT_EQ(codes[0][0], 0) << black;
+    EXPECT_NEAR(codes[1][0], 1.0 / (full - black), 1e-5) << black;
+    EXPECT_NEAR(codes[2][0], 1 - 1.0 / (full - black), 1e-5) << full;
+    EXPECT_EQ(codes[3][0], 1) << full;
+  };
+  for (int bits = 3; bits <= 16; ++bits)
+    expect_ends(bits, (1 << bits) - 1, fmt::format(R"(,"bits":{}}}}})", bits));
+  for (int saturation = 16000; saturation <= 16383; ++saturation)
+    expect_ends(600, saturation, fmt::format(R"(,"bits":14,"saturation_dn":{}}}}})", saturation));
+}
+
+// "A" is a channel of this sensor; in other files it tells how opaque pixels are.
+TEST_F(Photographs, PlanesOfTheSensorAreSeries) {
+  const auto channels_of = [&](const std::string& name) {
+    std::ofstream(folder_ / "planes.json")
+        << R"({"exposures": [{"exposure_s": 1, "file": ")" << name << R"("}]})";
+    const auto all = read(folder_ / "planes.json");
+    EXPECT_TRUE(all) << diagnostics_.text();
+    return all ? all->channels : std::vector<std::string>{};
+  };
+  const std::vector<std::string> sensor{"L", "A", "B"};
+  const std::map<std::string, std::string> told{{"sensor_channels", "L,A,B"},
+                                                {"white_level_dn", "4095"},
+                                                {"sensor", R"({"readout":{"bits":12,"offset_dn":100}})"}};
+  write_raw_picture(folder_ / "a.tif", {1, 1, {{"L", {300}}, {"A", {200}}, {"B", {400}}}, told});
+  EXPECT_EQ(channels_of("a.tif"), (std::vector<std::string>{"B", "L", "A"})) << "B before others";
+  RawPicture raw;
+  raw.width = raw.height = 1;
+  raw.planes = raw.channels = sensor;
+  raw.codes = {300, 200, 400};
+  raw.metadata = told;
+  write_dng(folder_ / "a.dng", raw);
+  write_fits(folder_ / "a.fits", raw);
+  for (const char* name : {"a.dng", "a.fits"})
+    EXPECT_EQ(channels_of(name), (std::vector<std::string>{"B", "L", "A"})) << name;
+  Image film{1, 1, {{"A", {0.2F}}, {"B", {0.4F}}, {"L", {0.3F}}, {"Variance.L", {0}}}, {}};
+  write_exr(folder_ / "a.exr", film);
+  EXPECT_EQ(channels_of("a.exr"), (std::vector<std::string>{"B", "L"}));
+  film.metadata["sensor_channels"] = "L,A,B";
+  film.channels.push_back({"Coverage", {1}});
+  write_exr(folder_ / "a.exr", film);
+  EXPECT_EQ(channels_of("a.exr"), (std::vector<std::string>{"B", "A", "L"}));
+  film.channels = {{"A", {1}}, {"B", {0.4F}}, {"G", {0.4F}}, {"R", {0.3F}}};
+  write_exr(folder_ / "a.exr", film);
+  EXPECT_EQ(channels_of("a.exr"), (std::vector<std::string>{"R", "G", "B"}))
+      << "a picture made of such a film";
 }
 
 TEST_F(Photographs, SaysWhatIsWrong) {

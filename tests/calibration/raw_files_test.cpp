@@ -1,3 +1,4 @@
+#include <array>
 #include <cmath>
 #include <fstream>
 
@@ -7,6 +8,7 @@
 
 #include "calibration/chart/photographed_series.h"
 #include "calibration/chart/raw_scale.h"
+#include "calibration/chart/white_level.h"
 #include "io/picture.h"
 #include "io/raw_picture.h"
 #include "sensor/readout/readout.h"
@@ -62,6 +64,16 @@ class RawFiles : public testing::Test {
     return path;
   }
 
+  // Of Abbe or of another program, by its name, and of a sensor whose well is full at the code of column 48,
+  // before the codes end.
+  fs::path write_full_well(const std::string& name) const {
+    RawPicture raw = wedge(1, name.starts_with("own"));
+    raw.white_level_dn = 2010;
+    if (!raw.metadata.empty()) raw.metadata["white_level_dn"] = "2010";
+    return write(name, raw);
+  }
+  static constexpr std::array kKinds{"own.dng", "own.fits", "own.tif", "plain.dng", "plain.fits"};
+
   PhotographedSeries series(const std::string& end) const {
     std::string listing;
     for (const double t : {0.25, 0.5, 1.0}) {
@@ -110,16 +122,68 @@ TEST_F(RawFiles, AResponseCurveIsUndoneWhereTheyAreRead) {
     raw.linear_codes[code] = static_cast<std::uint16_t>(std::lround(
         50 +
         3950 * MonotoneCurve({{0, 0}, {0.1, 0.4}, {1, 1}}).inverse(static_cast<double>(code - 50) / 3950)));
-  raw.metadata["white_level_dn"] = "4000";
+  raw.white_level_dn = 3000;
+  raw.metadata["white_level_dn"] = "3000";
   raw.metadata["sensor"] =
       R"({"readout": {"gain_e_per_dn": 2, "bits": 12, "offset_dn": 50, "saturation_dn": 4000,)"
       R"( "response_curve": [[0, 0], [0.1, 0.4], [1, 1]]}})";
   for (const char* name : {"curve.dng", "curve.fits", "curve.tif"}) {
     const RawImage read = read_raw_image(write(name, raw));
     ASSERT_EQ(read.scale->highest(), 4000) << name;
+    EXPECT_EQ(white_dn(read.image, *read.scale), raw.linear_codes[3000]) << name;
     for (std::size_t i = 0; i < raw.codes.size(); i += 7)
       ASSERT_EQ(code_of(read.image.channels[0].values[i]), raw.linear_codes[raw.codes[i]]) << name << i;
   }
+}
+
+// Code 1 of a series is where the camera clips.
+TEST_F(RawFiles, TheWhiteLevelClipsASeries) {
+  for (const char* name : kKinds) {
+    (void)write_full_well(name);
+    std::ofstream(folder_ / "one.json") << fmt::format(
+        R"({{"exposures": [{{"file": "{}"}}], "regions": [[46, 0, 48, 2], [48, 0, 50, 2]]}})", name);
+    Diagnostics diagnostics;
+    const auto read = read_series(folder_ / "one.json", diagnostics);
+    ASSERT_TRUE(read) << diagnostics.text();
+    EXPECT_EQ(read->full_scale_dn, 2010 - 50) << name;
+    ASSERT_EQ(read->series.size(), 3U) << name;
+    for (std::size_t k = 0; k < 3; ++k) {
+      EXPECT_NEAR(read->series[k].codes[0][0], (1880 + 20 * static_cast<double>(k)) / 1960, 1e-6) << name;
+      EXPECT_EQ(read->series[k].codes[1][0], 1) << name;
+    }
+  }
+}
+
+TEST_F(RawFiles, CodesEndAtTheWhiteLevelThatIsTold) {
+  for (const char* name : kKinds) {
+    const auto end = end_of_codes(read_raw_image(write_full_well(name)));
+    ASSERT_TRUE(end) << name;
+    EXPECT_EQ(end->dn, 2010) << name;
+    EXPECT_TRUE(end->is_told) << name;
+  }
+}
+
+// A converter keeps the description beside planes and codes of its own.
+TEST_F(RawFiles, CodesOfOtherPicturesEndWhereSomeAreTheHighest) {
+  RawPicture raw = wedge(1);
+  raw.metadata["white_level_dn"] = "2010";
+  raw.codes.back() = 4001;
+  EXPECT_FALSE(end_of_codes(read_raw_image(write("bright.tif", raw)))) << "of another scale";
+  ImageChannel plane{"R", std::vector<float>(raw.codes.size(), 3000)};
+  const auto converted = [&] {
+    write_raw_picture(
+        folder_ / "rgb.tif",
+        {kFrameWidth, kFrameHeight, {plane, {"G", plane.values}, {"B", plane.values}}, raw.metadata});
+    return end_of_codes(read_raw_image(folder_ / "rgb.tif"));
+  };
+  EXPECT_FALSE(converted()) << "of other planes";
+  plane.values[5] = 65535;
+  ASSERT_TRUE(converted());
+  EXPECT_EQ(converted()->dn, 65535);
+  EXPECT_FALSE(converted()->is_told);
+  const auto of_values = [](float darker) { return end_of_codes({{2, 1, {{"Y", {darker, 1}}}, {}}, {}}); };
+  EXPECT_TRUE(of_values(static_cast<float>(85 / 255.0))) << "eight bits";
+  EXPECT_FALSE(of_values(0.12345F)) << "floats";
 }
 
 TEST_F(RawFiles, TellTheExposureOfAChannelsOwn) {

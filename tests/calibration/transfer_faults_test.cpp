@@ -42,6 +42,16 @@ class TransferFaults : public test::PlantedFrames {
     return file;
   }
 
+  // A frame of which the pixels of `areas` alone were rendered, beside them darker than any.
+  fs::path cropped_frame(double electrons, double exposure_s, const std::string& areas,
+                         const std::string& end) {
+    std::vector<float> expected(kEdge * kEdge, static_cast<float>(electrons));
+    for (std::size_t i = 0; i < expected.size(); ++i)
+      if (i % kEdge >= kEdge / 2) expected[i] = 0;
+    return PlantedFrames::frame(fmt::format("{}.{}", ++frames_, end), expected, exposure_s, 2, 12,
+                                {{"crop", areas}, {"sensor_channels", "raw"}, {"white_level_dn", "4095"}});
+  }
+
   static void refused(const Files& dark, const Files& lit, const fs::path& file, const std::string& text) {
     PlantedFrames::refused(dark, lit, file.filename().string() + ": " + text);
   }
@@ -77,6 +87,37 @@ TEST_F(TransferFaults, FramesThatAreFullMayBeAlike) {
     lit.push_back(frame(e, 0.01));
   Inputs inputs;
   EXPECT_NEAR(measure_transfer(dark, lit, inputs)[0].transfer.gain_e_per_dn, 2, 0.1);
+}
+
+// Half of whose pixels have no light, which is no pattern of the sensor.
+TEST_F(TransferFaults, PixelsThatWereNotRenderedDoNotCount) {
+  for (const char* end : {"tif", "png", "dng", "fits"}) {
+    Files dark;
+    Files lit;
+    for (const double seconds : {0.01, 0.01, 1.0, 1.0})
+      dark.push_back(cropped_frame(0, seconds, "0,0,32,64", end));
+    for (const double e : {300, 300, 1000, 1000, 3000, 3000, 6000, 6000})
+      lit.push_back(cropped_frame(e, 0.01, "0,0,32,64", end));
+    Inputs inputs;
+    const PhotonTransfer found = measure_transfer(dark, lit, inputs).at(0).transfer;
+    EXPECT_NEAR(found.gain_e_per_dn, 2, 3 * found.gain_standard_error) << end;
+    EXPECT_LT(found.gain_standard_error, 0.1) << end;
+    EXPECT_LT(found.prnu_percent, 1) << end;
+    EXPECT_NEAR(found.points[1].signal_dn, 500, 5) << end;
+  }
+}
+
+TEST_F(TransferFaults, FramesAreOfTheSamePixels) {
+  const Files dark{cropped_frame(0, 0.01, "0,0,32,64", "tif"), cropped_frame(0, 0.01, "0,0,32,64", "tif")};
+  const Files other{cropped_frame(300, 0.01, "0,0,32,60", "tif")};
+  refused(dark, {other[0], other[0]}, other[0], "has the very codes of the frame before it");
+  const Files lit{other[0], cropped_frame(300, 0.01, "0,0,32,60", "tif")};
+  refused(
+      dark, lit, lit[0],
+      "was rendered at the pixels 0,0,32,60, the first frame at 0,0,32,64: patterns are those of the same "
+      "pixels");
+  const Files one{cropped_frame(300, 0.01, "0,0,1,1", "tif")};
+  refused(one, lit, one[0], "has too few pixels in raw to tell noise (got 1, allowed 2 or more)");
 }
 
 // Of 4096 pixels 20 are 0.488 %, and 21 are 0.513 %.

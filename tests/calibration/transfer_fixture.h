@@ -13,6 +13,7 @@
 
 #include "calibration/chart/transfer_frames.h"
 #include "io/picture.h"
+#include "io/raw_picture.h"
 #include "sensor/readout/readout.h"
 #include "tests/calibration/calibration_fixture.h"
 
@@ -26,7 +27,8 @@ class PlantedFrames : public testing::Test {
   void SetUp() override { std::filesystem::create_directories(folder_); }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  /// A frame of a square sensor whose pixels expect these electrons, told by these attributes besides.
+  /// A frame of a square sensor whose pixels expect these electrons, told by these attributes besides; its
+  /// plane has the name of the channel that they tell.
   std::filesystem::path frame(const std::string& name, std::span<const float> electrons, double exposure_s,
                               double gain_e_per_dn, int bits,
                               const std::map<std::string, std::string>& attributes) const {
@@ -37,11 +39,40 @@ class PlantedFrames : public testing::Test {
     readout.offset_dn = 50;
     const RawFrame raw = read_out(readout, electrons, {exposure_s, std::hash<std::string>()(name), 0});
     const int edge = static_cast<int>(std::lround(std::sqrt(static_cast<double>(electrons.size()))));
-    Image image{edge, edge, {{"raw", {raw.dn.begin(), raw.dn.end()}}}, attributes};
+    const auto channel = attributes.find("sensor_channels");
+    Image image{edge,
+                edge,
+                {{channel == attributes.end() ? "raw" : channel->second, {raw.dn.begin(), raw.dn.end()}}},
+                attributes};
     image.metadata.insert({{"exposure_s", fmt::format("{}", exposure_s)},
                            {"sensor", fmt::format(R"({{"readout":{{"bits":{},"offset_dn":50}}}})", bits)}});
-    write_raw_picture(folder_ / name, image);
-    return folder_ / name;
+    return write(name, image);
+  }
+
+  /// Writes codes as a raw file of the kind that its name says, a DNG with a table of what they stand for.
+  std::filesystem::path write(const std::string& name, const Image& codes,
+                              const std::vector<std::uint16_t>& linear_codes = {}) const {
+    const std::filesystem::path path = folder_ / name;
+    if (!is_raw_picture(path)) {
+      write_raw_picture(path, codes);
+      return path;
+    }
+    RawPicture raw;
+    raw.width = codes.width;
+    raw.height = codes.height;
+    for (const ImageChannel& channel : codes.channels) raw.planes.push_back(channel.name);
+    raw.channels = raw.planes;
+    for (std::size_t i = 0; i < codes.pixels(); ++i)
+      for (const ImageChannel& channel : codes.channels)
+        raw.codes.push_back(static_cast<std::uint16_t>(channel.values[i]));
+    raw.white_level_dn = linear_codes.empty() ? 65535 : static_cast<double>(linear_codes.size() - 1);
+    raw.linear_codes = linear_codes;
+    raw.metadata = codes.metadata;
+    if (path.extension() == ".dng")
+      write_dng(path, raw);
+    else
+      write_fits(path, raw);
+    return path;
   }
 
   /// What `measure_transfer` must object to, in these words.

@@ -2,12 +2,29 @@
 
 #include <cmath>
 
+#include "calibration/chart/raw_scale.h"
 #include "tests/calibration/transfer_fixture.h"
 
 namespace abbe {
 namespace {
 
 namespace fs = std::filesystem;
+
+// Two areas of a film that was merged of parts, under a mosaic that begins at the film's corner.
+TEST(RawCodes, AreOfThePixelsThatWereRendered) {
+  Image image{4, 2, {{"raw", {}}}, {{"crop", "1,0,4,2"}, {"areas", "1,0,2,2=0:8 3,1,4,2=0:8"}}};
+  for (int code = 0; code < 8; ++code) image.channels[0].values.push_back(static_cast<float>(code) / 65535);
+  RawScale scale;
+  scale.channels = {"R", "G", "B"};
+  scale.mosaic = Mosaic{2, 2, {0, 1, 1, 2}};
+  const std::vector<ChannelCodes> found = raw_codes(image, scale);
+  ASSERT_EQ(found.size(), 3U);
+  EXPECT_EQ(found[0].dn, std::vector<double>{});
+  EXPECT_EQ(found[1].dn, std::vector<double>{1});
+  EXPECT_EQ(found[2].dn, (std::vector<double>{5, 7}));
+  scale.mosaic.reset();
+  EXPECT_EQ(raw_codes(image, scale)[0].dn, (std::vector<double>{1, 5, 7}));
+}
 
 class TransferFrames : public test::PlantedFrames {
  protected:
@@ -73,6 +90,93 @@ TEST_F(TransferFrames, ChannelsOfTheirOwnExposureAreDarkForIt) {
   Inputs inputs;
   for (const ChannelTransfer& one : measure_transfer(dark, lit, inputs))
     EXPECT_NEAR(one.transfer.dark_e_per_s, 500, 10) << one.channel;
+}
+
+// A grey sensor's channel has a name in all of them.
+TEST_F(TransferFrames, AnyKindOfFileTellsTheExposureOfAChannelsOwn) {
+  for (const char* end : {"tif", "png", "dng", "fits"}) {
+    const auto pair = [&](double electrons, double exposure_s) {
+      const std::vector<float> expected(64 * 64, static_cast<float>(electrons + 500 * 8 * exposure_s));
+      Files files;
+      for (const char* of : {"a", "b"}) {
+        const std::string name = fmt::format("{}_{}_{}.{}", electrons, exposure_s, of, end);
+        files.push_back(PlantedFrames::frame(name, expected, exposure_s, 2, 12,
+                                             {{"sensor_channels", "mono"},
+                                              {"white_level_dn", "4095"},
+                                              {"exposure_s.mono", fmt::format("{}", 8 * exposure_s)}}));
+      }
+      return files;
+    };
+    Files dark = pair(0, 0.01);
+    for (const fs::path& file : pair(0, 1)) dark.push_back(file);
+    Files lit = pair(500, 0.01);
+    for (const fs::path& file : pair(4000, 0.01)) lit.push_back(file);
+    Inputs inputs;
+    const std::vector<ChannelTransfer> found = measure_transfer(dark, lit, inputs);
+    ASSERT_EQ(found.size(), 1U) << end;
+    EXPECT_EQ(found[0].channel, "mono") << end;
+    EXPECT_NEAR(found[0].transfer.dark_e_per_s, 500, 40) << end;
+  }
+}
+
+// Codes of a curve, so coarse that one is 5/3 DN wide in the dark.
+class CurvedFrames : public TransferFrames {
+ protected:
+  CurvedFrames() {
+    readout_.gain_e_per_dn = 20;
+    readout_.bits = 8;
+    readout_.offset_dn = 15;
+    readout_.read_noise_e = 20;
+    readout_.response_curve = MonotoneCurve({{0, 0}, {0.5, 0.3}, {1, 1}});
+  }
+
+  Files pair(const std::string& end, double electrons, double exposure_s) const {
+    const std::vector<float> expected(256 * 256, static_cast<float>(electrons));
+    Files files;
+    for (const std::uint32_t of : {0U, 1U}) {
+      const RawFrame raw =
+          read_out(readout_, expected, {exposure_s, static_cast<std::uint64_t>(electrons), of});
+      Image image{256, 256, {{"mono", {raw.dn.begin(), raw.dn.end()}}}, {}};
+      image.metadata = {{"exposure_s", fmt::format("{}", exposure_s)},
+                        {"sensor_channels", "mono"},
+                        {"white_level_dn", "255"},
+                        {"sensor", fmt::format(R"({{"readout":{{"gain_e_per_dn":20,"bits":8,"offset_dn":15,)"
+                                               R"("response_curve":{}}}}})",
+                                               told_curve_)}};
+      files.push_back(
+          write(fmt::format("{}_{}_{}.{}", electrons, exposure_s, of, end), image, linear_codes(readout_)));
+    }
+    return files;
+  }
+
+  Readout readout_;
+  std::string told_curve_ = "[[0,0],[0.5,0.3],[1,1]]";
+};
+
+TEST_F(CurvedFrames, TellThePlantedSensorInAnyKindOfFile) {
+  std::vector<double> gains;
+  for (const char* end : {"tif", "png", "dng", "fits"}) {
+    Files dark = pair(end, 0, 0.01);
+    for (const fs::path& file : pair(end, 0, 1)) dark.push_back(file);
+    Files lit;
+    for (const double e : {300.0, 600.0, 1200.0, 1800.0, 2400.0, 3000.0, 3600.0, 8000.0})
+      for (const fs::path& file : pair(end, e, 0.01)) lit.push_back(file);
+    Inputs inputs;
+    const PhotonTransfer found = measure_transfer(dark, lit, inputs).at(0).transfer;
+    EXPECT_NEAR(found.gain_e_per_dn, 20, 2.58 * found.gain_standard_error) << end;
+    EXPECT_NEAR(found.read_noise_e, 20, 2.58 * found.read_noise_standard_error.value()) << end;
+    EXPECT_LT(found.gain_standard_error, 0.2) << end;
+    EXPECT_LT(found.read_noise_standard_error.value(), 0.4) << end;
+    gains.push_back(found.gain_e_per_dn);
+  }
+  EXPECT_EQ(gains, std::vector<double>(4, gains[0]));
+}
+
+TEST_F(CurvedFrames, AreOfOneCurve) {
+  const Files dark = pair("tif", 0, 0.01);
+  told_curve_ = "[[0,0],[0.5,0.4],[1,1]]";
+  refused(dark, pair("tif", 300, 0.01),
+          "has another response curve, offset_dn or saturation_dn than the first frame");
 }
 
 TEST_F(TransferFrames, ObjectsInSentences) {

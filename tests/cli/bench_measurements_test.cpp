@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
 #include <numbers>
 
 #include <fmt/format.h>
@@ -147,6 +150,40 @@ TEST(Mtf, CodesThatNobodyCallsLinearAreWarnedOf) {
   write_raw_picture(file("codes.tif"), image);
   for (const std::string& linear : {file("edge.exr"), file("codes.tif")})
     EXPECT_EQ(abbe("mtf " + linear).err, "") << linear;
+}
+
+// Codes that light above a level has no more are no edge of the light.
+TEST(Mtf, ASaturatedEdgeIsWarnedOf) {
+  const Image edge = read_exr(blurred_edge(0.7));
+  const auto warning_of = [&](const std::string& name, const std::map<std::string, std::string>& told,
+                              const std::function<double(double)>& code) {
+    Image image{edge.width, edge.height, {*edge.find("G")}, told};
+    for (float& value : image.channels[0].values)
+      value = static_cast<float>(std::round(code(static_cast<double>(value))));
+    write_raw_picture(file(name), image);
+    return abbe("mtf " + file(name)).err;
+  };
+  const std::string warning = "abbe: warning: {}: the bright side of the edge {} saturated (got ";
+  const std::string told_level =
+      " % of its pixels at the white level or above, allowed 1 %), so that its "
+      "mtf is not that of the light: expose it less\n";
+  const auto cut_at = [](double highest, double scale = 6000) {
+    return [=](double value) { return std::min(highest, scale * value); };
+  };
+  const std::map<std::string, std::string> told{{"sensor", R"({"readout":{"bits":12}})"},
+                                                {"white_level_dn", "3500"}};
+  for (const double well : {3500.0, 3510.0}) {
+    const std::string full = warning_of("well.tif", told, cut_at(well));
+    EXPECT_TRUE(full.starts_with(fmt::format(fmt::runtime(warning), file("well.tif"), "is"))) << full;
+    EXPECT_TRUE(full.ends_with(told_level)) << full;
+  }
+  EXPECT_EQ(warning_of("below.tif", told, cut_at(3499)), "") << "the well is not full";
+  EXPECT_EQ(warning_of("hot.tif", told,
+                       [hot = 0](double value) mutable { return hot++ % 1000 == 0 ? 4095 : 3000 * value; }),
+            "");
+  const std::string shown = warning_of("shown.png", {}, cut_at(65535, 100000));
+  EXPECT_TRUE(shown.starts_with(fmt::format(fmt::runtime(warning), file("shown.png"), "may be"))) << shown;
+  EXPECT_NE(shown.find(" % of its pixels at the highest code, allowed 1 %)"), std::string::npos) << shown;
 }
 
 // What a film has not is black, and so an edge of its own.

@@ -141,6 +141,9 @@ TEST(CalibrateRaw, ScalesThatDoNotFitAreNamed) {
   MeasuredPatches raw{{"grey"}, {{300, 300, 300}}, {}, kNumbersAboveBlack};
   EXPECT_EQ(fault([&] { scale_to_codes(raw, {}, "m.csv"); }, "m.csv: its values are digital numbers above"),
             ErrorCode::input);
+  MeasuredPatches clipped{{"grey"}, {{300, 300, 4003}}, {}, kNumbersAboveBlack, {"grey"}};
+  scale_to_codes(clipped, 4000, "m.csv");  // which is left out, so that nothing hinges on it
+  EXPECT_EQ(clipped.values[0][0], 0.075);
   MeasuredPatches other{{"grey"}, {{0.3, 0.3, 300}}};
   EXPECT_EQ(
       fault([&] { scale_to_codes(other, 4000, "m.csv"); }, "patch \"grey\" has a value of 300 (allowed"),

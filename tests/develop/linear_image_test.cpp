@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 
@@ -189,7 +190,7 @@ TEST(LinearImage, BlackIsTheSameInEveryKindOfRawFile) {
   for (const char* name : {"a.dng", "a.fits", "a.tif"}) {
     const LinearImage read = read_linear_image(folder / name);
     EXPECT_EQ(read.image.channels[0].values, linear) << name;
-    EXPECT_EQ(read.saturation, 3850 - raw.black_level_dn) << name;
+    EXPECT_EQ(read.saturation, static_cast<double>(static_cast<float>(3850 - raw.black_level_dn))) << name;
   }
   raw.metadata.erase("black_level_dn");
   write_dng(folder / "a.dng", raw);
@@ -197,6 +198,29 @@ TEST(LinearImage, BlackIsTheSameInEveryKindOfRawFile) {
               static_cast<double>(linear[0]), 1e-4)
       << "as other programs tell it";
   fs::remove_all(folder);
+}
+
+// Black between two codes makes of every code a number that is rounded, up or down.
+TEST(LinearImage, TheCodeOfWhiteIsSaturatedWhateverBlackIs) {
+  const fs::path path = fs::path(testing::TempDir()) / ("abbe_white_" + std::to_string(::getpid()) + ".tif");
+  for (int tenths = 0; tenths < 10; ++tenths) {
+    const double black = 600 + tenths / 10.0;
+    write_raw_picture(path, {2,
+                             1,
+                             {{"raw", {16382, 16383}}},
+                             {{"sensor_channels", "raw"},
+                              {"black_level_dn", fmt::format("{}", black)},
+                              {"white_level_dn", "16383"}}});
+    LinearImage read = read_linear_image(path);
+    const PatchOutline all{"all", {Imath::V2d(0, 0), {2, 0}, {2, 1}, {0, 1}}};
+    EXPECT_EQ(measure_patches(read.image, read.planes(), std::array{all})[0].channels[0].saturated, 1U)
+        << black;
+    const LinearImage flat = read;
+    EXPECT_EQ(refusal([&] { flat_field(read, flat, "f.tif"); }),
+              "f.tif: the flat is saturated (got 50 % of its pixels, allowed 1 %): expose it less")
+        << black;
+  }
+  fs::remove(path);
 }
 
 // A TIFF of four planes whose fourth a tag calls alpha: 1, which colours are multiplied by, or 2.

@@ -91,6 +91,19 @@ TEST(Dng, PlanesReadBackAreThoseWritten) {
   EXPECT_EQ(others.codes, raw.codes);
 }
 
+TEST(Dng, OnePlaneHasTheNameOfItsSensorsChannel) {
+  RawPicture raw;
+  raw.width = raw.height = 1;
+  raw.planes = raw.channels = {"mono"};
+  raw.codes = {300};
+  EXPECT_EQ(read_back(raw).planes, std::vector<std::string>{"raw"}) << "where it tells none";
+  raw.metadata = {{"sensor_channels", "mono"}};
+  EXPECT_EQ(read_back(raw).planes, raw.planes);
+  EXPECT_EQ(read_back(raw).channels, raw.channels);
+  raw.metadata = {{"sensor_channels", "M,R,G"}};
+  EXPECT_EQ(read_back(raw).planes, std::vector<std::string>{"raw"}) << "of a picture made of three";
+}
+
 TEST(Dng, FiltersOfOtherNamesKeepTheirOwnOrder) {
   RawPicture raw = one_pixel({kGreen, kRed, kBlue});
   raw.channels = {"G", "M", "Y"};

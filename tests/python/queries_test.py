@@ -128,7 +128,7 @@ class Queries(Test):
         wavelengths = numpy.ma.array([500.0, 600.0], mask=[False, True])
         grid = [500.0, 600.0]
         for call in (lambda: abbe.ior("N-BK7", wavelengths), lambda: abbe.illuminant("A", wavelengths), lambda: abbe.reflectance("N-BK7", 550, wavelengths),
-                     lambda: abbe.color("D65", (grid, numpy.ma.array([0.5, 0.9], mask=[False, True])))):
+                     lambda: abbe.ior("N-BK7", [grid, wavelengths]), lambda: abbe.color("D65", (grid, numpy.ma.array([0.5, 0.9], mask=[False, True])))):
             with self.assertRaisesRegex(abbe.UsageError, r"^masked elements have no value \(got 1 of 2 masked, allowed none\)$"):
                 call()
         unmasked = numpy.ma.array(grid, mask=[False, False])

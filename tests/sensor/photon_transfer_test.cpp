@@ -75,6 +75,98 @@ TEST(PhotonTransfer, AWellThatIsNotFilledIsNotKnown) {
   EXPECT_FALSE(transfer(bench, readout.bits).full_well_e);
 }
 
+// 240 codes of 5/3 DN each up to the middle of the signal, and of 5/7 DN beyond.
+Readout curved(double gain_e_per_dn, double read_noise_e) {
+  Readout readout;
+  readout.gain_e_per_dn = gain_e_per_dn;
+  readout.bits = 8;
+  readout.offset_dn = 15;
+  readout.read_noise_e = read_noise_e;
+  readout.response_curve = MonotoneCurve({{0, 0}, {0.5, 0.3}, {1, 1}});
+  return readout;
+}
+
+TEST(CodeLevels, AreTheSignalsThatACurveMakesOneCodeOf) {
+  const std::vector<CodeLevel> levels = code_levels(curved(20, 20));
+  const auto expect = [&](std::size_t code, double low, double high) {
+    EXPECT_NEAR(levels[code].signal_dn, (low + high) / 2, 1e-9) << code;
+    EXPECT_NEAR(levels[code].rounding_dn2, (high - low) * (high - low) / 12, 1e-9) << code;
+  };
+  expect(15, 15 - 5.0 / 6, 15 + 5.0 / 6);
+  expect(17, 15 + 5.0 / 6, 15 + 15.0 / 6);                // of 16, 16.67 on a straight line
+  expect(135, 135 - 5.0 / 6, 135 + 5.0 / 14);             // where the curve bends
+  expect(139, 135 + 5.0 / 7 * 4.5, 135 + 5.0 / 7 * 6.5);  // of 92 and of 93
+  expect(16, 15.5, 16.5);                                 // of none
+  Readout deep = curved(20, 20);
+  deep.offset_dn = 51;
+  const CodeLevel lowest = code_levels(deep)[0];
+  EXPECT_NEAR(lowest.signal_dn, 51 - 5.0 / 3 * 31, 1e-9) << "of 20; what is below is cut off at 0 as well";
+  EXPECT_NEAR(lowest.rounding_dn2, 25.0 / 9 / 12, 1e-9);
+}
+
+TEST(CodeLevels, OfAStraightResponseAreTheCodes) {
+  const std::vector<CodeLevel> levels = code_levels({});
+  ASSERT_EQ(levels.size(), 65536U);
+  for (const std::size_t code : {0U, 1000U, 65535U}) {
+    EXPECT_EQ(levels[code].signal_dn, static_cast<double>(code));
+    EXPECT_EQ(levels[code].rounding_dn2, 1.0 / 12);
+  }
+}
+
+// That of pairs whose codes are straightened as raw files are.
+PhotonTransfer straightened_transfer(const Readout& readout) {
+  const double most_e = electrons_of(readout, readout.highest_code());
+  const std::vector<std::uint16_t> straight = linear_codes(readout);
+  Bench bench{{readout}, {readout}};
+  bench.dark.pixels = bench.lit.pixels = 100000;
+  bench.lit.frame = 100;
+  for (const double seconds : {0.01, 1.0}) bench.dark.add(0, seconds);
+  for (const double share : {0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 1.6})
+    bench.lit.add(share * most_e, 0.01);
+  for (Flats* flats : {&bench.dark, &bench.lit})
+    for (RawFrame& frame : flats->frames)
+      for (std::uint16_t& code : frame.dn) code = straight.empty() ? code : straight[code];
+  return photon_transfer(bench.dark.pairs, bench.lit.pairs, readout.bits, code_levels(readout));
+}
+
+void expect_within_errors(const Readout& readout, const PhotonTransfer& found) {
+  constexpr double kStandardErrors = 2.58;  // 99 %
+  EXPECT_NEAR(found.gain_e_per_dn, readout.gain_e_per_dn, kStandardErrors * found.gain_standard_error);
+  EXPECT_NEAR(found.read_noise_e, readout.read_noise_e,
+              kStandardErrors * found.read_noise_standard_error.value());
+}
+
+// Where a code is 5/3 DN wide rounding adds 2.8 times 1/12 DN^2.
+TEST(PhotonTransfer, CodesOfAResponseCurveTellThePlantedSensor) {
+  Readout readout = curved(20, 20);
+  const PhotonTransfer coarse = straightened_transfer(readout);
+  expect_within_errors(readout, coarse);
+  EXPECT_LT(coarse.gain_standard_error, 0.005 * readout.gain_e_per_dn);
+  EXPECT_LT(coarse.read_noise_standard_error.value(), 0.01 * readout.read_noise_e);
+  readout.response_curve = MonotoneCurve({{0, 0}, {0.1, 0.4}, {0.4, 0.55}, {1, 1}});
+  readout.read_noise_e = 30;
+  const PhotonTransfer fine = straightened_transfer(readout);
+  expect_within_errors(readout, fine);
+  EXPECT_LT(fine.gain_standard_error, 0.005 * readout.gain_e_per_dn);
+}
+
+// 8 electrons are 0.4 codes: the mean of darkness lies on one, where rounding adds less than 1/12 DN^2.
+TEST(PhotonTransfer, NoiseThatIsNarrowerThanACodeIsKnownLess) {
+  Readout readout;
+  readout.gain_e_per_dn = 20;
+  readout.bits = 8;
+  readout.offset_dn = 15;
+  readout.read_noise_e = 8;
+  const PhotonTransfer narrow = straightened_transfer(readout);
+  EXPECT_LT(narrow.read_noise_e, 7.5);
+  expect_within_errors(readout, narrow);
+  readout.read_noise_e = 5;
+  readout.dsnu_e = 20;  // beside which some of what rounding adds is the same in each exposure
+  const PhotonTransfer patterned = straightened_transfer(readout);
+  EXPECT_LT(patterned.read_noise_e, 4.9);
+  expect_within_errors(readout, patterned);
+}
+
 // Noise alone gives some gain or other, which its standard error belies.
 TEST(PhotonTransfer, LitPairsThatAreDarkAreRefused) {
   Readout readout;

@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "io/error.h"
+#include "io/raw_picture.h"
+#include "test_files.h"
+
+// How FITS files are named, and where in them images and their texts are.
+
+namespace abbe {
+namespace {
+
+// A card holds 68 characters of a text.
+TEST(Fits, PlanesHaveTheirWholeNames) {
+  RawPicture raw;
+  raw.width = raw.height = 1;
+  for (int name = 450; name <= 700; name += 50) raw.planes.push_back("narrowband-0" + std::to_string(name));
+  raw.codes = {1, 2, 3, 4, 5, 6};
+  const auto path = test_folder() / "a.fits";
+  const auto read = [&] {
+    write_fits(path, raw);
+    return read_raw_picture(path).planes;
+  };
+  EXPECT_EQ(read(), raw.planes);
+  raw.planes = {std::string(40, 'a'), std::string(40, 'b')};
+  raw.codes = {1, 2};
+  EXPECT_EQ(read(), raw.planes) << "the last of which a card ends within";
+}
+
+// Some programs write 0 where they do not know it.
+TEST(Fits, SaturationBelowBlackIsUnknown) {
+  RawPicture raw;
+  raw.width = raw.height = 1;
+  raw.planes = {"mono"};
+  raw.codes = {300};
+  raw.black_level_dn = 100;
+  const auto path = test_folder() / "a.fits";
+  for (const double white : {0.0, 100.0, 4000.0}) {
+    raw.white_level_dn = white;
+    write_fits(path, raw);
+    EXPECT_EQ(read_raw_picture(path).white_level_dn, white > 100 ? white : 65535);
+  }
+}
+
+// Brackets ask most functions of the library for a part of a file.
+TEST(Fits, IsReadByItsVeryName) {
+  RawPicture raw;
+  raw.width = 2;
+  raw.height = 1;
+  raw.planes = {"mono"};
+  raw.codes = {300, 200};
+  for (const char* name : {"chart[1].fits", "a.fits[1:1,1:1].fits", "a(b).fits", "[2024].fits"}) {
+    const auto path = test_folder() / name;
+    write_fits(path, raw);
+    EXPECT_EQ(read_raw_picture(path).codes, raw.codes) << name;
+  }
+}
+
+// A header of these cards, or data, in blocks as FITS has them.
+std::string in_blocks(const std::vector<std::string>& cards) {
+  constexpr std::size_t kCard = 80;
+  constexpr std::size_t kBlock = 2880;
+  std::string block;
+  for (std::string card : cards) {
+    card.resize(kCard, ' ');
+    block += card;
+  }
+  block.resize((block.size() + kBlock - 1) / kBlock * kBlock, ' ');
+  return block;
+}
+
+// Many programs leave the first header empty.
+TEST(Fits, TheFirstImageWithPixelsIsRead) {
+  const std::string empty =
+      in_blocks({"SIMPLE  =                    T", "BITPIX  =                    8",
+                 "NAXIS   =                    0", "EXTEND  =                    T", "END"});
+  const std::string image =
+      in_blocks({"XTENSION= 'IMAGE   '", "BITPIX  =                   16", "NAXIS   =                    2",
+                 "NAXIS1  =                    2", "NAXIS2  =                    1",
+                 "PCOUNT  =                    0", "GCOUNT  =                    1", "END"});
+  std::string data{0, 5, 0, 7};
+  data.resize(2880, '\0');
+  const auto path = test_folder() / "a.fits";
+  put(path, empty + image + data);
+  const RawPicture read = read_raw_picture(path);
+  EXPECT_EQ(read.width, 2);
+  EXPECT_EQ(read.codes, (std::vector<std::uint16_t>{5, 7}));
+  put(path, empty);
+  try {
+    (void)read_raw_picture(path);
+    FAIL() << "there is none";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.what(), path.string() + ": no FITS image, or a damaged one");
+  }
+}
+
+}  // namespace
+}  // namespace abbe
