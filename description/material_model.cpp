@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <concepts>
 #include <utility>
 #include <vector>
@@ -229,8 +230,12 @@ const SourcePosition* where_absorption_is_said(const spec::TintedIor& said) {
   if (said.absorption_per_m) return &said.absorption_per_m->where;
   const auto* constant = std::get_if<spec::ConstantIor>(&said.ior.value);
   const auto* table = std::get_if<spec::TableIor>(&said.ior.value);
-  return (constant != nullptr && constant->k > 0) || (table != nullptr && table->k) ? &said.ior.where
-                                                                                    : nullptr;
+  const auto absorbs = [](const std::vector<double>& k) {
+    return std::ranges::any_of(k, [](double v) { return v > 0; });
+  };
+  return (constant != nullptr && constant->k > 0) || (table != nullptr && table->k && absorbs(*table->k))
+             ? &said.ior.where
+             : nullptr;
 }
 
 // The material of its first part and more, if that could be built.

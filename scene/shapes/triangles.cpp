@@ -26,10 +26,12 @@ TriangleSet completed(const S& shape) {
 constexpr double kMostShare = 0.25;  // of what makes 1: small shapes have no place further off their edges
 
 // In a quad, by the shares of its edges that lead to the point.
-Imath::V3d shift_off_sides(const std::vector<Imath::V3f>& corners, const Imath::V3d& point, double clear) {
-  const Imath::V3d corner(corners[0]);
-  const Imath::V3d u = Imath::V3d(corners[1]) - corner;
-  const Imath::V3d v = Imath::V3d(corners[2]) - corner;
+Imath::V3d shift_off_sides(const TriangleSet& quad, std::uint32_t half, const Imath::V3d& point,
+                           double clear) {
+  const auto& [a, b, c] = quad.triangles[half];  // a is the corner where its sides meet
+  const Imath::V3d corner(quad.vertices[a]);
+  const Imath::V3d u = Imath::V3d(quad.vertices[b]) - corner;
+  const Imath::V3d v = Imath::V3d(quad.vertices[c]) - corner;
   const Imath::V3d normal = u.cross(v);
   const double area = normal.length();
   if (!(area > 0)) return Imath::V3d(0);
@@ -75,7 +77,7 @@ std::size_t memory_bytes_of(const TriangleSet& set) {
 
 Imath::V3d shift_off_edges(const TriangleSet& set, std::uint32_t triangle, const Imath::V3d& point,
                            double clear) {
-  if (set.is_quad) return shift_off_sides(set.vertices, point, clear);
+  if (set.is_quad) return shift_off_sides(set, triangle, point, clear);
   std::array<Imath::V3d, 3> corner;
   for (std::size_t i = 0; i < 3; ++i) corner.at(i) = Imath::V3d(set.vertices[set.triangles[triangle].at(i)]);
   const Imath::V3d normal = (corner[1] - corner[0]).cross(corner[2] - corner[0]);

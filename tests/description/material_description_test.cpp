@@ -148,10 +148,12 @@ TEST_F(DescriptionTest, PanesAbsorbByTheirThickness) {
   };
   for (const char* absorbing :
        {R"({"n": 1.5, "k": 1e-6})", R"({"wavelength_nm": [400, 700], "n": [1.5, 1.5], "k": [0, 1e-6]})"})
-    EXPECT_NE(of_index(absorbing).find("/materials/pane/thin_glass/ior: warning: an absorption without effect"),
-              std::string::npos)
+    EXPECT_NE(
+        of_index(absorbing).find("/materials/pane/thin_glass/ior: warning: an absorption without effect"),
+        std::string::npos)
         << of_index(absorbing);
-  for (const char* clear : {R"({"n": 1.5, "k": 0})", R"("N-BK7")"})
+  for (const char* clear : {R"({"n": 1.5, "k": 0})", R"("N-BK7")",
+                            R"({"wavelength_nm": [400, 700], "n": [1.5, 1.5], "k": [0, 0]})"})
     EXPECT_EQ(of_index(clear).find("effect"), std::string::npos) << of_index(clear);
 }
 

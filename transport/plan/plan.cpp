@@ -29,7 +29,7 @@ std::vector<bool> traced_lights(const Scene& scene) {
 // How far [m] the nearest of what a lamp at a point lights is: a meter, and what rays along the axes meet;
 // not so near that what is lit evenly would be lost beside it.
 double nearest_lit(const Scene& scene, const Imath::V3f& lamp) {
-  constexpr double kLeast = 1e-6;  // of the scene's radius
+  constexpr double kLeast = 1e-3;  // of the scene's radius
   const double radius = scene_radius(scene.bounds);
   double nearest = radius;
   if (is_meter(scene.camera))

@@ -21,8 +21,8 @@ AlbedoReplicates exact_albedo(const Bsdf& bsdf, const Imath::V3f& wo) {
   return all;
 }
 
-// Reflectance and transmittance at many wavelengths, packet by packet, all by the same random numbers: what
-// is neutral stays so, and each replicate is a spectrum.
+// Reflectance and transmittance at many wavelengths, packet by packet, each by random numbers of its own:
+// errors average out over wavelengths.
 struct Spectra {
   std::vector<Replicates> reflected, transmitted;
 };
@@ -33,8 +33,9 @@ Spectra spectra(const Material& material, const std::vector<double>& wavelengths
     const SampledSpectrum packet = packet_of(wavelengths_nm, first);
     const Bsdf bsdf = make_bsdf(material, {packet});
     const AlbedoReplicates part =
-        scatters(bsdf) ? albedo_replicates(sampler_of(bsdf, wo, TransportMode::power), wo, samples)
-                       : exact_albedo(bsdf, wo);
+        scatters(bsdf)
+            ? albedo_replicates(sampler_of(bsdf, wo, TransportMode::power), wo, samples, first / kLanes)
+            : exact_albedo(bsdf, wo);
     for (std::size_t j = 0; j < kLanes && first + j < wavelengths_nm.size(); ++j) {
       all.reflected.push_back(part.reflected[j]);
       all.transmitted.push_back(part.transmitted[j]);
@@ -68,10 +69,10 @@ ScatteredColor color_of(const std::vector<Replicates>& visible, const Goniometer
           standard_error_of_Y(visible, settings)};
 }
 
-// Of fewer samples than R and T, as there are many wavelengths.
+// A colour is a mean over wavelengths, so that few samples of each are enough.
 void add_colors(const Material& material, const Imath::V3f& wo, const GoniometerSettings& settings,
                 GoniometerAngle& at) {
-  constexpr int kShare = 16;
+  constexpr int kShare = 32;
   constexpr int kLeast = 64;
   const Spectra found =
       spectra(material, visible_wavelengths(), wo, std::max(settings.samples / kShare, kLeast));
