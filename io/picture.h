@@ -8,10 +8,10 @@
 
 namespace abbe {
 
-/// Writes the first three channels (or the only one, as grey) as an 8-bit file: values are display code values
-/// in [0, 1], clamped and rounded, encoded as the attribute `kColorSpace` says, as sRGB without it. The format
-/// follows the extension (.png, .jpg, .tif); of encodings and primaries other than those of sRGB a PNG alone
-/// tells. Atomic; throws Error{output}.
+/// Writes the first three channels (or the only one, as grey) as an 8-bit file: values are display code
+/// values in [0, 1], clamped and rounded, encoded as the attribute `kColorSpace` says, as sRGB without it.
+/// The format follows the extension (.png, .jpg, .tif); of encodings and primaries other than those of sRGB a
+/// PNG alone tells. Atomic; throws Error{output}.
 void write_picture(const std::filesystem::path& path, const Image& image);
 
 /// The bytes `write_picture` would write to a file of that extension, as ".png". Throws Error{output}.

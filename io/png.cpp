@@ -73,7 +73,8 @@ Tags tags_of(const PictureHeader& header) {
   Tags tags{.is_srgb = space == "sRGB"};
   if (space == kLinear) tags.gamma = 1;
   if (space.starts_with(kGamma))
-    if (const auto power = parse_number(space.substr(std::string_view(kGamma).size()))) tags.gamma = 1 / *power;
+    if (const auto power = parse_number(space.substr(std::string_view(kGamma).size())))
+      tags.gamma = 1 / *power;
   if (!tags.gamma) return tags;
   for (const std::string& number : split(told(header, kPrimariesKey), ' '))
     tags.primaries.push_back(parse_number(number).value_or(0));
@@ -123,8 +124,8 @@ std::string encode_png(const std::string& path, const PictureHeader& header, con
   Png png;
   png.write = png_create_write_struct(PNG_LIBPNG_VER_STRING, &png, give_up, say_nothing);
   if (png.write != nullptr) png.info = png_create_info_struct(png.write);
-  const bool written = png.info != nullptr && write(png, header, tags_of(header), texts_of(header),
-                                                    pixels_of(header, codes));
+  const bool written =
+      png.info != nullptr && write(png, header, tags_of(header), texts_of(header), pixels_of(header, codes));
   png_destroy_write_struct(&png.write, &png.info);
   if (!written) throw Error(ErrorCode::output, path, "libpng: " + png.said);
   return std::move(png.bytes);
