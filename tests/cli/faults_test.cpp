@@ -189,7 +189,7 @@ TEST(Samples, ThoseTheFilmCannotHoldAreCountedAndTheirPixelsKept) {
     "sensor": {"resolution": [8, 6], "observer": "1931"},
     "materials": {"white": {"diffuse": {"reflectance": 0.8}}},
     "lights": [{"point": {"at": [0, 1e-12, 0]}, "emission": {"illuminant": "D65", "intensity": 1}}],
-    "shapes": [{"quad": {"corner": [-1e6, 0, -1e6], "edge_u": [0, 0, 2e6], "edge_v": [2e6, 0, 0]}, "material": "white"}],
+    "shapes": [{"quad": {"corner": [-1e3, 0, -1e3], "edge_u": [0, 0, 2e3], "edge_v": [2e3, 0, 0]}, "material": "white"}],
     "render": {"samples": 8}})");
   const std::string render =
       "render " + scene.string() + " --quiet -o " + file("near.exr") + " --stats " + file("near.stats");
