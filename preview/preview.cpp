@@ -104,13 +104,14 @@ PageAnswer Preview::state() const {
     const std::scoped_lock lock(progress_mutex_);
     progress = progress_;
   }
+  const bool ended = ended_;
   return json_page({{"scene", identity_.at("scene")},
-                    {"ended", ended_.load()},
+                    {"ended", ended},
                     {"share", progress.share},
                     {"samples_per_pixel", progress.samples},
                     {"samples_per_s", progress.rate},
                     {"elapsed_s", progress.elapsed_s},
-                    {"left_s", number_or_null(progress.left_s)},
+                    {"left_s", ended ? Json(0) : number_or_null(progress.left_s)},
                     {"relative_error", error_json(progress.error)},
                     {"error_samples_per_pixel", progress.error_samples},
                     {"picture", film_.number()},
