@@ -3,11 +3,13 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
+#include <filesystem>
 #include <map>
+#include <set>
 #include <sstream>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <unordered_map>
 #include <utility>
 
@@ -15,6 +17,7 @@
 #include <tiny_obj_loader.h>
 
 #include "description/meshes/mesh_formats.h"
+#include "description/meshes/obj_lines.h"
 #include "io/diagnostics.h"
 #include "io/text.h"
 
@@ -63,53 +66,6 @@ struct Obj {
     throw Refused();
   }
 };
-
-// What comes before a "#" that follows a blank, without blanks at its ends.
-std::string without_comment(std::string_view text) {
-  const std::size_t hash = std::min(text.find(" #"), text.find("\t#"));
-  return split(text.substr(0, hash), '\n')[0];
-}
-
-// The library takes a comment behind numbers for numbers. Names may have a "#" in them.
-void erase_comments(std::string& bytes) {
-  std::size_t kept = 0;
-  for (std::size_t begin = 0; begin < bytes.size();) {
-    const std::size_t end = std::min(bytes.find('\n', begin), bytes.size() - 1) + 1;
-    const std::string_view line = std::string_view(bytes).substr(begin, end - begin);
-    const std::size_t key = std::min(line.find_first_not_of(" \t"), line.size());
-    const bool named = line.substr(key).starts_with("usemtl") || line.substr(key).starts_with("mtllib");
-    std::size_t length = named ? line.size() : std::min(line.find('#'), line.size());
-    while (!named && length < line.size() && length > 0 &&
-           (line[length - 1] == ' ' || line[length - 1] == '\t'))
-      --length;
-    const bool cut = length < line.size() && line.back() == '\n';
-    std::memmove(&bytes[kept], &bytes[begin], length);
-    kept += length;
-    if (cut) bytes[kept++] = '\n';
-    begin = end;
-  }
-  bytes.resize(kept);
-}
-
-// Puts lines that a "\" at the end continues into one, and as many ends of lines behind it, so that lines
-// keep their numbers.
-void join_continued_lines(std::string& bytes) {
-  std::size_t kept = 0;
-  std::size_t joined = 0;
-  for (std::size_t i = 0; i < bytes.size(); ++i) {
-    const std::string_view rest = std::string_view(bytes).substr(i);
-    if (rest.starts_with("\\\n") || rest.starts_with("\\\r\n")) {
-      i = bytes.find('\n', i);
-      bytes[kept++] = ' ';
-      ++joined;
-      continue;
-    }
-    bytes[kept++] = bytes[i];
-    if (bytes[i] != '\n') continue;
-    for (; joined > 0; --joined) bytes[kept++] = '\n';
-  }
-  bytes.resize(kept);
-}
 
 // Numbers at the start of a text. The library takes what a word begins with, or 0, for what is none.
 template <std::size_t N>
@@ -310,15 +266,33 @@ bool check_colors(const std::string& name, const std::string& text, MeshReading&
   return true;
 }
 
+// The files that a line of these names: one, whose name may have blanks in it, where there is such a file, or
+// one for each of its words.
+std::vector<std::string> names_of_files(const std::string& line, const MeshReading& reading) {
+  std::error_code error;
+  if (std::filesystem::exists(reading.path.parent_path() / line, error)) return {line};
+  std::vector<std::string> names;
+  std::istringstream words(line);
+  for (std::string name; words >> name;) names.push_back(std::move(name));
+  return names;
+}
+
 /// Reads the .mtl files that an .obj names, through the check of their paths.
 class MaterialFiles : public tinyobj::MaterialReader {
  public:
   explicit MaterialFiles(const Obj& obj) : obj_(obj) {}
-  // The library cuts a name at its blanks, and asks for the pieces one by one.
+  // The library cuts a line at its blanks, and asks for the pieces one by one until one has been read.
   bool operator()(const std::string& /*piece*/, std::vector<tinyobj::material_t>* materials,
                   std::map<std::string, int>* numbers, std::string* warning, std::string* error) override {
+    for (const std::string& name : names_of_files(without_comment(obj_.rest()), obj_.reading))
+      if (read_.insert(name).second) read(name, materials, numbers, warning, error);
+    return true;
+  }
+
+ private:
+  void read(const std::string& name, std::vector<tinyobj::material_t>* materials,
+            std::map<std::string, int>* numbers, std::string* warning, std::string* error) {
     MeshReading& reading = obj_.reading;
-    const std::string name = without_comment(obj_.rest());
     std::string text;
     if (!read_named_bytes(name, text, reading) || !check_colors(name, text, reading)) throw Refused();
     std::istringstream stream(std::move(text));
@@ -329,11 +303,10 @@ class MaterialFiles : public tinyobj::MaterialReader {
       reading.file.materials.push_back(
           {m.name, {m.diffuse[0], m.diffuse[1], m.diffuse[2]}, std::nullopt, lost(m)});
     }
-    return true;
   }
 
- private:
   const Obj& obj_;
+  std::set<std::string> read_{};
 };
 
 // The faces with the vertices they name and no others.

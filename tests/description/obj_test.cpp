@@ -145,6 +145,28 @@ TEST_F(ObjTest, BringsItsMaterials) {
   EXPECT_EQ(own->materials.size(), 1U);
 }
 
+TEST_F(ObjTest, FilesOfMaterialsStandInOneLine) {
+  write(folder_ / "a.mtl", "newmtl red\nKd 1 0 0\n");
+  write(folder_ / "b.mtl", "newmtl blue\nKd 0 0 1\n");
+  const std::string faces = std::string(kCorners) + "usemtl red\nf 1 2 3\nusemtl blue\nf 1 2 4\n";
+  for (const char* lines : {"mtllib a.mtl b.mtl\n", "mtllib a.mtl\tb.mtl # two\r\nmtllib b.mtl\n",
+                            "mtllib a.mtl\nmtllib b.mtl a.mtl\n"}) {
+    SCOPED_TRACE(lines);
+    const MeshFile file = read("two.obj", lines + faces, FileMaterials::wanted);
+    ASSERT_EQ(file.materials.size(), 2U);
+    EXPECT_EQ(file.materials[0].name, "red");
+    EXPECT_EQ(file.materials[1].name, "blue");
+    EXPECT_EQ(file.others.size(), 2U);
+  }
+  write(folder_ / "a.mtl b.mtl", "newmtl red\nKd 1 1 1\nnewmtl blue\nKd 1 1 1\n");
+  const MeshFile one = read("two.obj", "mtllib a.mtl b.mtl\n" + faces, FileMaterials::wanted);
+  EXPECT_EQ(one.others.size(), 1U) << "a name with blanks";
+  expect_refused("bad.obj", {{"a second that is missing", "mtllib a.mtl gone.mtl\n", ErrorCode::input,
+                              "\"gone.mtl\", which it names: no such file"},
+                             {"a second beyond the folder", "mtllib a.mtl ../b.mtl\n", ErrorCode::input,
+                              "it may name files beside it only (got \"../b.mtl\")"}});
+}
+
 TEST_F(ObjTest, PartsHaveMaterialsOfTheScene) {
   test::write(folder_ / "two.obj",
               "mtllib chair.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nusemtl wood\nf 1 2 3\nf 1 2 4\n"
