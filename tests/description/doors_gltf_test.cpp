@@ -29,6 +29,16 @@ class GltfDoorTest : public test::DoorsTest {
                  materials + "]";
     return asset;
   }
+  // A triangle with coordinates and a normal map, whose texture info says more.
+  static std::string imaged(const std::string& uri, const std::string& info) {
+    Asset asset;
+    asset.primitive = R"("attributes": {"POSITION": 0, "TEXCOORD_0": 2}, "indices": 1, "material": 0)";
+    asset.accessors.back() = ',';
+    asset.accessors += R"({"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC2"}])";
+    asset.more = R"(, "materials": [{"normalTexture": {"index": 0)" + info +
+                 R"(}}], "textures": [{"source": 0}], "images": [{"uri": ")" + uri + "\"}]";
+    return asset.text();
+  }
   static const std::string& part(const spec::Scene& scene, std::size_t i) {
     return std::get<spec::MeshPart>(std::get<spec::MeshBody>(scene.shapes.at(i).kind).surface.value)
         .of_material.value;
@@ -99,6 +109,62 @@ TEST_F(GltfDoorTest, TexturesOfExtensionsAreToldToBeDropped) {
       R"({"name": "m", "extensions": {"KHR_materials_clearcoat": {"clearcoatFactor": 0.25, "clearcoatTexture": {"index": 0}}}})";
   ASSERT_TRUE(convert("a.gltf", two(coat + R"(, {"name": "n"})").text())) << told_;
   EXPECT_TRUE(tells("clearcoatTexture has no counterpart here: dropped")) << told_;
+}
+
+TEST_F(GltfDoorTest, ImagesAreNamedByUris) {
+  const auto file = [&](const std::string& uri) {
+    const auto made = convert("a.gltf", imaged(uri, ""));
+    EXPECT_TRUE(made) << told_;
+    return made ? std::get<spec::NormalMap>(made->materials.at(0).value.relief).file.image.value : "";
+  };
+  for (const char* name : {"my photo.exr", "50%.exr", "ü+1.exr"}) put_image(name, false);
+  EXPECT_EQ(file("my%20photo.exr"), "my photo.exr");
+  EXPECT_EQ(file("my photo.exr"), "my photo.exr");
+  EXPECT_EQ(file("%6dy photo%2Eexr"), "my photo.exr");
+  EXPECT_EQ(file("50%25.exr"), "50%.exr");
+  EXPECT_EQ(file("50%.exr"), "50%.exr");
+  EXPECT_EQ(file("%C3%BC+1.exr"), "ü+1.exr");
+}
+
+TEST_F(GltfDoorTest, CoordinatesOfAnImageAreThoseOfItsTransform) {
+  put_image("photo.exr", false);
+  const auto told_of = [&](const std::string& info) {
+    EXPECT_TRUE(convert("a.gltf", imaged("photo.exr", ", " + info))) << told_;
+    return tells("a second set of coordinates has no counterpart here: the first");
+  };
+  const auto transform = [](const std::string& set) {
+    return R"("extensions": {"KHR_texture_transform": {"scale": [1, 1])" + set + "}}";
+  };
+  EXPECT_TRUE(told_of(R"("texCoord": 1)"));
+  EXPECT_TRUE(told_of(transform(R"(, "texCoord": 1)")));
+  EXPECT_TRUE(told_of(R"("texCoord": 1, )" + transform("")));
+  EXPECT_FALSE(told_of(R"("texCoord": 1, )" + transform(R"(, "texCoord": 0)"))) << told_;
+  EXPECT_FALSE(told_of(transform(""))) << told_;
+}
+
+TEST_F(GltfDoorTest, PerspectiveCamerasComeFirst) {
+  const auto distance = [&](const std::string& cameras, int more) {
+    Asset asset = two(R"({"name": "m"}, {"name": "n"})");
+    asset.nodes =
+        R"([{"mesh": 0}, {"camera": 0, "translation": [0, 0, 5]}, {"camera": 1, "translation": [0, 0, 7]},
+        {"camera": 2, "translation": [0, 0, 9]}])";
+    asset.roots = more == 2 ? "[0, 1, 2, 3]" : "[0, 1]";
+    asset.more = R"(, "materials": [{"name": "m"}, {"name": "n"}], "cameras": [)" + cameras + "]";
+    const auto made = convert("a.gltf", asset.text());
+    EXPECT_TRUE(made) << told_;
+    return made ? std::get<spec::PinholeCamera>(made->camera->kind).view.from.z : 0;
+  };
+  const std::string flat =
+      R"({"type": "orthographic", "orthographic": {"xmag": 1, "ymag": 1, "znear": 1, "zfar": 9}})";
+  const std::string deep = R"({"type": "perspective", "perspective": {"yfov": 0.5, "znear": 1}})";
+  EXPECT_EQ(distance(flat + "," + deep + "," + deep, 2), 7);
+  EXPECT_TRUE(tells("a scene has one camera here: the first perspective one, if it has any (2 times)"))
+      << told_;
+  EXPECT_FALSE(tells("no counterpart")) << told_;
+  EXPECT_EQ(distance(deep + "," + flat + "," + deep, 2), 5);
+  EXPECT_EQ(distance(flat, 0), 5);
+  EXPECT_TRUE(tells("an orthographic camera has no counterpart here: perspective")) << told_;
+  EXPECT_FALSE(tells("one camera")) << told_;
 }
 
 TEST_F(GltfDoorTest, BinaryFilesAreOfVersion2) {

@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
+#include <string>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -24,6 +28,24 @@ std::string extension(std::string_view name, std::string_view key) {
   return fmt::format("extensions/KHR_{}/{}", name, key);
 }
 
+// The file that a URI names, without its percent-encoding (RFC 3986); a "%" without two hexadecimal digits
+// stays as it is.
+std::string file_of(std::string_view uri) {
+  std::string name;
+  for (std::size_t i = 0; i < uri.size(); ++i) {
+    const std::string_view digits = uri.substr(i + 1, 2);
+    const char* end = digits.data() + digits.size();
+    unsigned char byte = 0;
+    if (uri[i] == '%' && digits.size() == 2 && std::from_chars(digits.data(), end, byte, 16).ptr == end) {
+      name += static_cast<char>(byte);
+      i += digits.size();
+    } else {
+      name += uri[i];
+    }
+  }
+  return name;
+}
+
 // The image of a texture, as it lies on surfaces; nothing, after an error or a note, where there is none to
 // name.
 std::optional<spec::TextureFile> image(const JsonValue& info, const Document& document) {
@@ -35,9 +57,10 @@ std::optional<spec::TextureFile> image(const JsonValue& info, const Document& do
     door.note(info.where, "an image within the file has no name here: dropped");
     return std::nullopt;
   }
-  const auto path = document.file.parent_path() / uri;
+  const auto path = document.file.parent_path() / file_of(uri);
   if (!door.take_file(path, source->where)) return std::nullopt;
-  if (number(&info, "texCoord", 0, document) != 0)
+  const double coordinates = number(&info, "texCoord", 0, document);
+  if (number(&info, extension("texture_transform", "texCoord"), coordinates, document) != 0)
     door.note(info.where, "a second set of coordinates has no counterpart here: the first");
   spec::TextureFile file;
   file.image = {{door.name_of(path)}, info.where};

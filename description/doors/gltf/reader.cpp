@@ -29,11 +29,21 @@ using Imath::M44d;
 using Imath::V3d;
 using spec::Quantity;
 
+/// A camera and where it stands.
+struct View {
+  const JsonValue* camera;
+  M44d map;
+};
+
 /// What the nodes of the scene place.
 struct Placed {
   std::set<std::optional<std::size_t>> materials{};
-  bool has_camera = false;
+  std::vector<View> views{};
 };
+
+bool is_perspective(const View& view) {
+  return text(view.camera, "type", "perspective") == "perspective";
+}
 
 // Scale, then rotation, then translation, or the matrix, whose columns the format lists.
 M44d local_map(const JsonValue& node, const Document& document) {
@@ -50,13 +60,14 @@ M44d local_map(const JsonValue& node, const Document& document) {
   return map;
 }
 
-void set_view(const JsonValue& camera, const M44d& map, const Document& document) {
+void set_view(const View& view, const Document& document) {
   constexpr double kHeight = 720;
   Door& door = document.door;
+  const JsonValue& camera = *view.camera;
   GivenCamera given;
   given.where = camera.where;
-  given.to_world = scaling({1, 1, -1}) * map;  // it looks along -z
-  if (text(&camera, "type", "perspective") != "perspective")
+  given.to_world = scaling({1, 1, -1}) * view.map;  // it looks along -z
+  if (!is_perspective(view))
     door.note(camera.where, "an orthographic camera has no counterpart here: perspective");
   const double aspect =
       std::clamp(number(&camera, "perspective/aspectRatio", 4.0 / 3, document), 0.01, 100.0);
@@ -65,6 +76,17 @@ void set_view(const JsonValue& camera, const M44d& map, const Document& document
   given.resolution = {static_cast<std::int64_t>(std::lround(kHeight * aspect)),
                       static_cast<std::int64_t>(kHeight)};
   set_camera(given, door);
+}
+
+// The first perspective camera, or, where none is, the first.
+void choose_view(const std::vector<View>& views, const Document& document) {
+  const auto perspective = std::ranges::find_if(views, is_perspective);
+  const auto chosen = perspective == views.end() ? views.begin() : perspective;
+  set_view(*chosen, document);
+  for (auto view = views.begin(); view != views.end(); ++view)
+    if (view != chosen)
+      document.door.note(view->camera->where,
+                         "a scene has one camera here: the first perspective one, if it has any");
 }
 
 // From far enough along z to see a ball around all meshes.
@@ -189,13 +211,8 @@ Placed walk(const Document& document) {
     if (find(visit.node, "skin") != nullptr)
       document.door.note(visit.node->where,
                          "a skin has no counterpart here: the mesh stands as it is stored");
-    if (const JsonValue* camera = element(document, "cameras", find(visit.node, "camera"))) {
-      if (placed.has_camera)
-        document.door.note(camera->where, "a scene has one camera here: the first");
-      else
-        set_view(*camera, map, document);
-      placed.has_camera = true;
-    }
+    if (const JsonValue* camera = element(document, "cameras", find(visit.node, "camera")))
+      placed.views.push_back({camera, map});
     if (const JsonValue* light = element(document, "extensions/KHR_lights_punctual/lights",
                                          find(visit.node, "extensions/KHR_lights_punctual/light")))
       add_light(*light, map, document);
@@ -230,11 +247,12 @@ void read_scene(const Document& document) {
   Door& door = document.door;
   door.scene.sensor.emplace().counts = spec::StandardObserver{{{Observer::cie1931}, document.root.where}};
   const Placed placed = walk(document);
+  if (!placed.views.empty()) choose_view(placed.views, document);
   const std::vector<std::string> names = names_of_materials(document);
   for (const auto& material : placed.materials)
     add_shape(material, names[material.value_or(names.size() - 1)], document);
   if (door.diagnostics.has_errors()) return;
-  if (!placed.has_camera) set_default_view(document);
+  if (placed.views.empty()) set_default_view(document);
   const bool emits = std::ranges::any_of(door.scene.shapes, [](const spec::Shape& shape) {
     return std::get<spec::MeshBody>(shape.kind).emission.has_value();
   });
