@@ -339,12 +339,13 @@ TEST_F(PbrtTest, PatchesKeepTheirCoordinates) {
 
 TEST_F(PbrtTest, WhatImagesSayIsDoneOrTold) {
   put_image("photo.png", false);
-  const auto image = [&](const std::string& more, const std::string& use) {
-    return scene("Texture \"t\" \"spectrum\" \"imagemap\" \"string filename\" \"photo.png\" " + more +
-                 "\nMaterial \"diffuse\" " + use + " \"t\"\nShape \"sphere\"\n");
-  };
   const std::string paint = "\"texture reflectance\"";
   const std::string relief = "\"texture displacement\"";
+  const auto image = [&](const std::string& more, const std::string& use) {
+    const std::string kind = use == relief ? "float" : "spectrum";
+    return scene("Texture \"t\" \"" + kind + "\" \"imagemap\" \"string filename\" \"photo.png\" " + more +
+                 "\nMaterial \"diffuse\" " + use + " \"t\"\nShape \"sphere\"\n");
+  };
   const auto texture = [&](const std::string& more) {
     return std::get<spec::Texture>(
         std::get<spec::Diffuse>(image(more, paint).materials.at(0).value.model).reflectance);

@@ -319,7 +319,7 @@ TEST_F(PbrtTest, FaultsHaveTheirPlace) {
        "a.pbrt:5:1: error: unknown material \"difuse\"; did you mean \"diffuse\"?"},
       {"named material", kBegin + "NamedMaterial \"a\"\n", "a.pbrt:5:1: error: unknown material \"a\""},
       {"texture", kBegin + "Material \"diffuse\" \"texture reflectance\" \"t\"\nShape \"sphere\"\n",
-       "a.pbrt:5:20: error: unknown texture \"t\""},
+       "a.pbrt:5:20: error: unknown spectrum texture \"t\""},
       {"value", kBegin + "Shape \"sphere\" \"float radius\" x\n",
        "a.pbrt:5:31: error: expected a number of \"float radius\" (got \"x\")"},
       {"type", kBegin + "Shape \"sphere\" \"string radius\" \"x\"\n",

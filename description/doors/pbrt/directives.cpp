@@ -1,6 +1,11 @@
 #include "description/doors/pbrt/directives.h"
 
 #include <algorithm>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -13,10 +18,16 @@ namespace abbe::doors::pbrt {
 
 using Imath::M44d;
 
+namespace {
+
+const std::vector<std::string> kAttributeTargets{"light", "material", "medium", "shape", "texture"};
+
+}  // namespace
+
 bool Reader::transform(const Token& word) {
   M44d moved = state_.to_world;
   if (!apply_transform(word, tokens_, moved, door_)) return false;
-  if (active_) state_.to_world = moved;
+  if (state_.active) state_.to_world = moved;
   return true;
 }
 
@@ -41,8 +52,9 @@ bool Reader::active_transform(const Token& word) {
   if (name != "StartTime" && name != "EndTime" && name != "All")
     return door_.refuse(token ? token->where : word.where,
                         fmt::format("expected StartTime, EndTime or All (got \"{}\")", name));
-  active_ = name != "EndTime";
-  if (!active_) door_.note(word.where, "nothing moves during an exposure here: all stands as at its start");
+  state_.active = name != "EndTime";
+  if (!state_.active)
+    door_.note(word.where, "nothing moves during an exposure here: all stands as at its start");
   return true;
 }
 
@@ -63,18 +75,16 @@ bool Reader::attribute_begin(const Token& word) {
 
 bool Reader::attribute_end(const Token& word) {
   if (pushed_.empty()) return door_.refuse(word.where, fmt::format("{} without its beginning", word.text));
-  State before = std::move(pushed_.back().first);
+  state_ = std::move(pushed_.back().first);
   pushed_.pop_back();
-  if (word.text == "TransformEnd")
-    state_.to_world = before.to_world;
-  else
-    state_ = std::move(before);
   return true;
 }
 
 bool Reader::attribute(const Token& word) {
   Made of;
   if (!made(word, of)) return false;
+  if (std::ranges::find(kAttributeTargets, of.type) == kAttributeTargets.end())
+    return door_.refuse(word.where, unknown_name("target of attributes", of.type, kAttributeTargets));
   of.parameters.complete(state_.attributes[of.type]);
   state_.attributes[of.type] = of.parameters;
   return true;
@@ -117,7 +127,7 @@ bool Reader::object_instance(const Token& word) {
 bool Reader::world_begin(const Token& word) {
   if (in_world_) return door_.refuse(word.where, "a second WorldBegin");
   in_world_ = true;
-  active_ = true;
+  state_.active = true;
   set_picture(picture_, word.where, world_);
   state_.to_world = M44d();
   systems_["world"] = M44d();
@@ -129,8 +139,25 @@ bool Reader::include(const Token& word) {
   if (!texts(1, 1, word, name)) return false;
   if (name[0].ends_with(".gz"))
     return door_.refuse(word.where, fmt::format("\"{}\" is packed: unpack it first", name[0]));
-  tokens_.include(world_.folder / name[0], word.where);
+  const std::filesystem::path file = world_.folder / name[0];
+  if (word.text == "Include") {
+    tokens_.include(file, word.where);
+    return !tokens_.failed();
+  }
+  if (!in_world_) return door_.refuse(word.where, "an Import before WorldBegin");
+  importing_.push_back({state_, std::exchange(pushed_, {}), std::exchange(systems_, {})});
+  tokens_.import_file(file, word.where);
   return !tokens_.failed();
+}
+
+bool Reader::end_import() {
+  if (!blocks_ended()) return false;
+  Kept& kept = importing_.back();
+  state_ = std::move(kept.state);
+  pushed_ = std::move(kept.pushed);
+  systems_ = std::move(kept.systems);
+  importing_.pop_back();
+  return true;
 }
 
 bool Reader::colour_space(const Token& word) {
@@ -178,7 +205,7 @@ bool Reader::material(const Token& word) {
 }
 
 bool Reader::make_named_material(const Token& word) {
-  return named(word, world_.materials);
+  return named(word, state_.attributes["material"], world_.materials);
 }
 
 bool Reader::named_material(const Token& word) {
@@ -190,7 +217,7 @@ bool Reader::named_material(const Token& word) {
 }
 
 bool Reader::make_named_medium(const Token& word) {
-  return named(word, world_.media);
+  return named(word, state_.attributes["medium"], world_.media);
 }
 
 bool Reader::medium_interface(const Token& word) {
@@ -204,10 +231,14 @@ bool Reader::medium_interface(const Token& word) {
 bool Reader::texture(const Token& word) {
   std::vector<std::string> names;
   if (!texts(3, 3, word, names)) return false;
+  static const std::map<std::string, TextureKind> kKinds{{"float", TextureKind::number},
+                                                         {"spectrum", TextureKind::spectrum}};
+  const TextureKind* kind = find(kKinds, "type of texture", names[1], word.where, door_);
   auto parameters = Parameters::read(tokens_, door_);
-  if (!parameters) return false;
+  if (kind == nullptr || !parameters) return false;
+  parameters->complete(state_.attributes["texture"]);
   const Made thing{names[2], *std::move(parameters), word.where};
-  world_.textures[names[0]] = texture_of(thing, world_);
+  world_.textures[*kind][names[0]] = texture_of(thing, *kind, world_);
   thing.parameters.note_unused(fmt::format("texture \"{}\"", thing.type), door_);
   return true;
 }

@@ -18,12 +18,20 @@ namespace abbe::doors::pbrt {
 /// What attributes hold at a place of the file.
 struct State {
   Imath::M44d to_world{};
+  bool active = true;  ///< Transforms change what is at the start of the exposure.
   bool reversed = false;
   MaterialUse material{{"diffuse"}, "", ""};
   std::optional<Made> area_light{};
   std::string inside{};
   std::string outside{};
   std::map<std::string, Parameters> attributes{};  // by what has them
+};
+
+/// What an imported file leaves as it is, whatever it says.
+struct Kept {
+  State state;
+  std::vector<std::pair<State, SourcePosition>> pushed;
+  std::map<std::string, Imath::M44d> systems;
 };
 
 /// Follows the directives of a file.
@@ -41,7 +49,10 @@ class Reader {
 
   bool texts(std::size_t least, std::size_t most, const Token& word, std::vector<std::string>& to);
   bool made(const Token& word, Made& to);
-  bool named(const Token& word, std::map<std::string, Made>& to);
+  bool named(const Token& word, const Parameters& attributes, std::map<std::string, Made>& to);
+  bool blocks_ended() const {
+    return pushed_.empty() || door_.refuse(pushed_.back().second, "begins here and does not end");
+  }
   bool outside_object(const Token& word) {
     return object_ ? door_.refuse(word.where, fmt::format("{} within an object", word.text)) : true;
   }
@@ -60,6 +71,7 @@ class Reader {
   bool object_instance(const Token& word);
   bool world_begin(const Token& word);
   bool include(const Token& word);
+  bool end_import();
   bool colour_space(const Token& word);
   bool option(const Token& word);
   bool camera(const Token& word);
@@ -81,10 +93,10 @@ class Reader {
   State state_{};
   std::vector<std::pair<State, SourcePosition>> pushed_{};
   std::map<std::string, Imath::M44d> systems_{};
+  std::vector<Kept> importing_{};
   std::optional<schema::Named<spec::Object>> object_{};
   std::vector<std::string> empty_objects_{};
   Picture picture_{};
-  bool active_ = true;
   bool in_world_ = false;
 };
 

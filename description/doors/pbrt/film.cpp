@@ -70,6 +70,19 @@ double window_half(const Made& camera, const std::array<std::int64_t, 2>& resolu
   return std::min(half_x, half_y);
 }
 
+// There brightness goes with the time that the shutter is open.
+void note_exposure(const Made& camera, Door& door) {
+  const double opens = camera.parameters.number("shutteropen", 0, door);
+  const double closes = camera.parameters.number("shutterclose", 1, door);
+  if (!(closes > opens))
+    door.diagnostics.error(camera.where,
+                           fmt::format("the shutter closes before it opens (got {} and {})", closes, opens));
+  else if (closes - opens != 1)
+    door.note(camera.where, fmt::format("a shutter that is open for {:.6g} makes a picture as many times as "
+                                        "bright there: its times are dropped",
+                                        closes - opens));
+}
+
 void set_view(const Picture& picture, World& world) {
   Door& door = world.door;
   const Made& camera = *picture.camera;
@@ -100,7 +113,7 @@ void set_view(const Picture& picture, World& world) {
   given.fov_deg = 2 * std::atan(half) / kDegree;
   given.lens_radius = p.number("lensradius", 0, door);
   given.focus_distance = p.number("focaldistance", 1e6, door);
-  p.ignore({"shutteropen", "shutterclose"});
+  note_exposure(camera, door);
   p.note_unused("camera", door);
   set_camera(given, door);
 }

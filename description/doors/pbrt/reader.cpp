@@ -54,6 +54,10 @@ const std::map<std::string, Reader::Directive>& Reader::directives() {
 
 bool Reader::read() {
   while (const auto word = tokens_.next()) {
+    if (word->ends_import()) {
+      if (!end_import()) return false;
+      continue;
+    }
     const auto known = word->quoted ? directives().end() : directives().find(word->text);
     if (known == directives().end()) {
       std::vector<std::string> names;
@@ -63,7 +67,7 @@ bool Reader::read() {
     if (!(this->*known->second)(*word)) return false;
   }
   if (tokens_.failed()) return false;
-  if (!pushed_.empty()) return door_.refuse(pushed_.back().second, "begins here and does not end");
+  if (!blocks_ended()) return false;
   if (object_) return door_.refuse(object_->where, "an object begins here and does not end");
   if (!in_world_) return door_.refuse(tokens_.end(), "the file ends before WorldBegin");
   return !door_.diagnostics.has_errors();
@@ -88,9 +92,10 @@ bool Reader::made(const Token& word, Made& to) {
 }
 
 // A thing whose type is among its parameters.
-bool Reader::named(const Token& word, std::map<std::string, Made>& to) {
+bool Reader::named(const Token& word, const Parameters& attributes, std::map<std::string, Made>& to) {
   Made thing;
   if (!made(word, thing)) return false;
+  thing.parameters.complete(attributes);
   const std::string name = std::exchange(thing.type, thing.parameters.text("type", "", door_));
   if (thing.type.empty())
     door_.diagnostics.error(word.where, fmt::format("{} needs \"string type\"", word.text));

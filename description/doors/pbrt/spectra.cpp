@@ -68,7 +68,12 @@ std::optional<Spectrum> file_or_name(const std::string& name, const SourcePositi
   }
   if (const auto shipped = renamed(kMetals, metal)) return index_samples(*shipped, extinction, where, world);
   if (const auto glass = renamed(kGlasses, name)) return index_samples(*glass, false, where, world);
-  if (name.find('.') != std::string::npos) return read_spectrum_file(world.folder / name, where, world.door);
+  if (name.find('.') != std::string::npos) {
+    auto samples = read_spectrum_file(world.folder / name, where, world.door);
+    if (!samples) return std::nullopt;
+    samples->outside = Outside::zero;
+    return *samples;
+  }
   std::vector<std::string> names;
   add_names(kIlluminants, names);
   for (const Renamed& entry : kMetals) add_metal(entry.theirs, names);
@@ -84,7 +89,7 @@ std::optional<Spectrum> spectrum_of(const Parameter& parameter, World& world) {
   if (parameter.type == "rgb" || parameter.type == "color")
     return LinearRgb{parameter.numbers[0], parameter.numbers[1], parameter.numbers[2]};
   if (!parameter.texts.empty()) return file_or_name(parameter.texts.front(), parameter.where, world);
-  Samples samples;
+  Samples samples{{}, {}, Outside::zero};
   for (std::size_t i = 0; i + 1 < parameter.numbers.size(); i += 2) {
     samples.nm.push_back(parameter.numbers[i]);
     samples.values.push_back(parameter.numbers[i + 1]);
@@ -100,9 +105,16 @@ std::optional<Spectrum> spectrum_of(const Parameter& parameter, World& world) {
   return samples;
 }
 
+// The texture of that kind and name; an unknown one is reported.
+const TextureValue* find_texture(TextureKind kind, const std::string& name, const SourcePosition& where,
+                                 World& world) {
+  const char* what = kind == TextureKind::number ? "float texture" : "spectrum texture";
+  return find(world.textures[kind], what, name, where, world.door);
+}
+
 // A texture times a factor.
-TextureValue scaled_texture(const Made& made, World& world) {
-  TextureValue value = texture(made.parameters, "tex", 1.0, world);
+TextureValue scaled_texture(const Made& made, TextureKind kind, World& world) {
+  TextureValue value = texture(made.parameters, "tex", 1.0, kind, world);
   const double factor = number(made.parameters, "scale", 1, world);
   if (auto* spectrum = std::get_if<Spectrum>(&value)) return scaled(*spectrum, factor);
   if (factor != 1) world.door.note(made.where, "an image's scale has no counterpart here: dropped");
@@ -111,9 +123,9 @@ TextureValue scaled_texture(const Made& made, World& world) {
 
 }  // namespace
 
-TextureValue texture_of(const Made& made, World& world) {
-  if (made.type == "constant") return texture(made.parameters, "value", 1.0, world);
-  if (made.type == "scale") return scaled_texture(made, world);
+TextureValue texture_of(const Made& made, TextureKind kind, World& world) {
+  if (made.type == "constant") return texture(made.parameters, "value", 1.0, kind, world);
+  if (made.type == "scale") return scaled_texture(made, kind, world);
   if (made.type == "imagemap") {
     const auto file = image_file(made.parameters, made.where, world);
     if (!file) return Spectrum(0.5);
@@ -125,7 +137,7 @@ TextureValue texture_of(const Made& made, World& world) {
   world.door.note(made.where,
                   fmt::format("a texture \"{}\" has no counterpart here: one value in its place", made.type));
   for (const std::string_view first : {"tex1", "inside", "value"})
-    if (made.parameters.has(first)) return texture(made.parameters, first, 0.5, world);
+    if (made.parameters.has(first)) return texture(made.parameters, first, 0.5, kind, world);
   return Spectrum(0.5);
 }
 
@@ -136,12 +148,12 @@ Spectrum spectrum(const Parameters& parameters, std::string_view name, const Spe
 }
 
 TextureValue texture(const Parameters& parameters, std::string_view name, const Spectrum& absent,
-                     World& world) {
+                     TextureKind kind, World& world) {
   const Parameter* found =
       parameters.find(name, {"float", "rgb", "color", "blackbody", "spectrum", "texture"}, world.door);
   if (found == nullptr) return absent;
   if (found->type != "texture") return spectrum_of(*found, world).value_or(absent);
-  const TextureValue* known = find(world.textures, "texture", found->texts.front(), found->where, world.door);
+  const TextureValue* known = find_texture(kind, found->texts.front(), found->where, world);
   return known ? *known : TextureValue(absent);
 }
 
@@ -149,13 +161,13 @@ spec::Reflectance reflectance(const Parameters& parameters, std::string_view nam
                               World& world) {
   const Parameter* found =
       parameters.find(name, {"float", "rgb", "color", "spectrum", "texture"}, world.door);
-  TextureValue value = texture(parameters, name, absent, world);
+  TextureValue value = texture(parameters, name, absent, TextureKind::spectrum, world);
   if (auto* image = std::get_if<spec::Texture>(&value)) return *image;
   return curve_of(std::get<Spectrum>(value), found ? found->where : SourcePosition{}, world.door);
 }
 
 double number(const Parameters& parameters, std::string_view name, double absent, World& world) {
-  const TextureValue value = texture(parameters, name, absent, world);
+  const TextureValue value = texture(parameters, name, absent, TextureKind::number, world);
   if (const auto* spectrum = std::get_if<Spectrum>(&value)) return number_of(*spectrum).value_or(absent);
   const Parameter* found = parameters.find(name, {"texture"}, world.door);
   world.door.note(found->where,
@@ -164,7 +176,7 @@ double number(const Parameters& parameters, std::string_view name, double absent
 }
 
 std::optional<spec::TextureFile> image(const std::string& name, const SourcePosition& where, World& world) {
-  const TextureValue* known = find(world.textures, "texture", name, where, world.door);
+  const TextureValue* known = find_texture(TextureKind::number, name, where, world);
   if (known == nullptr) return std::nullopt;
   if (const auto* texture = std::get_if<spec::Texture>(known)) {
     if (holds_codes(texture->file.image.value) && std::holds_alternative<spec::Rgb>(texture->of))

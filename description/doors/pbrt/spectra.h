@@ -9,14 +9,14 @@
 
 namespace abbe::doors::pbrt {
 
-/// What a texture says; of what has no counterpart, which is noted, one value.
-[[nodiscard]] TextureValue texture_of(const Made& made, World& world);
+/// What a texture of a kind says; of what has no counterpart, which is noted, one value.
+[[nodiscard]] TextureValue texture_of(const Made& made, TextureKind kind, World& world);
 /// The spectrum of a parameter: `absent` without it and after an error, such as an unknown name.
 [[nodiscard]] Spectrum spectrum(const Parameters& parameters, std::string_view name, const Spectrum& absent,
                                 World& world);
-/// The same of a parameter that may name a texture.
+/// The same of a parameter that may name a texture of that kind.
 [[nodiscard]] TextureValue texture(const Parameters& parameters, std::string_view name,
-                                   const Spectrum& absent, World& world);
+                                   const Spectrum& absent, TextureKind kind, World& world);
 [[nodiscard]] spec::Reflectance reflectance(const Parameters& parameters, std::string_view name,
                                             double absent, World& world);
 /// A number, or what a texture says of it where it says one only.

@@ -41,6 +41,11 @@ void Tokens::include(const std::filesystem::path& file, const SourcePosition& wh
   }
 }
 
+void Tokens::import_file(const std::filesystem::path& file, const SourcePosition& where) {
+  include(file, where);
+  if (!failed_) files_.back().imported = true;
+}
+
 std::optional<Token> Tokens::next() {
   if (!peeked_) return read();
   return std::exchange(peeked_, std::nullopt);
@@ -58,7 +63,9 @@ std::optional<Token> Tokens::read() {
     file.at = std::min(text.find_first_not_of(kBlanks, file.at), text.size());
     end_ = {file.source, file.at, ""};
     if (file.at == text.size()) {
+      const bool imported = file.imported;
       files_.pop_back();
+      if (imported) return Token{"", false, end_};
     } else if (text[file.at] == '#') {
       file.at = std::min(text.find('\n', file.at), text.size());
     } else if (text[file.at] == '"') {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "description/doors/shared/door.h"
@@ -18,6 +19,8 @@ struct Token {
   SourcePosition where;
 
   [[nodiscard]] bool is(std::string_view word) const { return !quoted && text == word; }
+  /// Whether an imported file ends here.
+  [[nodiscard]] bool ends_import() const { return is(""); }
 };
 
 /// The tokens of a file, and, where it includes others, of these.
@@ -33,6 +36,8 @@ class Tokens {
   /// Goes on with another file, and then where it was. Reports one that cannot be read, and files that
   /// include one another without end, or are too many.
   void include(const std::filesystem::path& file, const SourcePosition& where);
+  /// The same with a token of its own at the end of the file, so that nothing goes on beyond it.
+  void import_file(const std::filesystem::path& file, const SourcePosition& where);
   /// Where the last file ended.
   [[nodiscard]] const SourcePosition& end() const { return end_; }
   [[nodiscard]] bool failed() const { return failed_; }
@@ -41,6 +46,7 @@ class Tokens {
   struct Reading {
     std::shared_ptr<const SourceText> source;
     std::size_t at = 0;
+    bool imported = false;
   };
   std::optional<Token> read();
   std::optional<Token> read_quoted(Reading& reading);

@@ -20,11 +20,14 @@ struct Made {
   SourcePosition where{};
 };
 
+/// What a texture gives, a number or a spectrum: two of each kind may have one name.
+enum class TextureKind { number, spectrum };
+
 /// What the directives of a scene name, and where it goes.
 struct World {
   Door& door;
   std::filesystem::path folder;  ///< Of the scene file: where the files it names are.
-  std::map<std::string, TextureValue> textures{};
+  std::map<TextureKind, std::map<std::string, TextureValue>> textures{};
   std::map<std::string, Made> materials{};
   std::map<std::string, Made> media{};
   Imath::M44d upright{};  ///< What everything goes through: see `upright_world`.
