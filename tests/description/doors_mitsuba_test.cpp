@@ -190,6 +190,75 @@ TEST_F(MitsubaTest, WhatImagesSayAndIsNotSoHereIsTold) {
   EXPECT_TRUE(tells("unknown wrap mode \"miror\"; did you mean \"mirror\"?")) << told_;
 }
 
+// There a surface says what is on both sides; here what is around is the closed shape it lies in.
+TEST_F(MitsubaTest, MatterWithinMatterHasItsOwnIndex) {
+  constexpr double kAir = 1.000277;
+  const auto index_of = [&](const std::string& type, const std::string& parts, const std::string& around) {
+    const spec::Scene made =
+        scene("<shape type=\"sphere\"><bsdf type=\"" + type + "\">" + parts + "</bsdf></shape>" + around);
+    EXPECT_FALSE(made.materials.empty()) << told_;
+    const auto& model = made.materials.at(0).value.model;
+    if (const auto* glass = std::get_if<spec::Dielectric>(&model))
+      return std::get<double>(glass->ior.ior.value);
+    if (const auto* pane = std::get_if<spec::ThinGlass>(&model)) return std::get<double>(pane->ior.ior.value);
+    return std::get<double>(std::get<spec::CoatedDiffuse>(model).ior.value);
+  };
+  const std::string in_water = R"(<string name="ext_ior" value="water"/>)";
+  const std::string water =
+      R"(<shape type="sphere"><float name="radius" value="2"/><bsdf type="roughdielectric"><float name="int_ior" value="1.33"/></bsdf></shape>)";
+  const std::string enclosed = "here what is around a surface is the closed shape that it lies in";
+  const std::string alone = "\"ext_ior\" is that of no matter in the scene: the index is over it, as there";
+  EXPECT_NEAR(index_of("dielectric", in_water, water), 1.5046 / kAir, 1e-12);
+  EXPECT_TRUE(tells(enclosed)) << told_;
+  EXPECT_FALSE(tells(alone)) << told_;
+  EXPECT_NEAR(index_of("dielectric", R"(<string name="int_ior" value="air"/>)" + in_water, water), 1, 1e-12);
+  EXPECT_NEAR(index_of("thindielectric", in_water, water), 1.5046 / kAir, 1e-12);
+  EXPECT_NEAR(index_of("plastic", in_water, water), 1.49 / kAir, 1e-12);
+  EXPECT_NEAR(index_of("dielectric", in_water, ""), 1.5046 / 1.333, 1e-12);
+  EXPECT_TRUE(tells(alone)) << told_;
+  EXPECT_FALSE(tells(enclosed)) << told_;
+  EXPECT_NEAR(index_of("dielectric", R"(<string name="ext_ior" value="vacuum"/>)", water), 1.5046, 1e-12);
+  EXPECT_FALSE(tells("ext_ior")) << told_;
+}
+
+TEST_F(MitsubaTest, NamesOfDielectricsAreOfAnyCase) {
+  const auto index_of = [&](const std::string& name) {
+    const auto glass = material<spec::Dielectric>(
+        R"(<bsdf type="dielectric"><float name="ext_ior" value="1"/><string name="int_ior" value=")" + name +
+        R"("/></bsdf>)");
+    return std::get<double>(glass.ior.ior.value);
+  };
+  EXPECT_EQ(index_of("pet"), 1.575);
+  EXPECT_EQ(index_of("BK7"), 1.5046);
+  EXPECT_EQ(index_of("Fused Quartz"), 1.458);
+}
+
+TEST_F(MitsubaTest, ThinLensesFocusAtTheFarEndUnlessTold) {
+  const auto focus = [&](const std::string& parts) {
+    const auto made = convert(
+        "a.xml",
+        R"(<scene version="3.0.0"><sensor type="thinlens"><float name="aperture_radius" value="0.1"/>)" +
+            parts + "</sensor></scene>");
+    EXPECT_TRUE(made) << told_;
+    const auto& lens = std::get<spec::ThinLensCamera>(made->camera->kind).lens;
+    return std::get<double>(*lens.focus_distance);
+  };
+  EXPECT_EQ(focus(""), 1e4);
+  EXPECT_EQ(focus(R"(<float name="far_clip" value="50"/>)"), 50);
+  EXPECT_EQ(focus(R"(<float name="far_clip" value="50"/><float name="focus_distance" value="3"/>)"), 3);
+}
+
+TEST_F(MitsubaTest, ReferencesThatNothingTakesAreTold) {
+  const auto made = convert("a.xml", R"(<scene version="3.0.0"><medium type="homogeneous" id="fog"/>
+<sensor type="perspective"><ref name="medium" id="fog"/></sensor>
+<shape type="sphere"><bsdf type="dielectric"/><ref name="interior" id="fog"/></shape></scene>)");
+  ASSERT_TRUE(made) << told_;
+  EXPECT_TRUE(
+      tells("a.xml:2:29: warning: \"medium\" of sensor \"perspective\" has no counterpart here: dropped"))
+      << told_;
+  EXPECT_FALSE(tells("of shape")) << told_;
+}
+
 TEST_F(MitsubaTest, ReliefsNeedATexture) {
   for (const std::string wrapper : {"bumpmap", "normalmap"}) {
     EXPECT_FALSE(convert("a.xml", whole("<shape type=\"sphere\"><bsdf type=\"" + wrapper +

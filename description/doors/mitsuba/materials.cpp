@@ -1,6 +1,8 @@
 #include "description/doors/mitsuba/materials.h"
 
 #include <algorithm>
+#include <cmath>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -22,27 +24,65 @@ const std::vector<std::string> kMaterialTypes{
     "pplastic",       "principled", "principledthin", "roughconductor", "roughdielectric", "roughplastic",
     "thindielectric", "twosided"};
 
+constexpr std::string_view kGlass = "bk7";  // unless a dielectric says otherwise
+
+std::optional<double> named_index(const std::string& name) {
+  const auto known = std::ranges::find(kDielectrics, lower_case(name), &NamedIndex::name);
+  return known == kDielectrics.end() ? std::nullopt : std::optional(known->n);
+}
+
 // An index that is a number or a name.
 double index_number(const Object& bsdf, std::string_view name, std::string_view absent, const World& world) {
   const Element* found = bsdf.find(name, {"float", "string", "spectrum"});
   if (found != nullptr && found->tag != "string") return number(bsdf, name, 1.5, world);
   const std::string said = found ? (*found)["value"] : std::string(absent);
-  const auto known = std::ranges::find(kDielectrics, said, &NamedIndex::name);
-  if (known != kDielectrics.end()) return known->n;
+  if (const auto known = named_index(said)) return *known;
   std::vector<std::string> names;
   for (const NamedIndex& index : kDielectrics) names.emplace_back(index.name);
   world.door.diagnostics.error(found->where, unknown_name("dielectric", said, names));
   return 1.5;
 }
 
-// That of the matter within against what is around.
-spec::Ior relative_index(const Object& bsdf, std::string_view absent, const World& world) {
+std::optional<double> index_within(const Element& bsdf) {
+  const auto said = std::ranges::find_if(
+      bsdf.children, [](const Element& property) { return property["name"] == "int_ior"; });
+  if (said == bsdf.children.end()) return named_index(std::string(kGlass));
+  const std::string& value = (*said)["value"];
+  const auto number = parse_number(value);
+  return number ? number : named_index(value);
+}
+
+bool has_matter(double index, const World& world) {
+  constexpr double kAlike = 0.005;  // 1.33 and 1.333 are both water
+  return std::ranges::any_of(world.matter, [&](double n) { return std::abs(n - index) <= kAlike; });
+}
+
+/// Of a surface: the index within over that around, as the scene says them, and what matter has here, where
+/// an index is over that of air, and is divided by that of the closed shape around where there is one.
+struct SurfaceIndex {
+  double relative;
+  spec::Ior ior;
+};
+
+SurfaceIndex surface_index(const Object& bsdf, std::string_view absent, const World& world) {
+  constexpr double kGas = 1.001;  // what is thinner is as air is
   const double inside = index_number(bsdf, "int_ior", absent, world);
   const double outside = index_number(bsdf, "ext_ior", "air", world);
-  spec::Ior ior;
-  ior.value = inside / outside;
-  ior.where = bsdf.where();
-  return ior;
+  SurfaceIndex index{inside / outside, {}};
+  index.ior.value = index.relative;
+  index.ior.where = bsdf.where();
+  if (outside <= kGas) return index;
+  if (has_matter(outside, world)) {
+    index.ior.value = inside / *named_index("air");
+    world.door.note(bsdf.place_of("ext_ior"),
+                    "\"ext_ior\" is that of matter in the scene: here what is around a surface is the closed "
+                    "shape that it lies in, and air without one");
+  } else {
+    world.door.note(bsdf.place_of("ext_ior"),
+                    "\"ext_ior\" is that of no matter in the scene: the index is over it, as there, for a "
+                    "surface that lies in no closed shape");
+  }
+  return index;
 }
 
 // A factor that changes what a surface does in no way that matter can.
@@ -93,7 +133,7 @@ spec::Conductor conductor(const Object& bsdf, const World& world) {
 spec::Dielectric dielectric(const Object& bsdf, const Element* inside, const World& world) {
   note_factors(bsdf, world);
   spec::Dielectric glass;
-  glass.ior.ior = relative_index(bsdf, "bk7", world);
+  glass.ior.ior = surface_index(bsdf, kGlass, world).ior;
   glass.roughness = roughness(bsdf, world);
   if (inside == nullptr) return glass;
   const spec::Medium medium = medium_of(Object(*inside, world), world);
@@ -128,9 +168,9 @@ spec::CoatedDiffuse plastic(const Object& bsdf, RunsOfV v, const World& world) {
   if (bsdf.type() == "roughplastic")
     world.door.note(bsdf.where(), "a clear coat is smooth here: its roughness is dropped");
   bsdf.ignore({"alpha", "distribution", "sample_visible"});
-  spec::Ior ior = relative_index(bsdf, "polypropylene", world);
-  spec::Reflectance paint = ground(bsdf, std::get<double>(ior.value), v, world);
-  return {std::move(ior), std::move(paint)};
+  SurfaceIndex coat = surface_index(bsdf, "polypropylene", world);
+  spec::Reflectance paint = ground(bsdf, coat.relative, v, world);
+  return {std::move(coat.ior), std::move(paint)};
 }
 
 spec::Principled principled(const Object& bsdf, RunsOfV v, const World& world) {
@@ -162,6 +202,15 @@ bool is_wrapper(const std::string& type) {
 }
 
 }  // namespace
+
+void find_matter(const Element& element, World& world) {
+  for (const Element& child : element.children) {
+    const std::string& type = child["type"];
+    const bool is_matter = child.tag == "bsdf" && (type == "dielectric" || type == "roughdielectric");
+    if (const auto n = is_matter ? index_within(child) : std::nullopt) world.matter.push_back(*n);
+    find_matter(child, world);
+  }
+}
 
 std::optional<std::string> Materials::name_of(const Element& element, const Element* inside, RunsOfV v) {
   const Object bsdf(element, world_);
@@ -218,7 +267,7 @@ spec::Material Materials::converted(const Object& bsdf, const Element* inside, R
   } else if (type == "thindielectric") {
     note_factors(bsdf, world_);
     spec::ThinGlass pane;
-    pane.ior.ior = relative_index(bsdf, "bk7", world_);
+    pane.ior.ior = surface_index(bsdf, kGlass, world_).ior;
     material.model = pane;
   } else if (type == "plastic" || type == "roughplastic") {
     material.model = plastic(bsdf, v, world_);

@@ -9,6 +9,9 @@
 
 namespace abbe::doors::mitsuba {
 
+/// Remembers the indices within all dielectrics of an element, as far as they say them soundly.
+void find_matter(const Element& element, World& world);
+
 /// The materials of shapes, each converted once for what is within and for the way v runs.
 class Materials {
  public:

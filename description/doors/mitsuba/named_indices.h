@@ -10,8 +10,8 @@ struct NamedIndex {
   std::string_view name;
   double n;
 };
-/// Indices of its dielectrics, which have no dispersion there.
-inline constexpr std::array<NamedIndex, 22> kDielectrics{
+/// Indices of its dielectrics, which have no dispersion there, and names of any case.
+inline constexpr std::array<NamedIndex, 23> kDielectrics{
     {{"vacuum", 1},        {"helium", 1.000036},        {"hydrogen", 1.000132},
      {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.333},
      {"acetone", 1.36},    {"ethanol", 1.361},          {"carbon tetrachloride", 1.461},
@@ -19,7 +19,7 @@ inline constexpr std::array<NamedIndex, 22> kDielectrics{
      {"bromine", 1.661},   {"water ice", 1.31},         {"fused quartz", 1.458},
      {"pyrex", 1.47},      {"acrylic glass", 1.49},     {"polypropylene", 1.49},
      {"bk7", 1.5046},      {"sodium chloride", 1.544},  {"amber", 1.55},
-     {"diamond", 2.419}}};
+     {"pet", 1.575},       {"diamond", 2.419}}};
 
 struct NamedMetal {
   std::string_view theirs;

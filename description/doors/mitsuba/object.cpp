@@ -113,7 +113,6 @@ V3d vector_of(const Element& element, const V3d& absent, const World& world) {
 }
 
 const Element* resolved(const Element& element, const World& world) {
-  element.used = true;
   if (element.tag != "ref") return &element;
   const auto found = world.ids.find(element["id"]);
   if (found != world.ids.end() && found->second->last < element.first) return found->second;
@@ -127,6 +126,7 @@ const Element* resolved(const Element& element, const World& world) {
 const Element* Object::find(std::string_view name, std::initializer_list<std::string_view> tags) const {
   for (const Element& child : element_->children) {
     if (child["name"] != name) continue;
+    child.used = true;
     const Element* found = resolved(child, *world_);
     if (found == nullptr || std::ranges::find(tags, found->tag) != tags.end()) return found;
     world_->door.diagnostics.error(
@@ -187,7 +187,9 @@ std::vector<const Element*> Object::all(std::string_view tag) const {
   for (const Element& child : element_->children) {
     if (child.tag != tag && child.tag != "ref") continue;
     const Element* target = resolved(child, *world_);
-    if (target != nullptr && target->tag == tag) found.push_back(target);
+    const bool is_one = target != nullptr && target->tag == tag;
+    child.used = child.used || is_one || target == nullptr;
+    if (is_one) found.push_back(target);
   }
   return found;
 }

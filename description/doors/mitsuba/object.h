@@ -19,11 +19,12 @@ struct World {
   Door& door;
   std::filesystem::path folder;  ///< Of the scene file: where the files it names are.
   std::map<std::string, const Element*> ids{};
-  Imath::M44d upright{};  ///< What everything goes through: see `upright_world`.
+  std::vector<double> matter{};  ///< Indices within its dielectrics, as they say them.
+  Imath::M44d upright{};         ///< What everything goes through: see `upright_world`.
 };
 
 /// The element itself, or what it refers to. An unknown name, and one that stands for something not ended
-/// before, are reported; nullptr then.
+/// before, are reported; nullptr then. Neither counts as used.
 [[nodiscard]] const Element* resolved(const Element& element, const World& world);
 
 /// The properties of an element: those within it, by name. What is asked for counts as used.

@@ -114,7 +114,7 @@ void read_sensor(const Object& sensor, World& world) {
   camera.fov_deg = 2 * std::atan(half_view(sensor, width, height, world)) / kDegree;
   if (sensor.type() == "thinlens") {
     camera.lens_radius = sensor.number("aperture_radius", 0);
-    camera.focus_distance = sensor.number("focus_distance", 1);
+    camera.focus_distance = sensor.number("focus_distance", sensor.number("far_clip", 1e4));
   }
   sensor.ignore({"near_clip", "far_clip", "shutter_open", "shutter_close"});
   sensor.note_unused();
@@ -180,6 +180,7 @@ bool read_mitsuba(const std::filesystem::path& file, Door& door) {
   if (!root) return false;
   mitsuba::World world{door, file.parent_path()};
   mitsuba::name_elements(*root, world);
+  mitsuba::find_matter(*root, world);
   mitsuba::read_scene(*root, world);
   return !door.diagnostics.has_errors();
 }
