@@ -27,26 +27,34 @@ struct Local {
   Surface surface;
   M44d matrix{};
   RunsOfV v = RunsOfV::down;
+  Mesh mesh{};  ///< What a mesh file holds.
 };
+
+/// How coordinates run on a side of a cube; the normal is along_v x along_u.
+struct CubeSide {
+  V3d along_u, along_v;
+};
+const std::array<CubeSide, 6> kCubeSides{{{{0, 1, 0}, {0, 0, -1}},
+                                          {{0, 1, 0}, {0, 0, 1}},
+                                          {{-1, 0, 0}, {0, 0, -1}},
+                                          {{0, 0, 1}, {1, 0, 0}},
+                                          {{0, 1, 0}, {1, 0, 0}},
+                                          {{0, -1, 0}, {1, 0, 0}}}};
 
 // [-1, 1] along each axis, every side with coordinates of its own.
 spec::InlineMesh cube() {
   spec::InlineMesh mesh;
   mesh.uv.emplace();
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double side : {-1.0, 1.0}) {
-      const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
-      for (const auto& [u, v] : std::array<std::array<double, 2>, 4>{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}) {
-        std::array<double, 3> at{};
-        at[static_cast<std::size_t>(axis)] = side;
-        at[static_cast<std::size_t>((axis + 1) % 3)] = side * (2 * u - 1);
-        at[static_cast<std::size_t>((axis + 2) % 3)] = 2 * v - 1;
-        mesh.vertices.push_back(at);
-        mesh.uv->value.push_back({u, v});
-      }
-      mesh.triangles.push_back({first, first + 1, first + 2});
-      mesh.triangles.push_back({first, first + 2, first + 3});
+  for (const auto& [along_u, along_v] : kCubeSides) {
+    const auto first = static_cast<std::uint32_t>(mesh.vertices.size());
+    for (const auto& [u, v] : std::array<std::array<double, 2>, 4>{{{0, 0}, {0, 1}, {1, 1}, {1, 0}}}) {
+      const V3d at = along_v.cross(along_u) + along_u * (2 * u - 1) + along_v * (2 * v - 1);
+      mesh.vertices.push_back({at.x, at.y, at.z});
+      mesh.uv->value.push_back({u, v});
     }
+    mesh.triangles.push_back({first, first + 1, first + 2});
+    mesh.triangles.push_back({first, first + 2, first + 3});
+  }
   return mesh;
 }
 
@@ -91,14 +99,17 @@ void note_normals(const Object& shape, const MeshFile& file, const World& world)
 std::optional<Local> mesh_file(const Object& shape, const World& world) {
   const auto path = world.folder / shape.text("filename", "");
   if (!world.door.take_file(path, shape.where())) return std::nullopt;
-  const auto file = load_mesh_file(path, FileMaterials::ignored, shape.where(), world.door.diagnostics,
-                                   FileCoordinates::ignored, world.door.inputs);
+  auto file = load_mesh_file(path, FileMaterials::ignored, shape.where(), world.door.diagnostics,
+                             FileCoordinates::ignored, world.door.inputs);
   if (!file) return std::nullopt;
   const bool obj = shape.type() == "obj";
   const bool turned = shape.truth("flip_tex_coords", obj);
-  if (!file->submeshes.empty()) note_normals(shape, *file, world);
   shape.ignore({"max_smooth_angle"});
-  return Local{MeshFileSurface{path}, {}, turned ? RunsOfV::up : RunsOfV::down};
+  Local local{MeshFileSurface{path}, {}, turned ? RunsOfV::up : RunsOfV::down};
+  if (file->submeshes.empty()) return local;
+  note_normals(shape, *file, world);
+  local.mesh = std::move(file->submeshes.front().mesh);
+  return local;
 }
 
 std::optional<Local> surface_of(const Object& shape, const World& world) {
@@ -137,23 +148,40 @@ std::optional<std::string> material_of(const Object& shape, RunsOfV v, Materials
   return materials.name_of(bsdfs.empty() ? kDefault : *bsdfs.front(), inside, v);
 }
 
-void add_group(const Object& group, Materials& materials, const World& world) {
+// Adds a group, and gives its name.
+std::string add_group(const Object& group, Materials& materials, const World& world) {
+  std::string name = group.element()["id"];
+  if (name.empty()) name = fmt::format("shape group {}", world.door.scene.objects.size() + 1);
   spec::Object object;
   for (const Element* member : group.all("shape"))
     add_shape(Object(*member, world), Among::object, object.shapes, materials, world);
   if (object.shapes.empty())
     world.door.diagnostics.error(group.where(), "a shape group of no shapes");
   else
-    world.door.scene.objects.push_back({group.element()["id"], std::move(object), group.where()});
+    world.door.scene.objects.push_back({name, std::move(object), group.where()});
+  return name;
 }
 
-void add_instance(const Object& shape, const World& world) {
+// Of a group that stands within it or elsewhere in the scene.
+void add_instance(const Object& shape, Materials& materials, const World& world) {
   const auto groups = shape.all("shape");
   const M44d m = shape.transform("to_world") * world.upright;
   if (groups.size() != 1 || (*groups.front())["type"] != "shapegroup")
-    world.door.diagnostics.error(shape.where(), "an instance needs one shape group");
-  else
-    place_instance((*groups.front())["id"], m, shape.where(), world.door);
+    return world.door.diagnostics.error(shape.where(), "an instance needs one shape group");
+  const Element& group = *groups.front();
+  const bool is_within = std::ranges::any_of(shape.element().children,
+                                             [&group](const Element& child) { return &child == &group; });
+  const std::string name = is_within ? add_group(Object(group, world), materials, world) : group["id"];
+  place_instance(name, m, shape.where(), world.door);
+}
+
+// Which side of a mesh file's triangles is the front there: that of their normals, of those without any what
+// their order says where they stand, in a mirror too.
+void turn_mesh(const Object& shape, const Mesh& mesh, GivenShape& given, const World& world) {
+  if (!mesh.normals.empty() && !shape.truth("face_normals", false))
+    heed_normals(mesh, given, world.door);
+  else if (mirrors(shape.transform("to_world")))
+    given.turned = !given.turned;
 }
 
 void add_emission(const Object& shape, Among among, GivenShape& given, const World& world) {
@@ -173,14 +201,16 @@ void add_emission(const Object& shape, Among among, GivenShape& given, const Wor
 
 void add_shape(const Object& shape, Among among, std::vector<spec::Shape>& shapes, Materials& materials,
                const World& world) {
-  if (shape.type() == "shapegroup") return add_group(shape, materials, world);
-  if (shape.type() == "instance") return add_instance(shape, world);
+  if (shape.type() == "shapegroup") return (void)add_group(shape, materials, world);
+  if (shape.type() == "instance") return add_instance(shape, materials, world);
   auto local = surface_of(shape, world);
   if (!local) return;
   GivenShape given;
   add_emission(shape, among, given, world);
   auto material = material_of(shape, local->v, materials, world);
   given.turned = shape.truth("flip_normals", false);
+  given.u_outwards = true;
+  if (!local->mesh.triangles.empty()) turn_mesh(shape, local->mesh, given, world);
   given.to_world =
       local->matrix * shape.transform("to_world") * (among == Among::scene ? world.upright : M44d());
   if (!shape.element()["id"].empty()) given.name = shape.element()["id"];

@@ -76,6 +76,14 @@ void add_coordinates(const Made& made, spec::InlineMesh& mesh, World& world) {
   for (std::size_t i = 0; i + 1 < uv.size(); i += 2) mesh.uv->value.push_back({uv[i], uv[i + 1]});
 }
 
+void note_normals(const Made& made, World& world) {
+  if (made.parameters.has("N"))
+    world.door.note(made.where,
+                    "vertex normals of triangles in the scene file are dropped: those of mesh "
+                    "files are read");
+  made.parameters.ignore({"N", "S", "faceIndices"});
+}
+
 std::optional<Surface> triangle_mesh(const Made& made, World& world) {
   spec::InlineMesh mesh;
   mesh.where = made.where;
@@ -89,11 +97,7 @@ std::optional<Surface> triangle_mesh(const Made& made, World& world) {
   for (std::size_t i = 0; i + 2 < corners->size(); i += 3)
     mesh.triangles.push_back({(*corners)[i], (*corners)[i + 1], (*corners)[i + 2]});
   add_coordinates(made, mesh, world);
-  if (made.parameters.has("N"))
-    world.door.note(made.where,
-                    "vertex normals of triangles in the scene file are dropped: those of mesh "
-                    "files are read");
-  made.parameters.ignore({"N", "S", "faceIndices"});
+  note_normals(made, world);
   return mesh;
 }
 
@@ -125,7 +129,7 @@ std::optional<Surface> bilinear_mesh(const Made& made, World& world) {
   spec::InlineMesh mesh;
   mesh.where = made.where;
   mesh.vertices = vertices;
-  made.parameters.ignore({"N", "faceIndices"});
+  note_normals(made, world);
   add_coordinates(made, mesh, world);
   for (std::size_t i = 0; i + 3 < corners->size(); i += 4) {
     const bool plain = is_parallelogram(at(i), at(i + 1), at(i + 2), at(i + 3));
@@ -208,13 +212,29 @@ std::optional<Surface> surface_of(const Made& made, World& world) {
   return std::nullopt;
 }
 
-// The triangles of a surface where it stands; none of one that is analytic here. What is wrong with a file
-// has been told.
-Mesh placed_triangles(const GivenShape& shape, World& world) {
+// Gives corners the normals that "N" says of points, if it does so of all.
+void add_corner_normals(const Parameters& p, Mesh& mesh, World& world) {
+  const std::vector<double> said = p.numbers("N", world.door);
+  if (said.size() != 3 * mesh.vertices.size()) return;
+  const auto at = [&said](std::uint32_t i) {
+    return Imath::V3f(Imath::V3d(said[3 * i], said[3 * i + 1], said[3 * i + 2]));
+  };
+  for (const auto& [a, b, c] : mesh.triangles) mesh.normals.push_back({at(a), at(b), at(c)});
+}
+
+// The triangles of a surface before they are placed, a parallelogram being two, with their normals; none of
+// one that is curved. What is wrong with a file has been told.
+Mesh unplaced_triangles(const GivenShape& shape, const Parameters& p, World& world) {
   Mesh mesh;
   if (const auto* said = std::get_if<spec::InlineMesh>(&shape.surface)) {
     for (const auto& [x, y, z] : said->vertices) mesh.vertices.emplace_back(x, y, z);
     mesh.triangles = said->triangles;
+    add_corner_normals(p, mesh, world);
+  }
+  if (const auto* said = std::get_if<spec::Quad>(&shape.surface)) {
+    const auto& [corner, u, v, where] = *said;
+    mesh = {{corner, corner + u, corner + v, corner + u + v}, {{0, 1, 3}, {0, 3, 2}}};
+    add_corner_normals(p, mesh, world);
   }
   if (const auto* said = std::get_if<MeshFileSurface>(&shape.surface)) {
     Diagnostics told;
@@ -222,16 +242,15 @@ Mesh placed_triangles(const GivenShape& shape, World& world) {
                                FileCoordinates::ignored, world.door.inputs);
     if (file && !file->submeshes.empty()) mesh = std::move(file->submeshes.front().mesh);
   }
-  for (Imath::V3d& vertex : mesh.vertices) vertex *= shape.to_world;
   return mesh;
 }
 
 // The areas of the faces that are a light each there: of meshes each triangle, or each patch, which is two
 // triangles here. All else is one face, even where triangles stand for it here.
-std::vector<double> emitting_faces(const GivenShape& shape, const std::string& type, World& world) {
+std::vector<double> emitting_faces(const Imath::M44d& to_world, Mesh mesh, const std::string& type) {
   const bool patches = type == "bilinearmesh";
   if (!patches && type != "trianglemesh" && type != "plymesh") return {1};
-  const Mesh mesh = placed_triangles(shape, world);
+  for (Imath::V3d& vertex : mesh.vertices) vertex *= to_world;
   std::vector<double> areas;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     if (patches && i % 2 == 1)
@@ -242,14 +261,15 @@ std::vector<double> emitting_faces(const GivenShape& shape, const std::string& t
   return areas.empty() ? std::vector<double>{1} : areas;
 }
 
-spec::Emission emission_of_faces(const Made& light, const GivenShape& shape, const std::string& type,
-                                 World& world) {
+spec::Emission emission_of_faces(const ShapeUse& use, const Mesh& mesh, World& world) {
+  const Made& light = *use.emission;
+  const std::string& type = use.made.type;
   if (!light.parameters.has("power")) return area_emission(light, {1}, world);
   if (type == "plymesh")
-    world.door.note(shape.where,
+    world.door.note(use.made.where,
                     "\"power\" is that of each face of a \"plymesh\": one of four corners, a single light "
                     "there, counts as two here");
-  return area_emission(light, emitting_faces(shape, type, world), world);
+  return area_emission(light, emitting_faces(use.to_world, mesh, type), world);
 }
 
 }  // namespace
@@ -267,8 +287,10 @@ void add_shape(const ShapeUse& use, Among among, std::vector<spec::Shape>& shape
   if (use.emission && among == Among::object) {
     world.door.note(use.made.where, "what instances place does not emit here: its light is dropped");
   } else if (use.emission) {
-    shape.emission = emission_of_faces(*use.emission, shape, use.made.type, world);
+    const Mesh mesh = unplaced_triangles(shape, use.made.parameters, world);
+    shape.emission = emission_of_faces(use, mesh, world);
     shape.two_sided = use.emission->parameters.truth("twosided", false, world.door);
+    heed_normals(mesh, shape, world.door);
     use.emission->parameters.note_unused("area light", world.door);
   }
   place(std::move(shape), among, shapes, world.door);

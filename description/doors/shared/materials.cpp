@@ -48,7 +48,8 @@ spec::Ior index_for(const Spectrum& reflectance, const SourcePosition& where, Do
 
 namespace {
 
-spec::Material* find_material(const std::string& name, spec::Scene& scene) {
+template <typename Scene>
+auto* find_material(const std::string& name, Scene& scene) {
   const auto found = std::ranges::find(scene.materials, name, &schema::Named<spec::Material>::name);
   return found == scene.materials.end() ? nullptr : &found->value;
 }
@@ -65,18 +66,23 @@ void with_reflectance(Model& model, With with) {
 }  // namespace
 
 bool is_textured(const std::string& name, const Door& door) {
-  const auto found = std::ranges::find(door.scene.materials, name, &schema::Named<spec::Material>::name);
-  if (found == door.scene.materials.end()) return false;
-  const spec::Material& material = found->value;
-  bool textured = !std::holds_alternative<std::monostate>(material.relief);
+  const spec::Material* material = find_material(name, door.scene);
+  if (material == nullptr) return false;
+  bool textured = !std::holds_alternative<std::monostate>(material->relief);
   const auto look = [&textured](const spec::Reflectance& reflectance) {
     textured = textured || std::holds_alternative<spec::Texture>(reflectance);
   };
-  std::visit([&](const auto& model) { with_reflectance(model, look); }, material.model);
-  if (const auto* mixture = std::get_if<spec::Mixture>(&material.model))
+  std::visit([&](const auto& model) { with_reflectance(model, look); }, material->model);
+  if (const auto* mixture = std::get_if<spec::Mixture>(&material->model))
     for (const spec::MixturePart& part : mixture->value)
       textured = textured || is_textured(part.material.value, door);
   return textured;
+}
+
+bool is_matter(const std::string& name, const Door& door) {
+  const spec::Material* material = find_material(name, door.scene);
+  return material != nullptr && (std::holds_alternative<spec::Dielectric>(material->model) ||
+                                 std::holds_alternative<spec::Medium>(material->model));
 }
 
 std::string without_images(const std::string& name, Door& door) {

@@ -21,6 +21,8 @@ namespace abbe::doors {
 
 /// Whether a material of the scene, or a part of its mixture, varies over surfaces by an image.
 [[nodiscard]] bool is_textured(const std::string& material, const Door& door);
+/// Whether a material of the scene is matter, which fills shapes.
+[[nodiscard]] bool is_matter(const std::string& material, const Door& door);
 /// The name of the same material with a reflectance of 0.5 in place of images, which is added once.
 [[nodiscard]] std::string without_images(const std::string& material, Door& door);
 

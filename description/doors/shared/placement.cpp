@@ -11,6 +11,7 @@
 
 #include "description/doors/shared/materials.h"
 #include "description/meshes/mesh_file.h"
+#include "scene/shapes/mesh.h"
 
 namespace abbe::doors {
 namespace {
@@ -162,9 +163,33 @@ struct Placer {
   }
 };
 
+// The triangles of a mesh: where they need texture coordinates, which belong to points of the scene's meshes
+// and to corners of a file's, each corner is a point.
+spec::InlineMesh copy_of(const Mesh& from, bool textured) {
+  spec::InlineMesh copy;
+  const auto add = [&copy](const V3d& v) { copy.vertices.push_back({v.x, v.y, v.z}); };
+  if (!textured) {
+    std::ranges::for_each(from.vertices, add);
+    copy.triangles = from.triangles;
+    return copy;
+  }
+  copy.uv.emplace();
+  for (std::size_t i = 0; i < from.triangles.size(); ++i) {
+    const auto first = static_cast<std::uint32_t>(copy.vertices.size());
+    copy.triangles.push_back({first, first + 1, first + 2});
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      add(from.vertices[from.triangles[i][corner]]);
+      const Imath::V2f& uv = from.coordinates[i][corner];
+      copy.uv->value.push_back({uv.x, uv.y});
+    }
+  }
+  return copy;
+}
+
 /// The surface as triangles in a mesh of its own, nothing after an error.
 struct Triangulator {
   const GivenShape& given;
+  bool textured;
   Door& door;
 
   std::optional<spec::InlineMesh> operator()(const spec::Sphere& sphere) const {
@@ -173,7 +198,10 @@ struct Triangulator {
   }
   std::optional<spec::InlineMesh> operator()(const spec::Disc& disc) const {
     M44d turn = Imath::rotationMatrix(V3d(0, 0, 1), disc.normal.normalized());
-    return moved(swept({{disc.radius, 0}, {0, 0}}, 360), turn * translation(disc.center), false);
+    spec::InlineMesh mesh = swept({{disc.radius, 0}, {0, 0}}, 360);
+    if (given.u_outwards)
+      for (auto& uv : mesh.uv->value) uv = {1 - uv[1], uv[0]};
+    return moved(std::move(mesh), turn * translation(disc.center), false);
   }
   std::optional<spec::InlineMesh> operator()(const spec::Quad& quad) const { return triangles_of(quad); }
   std::optional<spec::InlineMesh> operator()(const spec::InlineMesh& mesh) const { return mesh; }
@@ -181,11 +209,13 @@ struct Triangulator {
     const auto read = load_mesh_file(mesh.file, FileMaterials::ignored, given.where, door.diagnostics,
                                      FileCoordinates::wanted, door.inputs);
     if (!read || read->submeshes.empty()) return std::nullopt;
-    spec::InlineMesh copy;
     const Mesh& from = read->submeshes.front().mesh;
-    for (const V3d& v : from.vertices) copy.vertices.push_back({v.x, v.y, v.z});
-    copy.triangles = from.triangles;
-    return copy;
+    if (!from.normals.empty())
+      door.note(
+          given.where,
+          "a mesh file that is stretched, or turned and emits, becomes triangles of the scene: its vertex "
+          "normals are dropped");
+    return copy_of(from, textured);
   }
 };
 
@@ -242,6 +272,23 @@ bool mirrors(const M44d& m) {
   return row(m, 0).cross(row(m, 1)).dot(row(m, 2)) < 0;
 }
 
+void heed_normals(const Mesh& mesh, GivenShape& given, Door& door) {
+  if (!given.emission || given.two_sided || mesh.normals.empty()) return;
+  double before = 0;
+  double behind = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const V3d area = area_vector(mesh, i);
+    const auto& [a, b, c] = mesh.normals[i];
+    (area.dot(V3d(a + b + c)) < 0 ? behind : before) += area.length();
+  }
+  if (before > 0 && behind > 0)
+    door.note(
+        given.where,
+        "vertex normals are on both sides of the triangles of a light: those of most of its area say which "
+        "side emits");
+  if (behind > before) given.turned = !given.turned;
+}
+
 void place(GivenShape given, Among among, std::vector<spec::Shape>& shapes, Door& door) {
   bool textured = is_textured(given.material, door);
   if (textured && lacks_coordinates(given, door)) {
@@ -249,9 +296,15 @@ void place(GivenShape given, Among among, std::vector<spec::Shape>& shapes, Door
     given.material = without_images(given.material, door);
     textured = false;
   }
-  if (std::visit(Placer{given, textured, shapes, door}, given.surface)) return;
-  if (among == Among::scene && !given.emission) return place_as_object(given, door);
-  auto triangles = std::visit(Triangulator{given, door}, given.surface);
+  const bool stays = std::visit(Placer{given, textured, shapes, door}, given.surface);
+  if (!stays && among == Among::scene && !given.emission) return place_as_object(given, door);
+  if (given.turned && is_matter(given.material, door))
+    door.note(
+        given.where,
+        "matter fills a shape that is turned inside out all the same here, and is around it there: a hollow "
+        "in matter has a material of its own, of the index of what fills it");
+  if (stays) return;
+  auto triangles = std::visit(Triangulator{given, textured, door}, given.surface);
   if (!triangles) return;
   if (!std::holds_alternative<MeshFileSurface>(given.surface))
     door.note(given.where, "a curved shape that is stretched, or has an image, becomes flat triangles");

@@ -9,6 +9,7 @@
 #include <ImathMatrix.h>
 
 #include "description/doors/shared/door.h"
+#include "scene/shapes/shape.h"
 
 // Matrices are for row vectors, as everywhere in the tree.
 namespace abbe::doors {
@@ -32,6 +33,9 @@ struct GivenShape {
   std::variant<spec::Sphere, spec::Disc, spec::Quad, spec::InlineMesh, MeshFileSurface> surface;
   Imath::M44d to_world;
   bool turned = false;  ///< Whether its front is where the surface's back is.
+  /// Whether u of a disc is the distance from its middle and v the azimuth, not u the azimuth and v from the
+  /// rim inwards.
+  bool u_outwards = false;
   std::optional<std::string> name;
   std::string material;
   std::optional<spec::Emission> emission;
@@ -39,13 +43,17 @@ struct GivenShape {
   SourcePosition where;
 };
 
+/// Turns a shape that emits where the normals at the corners of its triangles are behind most of their area:
+/// they say there which side is the front. That they are on both sides is noted.
+void heed_normals(const Mesh& mesh, GivenShape& given, Door& door);
+
 /// Whether shapes are of the scene, or of an object, where none may be an instance.
 enum class Among { scene, object };
 
 /// Adds the shape where its matrix puts it: analytic surfaces as they are where the matrix keeps their form,
 /// triangles with their vertices moved, all else as an object of its own and an instance of it; what emits or
-/// is of an object, and cannot stay what it is, becomes triangles, which is noted. In a mirror the front
-/// stays the image of the front.
+/// is of an object, and cannot stay what it is, becomes triangles, which is noted, as is matter within what
+/// is turned. In a mirror the front stays the image of the front.
 void place(GivenShape shape, Among among, std::vector<spec::Shape>& shapes, Door& door);
 
 /// Adds an instance of an object.
