@@ -1,6 +1,8 @@
 #include <array>
 #include <cmath>
+#include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "cli/query.h"
@@ -9,6 +11,7 @@
 #include "tests/cli/json_output.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
+#include "tests/scene/meshes.h"
 
 namespace abbe::test {
 namespace {
@@ -91,6 +94,49 @@ TEST(TraceSheet, TellsTheIndexOfTheMatterThatItStandsIn) {
     }
     EXPECT_EQ(trace(scene, 550, {0, 0, 5}, {0, 0, -1})["events"][0]["n_from"], 1);
   }
+}
+
+constexpr const char* kTintedMatter = R"("water": {"dielectric": {"ior": 1.33, "absorption_per_m": 0.5}},
+  "fog": {"medium": {"absorption_per_m": 0.5}}, "haze": {"medium": {"absorption_per_m": 0.2}},
+  "mirror": {"mirror": {"reflectance": 1}}, "card": {"diffuse": {"reflectance": 0.8}}, "sheet": {"polariser": {}})";
+
+// What a ray along x, from `x` metres, has left where it ends.
+double left_along_x(const std::string& shapes, double x = -10) {
+  const std::string scene = scene_text(kTintedMatter, shapes, "m");
+  return trace(scene, 550, {x, 0, 0}, {1, 0, 0})["stokes"][0].get<double>();
+}
+std::string tinted(const std::string& material, const std::string& kind, const std::string& shape) {
+  return fmt::format(R"({{"material": "{}", "{}": {}}})", material, kind, shape);
+}
+std::string tinted_ball(const std::string& material, double radius) {
+  return tinted(material, "sphere", fmt::format(R"({{"center": [0, 0, 0], "radius": {}}})", radius));
+}
+
+// Whatever ends a stretch, the matter around it takes its share by Beer's law.
+TEST(TraceMatter, TakesItsShareBeforeWhatStandsInIt) {
+  const double face = 4 * 1.33 / (2.33 * 2.33);
+  const std::string water = tinted_ball("water", 3);
+  const std::string fog = tinted_ball("fog", 3);
+  const std::string sheet =
+      tinted("sheet", "quad", R"({"corner": [0, -1, -1], "edge_u": [0, 2, 0], "edge_v": [0, 0, 2]})");
+  EXPECT_NEAR(left_along_x(fog + "," + tinted_ball("mirror", 1)), std::exp(-2), 1e-12);
+  EXPECT_NEAR(left_along_x(fog + "," + tinted_ball("mirror", 1), -2), std::exp(-1.5), 1e-12) << "from within";
+  EXPECT_NEAR(left_along_x(fog + "," + tinted_ball("haze", 1)), std::exp(-2.4), 1e-12);
+  EXPECT_NEAR(left_along_x(fog + "," + tinted_ball("card", 1)), std::exp(-1), 1e-12);
+  EXPECT_NEAR(left_along_x(water + "," + tinted_ball("card", 1)), face * std::exp(-1), 1e-9);
+  EXPECT_NEAR(left_along_x(water + "," + sheet), face * face * std::exp(-3) / 2, 1e-9);
+  EXPECT_NEAR(left_along_x(water, -3), face * std::exp(-3), 1e-9) << "from its surface";
+}
+
+// As the first of the scene is met, or the second.
+TEST(TraceMatter, EndsWhereOtherMatterBegins) {
+  const auto box = [](const std::string& material, double from, double to) {
+    return tinted(material, "mesh", inline_mesh(test::box({from, -1, -1}, {to, 1.5, 1.7})));
+  };
+  const std::string fog = box("fog", -1, 0);
+  const std::string haze = box("haze", 0, 1);
+  for (const std::string& shapes : {fog + "," + haze, haze + "," + fog})
+    EXPECT_NEAR(left_along_x(shapes), std::exp(-0.7), 1e-12) << shapes;
 }
 
 TEST(TraceDiffuse, EndsWithAHit) {

@@ -1,11 +1,16 @@
 #include "transport/path/ray_trace.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "transport/path/interface.h"
 #include "transport/path/ray_turn.h"
@@ -18,21 +23,19 @@ using Kind = TraceEvent::Kind;
 // A hit nearer than this share of the distances involved is the surface the ray starts from.
 constexpr double kSelf = 1e-11;
 
-// A surface where no matter is within other matter, so that a ray is in that which it entered last, and what
-// depends on the index around it is in air.
-ActingSurface alone(const Scene& scene, const BasicRay<double>& ray, const ExactHit& at,
-                    const MediumStack& inside) {
-  const Material& material = material_of(scene, at.shape);
+// Where no index lies in another what depends on the index around it is in air. Boundaries of matter that
+// touch are crossed together, out of what ends there first.
+ActingSurface alone(const Scene& scene, std::span<const CrossedSurface> crossed, const MediumStack& inside) {
   ActingSurface surface{0, nullptr, inside};
-  if (!inside.empty() && !depends_on_outside(material))
+  if (!inside.empty() && !depends_on_outside(material_of(scene, crossed.front().shape)))
     surface.outside = interior(material_of(scene, inside.innermost()));
-  if (!encloses_medium(material)) return surface;
-  surface.beyond = {};
-  surface.beyond.cross(scene, at.shape, at.hit.normal.dot(ray.direction) < 0);
+  for (const bool entering : {false, true})
+    for (const CrossedSurface& one : crossed)
+      if (one.entering == entering) surface.beyond.cross(scene, one.shape, entering);
   return surface;
 }
 
-// What a ray meets at once: in scenes of nested matter all surfaces that touch.
+// What a ray meets at once: all surfaces that touch, where matter may.
 struct Meeting {
   ExactHit acting;
   ActingSurface boundary;
@@ -41,7 +44,11 @@ struct Meeting {
 
 Meeting meet(const Scene& scene, const BasicRay<double>& ray, const ExactHit& first, double nearest,
              const MediumStack& inside) {
-  if (!scene.needs.nesting) return {first, alone(scene, ray, first, inside), 0};
+  const auto crossed_by = [&](const ExactHit& hit) {
+    return CrossedSurface{hit.shape, hit.hit.normal.dot(ray.direction) < 0};
+  };
+  if (!scene.needs.nesting && !scene.needs.boundaries)
+    return {first, alone(scene, std::array{crossed_by(first)}, inside), 0};
   const Imath::V3d& normal = first.hit.normal;
   BasicRay<double> rest = ray;
   rest.t_max =
@@ -57,17 +64,19 @@ Meeting meet(const Scene& scene, const BasicRay<double>& ray, const ExactHit& fi
     met.push_back({*hit, i});
   }
   std::vector<CrossedSurface> crossed;
-  for (const ExactHit& hit : met) crossed.push_back({hit.shape, hit.hit.normal.dot(ray.direction) < 0});
-  ActingSurface boundary = acting_surface(scene, crossed, inside);
+  for (const ExactHit& hit : met) crossed.push_back(crossed_by(hit));
+  ActingSurface boundary =
+      scene.needs.nesting ? acting_surface(scene, crossed, inside) : alone(scene, crossed, inside);
   return {met[boundary.acting.value_or(0)], boundary, spread};
 }
 
-// The matter that a ray ran through to where it meets something. Without nesting it is that of a surface met
-// from behind.
+// The matter that a ray within `inside` ran through to where it meets something. A shape left that was never
+// entered counts as entered before.
 const Material* matter_before(const Scene& scene, const BasicRay<double>& ray,
-                              const std::optional<ExactHit>& hit, const MediumStack& inside) {
-  if (scene.needs.nesting) return inside.empty() ? nullptr : &material_of(scene, inside.innermost());
-  return hit && hit->hit.normal.dot(ray.direction) > 0 ? &material_of(scene, hit->shape) : nullptr;
+                              const std::optional<ExactHit>& hit, MediumStack inside) {
+  if (hit && hit->hit.normal.dot(ray.direction) > 0 && !inside.entry_of(scene, hit->shape))
+    inside.cross(scene, hit->shape, true);
+  return inside.empty() ? nullptr : &material_of(scene, inside.innermost());
 }
 
 // What the matter on the way leaves of a ray's power, by Beer's law.
