@@ -40,9 +40,9 @@ struct RoughConductorBsdf {
   static constexpr bool kDelta = false;
 
   SampledSpectrum wavelengths_nm;
+  SampledSpectrum mean_reflectance;  ///< `diffuse_reflectance` against the outside.
   const RefractiveIndex* index;
   const RefractiveIndex* outside;  ///< nullptr is air.
-  const Curve* mean_reflectance;   ///< Against air.
   const RoughMetal* surface;
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,

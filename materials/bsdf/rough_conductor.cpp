@@ -4,7 +4,6 @@
 #include "materials/bsdf/facet_event.h"
 #include "materials/bsdf/rough.h"
 #include "materials/index/relative_index.h"
-#include "spectral/curve.h"
 
 namespace abbe {
 namespace {
@@ -43,9 +42,9 @@ Coloured coloured(const RoughConductorBsdf& bsdf, const Reflection& r) {
   // F^2 E + F^2 (1 - E) F E + ...: reflected twice or more, each time leaving with the mean energy E
   // [Kulla2017].
   const float energy = 1 - bsdf.surface->lost.total() * std::numbers::inv_pi_v<float>;
-  const SampledSpectrum often =
-      SampledSpectrum::map((*bsdf.mean_reflectance)(bsdf.wavelengths_nm),
-                           [energy](float mean) { return mean * mean * energy / (1 - mean * (1 - energy)); });
+  const SampledSpectrum often = SampledSpectrum::map(bsdf.mean_reflectance, [energy](float mean) {
+    return mean * mean * energy / (1 - mean * (1 - energy));
+  });
   return {once * r.single, often * r.multiple};
 }
 

@@ -2,6 +2,10 @@
 
 #include <cmath>
 
+#include <boost/math/quadrature/gauss.hpp>
+
+#include "materials/interface/fresnel.h"
+
 namespace abbe {
 
 double diffuse_reflectance_outside(double eta) {
@@ -20,6 +24,16 @@ double diffuse_reflectance_outside(double eta) {
 double diffuse_reflectance_inside(double eta) {
   if (eta < 1) return diffuse_reflectance_outside(1 / eta);
   return 1 - (1 - diffuse_reflectance_outside(eta)) / (eta * eta);
+}
+
+double diffuse_reflectance(double n, double k) {
+  const auto reflected = [n, k](double c) { return 2 * c * fresnel_conductor(c, n, k).R(); };
+  const auto integral = [&](double low, double high) {
+    return boost::math::quadrature::gauss<double, 10>::integrate(reflected, low, high);
+  };
+  if (n >= 1) return integral(0, 1);
+  const double critical = std::sqrt((1 - n) * (1 + n));
+  return integral(0, critical) + integral(critical, 1);
 }
 
 }  // namespace abbe

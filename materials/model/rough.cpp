@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "materials/index/relative_index.h"
-#include "materials/interface/fresnel.h"
+#include "materials/interface/hemispherical.h"
 
 namespace abbe {
 namespace {
@@ -28,16 +28,10 @@ std::shared_ptr<const RoughInterface> boundary(const RefractiveIndex& index,
   return std::make_shared<RoughInterface>(facets, apart_from_one(low), apart_from_one(high));
 }
 
-// 2 int_0^1 R(c) c dc by the midpoints of c^2.
-Curve mean_reflectance_of(const RefractiveIndex& index) {
-  constexpr int kAngles = 64;
+Curve mean_reflectance_of(const RefractiveIndex& metal) {
   std::vector<Knot> knots;
-  for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm) {
-    double sum = 0;
-    for (int i = 0; i < kAngles; ++i)
-      sum += fresnel_conductor(std::sqrt((i + 0.5) / kAngles), index.n(double(nm)), index.k(double(nm))).R();
-    knots.push_back({double(nm), sum / kAngles});
-  }
+  for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm)
+    knots.push_back({double(nm), diffuse_reflectance(metal.n(double(nm)), metal.k(double(nm)))});
   return Curve(std::move(knots));
 }
 
@@ -64,7 +58,15 @@ RoughConductorMaterial::RoughConductorMaterial(std::string name, RefractiveIndex
       surface(std::make_shared<RoughMetal>(facets)) {}
 
 Bsdf RoughConductorMaterial::bsdf(const SurfaceLookup& at) const {
-  return RoughConductorBsdf{at.wavelengths_nm, &index, at.outside, &mean_reflectance, surface.get()};
+  SampledSpectrum mean;
+  if (at.outside == nullptr) {
+    mean = mean_reflectance(at.wavelengths_nm);
+  } else {
+    const RelativeIndex metal = relative_index(index, at.outside, at.wavelengths_nm);
+    mean = SampledSpectrum::map(
+        metal.n, metal.k, [](float n, float k) { return static_cast<float>(diffuse_reflectance(n, k)); });
+  }
+  return RoughConductorBsdf{at.wavelengths_nm, mean, &index, at.outside, surface.get()};
 }
 
 }  // namespace abbe

@@ -53,7 +53,7 @@ class RoughConductorMaterial {
 
   std::string index_name;
   RefractiveIndex index;
-  Curve mean_reflectance;  ///< Over the hemisphere, weighed by the cosine.
+  Curve mean_reflectance;  ///< In air, by `diffuse_reflectance`.
   std::shared_ptr<const RoughMetal> surface;
 };
 

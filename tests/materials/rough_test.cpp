@@ -138,7 +138,7 @@ TEST(RoughConductor, IsColouredByEveryScattering) {
     const double c = (i + 0.5) / kSteps;
     mean += 2 * c * fresnel_conductor(c, 0.2, 3.0).R() / kSteps;
   }
-  EXPECT_NEAR(metal.mean_reflectance(550), mean, 1e-4);
+  EXPECT_NEAR(metal.mean_reflectance(550), mean, 1e-6);
 
   const V3f wo = direction_at(0.6, 1);
   const EnergyCompensation& lost = metal.surface->lost;
@@ -157,6 +157,35 @@ TEST(RoughConductor, IsColouredByEveryScattering) {
   }
   const double expected = once / kFacets + lost.at(EnergyCompensation::place(facets, wo)) * often;
   EXPECT_NEAR(leaving(metal.bsdf({packet()}), wo, 2, all), expected, 2e-3);
+}
+
+// By the mean over the hemisphere, too.
+TEST(RoughConductor, InMatterIsTheRelativeIndexInAir) {
+  const RefractiveIndex oil(1.5);
+  for (const float alpha : {0.05F, 0.3F, 0.5F, 1.0F}) {
+    const Microfacets<float> facets{FacetShape::ggx, alpha, alpha};
+    const RoughConductorMaterial metal("metal", RefractiveIndex(3, 3), facets);
+    const RoughConductorMaterial relative("relative", RefractiveIndex(2, 2), facets);
+    const Bsdf in_oil = metal.bsdf({packet(), {}, &oil});
+    const Bsdf in_air = relative.bsdf({packet()});
+    for (const double cos : kCosines) {
+      const V3f wo = direction_at(cos, 0.5 + cos);
+      for (int i = 0; i < 64; ++i) {
+        const auto a = sample(in_oil, wo, event(i), 0, TransportMode::power);
+        const auto b = sample(in_air, wo, event(i), 0, TransportMode::power);
+        ASSERT_EQ(a.has_value(), b.has_value());
+        if (!a) continue;
+        EXPECT_EQ(a->wi, b->wi);
+        EXPECT_EQ(a->pdf, b->pdf);
+        EXPECT_EQ(pdf(in_oil, wo, a->wi)[3], pdf(in_air, wo, a->wi)[3]);
+        const float f = eval(in_air, wo, a->wi, TransportMode::power)[3];
+        EXPECT_NEAR(eval(in_oil, wo, a->wi, TransportMode::power)[3], f, 2e-6F * f)
+            << "alpha " << alpha << " cos " << cos;
+      }
+      const double albedo = leaving(in_air, wo, 3, all, 1 << 10);
+      EXPECT_NEAR(leaving(in_oil, wo, 3, all, 1 << 10), albedo, 2e-6 * albedo) << "alpha " << alpha;
+    }
+  }
 }
 
 double uneven(const V3f& wi) {
