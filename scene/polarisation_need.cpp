@@ -8,8 +8,10 @@
 namespace abbe {
 namespace {
 
-// A metal of n = 0 lets nothing in, and reflects s and p alike.
+// A bare metal of n = 0 lets nothing in, and reflects s and p alike; a coating may absorb one more than the
+// other.
 bool is_perfect(const ConductorMaterial& metal) {
+  if (!metal.coating.layers.empty()) return false;
   for (double lambda_nm = kMinWavelengthNm; lambda_nm <= kMaxWavelengthNm; ++lambda_nm)
     if (metal.index.n(lambda_nm) > 0) return false;
   return true;

@@ -38,6 +38,17 @@ TEST(PolarisationNeed, TakesTwoEventsInARow) {
   EXPECT_FALSE(matters({mirror}, {{"mirror", kPane, 0}, {"ball", kBall, 0}}));
 }
 
+// Its layers absorb p and s apart.
+TEST(PolarisationNeed, APerfectMetalPolarisesUnderACoating) {
+  const RefractiveIndex perfect(0, 3);
+  const Material bare{"bare", ConductorMaterial{"perfect", perfect}};
+  const Material coated{
+      "coated", ConductorMaterial{"perfect", perfect, {{{"grey", RefractiveIndex(1.9, 0.4)}}, {{0, 40}}}}};
+  EXPECT_FALSE(matters({bare}, {{"pane", kPane, 0}, {"pane 2", kBehind, 0}}));
+  EXPECT_TRUE(matters({coated}, {{"pane", kPane, 0}, {"pane 2", kBehind, 0}}));
+  EXPECT_TRUE(matters({coated, bare}, {{"pane", kPane, 0}, {"ball", kBall, 1}})) << "back to the pane";
+}
+
 TEST(PolarisationNeed, ABallIsMetOnceWhereItIsOpaqueAndSeenFromOutside) {
   EXPECT_TRUE(matters({test::glass()}, {{"ball", kBall, 0}})) << "in and out";
   EXPECT_FALSE(matters({test::mirror()}, {{"ball", kBall, 0}}));
