@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 #include <map>
 
 #include <fmt/format.h>
@@ -11,8 +12,11 @@ void extend(Support& support, const Curve& curve) {
   if (curve.is_constant() && curve.max() != 0) support = {kMinWavelengthNm, kMaxWavelengthNm};
   for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
     if (knots[i].value == 0 && knots[i + 1].value == 0) continue;
-    support.low = std::min(support.low, knots[i].wavelength_nm);
-    support.high = std::max(support.high, knots[i + 1].wavelength_nm);
+    const double from = knots[i].wavelength_nm;
+    const double to = knots[i + 1].wavelength_nm;
+    support.low = std::min(support.low, from);
+    // A table that is 0 outside falls to it at the number after its last row, where it ends (`table_curve`).
+    support.high = std::max(support.high, to > std::nextafter(from, to) ? to : from);
   }
 }
 

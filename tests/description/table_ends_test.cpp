@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "description.h"
@@ -168,6 +169,24 @@ TEST_F(TableEndsTest, RowsOfZeroSayThatALampEnds) {
   };
   EXPECT_NE(told("").find(kDark), std::string::npos) << told("");
   EXPECT_EQ(told("701,0\n"), "");
+}
+
+// It still holds at its last row, and not beyond, where nothing is seen of an index.
+TEST_F(TableEndsTest, AnIndexNeedsToHoldToTheLastRowOfTheSensorsTable) {
+  const auto told = [&](double last_nm, const std::string& sensor) {
+    return complaint(
+        fmt::format(
+            R"({{"lights": [{{"environment": {{}}, "emission": {{"spectrum": 1}}}}], "sensor": {{"resolution": [1, 1], {}}},
+          "materials": {{"m": {{"conductor": {{"ior": {{"wavelength_nm": [360, {}], "n": [1, 1], "k": [2, 2]}}}}}}}}}})",
+            sensor, last_nm),
+        "zero", 380, 780);
+  };
+  for (const auto& [sensor, last_nm] :
+       {std::pair(R"("observer": "1931")", 830.0), std::pair(R"("channels": {"a": "t.csv:a"})", 780.0)}) {
+    EXPECT_EQ(told(last_nm, sensor), "") << sensor;
+    EXPECT_NE(told(last_nm - 1e-3, sensor).find("the index is held from the nearer end"), std::string::npos)
+        << sensor;
+  }
 }
 
 TEST_F(TableEndsTest, MatterTellsAllThatTheSensorSees) {
