@@ -143,7 +143,8 @@ std::optional<Instead> instead_of(const ToldUnit& told, CurveUnit needed) {
 bool is_in_watts_per_nm(const Unit& unit) {
   constexpr double kPerNm = 9;
   constexpr double kRounding = 1e-6;
-  return std::abs(unit.log10_factor - (unit.of(Unit::metre) % 2 != 0 ? kPerNm : 0)) < kRounding;
+  return unit.of(Unit::ampere) == 0 &&
+         std::abs(unit.log10_factor - (unit.of(Unit::metre) % 2 != 0 ? kPerNm : 0)) < kRounding;
 }
 
 // Other factors may make a power of photons, or a radiance of what is relative; none takes parts for wholes.
@@ -167,10 +168,30 @@ bool is_per_photon(const ToldUnit& told) {
          std::any_of(told.additions.begin(), told.additions.end(), divides);
 }
 
-std::optional<std::string> told_instead(std::string_view name, std::string_view told,
-                                        const std::optional<Instead>& instead, std::string_view remedy) {
+// Of coefficients a word of logarithms tells what they are coefficients of, and prose is none.
+bool takes_what_is_unclear(CurveUnit needed) {
+  return needed == CurveUnit::any || needed == CurveUnit::unsaid_response || needed == CurveUnit::per_metre;
+}
+
+using Rule = std::optional<Instead> (*)(const ToldUnit&, CurveUnit);
+
+std::optional<std::string> fault_by(Rule rule, std::string_view name, std::string_view line, CurveUnit needed,
+                                    std::string_view remedy) {
+  static const Phrases kLogarithms{"log", "log10", "log_10",    "log 10",
+                                   "ln",  "lg",    "logarithm", "logarithmic"};
+  const ToldUnit told = told_unit(line);
+  const bool takes_all = takes_what_is_unclear(needed);
+  if (!takes_all && told.unit && told.unit->unread)
+    return fmt::format(
+        "\"{}\" is in a unit that cannot be read (got \"{}\", allowed products as W/(m^2 nm), and words "
+        "behind "
+        "a \";\")",
+        name, line);
+  const std::optional<Instead> instead = !takes_all && is_told_as(told, kLogarithms)
+                                             ? std::optional(Instead{"no logarithms", false})
+                                             : rule(told, needed);
   if (!instead) return std::nullopt;
-  return fmt::format("\"{}\" is in another unit (got \"{}\", allowed {}{})", name, told, instead->allowed,
+  return fmt::format("\"{}\" is in another unit (got \"{}\", allowed {}{})", name, line, instead->allowed,
                      instead->by_factor ? remedy : std::string_view());
 }
 
@@ -178,12 +199,12 @@ std::optional<std::string> told_instead(std::string_view name, std::string_view 
 
 std::optional<std::string> unit_fault(std::string_view name, std::string_view told, CurveUnit needed,
                                       std::string_view remedy) {
-  return told_instead(name, told, instead_of(told_unit(told), needed), remedy);
+  return fault_by(instead_of, name, told, needed, remedy);
 }
 
 std::optional<std::string> factor_unit_fault(std::string_view name, std::string_view told, CurveUnit needed,
                                              std::string_view remedy) {
-  return told_instead(name, told, instead_of_factor(told_unit(told), needed), remedy);
+  return fault_by(instead_of_factor, name, told, needed, remedy);
 }
 
 std::optional<std::string> relative_power(std::string_view name, std::string_view unit, CurveUnit needed) {

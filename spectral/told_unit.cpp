@@ -121,16 +121,34 @@ std::optional<Unit> unit_within(std::string_view text) {
   return std::nullopt;
 }
 
+// What a first word that is no unit is divided by, as in "DN/(nJ/cm2)", where that is more than the length of
+// "wavelength/nm".
+std::optional<Unit> unit_dividing_a_word(std::string_view text) {
+  const std::size_t slash = text.find('/');
+  if (slash == text.npos || text.find(' ') < slash || is_digit_at(text, 0)) return std::nullopt;
+  const auto unit = leading_unit(text.substr(slash));
+  if (!unit || unit->unread) return std::nullopt;
+  Unit::Exponents others = unit->exponents;
+  others.at(Unit::metre) = 0;
+  return others == Unit::Exponents{} ? std::nullopt : unit;
+}
+
+// A unit that a text begins with.
+std::optional<Unit> unit_at_begin(std::string_view text) {
+  const auto unit = unit_at(text, 0);
+  return unit ? unit : unit_dividing_a_word(text);
+}
+
 // An addition with a number before it tells an amount, as "100 cd/m2" does, and no unit.
 std::optional<Unit> unit_of_addition(std::string_view text) {
   if (text.starts_with("in ")) text.remove_prefix(3);
   if (is_digit_at(text, 0) && !text.starts_with("1/") && !text.starts_with("1 /")) return std::nullopt;
-  return unit_at(text, 0);
+  return unit_at_begin(text);
 }
 
 std::optional<Unit> unit_among(const std::vector<std::string_view>& parts) {
   if (parts.empty()) return std::nullopt;
-  if (const auto unit = unit_at(parts.front(), 0)) return unit;
+  if (const auto unit = unit_at_begin(parts.front())) return unit;
   if (const auto unit = unit_within(parts.front())) return unit;
   for (std::size_t i = 1; i < parts.size(); ++i)
     if (const auto unit = unit_of_addition(parts[i])) return unit;
@@ -158,8 +176,8 @@ bool ends_with(std::string_view text, std::string_view phrase) {
   if (!text.ends_with(phrase)) return false;
   const std::string_view before = text.substr(0, text.size() - phrase.size());
   const std::string_view last = trimmed(before);
-  return !is_letter_at(before, before.size() - 1) && !is_digit_at(last, last.size() - 1) &&
-         !is_of_something_else(before);
+  const bool within_a_word = is_letter_at(phrase, 0) && is_letter_at(before, before.size() - 1);
+  return !within_a_word && !is_digit_at(last, last.size() - 1) && !is_of_something_else(before);
 }
 
 // Percent that is divided by 100 is none.
@@ -208,8 +226,8 @@ bool is_told_as(const ToldUnit& told, const Phrases& phrases) {
 }
 
 bool is_told_in_percent(const ToldUnit& told) {
-  static const Phrases kPercent{"%",   "percent", "per cent",  "percentage", "pct",
-                                "ppm", "‰",       "per mille", "permille",   "per mil"};
+  static const Phrases kPercent{"%",   "percent", "per cent",  "percentage", "pct",     "100%t",
+                                "ppm", "‰",       "per mille", "permille",   "per mil", "100%r"};
   const auto is_to_100 = [](std::string_view text) {
     for (const std::string_view sign : {"%", "percent", "per cent"})
       if (text.ends_with(sign)) text.remove_suffix(sign.size());

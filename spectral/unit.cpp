@@ -32,7 +32,7 @@ constexpr Unit::Exponents kJoule{1, 1};
 constexpr Unit::Exponents kJansky{1, 0, -1, -2};
 
 // Of moles no rule asks how many photons they are.
-constexpr std::array<Symbol, 16> kSymbols{{{"W", power(Unit::watt)},
+constexpr std::array<Symbol, 20> kSymbols{{{"W", power(Unit::watt)},
                                            {"J", kJoule},
                                            {"s", power(Unit::second)},
                                            {"sec", power(Unit::second)},
@@ -41,6 +41,10 @@ constexpr std::array<Symbol, 16> kSymbols{{{"W", power(Unit::watt)},
                                            {"sqm", power(Unit::metre, 2)},
                                            {"sr", power(Unit::steradian)},
                                            {"ster", power(Unit::steradian)},
+                                           {"AA", power(Unit::metre), -10},
+                                           {"A", power(Unit::ampere)},
+                                           {"V", power(Unit::volt)},
+                                           {"ph", power(Unit::photon)},
                                            {"mol", power(Unit::photon)},
                                            {"uE", power(Unit::photon)},
                                            {"eV", power(Unit::electronvolt)},
@@ -49,7 +53,7 @@ constexpr std::array<Symbol, 16> kSymbols{{{"W", power(Unit::watt)},
                                            {"lx", power(Unit::lumen)},
                                            {"cd", power(Unit::lumen)}}};
 // Of any letters' case, and with an s behind them.
-constexpr std::array<Symbol, 20> kNames{{{"watt", power(Unit::watt)},
+constexpr std::array<Symbol, 21> kNames{{{"watt", power(Unit::watt)},
                                          {"joule", kJoule},
                                          {"erg", kJoule, -7},
                                          {"second", power(Unit::second)},
@@ -58,6 +62,7 @@ constexpr std::array<Symbol, 20> kNames{{{"watt", power(Unit::watt)},
                                          {"meter", power(Unit::metre)},
                                          {"micron", power(Unit::metre), -6},
                                          {"angstrom", power(Unit::metre), -10},
+                                         {"ang", power(Unit::metre), -10},
                                          {"steradian", power(Unit::steradian)},
                                          {"photon", power(Unit::photon)},
                                          {"quanta", power(Unit::photon)},
@@ -141,9 +146,9 @@ class UnitReader {
 
   [[nodiscard]] std::optional<Unit> read() {
     if (!product(0)) return std::nullopt;
-    const Unit unit = multiplied();
-    const bool says_something = unit.exponents != Unit::Exponents{};
-    return says_something && ends(unit) ? std::optional(unit) : std::nullopt;
+    Unit unit = multiplied();
+    unit.unread = is_of_light(unit) && goes_on();
+    return says_something(unit) && (unit.unread || ends(unit)) ? std::optional(unit) : std::nullopt;
   }
 
  private:
@@ -255,6 +260,27 @@ class UnitReader {
     return unit;
   }
 
+  // Symbols that are names where they stand alone say nothing: of an illuminant, of a band.
+  [[nodiscard]] static bool says_something(const Unit& unit) {
+    Unit::Exponents others = unit.exponents;
+    others.at(Unit::ampere) = others.at(Unit::volt) = 0;
+    return others != Unit::Exponents{};
+  }
+
+  // What no prose begins with, which has "s/p" and "per photon/electron".
+  [[nodiscard]] static bool is_of_light(const Unit& unit) {
+    return unit.of(Unit::watt) != 0 || (unit.of(Unit::photon) > 0 && unit.is_compound());
+  }
+
+  // Whether a sign follows that joins a factor, which is none that has been read.
+  [[nodiscard]] bool goes_on() const {
+    const std::string_view behind = rest().substr(std::min(rest().find_first_not_of(' '), rest().size()));
+    if (behind.size() < 2) return false;
+    const bool dotted = behind.front() == '.' && is_letter(behind[1]);
+    return dotted || std::string_view("/*^").find(behind.front()) != behind.npos ||
+           behind.starts_with("per ");
+  }
+
   // Whether nothing follows, or words of another kind.
   [[nodiscard]] bool ends(const Unit& unit) const {
     const std::string_view behind = rest();
@@ -283,7 +309,8 @@ bool Unit::is_extent() const {
 
 bool Unit::equals(const Unit& other) const {
   constexpr double kRounding = 1e-6;
-  return exponents == other.exponents && std::abs(log10_factor - other.log10_factor) < kRounding;
+  return !unread && !other.unread && exponents == other.exponents &&
+         std::abs(log10_factor - other.log10_factor) < kRounding;
 }
 
 std::optional<Unit> leading_unit(std::string_view text) {

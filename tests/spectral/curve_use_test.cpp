@@ -38,8 +38,9 @@ class CurveUseTest : public testing::Test {
 };
 
 TEST_F(CurveUseTest, PercentIsNoShareHoweverItIsWritten) {
-  for (const char* unit : {"%", "percent", "Per cent; wavelength in nm", "quantum efficiency [%]",
-                           "reflectance (%)", "reflectance in percent", "transmittance, 0-100 %"})
+  for (const char* unit :
+       {"%", "percent", "Per cent; wavelength in nm", "quantum efficiency [%]", "T%", "R%", "Trans%", "100%T",
+        "100%R", "reflectance (%)", "reflectance in percent", "transmittance, 0-100 %"})
     EXPECT_NE(unit_fault("t.csv", unit, CurveUnit::share).value_or("").find("allowed shares of 1"),
               std::string::npos)
         << unit;
@@ -211,6 +212,9 @@ TEST_F(CurveUseTest, RemarksMakeNoOtherUnit) {
           "R = 0..1 (not percent)",
           "electrons per photon",
           "e-/photon",
+          "reflectance (s/p)",
+          "transmittance/cm",
+          "V(lambda)",
           "internal transmittance (0-1), 10 mm",
           "1.0 = 100.0 %"}},
         {CurveUnit::power,
@@ -273,6 +277,43 @@ TEST_F(CurveUseTest, OtherUnitsAreOthersInAllSpellings) {
       EXPECT_TRUE(fault.ends_with(told.allowed)) << unit << ": " << fault;
     }
   EXPECT_TRUE(unit_fault("t.csv", "W/m2/nm", CurveUnit::share)) << "no share at all";
+}
+
+TEST_F(CurveUseTest, UnitsThatCannotBeReadAreRefused) {
+  struct Case {
+    const char* unit;
+    CurveUnit needed;
+  };
+  for (const Case& told : {Case{"W/m2/mum", CurveUnit::spectral_irradiance},
+                           {"W/m2/sr/furlong", CurveUnit::spectral_radiance},
+                           {"spectral power, W/furlong", CurveUnit::power},
+                           {"J/furlong", CurveUnit::share}})
+    for (const auto& fault :
+         {unit_fault("t.csv", told.unit, told.needed), factor_unit_fault("t.csv", told.unit, told.needed)})
+      EXPECT_NE(fault.value_or("").find("is in a unit that cannot be read"), std::string::npos) << told.unit;
+  EXPECT_FALSE(unit_fault("t.csv", "W/m2/mum", CurveUnit::any));
+}
+
+TEST_F(CurveUseTest, AngstromsAmperesAndVoltsAreOthers) {
+  struct Case {
+    const char* unit;
+    CurveUnit needed;
+  };
+  for (const Case& told : {Case{"erg/s/cm2/A", CurveUnit::spectral_irradiance},
+                           {"W/m2/A", CurveUnit::spectral_irradiance},
+                           {"W/m2/AA", CurveUnit::spectral_irradiance},
+                           {"W/m^2/Ang", CurveUnit::spectral_irradiance},
+                           {"ph/s/m2/nm", CurveUnit::power},
+                           {"log10 W/m2/sr/nm", CurveUnit::spectral_radiance},
+                           {"log(reflectance)", CurveUnit::share},
+                           {"A/W", CurveUnit::share},
+                           {"responsivity (mA/W)", CurveUnit::share},
+                           {"V/(uJ/cm2)", CurveUnit::share},
+                           {"DN/(nJ/cm2)", CurveUnit::share},
+                           {"response, e-/J", CurveUnit::share}})
+    EXPECT_TRUE(unit_fault("t.csv", told.unit, told.needed)) << told.unit;
+  EXPECT_TRUE(factor_unit_fault("t.csv", "W/m2/A", CurveUnit::spectral_irradiance));
+  EXPECT_FALSE(unit_fault("t.csv", "erg/s/cm2/A", CurveUnit::power)) << "of any scale";
 }
 
 TEST_F(CurveUseTest, RelativeSpectraAreNoQuantities) {

@@ -48,7 +48,13 @@ TEST(Unit, IsReadInAllSpellings) {
                            {"mJy", {1, 0, -1, -2}, -29},
                            {"janskys", {1, 0, -1, -2}, -26},
                            {"microjansky", {1, 0, -1, -2}, -32},
-                           {"W/(m2 GHz)", {1, 0, -1, -2}, -9}}) {
+                           {"W/(m2 GHz)", {1, 0, -1, -2}, -9},
+                           {"W/m^2/Ang", kIrradiance, 10},
+                           {"W/m2/AA", kIrradiance, 10},
+                           {"ph/s/m2/nm", {0, -1, 0, -3, 0, 1}, 9},
+                           {"mA/W", {-1, 0, 0, 0, 0, 0, 0, 0, 1}, -3},
+                           {"V/(uJ/cm2)", {-1, -1, 0, 2, 0, 0, 0, 0, 0, 1}, 2},
+                           {"DN/(nJ/cm2)", {-1, -1, 0, 2}, 5}}) {
     const auto unit = told_unit(told.told).unit;
     ASSERT_TRUE(unit) << told.told;
     EXPECT_TRUE(unit->equals({told.exponents, told.log10_factor})) << told.told << ' ' << unit->log10_factor;
@@ -83,19 +89,50 @@ TEST(Unit, StandsBeforeRemarksOrBehindWhatItIsOf) {
     ASSERT_TRUE(unit) << told.told;
     EXPECT_TRUE(unit->equals(leading_unit(told.unit).value())) << told.told;
   }
-  for (const char* prose :
-       {"1", "-", "", "nm", "reflectance, 10 mm", "relative power at 60 Hz mains", "relative, 100 cd/m2",
-        "W-shaped", "A/W", "e-/J", "furlongs", "relative; W/nm", "normalised to 560 nm (w.r.t. 1 m2)",
-        "relative power, converted from photons/s", "m0", "W/", "/", "(", "())("})
+  for (const char* prose : {"1",
+                            "-",
+                            "",
+                            "nm",
+                            "reflectance, 10 mm",
+                            "relative power at 60 Hz mains",
+                            "relative, 100 cd/m2",
+                            "W-shaped",
+                            "furlongs",
+                            "A",
+                            "V",
+                            "V(lambda)",
+                            "mA",
+                            "reflectance (s/p)",
+                            "wavelength/nm",
+                            "e-/count",
+                            "relative; W/nm",
+                            "normalised to 560 nm (w.r.t. 1 m2)",
+                            "relative power, converted from photons/s",
+                            "m0",
+                            "W/",
+                            "/",
+                            "(",
+                            "())("})
     EXPECT_FALSE(told_unit(prose).unit) << prose;
 }
 
+TEST(Unit, IsUnreadWhereItGoesOnWithWhatIsNone) {
+  for (const char* told :
+       {"W/m2/mum", "W/(m2 furlong)", "W m-2 / furlong", "W/m2/nm^x", "W.m-2.mum-1", "erg/s per furlong",
+        "ph/s/m2/pixel", "spectral irradiance W/m2/mum", "spectral irradiance, W/m2/mum"})
+    EXPECT_TRUE(told_unit(told).unit.value().unread) << told;
+  for (const char* told : {"W/m2/nm", "W/nm at 25 C", "mW/nm. Of a lamp", "e-/photon", "counts/s/pixel"}) {
+    const auto unit = told_unit(told).unit;
+    EXPECT_FALSE(unit && unit->unread) << told;
+  }
+}
+
 TEST(Unit, IsNoneWhereItHasNoEnd) {
-  EXPECT_FALSE(leading_unit("W/" + std::string(100000, '(')));
+  EXPECT_TRUE(leading_unit("W/" + std::string(100000, '(')).value().unread);
   EXPECT_FALSE(leading_unit("m^1000"));
   std::string nested = "m9";
   for (int i = 0; i < 100; ++i) nested.insert(0, "(").append(")9");
-  EXPECT_FALSE(leading_unit("W/" + nested));
+  EXPECT_TRUE(leading_unit("W/" + nested).value().unread);
 }
 
 }  // namespace
