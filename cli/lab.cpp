@@ -15,6 +15,7 @@
 #include "io/atomic_file.h"
 #include "io/extension.h"
 #include "io/picture.h"
+#include "sensor/response/coverage.h"
 #include "spectral/library.h"
 #include "validation/goniometer/lobe_plot.h"
 #include "validation/goniometer/map.h"
@@ -25,7 +26,9 @@ namespace {
 
 GoniometerSettings settings_of(const LabOptions& options) {
   Diagnostics diagnostics;
-  NamedCurve illuminant = accepted(load_illuminant(options.illuminant, {}, diagnostics), diagnostics);
+  const auto light = load_illuminant(options.illuminant, {}, diagnostics);
+  if (light) check_ends_of_light(*light, observer_channels(options.observer), {}, diagnostics);
+  NamedCurve illuminant = accepted(light, diagnostics);
   return {options.at_nm,    options.angles_deg, options.inside, std::move(illuminant.curve),
           options.observer, options.samples};
 }

@@ -14,6 +14,7 @@
 #include "io/data_directory.h"
 #include "io/error.h"
 #include "io/extension.h"
+#include "io/table.h"
 
 namespace abbe::cli {
 namespace {
@@ -102,8 +103,7 @@ void write_all(std::span<const std::function<void()>> writers) {
 std::vector<fs::path> files_among(std::initializer_list<std::string> names) {
   std::vector<fs::path> files;
   for (const std::string& name : names) {
-    const std::size_t column = name.rfind(".csv:");
-    const fs::path path = column == std::string::npos ? name : name.substr(0, column + 4);
+    const fs::path path = name.substr(0, user_table_end(name));
     std::error_code ignored;
     if (fs::is_regular_file(path, ignored)) files.push_back(path);
   }

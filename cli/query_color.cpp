@@ -27,9 +27,9 @@ struct LitSurface {
   Curve reflectance;
 };
 
-// As the observer or, if there are any, these channels see it.
+// As these channels see it.
 LitSurface load(const std::string& illuminant, const std::string& reflectance, Diagnostics& diagnostics,
-                std::span<const Channel> channels = {}) {
+                std::span<const Channel> channels) {
   const NeededRange needed = needed_by(channels);
   const auto light = load_illuminant(illuminant, {}, diagnostics, needed);
   if (light) check_ends_of_light(*light, channels, {}, diagnostics);
@@ -46,7 +46,8 @@ struct SurfaceColor {
 };
 
 SurfaceColor summed_every_nm(const ColorOptions& options, Diagnostics& diagnostics) {
-  const LitSurface lit = load(options.illuminant, options.reflectance, diagnostics);
+  const LitSurface lit =
+      load(options.illuminant, options.reflectance, diagnostics, observer_channels(options.observer));
   return {tristimulus(lit.illuminant, lit.reflectance, options.observer),
           tristimulus(lit.illuminant, Curve(1.0), options.observer)};
 }
@@ -54,6 +55,7 @@ SurfaceColor summed_every_nm(const ColorOptions& options, Diagnostics& diagnosti
 SurfaceColor summed_by_astm(const ColorOptions& options, Diagnostics& diagnostics) {
   const auto light = load_illuminant(options.illuminant, {}, diagnostics,
                                      {double{kAstmRange.low_nm}, double{kAstmRange.high_nm}});
+  if (light) check_ends_of_light(*light, observer_channels(options.observer), {}, diagnostics);
   std::optional<Samples> samples = Samples{{double{kAstmRange.low_nm}, kAstmRange.low_nm + 10.0}, {1, 1}};
   if (!options.reflectance.empty()) samples = load_astm_samples(options.reflectance, {}, diagnostics);
   check(diagnostics);

@@ -1,4 +1,6 @@
 #include <cmath>
+#include <optional>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -14,9 +16,11 @@
 #include "io/extension.h"
 #include "io/spectral_exr.h"
 #include "io/text.h"
+#include "sensor/response/coverage.h"
 #include "spectral/color_temperature.h"
 #include "spectral/curve_use.h"
 #include "spectral/library.h"
+#include "spectral/sources.h"
 #include "validation/plot/color_vector.h"
 
 namespace abbe::cli {
@@ -55,6 +59,30 @@ Curve light_of(const LightOptions& options, const Curve& passed, Diagnostics& di
   return Curve(std::move(knots));
 }
 
+// A product with the tables that are its factors.
+struct TabulatedLight {
+  Curve light{1.0};
+  Curve going_on{1.0};  ///< The same if its tables went on as they end.
+  std::vector<NamedCurve> tables;
+
+  // Nothing after an error.
+  void add(const std::optional<NamedCurve>& table) {
+    if (!table) return;
+    light = product(light, table->curve);
+    going_on = product(going_on, held_beyond(*table));
+    tables.push_back(*table);
+  }
+
+  // Warns of tables that end within what an observer sees or the luminous efficacy counts.
+  // The other factors have none.
+  void check_tables(const Curve& others, Diagnostics& diagnostics) const {
+    std::vector<Channel> counted = observer_channels(Observer::cie1931);
+    counted.push_back(energy_channel("all power", band(380, 780)));
+    for (const NamedCurve& table : tables)
+      check_ends(table, product(going_on, others), counted, {}, diagnostics);
+  }
+};
+
 // Nothing after an error.
 Curve curve_for(const CurveUse& use, const std::string& name, Diagnostics& diagnostics) {
   const auto curve = load_curve(use, name, {}, diagnostics);
@@ -64,22 +92,23 @@ Curve curve_for(const CurveUse& use, const std::string& name, Diagnostics& diagn
 // The light that is asked about: a lamp's or a picture's, through filters, from a surface.
 Curve asked_light(const LightOptions& options) {
   Diagnostics diagnostics;
-  Curve passed(1.0);
+  TabulatedLight asked;
   if (!options.filters.empty())
     for (const std::string& filter : split(options.filters, ','))
-      passed = product(passed, curve_for(kTransmittanceUse, filter, diagnostics));
-  if (!options.reflectance.empty())
-    passed = product(passed, curve_for(kReflectanceUse, options.reflectance, diagnostics));
-  Curve light;
-  if (extension_of(options.name) == ".exr") {
-    light = light_of(options, passed, diagnostics);
-  } else if (options.crop) {
+      asked.add(load_curve(kTransmittanceUse, filter, {}, diagnostics));
+  Curve surface(1.0);
+  if (!options.reflectance.empty()) surface = curve_for(kReflectanceUse, options.reflectance, diagnostics);
+  Curve pictured(1.0);
+  if (extension_of(options.name) == ".exr")
+    pictured = light_of(options, product(asked.light, surface), diagnostics);
+  else if (options.crop)
     throw Error(ErrorCode::usage, "--crop", "is for spectral images");
-  } else if (const auto lamp = load_illuminant(options.name, {}, diagnostics)) {
-    light = lamp->curve;
-  }
+  else
+    asked.add(load_illuminant(options.name, {}, diagnostics));
+  const Curve others = product(pictured, surface);
+  asked.check_tables(others, diagnostics);
   check(diagnostics);
-  return product(light, passed);
+  return product(asked.light, others);
 }
 
 void add_fidelity(Json& answer, const ColorFidelity& fidelity) {
@@ -134,6 +163,8 @@ int query_metamerism(const MetamerismOptions& options) {
   const Curve second = curve_for(kReflectanceUse, options.second, diagnostics);
   const auto reference = load_illuminant(options.reference, {}, diagnostics);
   const auto test = load_illuminant(options.test, {}, diagnostics);
+  for (const auto& light : {reference, test})
+    if (light) check_ends_of_light(*light, observer_channels(Observer::cie1931), {}, diagnostics);
   check(diagnostics);
   const Metamerism result = metamerism(first, second, reference->curve, test->curve);
   Json answer;

@@ -12,6 +12,7 @@
 #include "description/sensor_model.h"
 #include "io/schema/read.h"
 #include "io/standard_stream.h"
+#include "io/table.h"
 #include "io/text.h"
 #include "materials/index/library.h"
 
@@ -87,13 +88,11 @@ void LoadContext::take_memory(const std::string& what, std::size_t bytes) const 
 }
 
 std::optional<std::string> LoadContext::table(const std::string& name, const SourcePosition& where) {
-  constexpr std::string_view kExtension = ".csv";  // which a column may follow
-  const std::size_t dot = name.find(kExtension);
-  if (dot == std::string::npos && !name.ends_with(".json") && !is_refractiveindex_info(name)) return name;
-  const std::size_t end = dot == std::string::npos ? name.size() : dot + kExtension.size();
+  const std::size_t end = user_table_end(name);  // which a column may follow
+  if (end == std::string::npos && !name.ends_with(".json") && !is_refractiveindex_info(name)) return name;
   const auto path = file(name.substr(0, end), where);
   if (!path) return std::nullopt;
-  return path->string() + name.substr(end);
+  return path->string() + name.substr(std::min(end, name.size()));
 }
 
 }  // namespace description

@@ -230,6 +230,15 @@ void scale_to_sensitivity(const spec::Sensor& said, Sensor& sensor, LoadContext&
             said.electrons_per_lx_s->value * spec::kPeak.high / peak));
 }
 
+// Warns where daylight ends within what the channels count and the scene scales them or their gain by it.
+void check_scale(const spec::Sensor& said, const Sensor& sensor, LoadContext& context) {
+  const auto* iso = said.readout ? std::get_if<spec::IsoSpeed>(&said.readout->value.conversion) : nullptr;
+  if (said.electrons_per_lx_s)
+    check_daylight(sensor.channels, said.electrons_per_lx_s->where, context.diagnostics);
+  else if (iso != nullptr)
+    check_daylight(sensor.channels, iso->where, context.diagnostics);
+}
+
 // Polarisation is told in the frame of a picture.
 void check_polarisation(const spec::Sensor& said, const Sensor& sensor, LoadContext& context) {
   if (any_analyser(sensor.channels))
@@ -248,6 +257,7 @@ Sensor build(const spec::Sensor& said, bool probe, LoadContext& context) {
   build_channels(said, sensor, context);
   if (probe) check_polarisation(said, sensor, context);
   scale_to_sensitivity(said, sensor, context);
+  check_scale(said, sensor, context);
   if (said.model && std::holds_alternative<std::monostate>(said.counts))
     context.diagnostics.error(said.where, "neither the model nor the scene says what its pixels count");
   if (said.mosaic && !sensor.spectral) sensor.mosaic = build_mosaic(said, sensor.channels, context);

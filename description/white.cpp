@@ -24,7 +24,7 @@ std::optional<White> build_chromaticity(const Chromaticity& white, const SourceP
 
 // Whether the library of illuminants has more to say of a name than that it does not know it.
 bool may_be_illuminant(const std::string& name, const std::vector<std::string>& illuminants) {
-  return name.find(".csv") != std::string::npos || name.find(':') != std::string::npos ||
+  return user_table_end(name) != std::string::npos || name.find(':') != std::string::npos ||
          std::find(illuminants.begin(), illuminants.end(), name) != illuminants.end();
 }
 

@@ -76,6 +76,19 @@ std::optional<std::pair<std::string, std::string>> key_line(std::string_view lin
                    split(line.substr(colon + 1), '\n').front()};
 }
 
+bool governs(const std::string& key) {
+  const auto& keys = governing_keys();
+  return std::find(keys.begin(), keys.end(), key) != keys.end();
+}
+
+/// The key of a comment `# key = value` that would say how the table is read, had it a colon.
+std::optional<std::string> key_said_equal(std::string_view line) {
+  const std::size_t sign = line.find_first_of("=:");
+  if (sign == std::string_view::npos || line[sign] == ':') return std::nullopt;
+  std::string key = split(line.substr(1, sign - 1), '\n').front();
+  return governs(key) ? std::optional(std::move(key)) : std::nullopt;
+}
+
 /// Grows one table line by line, complaining about each line it cannot use.
 class TableReader {
  public:
@@ -137,7 +150,12 @@ class TableReader {
   }
 
   void read_key(std::string_view line, std::size_t offset) {
+    if (const auto key = key_said_equal(line))
+      return complain(offset, fmt::format("\"# {0} =\" is not read; write \"# {0}: <{0}>\"", *key));
     const auto key = key_line(line);
+    if (key && !table_.columns.empty() && governs(key->first))
+      return complain(offset, fmt::format("\"# {}:\" is not read below the column names; move it above them",
+                                          key->first));
     if (!table_.columns.empty() || !key) return;
     if (!table_.keys.insert(*key).second)
       complain(offset, fmt::format("repeated line \"# {}:\"", key->first));
@@ -270,7 +288,7 @@ std::optional<TableColumn> column_elsewhere(const std::string& name) {
 /// `path.csv` or `path.csv:column` of a user.
 std::optional<TableColumn> user_column(const std::string& name, const SourcePosition& where,
                                        Diagnostics& diagnostics) {
-  const std::size_t end = name.ends_with(".csv") ? name.size() : name.rfind(".csv:") + 4;
+  const std::size_t end = user_table_end(name);
   const fs::path path = name.substr(0, end);
   if (!is_file(path, where, diagnostics)) return std::nullopt;
   const Heading heading = heading_of(path);
@@ -326,10 +344,23 @@ std::optional<Table> read_table(const std::filesystem::path& path, TableOrigin o
   return reader.result();
 }
 
+const std::vector<std::string>& governing_keys() {
+  static const std::vector<std::string> keys{
+      "unit", "outside", "interpolation", "value_range", "index_relative_to", "white_xy", "aliases"};
+  return keys;
+}
+
+std::size_t user_table_end(std::string_view name) {
+  constexpr std::string_view kExtension = ".csv";
+  const std::string small = lower_case(name);
+  if (small.ends_with(kExtension)) return name.size();
+  const std::size_t dot = small.rfind(std::string(kExtension) + ':');
+  return dot == std::string::npos ? dot : dot + kExtension.size();
+}
+
 std::optional<TableColumn> find_table(std::string_view folder, const std::string& name,
                                       const SourcePosition& where, Diagnostics& diagnostics) {
-  if (name.ends_with(".csv") || name.find(".csv:") != std::string::npos)
-    return user_column(name, where, diagnostics);
+  if (user_table_end(name) != std::string::npos) return user_column(name, where, diagnostics);
   const Names& names = names_in(folder);
   const auto found = names.find(name);
   if (found != names.end()) return found->second;

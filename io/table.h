@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -43,6 +44,9 @@ struct Table {
   [[nodiscard]] SourcePosition position(std::size_t row) const;
 };
 
+/// The keys of lines that say how a table is read. They stand above the column names.
+[[nodiscard]] const std::vector<std::string>& governing_keys();
+
 /// Which provenance a table must carry.
 enum class TableOrigin {
   shipped,  ///< Part of `data/`: title, unit, source, status, processing and outside.
@@ -60,12 +64,15 @@ struct TableColumn {
   std::string column;
 };
 
+/// Where the path of a user's table ends in a name: behind `.csv` in letters of either case, with nothing or
+/// `:column` behind it. `npos` of a name that is looked for in the data folders.
+[[nodiscard]] std::size_t user_table_end(std::string_view name);
+
 /// Finds `name` in a folder of the data directory ("illuminant", "reflectance", "camera", ...): the stem of a
 /// file (its only value column, which those of wavelengths are not, or "" when it has several), a column's
 /// own name when it occurs once in the folder, or `stem:column`, which may be in another folder of spectra,
-/// as a camera's channel that serves as a filter. A `# aliases: a=b, c=d` line of a file adds names. A path
-/// ending in `.csv`, optionally followed by `:column`, is a user's file. Nothing found is reported at `where`
-/// with the nearest name.
+/// as a camera's channel that serves as a filter. A `# aliases: a=b, c=d` line of a file adds names. A user's
+/// file is told by `user_table_end`. Nothing found is reported at `where` with the nearest name.
 [[nodiscard]] std::optional<TableColumn> find_table(std::string_view folder, const std::string& name,
                                                     const SourcePosition& where, Diagnostics& diagnostics);
 

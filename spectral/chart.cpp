@@ -27,7 +27,7 @@ std::optional<Table> read_chart_table(const std::string& name, const SourcePosit
                                       Diagnostics& diagnostics) {
   const std::optional<TableColumn> found = find_table("reflectance", name, where, diagnostics);
   if (!found) return std::nullopt;
-  const TableOrigin origin = name.ends_with(".csv") ? TableOrigin::user : TableOrigin::shipped;
+  const TableOrigin origin = user_table_end(name) == name.size() ? TableOrigin::user : TableOrigin::shipped;
   return read_table(found->path, origin, diagnostics);
 }
 

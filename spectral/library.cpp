@@ -111,8 +111,7 @@ std::optional<KeyLine> key_line(const Table& table, const std::string& key) {
 
 // A key that is nearly one that says how the table is read would be taken for a remark.
 bool check_keys(const Table& table, Diagnostics& diagnostics) {
-  const std::vector<std::string> known{"unit", "outside", "interpolation", "value_range",
-                                       "index_relative_to"};
+  const std::vector<std::string>& known = governing_keys();
   for (const auto& [key, value] : table.keys) {
     if (std::find(known.begin(), known.end(), key) != known.end() || !nearest_name(key, known)) continue;
     diagnostics.error(key_line(table, key)->where, unknown_name("key", key, known), ErrorCode::input);

@@ -159,7 +159,7 @@ bool is_refractiveindex_info(const std::string& name) {
 
 std::optional<NamedIndex> load_index(const std::string& name, const SourcePosition& where,
                                      Diagnostics& diagnostics) {
-  if (name.ends_with(".csv") || is_refractiveindex_info(name))
+  if (user_table_end(name) == name.size() || is_refractiveindex_info(name))
     return load_user_file(name, where, diagnostics);
   const Catalogue* plain = dielectrics(diagnostics);
   if (!plain) return std::nullopt;

@@ -1,8 +1,10 @@
 #include "sensor/readout/speed.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "io/error.h"
+#include "sensor/response/coverage.h"
 #include "spectral/colorimetry.h"
 #include "spectral/library.h"
 
@@ -11,6 +13,13 @@ namespace {
 
 constexpr const char* kDaylight = "D55";
 constexpr double kSaturationConstant = 78;  // lx s
+
+NamedCurve daylight() {
+  Diagnostics diagnostics;
+  auto curve = load_curve("illuminant", kDaylight, {}, diagnostics);
+  if (!curve) throw Error(diagnostics.code(), "", diagnostics.text());
+  return *std::move(curve);
+}
 
 }  // namespace
 
@@ -28,10 +37,12 @@ double sensitivity_e_per_lx_s(std::span<const Channel> channels, double gatherin
 std::optional<double> daylight_sensitivity(std::span<const Channel> channels, double gathering_area_m2) {
   const auto counts = [](const Channel& channel) { return channel.kind == ResponseKind::quantum; };
   if (!std::all_of(channels.begin(), channels.end(), counts)) return std::nullopt;
-  Diagnostics diagnostics;
-  const auto daylight = load_curve("illuminant", kDaylight, {}, diagnostics);
-  if (!daylight) throw Error(diagnostics.code(), "", diagnostics.text());
-  return sensitivity_e_per_lx_s(channels, gathering_area_m2, daylight->curve);
+  return sensitivity_e_per_lx_s(channels, gathering_area_m2, daylight().curve);
+}
+
+void check_daylight(std::span<const Channel> channels, const SourcePosition& where,
+                    Diagnostics& diagnostics) {
+  check_ends_of_light(daylight(), channels, where, diagnostics);
 }
 
 double saturation_electrons(const Readout& readout) {

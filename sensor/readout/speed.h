@@ -21,6 +21,9 @@ inline constexpr const char* kIsoSpeedKey = "isoSpeed";
 [[nodiscard]] std::optional<double> daylight_sensitivity(std::span<const Channel> channels,
                                                          double gathering_area_m2);
 
+/// Warns of the light beyond the table of D55 where channels count so much of it: a speed leaves it out.
+void check_daylight(std::span<const Channel> channels, const SourcePosition& where, Diagnostics& diagnostics);
+
 /// Electrons that saturate a pixel: fill its well or reach the highest code, whichever is first.
 [[nodiscard]] double saturation_electrons(const Readout& readout);
 

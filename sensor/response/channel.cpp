@@ -36,7 +36,7 @@ std::optional<std::vector<NamedCurve>> camera_curves(const std::string& name, co
     curve->name = found->column;
     return std::vector{*std::move(curve)};
   }
-  const bool shipped = name.find(".csv") == std::string::npos;
+  const bool shipped = user_table_end(name) == std::string::npos;
   const std::optional<Table> table =
       read_table(found->path, shipped ? TableOrigin::shipped : TableOrigin::user, diagnostics);
   if (!table) return std::nullopt;

@@ -171,6 +171,37 @@ TEST(Query, SharesInPercentAreRefusedByEveryCommand) {
     expect_refused([&] { query_color(ColorOptions{"D65", Observer::cie1931, table, false, method}); });
 }
 
+TEST(Query, TablesThatEndWithinWhatIsCountedAreTold) {
+  const std::string lamp =
+      scratch().write("short.csv", "# unit: 1\n# outside: zero\nwavelength_nm,L\n450,1\n650,1\n").string();
+  const auto told = [](const std::function<int()>& command) {
+    testing::internal::CaptureStderr();
+    testing::internal::CaptureStdout();
+    EXPECT_EQ(command(), 0);
+    testing::internal::GetCapturedStdout();
+    return testing::internal::GetCapturedStderr();
+  };
+  const std::string ends = "short.csv\" is 0 beyond its table, 450 to 650 nm";
+  const auto expect_told = [&](const std::function<int()>& command) {
+    const std::string said = told(command);
+    EXPECT_NE(said.find(ends), std::string::npos) << said;
+  };
+  // Of even power 200 of 400 nm lie beyond.
+  EXPECT_NE(told([&] {
+              return query_light(LightOptions{lamp});
+            }).find("50 % of what channel \"all power\" would count"),
+            std::string::npos);
+  expect_told([&] { return query_light(LightOptions{"D65", lamp}); });
+  expect_told([&] {
+    return query_metamerism(
+        MetamerismOptions{"cornell_box_walls:red", "cornell_box_walls:green", "D65", lamp});
+  });
+  for (const ColorMethod method : {ColorMethod::one_nm, ColorMethod::astm_e308})
+    expect_told([&] { return query_color(ColorOptions{lamp, Observer::cie1964, "", false, method}); });
+  EXPECT_EQ(told([&] { return query_light(LightOptions{"FL2", "ir_cut_apertus:Hoya"}); }), "");
+  EXPECT_EQ(told([&] { return query_color(ColorOptions{"D65", Observer::cie1964}); }), "");
+}
+
 TEST(QueryMetamerism, ComparesTwoSurfaces) {
   const json found = json_output(query_metamerism, MetamerismOptions{"colorchecker24_babelcolor_average:blue",
                                                                      "colorchecker24_ohta1997:blue"});

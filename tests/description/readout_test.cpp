@@ -109,5 +109,26 @@ TEST_F(ReadoutDescription, ASpeedStandsForTheGainThatHasIt) {
   }
 }
 
+TEST_F(ReadoutDescription, DaylightThatEndsWithinWhatIsCountedIsToldOnceWhereItIsTheScale) {
+  const auto warnings = [this](const std::string& channels) {
+    const Loaded loaded = load(fmt::format(R"({{"sensor": {{"resolution": [4, 3], {}}}}})", channels));
+    EXPECT_TRUE(loaded.scene) << loaded.text();
+    std::size_t told = 0;
+    for (std::size_t at = 0;
+         (at = loaded.text().find("\"D55\" is 0 beyond its table", at)) != std::string::npos; ++at)
+      ++told;
+    return told;
+  };
+  const std::string even = R"("response": "quantum", "channels": {"all": 1}, "readout": )";
+  EXPECT_EQ(warnings(even + R"({"iso": 100, "bits": 14})"), 1U);
+  EXPECT_EQ(warnings(even + R"({"gain_e_per_dn": 2, "bits": 14})"), 0U);
+  EXPECT_EQ(
+      warnings(R"("electrons_per_lx_s": 5000, "channels": {"all": 1}, "readout": {"iso": 100, "bits": 14})"),
+      1U);
+  EXPECT_EQ(warnings(R"("response": "quantum", "channels": {"seen": {"band": [400, 800]}},
+                        "readout": {"iso": 100, "bits": 14})"),
+            0U);
+}
+
 }  // namespace
 }  // namespace abbe

@@ -94,6 +94,18 @@ TEST(Table, MalformedLinesAreAllReported) {
             "1:1: error: missing unit; add a line \"# unit: <unit>\"\n");
 }
 
+TEST(Table, LinesThatWouldGovernItAreReadOrRefused) {
+  EXPECT_EQ(complaints("# unit: W\n# interpolation = sprague\nl,a\n1,2\n", TableOrigin::user),
+            "2:1: error: \"# interpolation =\" is not read; write \"# interpolation: <interpolation>\"\n");
+  EXPECT_EQ(complaints("# unit: W\nl,a\n# outside: zero\n1,2\n# outside=zero: no\n", TableOrigin::user),
+            "3:1: error: \"# outside:\" is not read below the column names; move it above them\n"
+            "5:1: error: \"# outside =\" is not read; write \"# outside: <outside>\"\n");
+  Diagnostics diagnostics;
+  EXPECT_TRUE(table_of("# unit: W\n# note: unit = W\n# T = 25 C\nl,a\n# note: hot\n1,2\n", TableOrigin::user,
+                       diagnostics))
+      << diagnostics.text();
+}
+
 TEST(Table, WhatSpreadsheetsWriteIsNamed) {
   const std::string mark = "\xEF\xBB\xBF";
   EXPECT_EQ(complaints(mark + "# unit: W\nl,a\n1,2\n", TableOrigin::user),
@@ -195,6 +207,12 @@ TEST_F(FindTable, FindsUserFilesByTheirPaths) {
   const auto b = find_table("light", (folder / "mine.csv:b").string(), {}, diagnostics);
   ASSERT_TRUE(b.has_value()) << diagnostics.text();
   EXPECT_EQ(b->column, "b");
+  put(folder / "LOUD.CSV", "# unit: W\nl,a,b\n1,2,3\n");
+  const auto loud = find_table("light", (folder / "LOUD.CSV:b").string(), {}, diagnostics);
+  ASSERT_TRUE(loud.has_value()) << diagnostics.text();
+  EXPECT_EQ(loud->path, folder / "LOUD.CSV");
+  EXPECT_EQ(loud->column, "b");
+  EXPECT_TRUE(find_table("light", (folder / "LOUD.CSV").string(), {}, diagnostics));
   EXPECT_FALSE(
       find_table("light", (folder / "mine.csv:c").string(), {scene, 0, ""}, diagnostics).has_value());
   EXPECT_FALSE(find_table("light", (folder / "none.csv").string(), {scene, 0, ""}, diagnostics).has_value());

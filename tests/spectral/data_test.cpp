@@ -5,9 +5,11 @@
 #include <filesystem>
 #include <functional>
 #include <set>
+#include <utility>
 
 #include "io/data_directory.h"
 #include "io/table.h"
+#include "spectral/library.h"
 
 namespace abbe {
 namespace {
@@ -64,6 +66,20 @@ TEST(Data, extinction_is_not_negative_and_index_is_positive) {
     EXPECT_GT(*std::min_element(n.begin(), n.end()), 0) << path;
     EXPECT_GE(*std::min_element(k.begin(), k.end()), 0) << path;
   }
+}
+
+// Table 2 of Bessell (1990) has responses to energy, which are per photon as they are divided by the
+// wavelength.
+TEST(Data, bessells_passbands_are_per_photon) {
+  Diagnostics diagnostics;
+  const auto b = load_curve("filter", "bessell_B", {}, diagnostics);
+  const auto v = load_curve("filter", "bessell_V", {}, diagnostics);
+  ASSERT_TRUE(b && v) << diagnostics.text();
+  EXPECT_NEAR(b->curve.max(), 1, 1e-6);
+  for (const auto& [nm, response] : {std::pair{400, 0.92}, {420, 1.0}, {480, 0.536}, {540, 0.043}})
+    EXPECT_NEAR(b->curve(nm) * nm / (b->curve(420) * 420), response, 1e-5) << nm;
+  for (const auto& [nm, response] : {std::pair{480, 0.03}, {530, 1.0}, {560, 0.792}, {640, 0.081}})
+    EXPECT_NEAR(v->curve(nm) * nm / (v->curve(530) * 530), response, 1e-5) << nm;
 }
 
 TEST(Data, illuminant_names_are_unique) {
