@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "cli/lab.h"
 #include "cli/query.h"
 #include "io/exr.h"
 #include "io/spectral_exr.h"
@@ -198,6 +199,13 @@ TEST(Query, TablesThatEndWithinWhatIsCountedAreTold) {
   });
   for (const ColorMethod method : {ColorMethod::one_nm, ColorMethod::astm_e308})
     expect_told([&] { return query_color(ColorOptions{lamp, Observer::cie1964, "", false, method}); });
+  LabOptions bench;
+  bench.material = R"({"diffuse": {"reflectance": 0.5}})";
+  bench.at_nm = {550};
+  bench.angles_deg = {0};
+  bench.samples = 64;
+  bench.illuminant = lamp;
+  expect_told([&] { return lab(bench); });
   EXPECT_EQ(told([&] { return query_light(LightOptions{"FL2", "ir_cut_apertus:Hoya"}); }), "");
   EXPECT_EQ(told([&] { return query_color(ColorOptions{"D65", Observer::cie1964}); }), "");
 }
