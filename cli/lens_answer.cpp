@@ -104,7 +104,7 @@ Json spots_answer(const LensFieldFigures& field) {
     one["centroid_mm"] = size ? Json{size->centroid.x, size->centroid.y} : Json();
     one["rms_um"] = size ? Json(kUmPerMm * size->rms_mm) : Json();
     one["largest_um"] = size ? Json(kUmPerMm * size->largest_mm) : Json();
-    one["vignetting_percent"] = 100 * spot.vignetting();
+    one["vignetting_percent"] = optional(spot.vignetting(), 100);
     spots.push_back(std::move(one));
   }
   return spots;
@@ -144,7 +144,7 @@ void add_row(const LensFigures& figures, const LensFieldFigures& field, Json& ta
   table["image_mm"].push_back(chief ? Json(chief->height_mm) : Json());
   table["distortion_%"].push_back(chief ? optional(chief->distortion, 100) : Json());
   table["lateral_color_um"].push_back(optional(field.lateral_color_mm(), kUmPerMm));
-  table["vignetting_%"].push_back(100 * field.spots[primary].vignetting());
+  table["vignetting_%"].push_back(optional(field.spots[primary].vignetting(), 100));
   table["relative_illumination"].push_back(optional(field.relative_illumination));
   table["rms_um"].push_back(size ? Json(kUmPerMm * size->rms_mm) : Json());
   for (std::size_t i = 0; i < figures.frequencies_per_mm.size(); ++i) {

@@ -31,11 +31,13 @@ std::vector<Imath::V2d> image_points(const System& system, const Imath::V2d& hal
 System with_clear_apertures(const SpectralSystem& system, const Imath::V2d& half_image_mm, double low_nm,
                             double high_nm) {
   System with = system.system();
+  // Of which what passes along a radius is what passes all around.
+  const SpectralSystem round(with_round_stop(with), system.stop_radius_mm());
   std::vector<double> reach(with.surfaces.size(), 0);
   for (const double nm : std::array{low_nm, (low_nm + high_nm) / 2, high_nm}) {
-    const SystemAt at(system.system(), nm);
+    const SystemAt at(round.system(), nm);
     for (const Imath::V2d& image : image_points(with, half_image_mm))
-      for (const Ray& leaving : search_pupil(system, image, nm).leaving) {
+      for (const Ray& leaving : search_pupil(round, image, nm).leaving) {
         const RayPath path = trace(at, {leaving.origin, -leaving.direction}, Apertures::obeyed);
         for (std::size_t i = 0; i < path.hits.size(); ++i)
           reach[i] = std::max(reach[i], system.local_of(i, path.hits[i].point).length());

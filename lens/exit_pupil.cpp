@@ -119,13 +119,6 @@ void append(std::vector<SeenFrom>& all, const std::vector<SeenFrom>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-// Of which the bounds along a radius are those all around.
-SpectralSystem without_blades(const SpectralSystem& system) {
-  System round = system.system();
-  round.surfaces[round.stop].iris.reset();
-  return {std::move(round), system.stop_radius_mm()};
-}
-
 }  // namespace
 
 V2d PupilBound::point(const V2d& disc) const {
@@ -148,7 +141,8 @@ ExitPupil::ExitPupil(const SpectralSystem& system, const V2d& half_image_mm, dou
                         : 2.0 * half_image_mm / V2d(columns_, rows_)),
       shift_(pupil_shift(system, (low_nm + high_nm) / 2)) {
   const std::array<double, 3> wavelengths_nm{low_nm, (low_nm + high_nm) / 2, high_nm};
-  const SpectralSystem round = without_blades(system);
+  // Of which the bounds along a radius are those all around.
+  const SpectralSystem round(with_round_stop(system.system()), system.stop_radius_mm());
   centred_ ? bound_along_radius(round, wavelengths_nm) : bound_all_over(round, wavelengths_nm);
   if (std::all_of(bounds_.begin(), bounds_.end(), [](const PupilBound& b) { return !(b.area() > 0); }))
     throw Error(ErrorCode::scene, system.system().title, "no light comes through the lens to the film");

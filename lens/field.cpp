@@ -14,7 +14,7 @@ namespace {
 using V2d = Imath::V2d;
 
 constexpr double kFirstZeroOfJ1 = 3.8317059702075123;
-constexpr double kFieldDifference = 1e-3;  // degrees, or millimetres of the object
+constexpr double kFieldDifference = 1e-3;  // degrees, of near objects as seen from the first vertex
 
 std::optional<RayPath> traced(const Beam& beam, const V2d& pupil, Apertures apertures) {
   const auto launched = beam.aim(pupil);
@@ -61,11 +61,6 @@ std::optional<Rim> rim_of(const Beam& beam) {
 double pupil_over_launch(const SystemAt& at) {
   const auto& distance = at.system->object_distance_mm;
   return distance ? std::abs(1 + first_order(at).entrance_pupil_mm / *distance) : 1;
-}
-
-System with_round_stop(System system) {
-  system.surfaces[system.stop].iris.reset();
-  return system;
 }
 
 // Of the power that would fill the round stop, what the image has: `round` tells it without blades, whose
@@ -131,8 +126,10 @@ std::optional<Chief> chief_ray(const SystemAt& at, double field, double stop_rad
 std::optional<double> relative_illumination(const SystemAt& at, double field, double stop_radius_mm,
                                             const Spot& there, const Spot& on_axis) {
   if (at.system->displaced() || !(on_axis.transmitted > 0)) return std::nullopt;
-  const double h = kFieldDifference;
-  const double unit = at.system->object_distance_mm ? 1 : std::numbers::pi / 180;
+  const auto& distance = at.system->object_distance_mm;
+  constexpr double kDegree = std::numbers::pi / 180;
+  const double unit = distance ? 1 : kDegree;
+  const double h = distance ? *distance * kFieldDifference * kDegree : kFieldDifference;
   std::array<double, 4> y{};  // of the chief rays beside the field, and beside the axis
   const std::array<double, 4> fields{field - h, field + h, -h, h};
   for (std::size_t i = 0; i < y.size(); ++i) {
@@ -144,7 +141,7 @@ std::optional<double> relative_illumination(const SystemAt& at, double field, do
   const double by_axis = (y[3] - y[2]) / (2 * h * unit);
   const double power = there.transmitted / on_axis.transmitted;
   if (std::abs(field) < h) return power;
-  const double across = at.system->object_distance_mm ? field : std::sin(field * unit);
+  const double across = distance ? field : std::sin(field * unit);
   return power * across * by_axis * by_axis / ((y[0] + y[1]) / 2 * by_field);
 }
 

@@ -26,8 +26,11 @@ struct Spot {
   double passed = 0;       ///< Power that reaches the image, surfaces and glass not yet counted.
   double transmitted = 0;  ///< The same times what these let through.
 
-  /// Share of the power through the stop that clear apertures, missed surfaces and total reflection take.
-  [[nodiscard]] double vignetting() const { return filled > 0 ? 1 - passed / filled : 1; }
+  /// Share of the power through the stop that clear apertures, missed surfaces and total reflection take;
+  /// none where no ray was aimed through it.
+  [[nodiscard]] std::optional<double> vignetting() const {
+    return filled > 0 ? std::optional(1 - passed / filled) : std::nullopt;
+  }
 };
 
 /// Rays from the middles of `side` times `side` cells of the rectangle around the beam.

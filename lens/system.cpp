@@ -34,6 +34,11 @@ bool System::displaced() const {
   return std::any_of(surfaces.begin(), surfaces.end(), [](const Surface& s) { return s.displaced(); });
 }
 
+System with_round_stop(System system) {
+  system.surfaces[system.stop].iris.reset();
+  return system;
+}
+
 SystemAt::SystemAt(const System& of, double wavelength)
     : system(&of), wavelength_nm(wavelength), n{1}, absorption_per_mm{0}, vertex_z{0} {
   for (const Surface& surface : of.surfaces) {

@@ -71,6 +71,9 @@ struct System {
   [[nodiscard]] bool displaced() const;  ///< Whether any surface is decentred or tilted.
 };
 
+/// The system with its stop open to the whole circle, without blades.
+[[nodiscard]] System with_round_stop(System system);
+
 /// A system at one wavelength.
 struct SystemAt {
   SystemAt(const System& of, double wavelength);

@@ -261,6 +261,28 @@ TEST(LensField, HoleBeforeANearObjectDarkensAlike) {
   EXPECT_NEAR(*found / std::pow(cosine, 4), 1, 5e-3);
 }
 
+TEST(LensField, FarObjectsDarkenAsThoseAtInfinity) {
+  const auto illumination = [](const std::string& object) {
+    const System system = test::sound_lens_of(R"({"f_number": 4, "fields_deg": [0, 5], "focus": "paraxial",
+      )" + object + R"("surfaces": [{"radius": 51.68, "thickness": 4, "glass": "N-BK7", "stop": true},
+      [-51.68, 50]]})");
+    const double radius = stop_radius(system);
+    const auto spots = all_spots(system, radius, 150);
+    return relative_illumination(SystemAt(system, system.primary_nm()), system.fields[1], radius,
+                                 spots[1][system.primary], spots[0][system.primary])
+        .value();
+  };
+  const double at_infinity = illumination("");
+  EXPECT_NEAR(at_infinity, 0.9864, 1e-4);
+  for (const double distance : {1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9}) {
+    // As far as objects may be, rounding moves cells of a beam across its rim.
+    const double rounding = distance > 1e8 ? 2e-3 : 1e-6;
+    EXPECT_NEAR(illumination(R"("object_distance": )" + std::to_string(distance) + ","), at_infinity,
+                rounding + 1 / distance)
+        << distance;
+  }
+}
+
 TEST(LensField, SpeedCountsTheLossesOfSurfaces) {
   const System system = test::double_gauss_of(test::kStatedIndices);
   const SystemAt at(system, 587.6);
@@ -296,7 +318,8 @@ TEST(LensField, VignettingIsTheShareThatAperturesTake) {
   System system = perfect(0);
   system.surfaces[0].semi_aperture_mm = 3 / std::sqrt(2.0);
   const auto spots = axial_spots(system);
-  EXPECT_NEAR(spots[0].vignetting(), 0.5, 5e-3);
+  EXPECT_NEAR(*spots[0].vignetting(), 0.5, 5e-3);
+  EXPECT_FALSE(Spot{}.vignetting()) << "of no ray that was aimed";
 }
 
 // A plano-convex lens of 100 mm before its stop; its surfaces, or the stop, displaced.

@@ -92,6 +92,22 @@ TEST_P(ShippedLens, EndsWhereTheLightOfItsPictureDoes) {
   }
 }
 
+// A corner of a triangle of blades, and so the widest beam, is to one side alone.
+TEST_P(ShippedLens, EndsAllAroundWhereBladesLeaveACorner) {
+  for (Surface& surface : lens.surfaces) surface.semi_aperture_mm.reset();
+  const V2d half(0.5 * image_height, 0);
+  const auto ended = [&] {
+    return with_clear_apertures(SpectralSystem(lens, system.stop_radius_mm()), half, 400, 700);
+  };
+  const System round = ended();
+  lens.surfaces[lens.stop].iris = Iris(kLeastBlades, 90);
+  const System bladed = ended();
+  EXPECT_TRUE(bladed.surfaces[lens.stop].iris);
+  for (std::size_t k = 0; k < lens.surfaces.size(); ++k)
+    EXPECT_EQ(*bladed.surfaces[k].semi_aperture_mm, *round.surfaces[k].semi_aperture_mm)
+        << "surface " << k + 1;
+}
+
 // Rays all over the last element and beyond, from all over the image, at wavelengths between those that the
 // bounds are found at; of lenses without clear apertures those a little beyond the bounds.
 TEST_P(ShippedLens, LosesNothingByTheBoundsOfItsExitPupil) {
