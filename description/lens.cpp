@@ -18,9 +18,7 @@ using namespace schema;
 
 namespace {
 
-constexpr double kMaxMm = 1e9;
 constexpr Range kMm = Range{-kMaxMm, kMaxMm}.in("mm");
-constexpr Range kPositiveMm{0, kMaxMm, true, false, "mm"};
 constexpr Range kTilt = Range{-89, 89}.in("degrees");
 
 }  // namespace

@@ -15,6 +15,8 @@ namespace abbe::spec {
 
 inline constexpr Range kModelIndex{1, 4, true, false};  ///< Of n_d.
 inline constexpr Range kAbbeNumber{1, 1000};
+inline constexpr double kMaxMm = 1e9;  ///< Of any length.
+inline constexpr Range kPositiveMm{0, kMaxMm, true, false, "mm"};
 inline constexpr Range kFieldAngle = Range{-120, 120}.in("degrees");
 
 /// A glass by its index at the d line and its Abbe number there.

@@ -32,6 +32,13 @@ struct ReadSurface {
   bool has_thickness = false;
 };
 
+/// A wavelength with how much it counts.
+struct ReadWavelength {
+  double nm;
+  double weight;
+  SourcePosition weight_where;
+};
+
 /// A file line by line: those of the system, then those of each surface.
 class Reader {
  public:
@@ -91,6 +98,7 @@ class Reader {
   void require_angles();
   void finish_fields();
   void finish_wavelengths();
+  void report_weights();
   spec::LensSurface finished(const ReadSurface& read) const;
 
   Diagnostics& diagnostics_;
@@ -98,7 +106,7 @@ class Reader {
   std::vector<ReadSurface> surfaces_{};
   std::vector<std::string> catalogues_{};
   std::vector<double> fields_{};
-  std::map<int, double> wavelengths_nm_{};
+  std::map<int, ReadWavelength> wavelengths_{};
   double unit_mm_ = 1;
   int field_kind_ = 0;
   std::size_t field_count_ = 0;       // 0: as many as stand there

@@ -9,6 +9,11 @@
 
 // The surfaces of a `.zmx` file.
 namespace abbe::description::zemax {
+namespace {
+
+constexpr double kInfinity = 1e10;  // what older files have in place of the word, and whatever is beyond
+
+}  // namespace
 
 const std::map<std::string, Reader::Handler>& Reader::surface_words() {
   static const std::map<std::string, Handler> kWords{
@@ -48,9 +53,18 @@ void Reader::curvature(const Line& line) {
 
 void Reader::thickness(const Line& line) {
   now().has_thickness = true;
-  now().at_infinity = line.text(1) == "INFINITY";
-  if (now().at_infinity && surfaces_.size() > 1) error(line, 1, "only the object can be at infinity");
-  if (!now().at_infinity) now().surface.thickness = line.number(1, diagnostics_).value_or(0);
+  const auto said = line.text(1) == "INFINITY" ? kInfinity : line.number(1, diagnostics_);
+  if (!said) return;
+  now().at_infinity = *said >= kInfinity;
+  if (now().at_infinity) {
+    if (!is_object()) error(line, 1, "only the object can be at infinity");
+    return;
+  }
+  now().surface.thickness = *said;
+  if (is_object() && !spec::kPositiveMm.contains(*said * unit_mm_))
+    error(line, 1,
+          fmt::format("distance of the object out of range (got {:g} mm, allowed {} mm)", *said * unit_mm_,
+                      spec::kPositiveMm.text()));
 }
 
 // As the first of the file's catalogues sells it, else as scenes find it, which is told: another maker's

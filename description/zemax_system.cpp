@@ -134,7 +134,8 @@ void Reader::wavelength(const Line& line) {
                         spec::kWavelength.text()));
     return;
   }
-  wavelengths_nm_[static_cast<int>(*number)] = *um * 1000;
+  const auto weight = line.text(3) ? line.number(3, diagnostics_) : 1;
+  if (weight) wavelengths_[static_cast<int>(*number)] = {*um * 1000, *weight, line.where(3)};
 }
 
 void Reader::primary(const Line& line) {
@@ -187,14 +188,27 @@ void Reader::finish_fields() {
     lens_.fields = spec::ImageHeights{{fields_}};
 }
 
+// Those of one weight are the lens's as they are.
+void Reader::report_weights() {
+  const auto other = std::find_if(wavelengths_.begin(), wavelengths_.end(), [&](const auto& wavelength) {
+    return wavelength.second.weight != wavelengths_.begin()->second.weight;
+  });
+  if (other != wavelengths_.end())
+    diagnostics_.warning(other->second.weight_where,
+                         "the weights of WAVM are left out: all wavelengths count alike");
+}
+
 void Reader::finish_wavelengths() {
+  if (wavelength_count_ > 0)
+    wavelengths_.erase(wavelengths_.upper_bound(static_cast<int>(wavelength_count_)), wavelengths_.end());
+  report_weights();
   std::vector<int> numbers;
   std::vector<double> used_nm;
-  for (const auto& [number, nm] : wavelengths_nm_) {
-    if (wavelength_count_ > 0 && number > static_cast<int>(wavelength_count_)) break;
+  for (const auto& [number, wavelength] : wavelengths_) {
     numbers.push_back(number);
-    used_nm.push_back(nm);
-    if (number == primary_) lens_.primary_nm = {{nm}, primary_line_ ? primary_line_->where(1) : lens_.where};
+    used_nm.push_back(wavelength.nm);
+    if (number == primary_)
+      lens_.primary_nm = {{wavelength.nm}, primary_line_ ? primary_line_->where(1) : lens_.where};
   }
   if (primary_line_ && !lens_.primary_nm)
     error(*primary_line_, 1,

@@ -168,6 +168,21 @@ TEST(LensZemax, ObjectsAndImagesOfOtherKindsAreErrorsAtTheirLine) {
   EXPECT_TRUE(lens_of(replaced(kAchromat, "FTYP 0 0 2 3 0 0 0", "FTYP 0 0.0 2 3"), ".zmx").system);
 }
 
+// As older files say it.
+TEST(LensZemax, ObjectsBeyondADistanceAreAtInfinity) {
+  const auto with = [](const std::string& distance) { return replaced(kAchromat, "INFINITY", distance); };
+  for (const char* far : {"1.000000000000000000E+010", "1e11"})
+    EXPECT_FALSE(sound_lens_of(with(far), ".zmx").object_distance_mm) << far;
+  EXPECT_EQ(sound_lens_of(with("1e9"), ".zmx").object_distance_mm, 1e9);
+  expect_zemax_fault(with("5e9"), "20:8",
+                     "distance of the object out of range (got 5e+09 mm, allowed (0, 1000000000] mm)");
+  expect_zemax_fault(with("0"), "20:8",
+                     "distance of the object out of range (got 0 mm, allowed (0, 1000000000] mm)");
+  expect_zemax_fault(replaced(with("5e7"), "UNIT MM", "UNIT METER"), "20:8", "(got 5e+10 mm,");
+  expect_zemax_fault(replaced(kAchromat, "DISZ 4.0", "DISZ 1e10"), "28:8",
+                     "only the object can be at infinity");
+}
+
 TEST(LensZemax, WhatASystemSaysTwiceOrNotInFullIsAnError) {
   expect_zemax_fault(replaced(kAchromat, "PWAV 2", "PWAV 4"), "16:6",
                      "no wavelength of the file has this number (got 4, allowed 1, 2, 3)");
@@ -250,6 +265,15 @@ TEST(LensZemax, WhatIsLeftOutIsTold) {
   loaded = lens_of(replaced(kAchromat, "  COMM front", "  COAT THORA"), ".zmx");
   ASSERT_TRUE(loaded.system);
   EXPECT_NE(loaded.text().find("the coating THORA is left out"), std::string::npos) << loaded.text();
+  loaded = lens_of(replaced(kAchromat, "WAVM 2 5.876E-1 1", "WAVM 2 5.876E-1 0"), ".zmx");
+  ASSERT_TRUE(loaded.system);
+  EXPECT_EQ(loaded.system->wavelengths_nm.size(), 3U);
+  EXPECT_NE(loaded.text().find("lens.zmx:13:17: warning: the weights of WAVM are left out: all wavelengths "
+                               "count alike"),
+            std::string::npos)
+      << loaded.text();
+  // Of a place that is not used.
+  EXPECT_EQ(lens_of(replaced(kAchromat, "WAVM 4 5.5E-1 1", "WAVM 4 5.5E-1 0"), ".zmx").text(), "");
 }
 
 TEST(LensZemax, UnitsAspheresAndModelGlassesAreUnderstood) {
