@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include <ImathBox.h>
 #include <fmt/format.h>
 
 #include "sensor/film/recorded_crop.h"
@@ -14,8 +15,45 @@ namespace {
 
 // Of a patch's edges; what is nearer to its rim may be blurred by the lens.
 constexpr double kMiddle = 0.7;
-constexpr Imath::V2f kLensCentre{0.5F, 0.5F};
 constexpr float kMiddleNm = 550;  // at which a patch is looked for
+constexpr int kLensPoints = 32;   // along a side of what lens points are picked by
+constexpr Imath::V2f kLensCentre{0.5F, 0.5F};
+
+// Where light from a point comes to the film through one of the lens's points.
+std::optional<Imath::V2f> seen_through(const Camera& camera, const Imath::V3d& point,
+                                       const Imath::V2f& lens) {
+  const auto seen = sample_towards(camera, Imath::V3f(point), lens, SampledSpectrum(kMiddleNm), 0);
+  return seen ? std::optional(seen->film) : std::nullopt;
+}
+
+// The mean of where light from a point comes to through all of the lens.
+std::optional<Imath::V2d> mean_image(const Camera& camera, const Imath::V3d& point) {
+  // Thrice as wide each way, so that what is beside the film counts, too.
+  const Imath::V2d size(camera.width, camera.height);
+  Camera wider = camera;
+  wider.width *= 3;
+  wider.height *= 3;
+  Imath::V2d sum(0, 0);
+  int passed = 0;
+  for (int j = 0; j < kLensPoints; ++j)
+    for (int i = 0; i < kLensPoints; ++i) {
+      const auto film = seen_through(wider, point, Imath::V2f(Imath::V2d(i + 0.5, j + 0.5) / kLensPoints));
+      if (!film) continue;
+      sum += Imath::V2d(*film) - size;
+      ++passed;
+    }
+  if (passed == 0) return std::nullopt;
+  const Imath::V2d mean = sum / passed;
+  return Imath::Box2d({0, 0}, size).intersects(mean) ? std::optional(mean) : std::nullopt;
+}
+
+// The image of a point: through the middle of the lens, or, of one that light through this does not come
+// from, as off the axis of a fisheye whose pupil moves with the field, the mean. Nothing for what the camera
+// does not see.
+std::optional<Imath::V2d> image_of(const Camera& camera, const Imath::V3d& point) {
+  if (const auto middle = seen_through(camera, point, kLensCentre)) return Imath::V2d(*middle);
+  return mean_image(camera, point);
+}
 
 // The corners of a patch's middle on the film; nothing for what the camera does not see.
 std::optional<PatchOutline> project(const Camera& camera, const std::string& name, const Quad& quad) {
@@ -26,9 +64,9 @@ std::optional<PatchOutline> project(const Camera& camera, const std::string& nam
   PatchOutline outline{name, {}};
   for (std::size_t i = 0; i < kCorners.size(); ++i) {
     const Imath::V3d point = quad.corner + quad.edge_u * kCorners[i][0] + quad.edge_v * kCorners[i][1];
-    const auto seen = sample_towards(camera, Imath::V3f(point), kLensCentre, SampledSpectrum(kMiddleNm), 0);
-    if (!seen) return std::nullopt;
-    outline.corners[i] = Imath::V2d(seen->film);
+    const auto image = image_of(camera, point);
+    if (!image) return std::nullopt;
+    outline.corners[i] = *image;
   }
   return outline;
 }
@@ -53,10 +91,11 @@ MeasuredPlanes planes_of(const Image& film, const std::vector<std::string>& chan
 }  // namespace
 
 std::vector<PatchOutline> chart_outlines(const Scene& scene, const ChartInstance& chart) {
+  const Camera camera = without_ghosts(scene.camera);
   std::vector<PatchOutline> outlines;
   for (std::uint32_t i = chart.first; i < chart.first + chart.patches; ++i) {
     const ShapeInstance& shape = scene.shapes.at(i);
-    auto outline = project(scene.camera, shape.name, std::get<Quad>(shape.shape));
+    auto outline = project(camera, shape.name, std::get<Quad>(shape.shape));
     if (!outline) throw Error(ErrorCode::input, shape.name, "its middle is beyond the film");
     outlines.push_back(*std::move(outline));
   }

@@ -9,6 +9,7 @@
 namespace abbe {
 namespace {
 
+using Imath::V2d;
 using Imath::V3d;
 using ChartFileTest = test::DescriptionTest;
 using test::Loaded;
@@ -134,6 +135,44 @@ TEST_F(ChartFileTest, ReadOutFindsEachPatchOnTheFilm) {
   EXPECT_NEAR(patches[0].mean[0], 29.5 + 1000 * 29.5, 1e-2);
   EXPECT_NEAR(patches[23].mean[0], 129.5 + 1000 * 89.5, 1e-2);
   EXPECT_NEAR((*patches[18].reflectance)(550), 0.9, 0.03);
+}
+
+// Rays of the camera from where a patch is found on the film come to its corners, off the axis of a lens
+// whose pupil moves so far with the field that none comes through the middle of where all of them come in.
+TEST_F(ChartFileTest, ReadOutFindsPatchesThroughAFisheye) {
+  const auto seen = [this](const std::string& corner) {
+    return load(R"({"camera": {"lens_system": {"prescription": "fisheye"},
+      "from": [0, 0, 0], "to": [0, 1, 0], "up": [0, 0, 1]},
+    "sensor": {"resolution": [128, 128], "pixel_pitch_um": 150, "channels": {"all": {"band": [500, 600]}}},
+    "lights": [{"environment": {}, "emission": {"spectrum": 1}}],
+    "shapes": [{"name": "c", "chart": {)" +
+                kTable + R"("corner": )" + corner + R"(, "edge_u": [0.4, 0, 0], "edge_v": [0, 0, 0.4]}}]})");
+  };
+  const Loaded scene = seen("[-0.2, 0.5, -0.2]");
+  ASSERT_TRUE(scene.scene) << scene.text();
+  const auto outlines = chart_outlines(*scene.scene, scene->charts[0]);
+  ASSERT_EQ(outlines.size(), 24U);
+  for (std::uint32_t patch = 0; patch < 24; ++patch) {
+    const Quad& quad = quad_of(*scene.scene, patch);
+    const V3d corner = quad.corner + 0.15 * (quad.edge_u + quad.edge_v);
+    V3d sum(0, 0, 0);
+    int passed = 0;
+    for (int i = 0; i < 256; ++i) {
+      const Imath::V2f lens(V2d(i % 16 + 0.5, i / 16 + 0.5) / 16);
+      const CameraRay ray =
+          sample_ray(scene->camera, Imath::V2f(outlines[patch].corners[0]), lens, SampledSpectrum(550), 0, 0);
+      if (!(ray.weight[0] > 0)) continue;
+      const V3d origin(ray.ray.origin);
+      const V3d direction(ray.ray.direction);
+      sum += origin + direction * ((corner.y - origin.y) / direction.y);
+      ++passed;
+    }
+    ASSERT_GT(passed, 50);
+    EXPECT_LT((sum / passed - corner).length(), 2e-3) << patch << ", where a pixel sees 7 mm";
+  }
+  const Loaded beside = seen("[-4, 0.5, -0.2]");
+  ASSERT_TRUE(beside.scene) << beside.text();
+  EXPECT_THROW((void)chart_outlines(*beside.scene, beside->charts[0]), Error);
 }
 
 TEST_F(ChartFileTest, ReadOutRefusesOtherFilms) {
