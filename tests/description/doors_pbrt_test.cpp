@@ -125,6 +125,28 @@ TEST_F(PbrtTest, LensesExposeAsThePinholeDoes) {
   }
 }
 
+// Its lens and its focus are in the camera's own coordinates.
+TEST_F(PbrtTest, ScaledCamerasHaveScaledLenses) {
+  const auto lens_of = [this](const std::string& scale) {
+    const auto made = convert("a.pbrt", "Scale " + scale +
+                                            "\nCamera \"perspective\" \"float lensradius\" 0.1 \"float "
+                                            "focaldistance\" 5\nWorldBegin\n");
+    EXPECT_TRUE(made) << told_;
+    return std::get<spec::ThinLensCamera>(made.value().camera->kind).lens;
+  };
+  const std::string uneven = "a camera that is scaled unevenly has no counterpart here";
+  for (const double world : {1.0, 0.5, 4.0}) {
+    const auto lens = lens_of(fmt::format("-{0} {0} {0}", 1 / world));
+    EXPECT_NEAR(lens.focal_length / lens.aperture.f_number.value() / 2, 0.1 * world, 1e-9);
+    EXPECT_NEAR(std::get<double>(lens.focus_distance.value()), 5 * world, 1e-9);
+    EXPECT_FALSE(tells(uneven)) << told_;
+  }
+  for (const char* scale : {"-1 2 2", "-2 1 2", "-1 1 2"}) {
+    (void)lens_of(scale);
+    EXPECT_TRUE(tells(uneven)) << scale;
+  }
+}
+
 TEST_F(PbrtTest, ImagesOfTheSkyGiveTheirMean) {
   write_exr(folder_ / "sky.exr", {2, 1, {{"R", {1, 3}}, {"G", {2, 6}}, {"B", {0, 8}}}, {}});
   const auto luminance = [&](const std::string& more) {

@@ -11,6 +11,29 @@ namespace abbe::doors {
 
 namespace {
 
+// What an axis of the camera is in the world: to the right, up, or where it looks.
+Imath::V3d axis(const GivenCamera& camera, int row) {
+  const Imath::M44d& m = camera.to_world;
+  return {m[row][0], m[row][1], m[row][2]};
+}
+
+// Its lens and its focus are told in coordinates of its own.
+GivenCamera in_world(GivenCamera camera) {
+  camera.lens_radius *= axis(camera, 1).length();
+  camera.focus_distance *= axis(camera, 2).length();
+  return camera;
+}
+
+void note_uneven_scale(const GivenCamera& camera, Door& door) {
+  constexpr double kAlike = 1e-3;  // what numbers written to a few digits are
+  const double onwards = axis(camera, 2).length();
+  for (const int across : {0, 1})
+    if (std::abs(axis(camera, across).length() - onwards) > kAlike * onwards)
+      return door.note(
+          camera.where,
+          "a camera that is scaled unevenly has no counterpart here: its picture is not stretched");
+}
+
 // Brightness does not depend on the opening of the other renderer's lens, nor on the size of its film. So its
 // film is where the lens of that opening exposes as the pinhole does, which alone leaves brightness as it is.
 double film_distance_of(const GivenCamera& camera) {
@@ -42,11 +65,13 @@ Imath::M44d upright_world(const Imath::M44d& camera_to_world) {
   return mirrors(camera_to_world) ? Imath::M44d() : scaling({-1, 1, 1});
 }
 
-void set_camera(const GivenCamera& camera, Door& door) {
+void set_camera(const GivenCamera& given, Door& door) {
+  const GivenCamera camera = in_world(given);
   const Imath::M44d& m = camera.to_world;
   const Imath::V3d from(m[3][0], m[3][1], m[3][2]);
-  const Imath::V3d onwards = Imath::V3d(m[2][0], m[2][1], m[2][2]).normalized();
-  const Imath::V3d up = Imath::V3d(m[1][0], m[1][1], m[1][2]).normalized();
+  const Imath::V3d onwards = axis(camera, 2).normalized();
+  const Imath::V3d up = axis(camera, 1).normalized();
+  note_uneven_scale(camera, door);
   if (!door.scene.sensor) door.scene.sensor.emplace();
   door.scene.sensor->resolution = {{camera.resolution}, camera.where};
   const spec::View view{from, from + onwards, up, 0};
