@@ -38,7 +38,7 @@ void check(const spec::Meter& said, LoadContext& context) {
         said.where, fmt::format("no light goes through a point: its {} needs a quad, disc or sphere", name));
   const bool of_a_cone =
       said.measures == MeterQuantity::radiance || said.measures == MeterQuantity::intensity;
-  if (of_a_cone && said.probe.acceptance_deg == 90)
+  if (of_a_cone && !said.probe.acceptance_deg)
     context.diagnostics.error(
         said.where, fmt::format("a meter of {} takes light from a cone: it needs an acceptance_deg", name));
   if (said.cells && !std::holds_alternative<spec::Quad>(said.probe.surface))

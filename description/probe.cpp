@@ -30,8 +30,9 @@ Fields fields(Tag<Probe>) {
                           "A parallelogram that measures, one patch per pixel; it faces edge_u x edge_v."),
               under<Disc>("disc", "A disc that measures on the side of its normal."),
               under<SphereProbe>("sphere")),
-       defaulted("acceptance_deg", &Probe::acceptance_deg, Range{0.01, 90}.in("degrees"),
-                 "Greatest angle with the normal under which light counts: 90 for all of its side.")});
+       field("acceptance_deg", &Probe::acceptance_deg, Range{0.01, 90}.in("degrees"),
+             "Greatest angle with the normal under which light counts: 90, for all of its side, when "
+             "absent.")});
 }
 
 }  // namespace abbe::spec
@@ -39,8 +40,8 @@ Fields fields(Tag<Probe>) {
 namespace abbe::description {
 
 std::optional<Probe> build(const spec::Probe& probe, const LoadContext& context) {
-  const double acceptance =
-      probe.acceptance_deg < 90 ? std::sin(probe.acceptance_deg * std::numbers::pi / 180) : 1;
+  const double degrees = probe.acceptance_deg.value_or(90);
+  const double acceptance = degrees < 90 ? std::sin(degrees * std::numbers::pi / 180) : 1;
   if (const auto* point = std::get_if<spec::PointProbe>(&probe.surface))
     return Probe{PointOfMeter{point->at * context.unit_m, point->normal.normalized()}, acceptance};
   if (const auto* disc = std::get_if<spec::Disc>(&probe.surface))

@@ -23,7 +23,7 @@ struct SphereProbe {
 /// A surface that takes light within some angle of its normal.
 struct Probe {
   std::variant<std::monostate, PointProbe, Quad, Disc, SphereProbe> surface;
-  double acceptance_deg = 90;
+  std::optional<double> acceptance_deg;
 };
 [[nodiscard]] schema::Fields fields(schema::Tag<Probe>);
 

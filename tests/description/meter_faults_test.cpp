@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <fmt/format.h>
+
 #include "description.h"
 
 namespace abbe {
@@ -35,6 +37,16 @@ TEST_F(MeterFaultsTest, AreExplained) {
        ErrorCode::scene, "a meter does not move"},
   };
   expect_refused(faults);
+}
+
+TEST_F(MeterFaultsTest, AConeMayBeAllOfASide) {
+  for (const char* measures : {"radiance", "intensity"})
+    EXPECT_TRUE(
+        load(metered(fmt::format(R"("measures": "{}", "acceptance_deg": 90, "disc": {{"center": [0, 0, 0],
+          "normal": [0, 0, 1], "radius": 1}})",
+                                 measures)))
+            .scene)
+        << measures;
 }
 
 }  // namespace
