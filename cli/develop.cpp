@@ -165,9 +165,9 @@ ExposedFilm expose_spectral(Image file, const DevelopOptions& options, Inputs& i
                                                : "";
   if (*unmet != 0)
     throw Error(ErrorCode::usage, unmet, "a spectral film needs a sensor that looks at it: --scene");
-  if (!white) return observed_film(image, view_of(options), recorded_white(told));
+  if (!white) return observed_film(image, options.film, view_of(options), {});
   const White chosen = asked_white(*white, told, white_option(options));
-  ExposedFilm seen = observed_film(image, view_of(options), chosen.xy);
+  ExposedFilm seen = observed_film(image, options.film, view_of(options), chosen.xy);
   seen.sensor.white_name = chosen.name;
   return seen;
 }

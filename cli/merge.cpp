@@ -21,8 +21,6 @@
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/file_lock.h"
-#include "io/text.h"
-#include "sensor/film/recorded_white.h"
 #include "transport/render/part_films.h"
 
 namespace abbe::cli {
@@ -78,9 +76,7 @@ FilmSensor shown_sensor(const FilmIdentity& identity, const fs::path& part) {
   const ViewOptions view{users_configuration(), {}, {}};
   FilmSensor sensor;
   if (identity.contains(kSpectralBinsKey)) {
-    sensor.display = display_of_radiance(view, recorded_white(told));
-    if (const auto exposure = identity.find("display_exposure"); exposure != identity.end())
-      sensor.display_exposure = parse_number(exposure->second);
+    sensor = observer_of(told, part, view, {});
   } else {
     Diagnostics diagnostics;
     sensor = accepted(film_sensor(told, part, {}, view, {}, diagnostics), diagnostics);

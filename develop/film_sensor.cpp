@@ -155,8 +155,12 @@ std::optional<FilmSensor> film_sensor(const Image& film, const std::filesystem::
   sensor.f_number = data.find_number("aperture");
   sensor.display = read_display(data, sensor, view, white);
   sensor.white = white ? white : recorded_white(film);
-  sensor.display_exposure = data.find_number("display_exposure");
+  sensor.display_exposure = recorded_display_exposure(film, path);
   return sensor;
+}
+
+std::optional<double> recorded_display_exposure(const Image& film, const std::filesystem::path& path) {
+  return Metadata{film, path}.find_number("display_exposure");
 }
 
 std::optional<double> common_exposure(const FilmSensor& sensor) {

@@ -62,6 +62,11 @@ struct ExposedFilm {
                                                     std::optional<Chromaticity> white,
                                                     Diagnostics& diagnostics);
 
+/// The film value that the film read from `path` tells to be shown as white. Throws Error{input} for one that
+/// makes no sense.
+[[nodiscard]] std::optional<double> recorded_display_exposure(const Image& film,
+                                                              const std::filesystem::path& path);
+
 /// The exposure time of all channels [s]; nothing where they differ.
 [[nodiscard]] std::optional<double> common_exposure(const FilmSensor& sensor);
 

@@ -15,6 +15,7 @@
 #include "sensor/film/spectral_film.h"
 #include "sensor/film/variance_name.h"
 #include "sensor/readout/demosaic.h"
+#include "sensor/readout/speed.h"
 #include "sensor/response/polariser_group.h"
 #include "spectral/rgb.h"
 
@@ -81,13 +82,19 @@ DisplayTransform display_of_radiance(const ViewOptions& view, std::optional<Chro
   return {{kRgb.begin(), kRgb.end()}, adapted * rgb_to_xyz_d65(kRec709), {}, view};
 }
 
-ExposedFilm observed_film(const SpectralImage& image, const ViewOptions& view,
-                          std::optional<Chromaticity> white) {
+FilmSensor observer_of(const Image& film, const std::filesystem::path& path, const ViewOptions& view,
+                       std::optional<Chromaticity> white) {
   FilmSensor sensor;
   sensor.planes = sensor.channels = {kRgb.begin(), kRgb.end()};
-  sensor.display = display_of_radiance(view, white);
-  sensor.white = white;
-  return {observed(image), std::move(sensor)};
+  sensor.white = white ? white : recorded_white(film);
+  sensor.display = display_of_radiance(view, sensor.white);
+  sensor.display_exposure = recorded_display_exposure(film, path);
+  return sensor;
+}
+
+ExposedFilm observed_film(const SpectralImage& image, const std::filesystem::path& path,
+                          const ViewOptions& view, std::optional<Chromaticity> white) {
+  return {observed(image), observer_of({0, 0, {}, image.metadata}, path, view, white)};
 }
 
 void forget_channels(std::map<std::string, std::string>& metadata) {
@@ -121,8 +128,9 @@ Image exposed_film(const SpectralImage& image, const RadianceSensor& sensor,
   Image film = expose(image, sensor.channels, sensor.exposure_per_radiance);
   if (sensor.mosaic) film = mosaicked(film, *sensor.mosaic, names_of(sensor.channels));
   film.metadata = image.metadata;
-  forget_channels(film.metadata);
+  forget_sensor(film.metadata);
   forget_layout(film.metadata);
+  for (const char* key : {"aperture", kIsoSpeedKey}) film.metadata.erase(key);  // of the camera before
   if (tells_variance(image))
     forget_error(film.metadata);
   else

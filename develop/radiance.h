@@ -40,9 +40,14 @@ void check_coverage(const SpectralImage& image, const Channel& channel, const st
 [[nodiscard]] DisplayTransform display_of_radiance(const ViewOptions& view,
                                                    std::optional<Chromaticity> white);
 
-/// Radiances as the eye sees them: `observed`, with the display that shows it.
-[[nodiscard]] ExposedFilm observed_film(const SpectralImage& image, const ViewOptions& view,
-                                        std::optional<Chromaticity> white);
+/// What shows radiances as the eye sees them, of what the spectral film read from `path` tells of its
+/// exposure and, where no other white is asked for, its white. Throws Error{input} for what makes no sense.
+[[nodiscard]] FilmSensor observer_of(const Image& film, const std::filesystem::path& path,
+                                     const ViewOptions& view, std::optional<Chromaticity> white);
+
+/// Radiances as the eye sees them: `observed`, with `observer_of` their film.
+[[nodiscard]] ExposedFilm observed_film(const SpectralImage& image, const std::filesystem::path& path,
+                                        const ViewOptions& view, std::optional<Chromaticity> white);
 
 /// A sensor that looks at radiances, pixel for pixel.
 struct RadianceSensor {
@@ -65,9 +70,9 @@ void forget_layers_and_features(std::map<std::string, std::string>& metadata);
 /// Drops what is said of the layout of a spectral film, and of its preview.
 void forget_layout(std::map<std::string, std::string>& metadata);
 
-/// The film of a sensor that looks at the radiances read from `path`, with the metadata of both; with a
-/// mosaic, its one plane. Warns of channels that respond beyond the image's bands. Throws Error{input} for
-/// one that sees nothing of them.
+/// The film of a sensor that looks at the radiances read from `path`, with the metadata of both, of
+/// which what is told of the sensor and its camera is the new one's; with a mosaic, its one plane. Warns of
+/// channels that respond beyond the image's bands. Throws Error{input} for one that sees nothing of them.
 [[nodiscard]] Image exposed_film(const SpectralImage& image, const RadianceSensor& sensor,
                                  const std::filesystem::path& path, Diagnostics& diagnostics);
 

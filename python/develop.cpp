@@ -91,8 +91,8 @@ ExposedFilm exposed(const FilmHandle& film, SceneHandle* looker, const py::objec
     throw Error(ErrorCode::usage, "readout",
                 "a spectral film has no sensor to read out: `scene` gives it one");
   if (!is_spectral(image)) return {image, sensor_of(image, readout, asked)};
-  ExposedFilm seen =
-      observed_film(spectral_image(image, kWhere), {}, asked ? asked->xy : recorded_white(image));
+  ExposedFilm seen = observed_film(spectral_image(image, kWhere), kWhere, {},
+                                   asked ? std::optional(asked->xy) : std::nullopt);
   if (asked) seen.sensor.white_name = asked->name;
   return seen;
 }

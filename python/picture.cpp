@@ -15,7 +15,7 @@ namespace py = pybind11;
 
 ExposedFilm exposed(const Image& film) {
   constexpr const char* kWhere = "film";
-  if (is_spectral(film)) return observed_film(spectral_image(film, kWhere), {}, recorded_white(film));
+  if (is_spectral(film)) return observed_film(spectral_image(film, kWhere), kWhere, {}, {});
   Diagnostics diagnostics;
   std::optional<FilmSensor> sensor = film_sensor(film, kWhere, {}, {}, recorded_white(film), diagnostics);
   require_sound(diagnostics);

@@ -84,14 +84,27 @@ TEST(DevelopSpectral, ThePreviewIsInCandelas) {
 }
 
 TEST(DevelopSpectral, RenderAndDevelopShowTheSame) {
-  const std::string text = dome_scene("shown.json", kBins);
-  ASSERT_EQ(
-      abbe("render " + text + " --quiet -o " + file("shown.exr") + " --display " + file("render.png")).code,
-      0);
-  ASSERT_EQ(abbe("develop " + file("shown.exr") + " --display " + file("develop.png")).code, 0);
-  for (std::size_t k = 0; k < 3; ++k)
-    EXPECT_EQ(read_picture(file("render.png")).channels[k].values,
-              read_picture(file("develop.png")).channels[k].values);
+  for (const char* exposure : {"", "--set /output/exposure=1e5"}) {
+    const std::string film = dome_film("shown", kBins, exposure + (" --display " + file("render.png")));
+    ASSERT_EQ(abbe("develop " + film + " --display " + file("develop.png")).code, 0);
+    for (std::size_t k = 0; k < 3; ++k)
+      EXPECT_EQ(read_picture(file("render.png")).channels[k].values,
+                read_picture(file("develop.png")).channels[k].values)
+          << exposure;
+  }
+}
+
+// It is in candelas, the sensor's films are in electrons.
+TEST(DevelopSpectral, TheExposureOfRadiancesIsNoSensors) {
+  const std::string scene = dome_scene("counting.json", kBroadBands);
+  const auto seen = [&](const std::string& film) {
+    developed(film + " --scene " + scene + " -o " + file("counted.exr") + " --display " +
+              file("counted.png"));
+    EXPECT_FALSE(read_exr_parts(file("counted.exr")).front().image.metadata.contains("display_exposure"));
+    return read_picture(file("counted.png")).channels[0].values;
+  };
+  const std::vector<float> chosen = seen(dome_film("unexposed", kBins));
+  EXPECT_EQ(seen(dome_film("exposed", kBins, "--set /output/exposure=1e5")), chosen);
 }
 
 TEST(DevelopSpectral, ASensorThatLooksLaterCountsWhatOneInTheSceneCounts) {

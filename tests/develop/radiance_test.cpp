@@ -35,6 +35,20 @@ TEST(Radiance, ASensorLooksThroughItsExposure) {
                                {"exposure_s", "1"}, {"frame_mean_error", "inf"}, {"seed", "7"}}));
 }
 
+// Else the sensor's pictures would be shown by candelas, its raw files tell of a lens that it never had.
+TEST(Radiance, AFilmTellsOfItsOwnSensorAlone) {
+  SpectralImage image = green();
+  for (const char* key : {"aperture", "display_exposure", "electrons_per_lx_s", "exposure_s",
+                          "exposure_s.old", "expTime", "gathering_area_m2", "isoSpeed", "lights_xy", "mosaic",
+                          "sensor", "white", "white_xy", "whiteLuminance"})
+    image.metadata[key] = "of the old one";
+  Diagnostics diagnostics;
+  const RadianceSensor sensor{{band("V", 510, 590)}, {}, {0.5}, {{"exposure_s", "1"}, {"white", "sun"}}};
+  EXPECT_EQ(exposed_film(image, sensor, "a.exr", diagnostics).metadata,
+            (std::map<std::string, std::string>{
+                {"exposure_s", "1"}, {"frame_mean_error", "inf"}, {"seed", "7"}, {"white", "sun"}}));
+}
+
 // What the film says of its error is of its bands, and of no sensor that looks at it.
 TEST(Radiance, TheErrorOfABandIsNoSensors) {
   SpectralImage bands = green();
@@ -64,11 +78,29 @@ TEST(Radiance, LightThatTheImageLacksIsToldOrRefused) {
 }
 
 TEST(Radiance, TheEyeSeesGreen) {
-  const ExposedFilm film = observed_film(green(), {}, {});
+  const ExposedFilm film = observed_film(green(), "a.exr", {}, {});
   EXPECT_EQ(film.sensor.planes, (std::vector<std::string>{"R", "G", "B"}));
   const auto value = [&](const char* name) { return film.film.find(name)->values[0]; };
   EXPECT_GT(value("G"), value("R"));
   EXPECT_LT(value("B"), 0);  // outside the gamut
+}
+
+TEST(Radiance, TheEyeIsShownWhatTheFilmTells) {
+  SpectralImage image = green();
+  image.metadata.insert({{"display_exposure", "300"}, {"white", "A"}, {"white_xy", "0.44758 0.40745"}});
+  const FilmSensor told = observed_film(image, "a.exr", {}, {}).sensor;
+  EXPECT_EQ(told.display_exposure, 300);
+  EXPECT_EQ(told.white, (Chromaticity{0.44758, 0.40745}));
+  EXPECT_EQ(observed_film(image, "a.exr", {}, kD65).sensor.white, kD65);
+  EXPECT_EQ(observed_film(green(), "a.exr", {}, {}).sensor.display_exposure, std::nullopt);
+  image.metadata["display_exposure"] = "bright";
+  try {
+    (void)observed_film(image, "a.exr", {}, {});
+    FAIL();
+  } catch (const Error& error) {
+    EXPECT_EQ(error.code, ErrorCode::input);
+    EXPECT_STREQ(error.what(), "a.exr: attribute \"display_exposure\" makes no sense (got \"bright\")");
+  }
 }
 
 }  // namespace
