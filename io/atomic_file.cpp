@@ -33,7 +33,7 @@ fs::path folder_of(const fs::path& path) {
 }
 
 std::string temporary_prefix(const fs::path& path) {
-  return fmt::format(".{}.abbe-", path.stem().string());
+  return fmt::format(".{}.abbe-", companion_stem(path.stem().string()));
 }
 
 /// Keeps the extension, by which image libraries choose the format, and differs between processes and
@@ -88,6 +88,11 @@ fs::path destination(const fs::path& path) {
   for (int links = 0; links < kMostLinks && fs::is_symlink(end, ignored); ++links)
     end = folder_of(end) / fs::read_symlink(end, ignored);
   return end;
+}
+
+std::string companion_stem(const std::string& name) {
+  constexpr std::size_t kMost = 200;  // bytes, of 255 that file systems take
+  return name.size() > kMost ? sha256(name) : name;
 }
 
 void write_atomically(const fs::path& name, const std::function<void(const fs::path&)>& write,
@@ -150,7 +155,9 @@ void require_writable(const fs::path& name) {
   const fs::path folder = folder_of(path);
   if (!path.has_filename()) fail(path, "no file name");
   if (!fs::is_directory(folder, ignored)) fail(path, fmt::format("no such folder \"{}\"", folder.string()));
-  const fs::file_status status = fs::status(path, ignored);
+  std::error_code unknown;
+  const fs::file_status status = fs::status(path, unknown);
+  if (unknown == std::errc::filename_too_long) fail(path, "has a longer name than the file system takes");
   if (fs::is_directory(status)) fail(path, "is a folder");
   if (fs::is_symlink(path, ignored)) fail(path, "is a circle of links");
   if (fs::exists(status) && !fs::is_regular_file(status)) fail(path, "is a device, not a regular file");

@@ -3,12 +3,17 @@
 #include <filesystem>
 #include <functional>
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace abbe {
 
 /// The file that writing to `path` replaces: `path`, or where its symbolic links lead.
 [[nodiscard]] std::filesystem::path destination(const std::filesystem::path& path);
+
+/// By what a file beside one of this name is called, which has an ending of its own: the name, or its SHA-256
+/// where both would be too long for file systems.
+[[nodiscard]] std::string companion_stem(const std::string& name);
 
 /// Makes `path` appear complete or not at all: `write` fills a temporary file in the same folder, which is
 /// flushed to disk, checked by `verify`, renamed to `path`, and its folder flushed. Throws Error{output},

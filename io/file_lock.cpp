@@ -27,7 +27,7 @@ bool is_current(int descriptor, const std::filesystem::path& path) {
 
 FileLock::FileLock(const std::filesystem::path& path) : descriptor_(-1) {
   const std::filesystem::path end = destination(path);
-  lock_ = end.parent_path() / fmt::format(".{}.lock", end.filename().string());
+  lock_ = end.parent_path() / fmt::format(".{}.lock", companion_stem(end.filename().string()));
   while (true) {
     descriptor_ = ::open(lock_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     const bool locked = descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0;

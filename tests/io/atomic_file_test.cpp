@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "io/error.h"
+#include "io/file_lock.h"
 #include "test_files.h"
 
 namespace abbe {
@@ -50,6 +51,24 @@ TEST(AtomicFile, WritesThroughATemporaryOfTheSameKindBesideIt) {
   EXPECT_EQ(seen.extension(), ".png");
   EXPECT_NE(seen, path);
   EXPECT_EQ(files_in(path.parent_path()), 1U);
+}
+
+TEST(AtomicFile, WritesNamesAsLongAsFileSystemsTake) {
+  const auto folder = test_folder();
+  const std::string exr = ".exr";
+  for (const std::size_t bytes : {200U, 231U, 244U, 255U}) {
+    std::string name;
+    while (name.size() + exr.size() + 3 <= bytes) name += "\u2080";  // of three bytes
+    name += std::string(bytes - exr.size() - name.size(), 'x') + exr;
+    write_atomically(folder / name, "new");
+    EXPECT_EQ(bytes_of(folder / name), "new") << bytes;
+    EXPECT_NO_THROW(FileLock(folder / name)) << bytes;
+  }
+  EXPECT_EQ(files_in(folder), 4U);
+  EXPECT_NE(companion_stem(std::string(240, 'x') + "1"), companion_stem(std::string(240, 'x') + "2"));
+  const fs::path longer = folder / (std::string(252, 'x') + exr);
+  EXPECT_EQ(output_error([&] { require_writable(longer); }),
+            longer.string() + ": has a longer name than the file system takes");
 }
 
 TEST(AtomicFile, WritesWhereLinksLead) {
