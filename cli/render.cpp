@@ -163,11 +163,19 @@ void try_to_save(const fs::path& path, const FilmIdentity& identity, const Rende
   }
 }
 
+// Standard input, which mpirun gives to the first process alone, would be an empty scene to all others.
+void require_scene_of_all(const RenderOptions& options, const Crew& crew) {
+  if (crew.size > 1 && options.scene == kStandardStream)
+    throw Error(ErrorCode::usage, kStandardInputName,
+                "comes to the first process alone: give all of mpirun a scene in a file");
+}
+
 // Where all fail, the first process tells why and ends the others, which wait for it here.
 Scene load_together(const RenderOptions& options, Inputs& inputs, const Crew& crew) {
   std::optional<Error> failure;
   std::optional<Scene> scene;
   try {
+    require_scene_of_all(options, crew);
     scene = load(options, inputs);
   } catch (const Error& error) {
     if (crew.rank == 0) throw;

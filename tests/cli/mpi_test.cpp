@@ -94,13 +94,22 @@ TEST_F(Mpi, ALostProcessEndsAllAndLosesNoCheckpoint) {
   EXPECT_TRUE(read_file(film) == read_file(alone));
 }
 
-TEST_F(Mpi, WhatIsWrongIsToldOnce) {
-  const Outcome run = together(3, "nowhere.json");
-  EXPECT_EQ(run.code, 4);
-  const std::string complaint = "nowhere.json: error: cannot open the file";
+void expect_told_once(const Outcome& run, int code, const std::string& complaint) {
+  EXPECT_EQ(run.code, code);
   const std::size_t first = run.err.find(complaint);
   ASSERT_NE(first, std::string::npos) << run.err;
   EXPECT_EQ(run.err.find(complaint, first + 1), std::string::npos) << run.err;
+}
+
+TEST_F(Mpi, WhatIsWrongIsToldOnce) {
+  expect_told_once(together(3, "nowhere.json"), 4, "nowhere.json: error: cannot open the file");
+}
+
+TEST_F(Mpi, TheSceneComesFromAFile) {
+  const std::string read = " < " + (data_directory() / "scenes/furnace.json").string();
+  const std::string film = " --spp 1 --quiet -o " + (scratch() / "read.exr").string() + read;
+  expect_told_once(together(2, "-" + film), 2, "<stdin>: comes to the first process alone");
+  EXPECT_EQ(together(1, "-" + film).code, 0);
 }
 
 }  // namespace
