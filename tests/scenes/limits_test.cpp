@@ -125,6 +125,22 @@ TEST(Limits, ExposuresThatFloatsCannotHoldAreRefused) {
   EXPECT_NE(refused(1e60).find("give the film more than floats can hold"), std::string::npos);
 }
 
+// A sensor that counts electrons makes large numbers of what paths carry, which is what is lost first.
+TEST(Limits, RadiancesThatPathsCannotCarryAreRefused) {
+  const auto lit = [](int exponent) {
+    const double luminance = std::ldexp(2500.0, exponent);
+    return std::vector<Override>{{"/lights/0/emission/luminance", fmt::format("{}", luminance)}};
+  };
+  const double bright = mean(rendered_small("ccd.json", lit(0)));
+  EXPECT_NEAR(std::ldexp(mean(rendered_small("ccd.json", lit(-86))), 86) / bright, 1, 1e-6);
+  const std::optional<Error> error = refusal(test::load("ccd.json", lit(-90)));
+  ASSERT_TRUE(error);
+  EXPECT_NE(
+      std::string(error->what()).find("than floats can tell from nothing (got about 1.6e-33 J/m^2 and nm"),
+      std::string::npos)
+      << error->what();
+}
+
 TEST(Limits, LightTheSensorDoesNotRespondToIsExactlyBlack) {
   const RenderResult result = rendered_small(
       "glass_sphere.json", {{"/lights/0/emission", R"({"spectrum": {"band": [900, 1000]}})"},

@@ -51,30 +51,39 @@ double strength(const Scene& scene, const Light& light) {
   return lamp ? std::min(1.0, lamp->radius / lamp->distance) : 1;
 }
 
-// A bright pixel's value to within a few orders of magnitude, of the strongest light.
-double nominal_value(const Scene& scene, const Emissions& emissions) {
+// What lights of these emissions give a bright pixel, to within a few orders of magnitude: the strongest.
+double nominal_value(const Scene& scene, std::span<const double> emissions) {
   const Imath::V2f center(static_cast<float>(scene.camera.width) / 2,
                           static_cast<float>(scene.camera.height) / 2);
   const double weight = central_weight(scene.camera, center) * scene.exposure_s * scene.shutter.mean();
   double nominal = 0;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    nominal = std::max(nominal, emissions.seen[i] * strength(scene, scene.lights[i]));
+    nominal = std::max(nominal, emissions[i] * strength(scene, scene.lights[i]));
   return nominal * weight;
+}
+
+// The strongest spectral emission of each light that the sensor sees, of which paths carry a part: without
+// the response, by which a sensor may count 1e18 electrons for a joule.
+std::vector<double> spectral_emissions(const Scene& scene, const Emissions& emissions) {
+  std::vector<double> strongest;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    strongest.push_back(emissions.seen[i] > 0 ? mean_emission(scene.lights[i]).max() : 0);
+  return strongest;
 }
 
 // Why floats cannot hold so weak or strong an exposure: what paths carry may be far less than a bright one
 // has, and far more.
-std::optional<Error> beyond_floats(double nominal) {
+std::optional<Error> beyond_floats(double nominal, const char* unit) {
   constexpr double kFaintest = 1e-32;  // a float's least is 1e-38,
   constexpr double kBrightest = 1e35;  // its greatest 3e38
   const bool faint = nominal > 0 && nominal < kFaintest;
   if (!faint && !(nominal > kBrightest)) return std::nullopt;
   return Error(
       ErrorCode::scene, "",
-      fmt::format("exposure and lights give the film {} (got about {:.2g} where it is bright, allowed "
+      fmt::format("exposure and lights give the film {} (got about {:.2g}{} where it is bright, allowed "
                   "{:g} to {:g})",
                   faint ? "less than floats can tell from nothing" : "more than floats can hold", nominal,
-                  kFaintest, kBrightest));
+                  unit, kFaintest, kBrightest));
 }
 
 // The share of a light's power that comes to the scene.
@@ -171,7 +180,7 @@ Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissi
             std::move(techniques),
             photons,
             1,
-            nominal_value(scene, emissions),
+            nominal_value(scene, emissions.seen),
             make_own_wavelengths(scene, seen),
             around_camera(scene),
             std::vector<MediumStack>(traces_light ? scene.lights.size() : 0)};
@@ -199,7 +208,9 @@ std::optional<Error> refusal_to_start(const Scene& scene, const std::vector<bool
 }
 
 std::optional<Error> refusal_of(const Scene& scene, const Emissions& emissions) {
-  if (auto beyond = beyond_floats(nominal_value(scene, emissions))) return beyond;
+  if (auto beyond = beyond_floats(nominal_value(scene, emissions.seen), "")) return beyond;
+  const double carried = nominal_value(scene, spectral_emissions(scene, emissions));
+  if (auto beyond = beyond_floats(carried, " J/m^2 and nm")) return beyond;
   std::vector<bool> traced = traced_lights(scene);
   if (auto refused = refusal_to_start(scene, traced)) return refused;
   const bool aims = uses(chosen_techniques(scene), Technique::light);
