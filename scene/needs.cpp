@@ -119,9 +119,10 @@ void analyse_matter(const Scene& scene, Needs& needs) {
 
 void analyse_lights(const Scene& scene, Needs& needs) {
   const bool meter = is_meter(scene.camera);
-  const std::vector<Viewpoint> centers = specular_centers(scene);
-  const std::vector<Viewpoint> looked_at_from = meter ? places_of_meter(scene) : centers;
-  const bool photons_arrive = meter ? traits(scene.camera).opening && !centers.empty() : needs.caustics;
+  const Viewpoints centers = specular_centers(scene);
+  const Viewpoints looked_at_from = meter ? places_of_meter(scene) : centers;
+  const bool photons_arrive =
+      meter ? traits(scene.camera).opening && !centers.places.empty() : needs.caustics;
   std::set<const Curve*> examined;  // which many lights may share
   for (const Light& light : scene.lights) {
     require(needs, &Needs::environment, light.is_environment(), "light", light.name);

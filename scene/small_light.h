@@ -2,7 +2,6 @@
 
 #include <cstddef>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "scene/scene.h"
@@ -17,16 +16,23 @@ struct Viewpoint {
   Imath::V3d at;
   std::optional<std::size_t> shape;
 };
-/// The middles of a scene's specular shapes, in order of x, so that those near a light are found without
-/// asking all.
-[[nodiscard]] std::vector<Viewpoint> specular_centers(const Scene& scene);
-/// Here and there on the scene's meter, in the same order.
-[[nodiscard]] std::vector<Viewpoint> places_of_meter(const Scene& scene);
+struct Viewpoints {
+  std::vector<Viewpoint> places;  ///< In order of x, so that those near a light are found without asking all.
+  /// In the same order, the middles of shapes that scatter: they are what a lamp lights through its own shape
+  /// and through those around it.
+  std::vector<Viewpoint> scattering;
+};
+/// The middles of a scene's specular shapes.
+[[nodiscard]] Viewpoints specular_centers(const Scene& scene);
+/// Here and there on the scene's meter.
+[[nodiscard]] Viewpoints places_of_meter(const Scene& scene);
 
-/// Whether the light looks smaller than `limit_sr` [sr] from everywhere there but its own shape; delta lights
-/// do from anywhere. A ball of radius r looks larger than the limit from nearer than r/sin, the sine being
-/// that of half the limit's cone.
-[[nodiscard]] bool looks_smaller(const Scene& scene, const Light& light, std::span<const Viewpoint> from,
+/// Whether the light looks smaller than `limit_sr` [sr] from all of the places but its own shape, or, if
+/// there is no other, from what scatters; delta lights do from anywhere. A ball of radius r looks larger than
+/// the limit from nearer than r/sin, the sine being that of half the limit's cone. A shape that stands around
+/// the lamp is as far as its surface, which passes the light on: from there the lamp looks large only if it
+/// does from what scatters too.
+[[nodiscard]] bool looks_smaller(const Scene& scene, const Light& light, const Viewpoints& from,
                                  double limit_sr);
 
 }  // namespace abbe

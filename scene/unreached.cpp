@@ -56,7 +56,7 @@ bool has_specular_shapes(const Scene& scene) {
 }
 
 // The lights that paths from some places hardly ever meet by chance.
-std::vector<bool> tiny_lights(const Scene& scene, const std::vector<Viewpoint>& from) {
+std::vector<bool> tiny_lights(const Scene& scene, const Viewpoints& from) {
   std::vector<bool> tiny;
   for (const Light& light : scene.lights)
     tiny.push_back(!light.is_delta() && !light.is_environment() && emits(light) &&
