@@ -129,6 +129,8 @@ Image exposed_film(const SpectralImage& image, const RadianceSensor& sensor,
   if (sensor.mosaic) film = mosaicked(film, *sensor.mosaic, names_of(sensor.channels));
   film.metadata = image.metadata;
   forget_sensor(film.metadata);
+  if (const auto lights = image.metadata.find(kLightsXyKey); lights != image.metadata.end())
+    film.metadata.insert(*lights);  // whose colours are the same to all who look
   forget_layout(film.metadata);
   for (const char* key : {"aperture", kIsoSpeedKey}) film.metadata.erase(key);  // of the camera before
   if (tells_variance(image))

@@ -13,7 +13,7 @@ namespace abbe {
 [[nodiscard]] double diffuse_reflectance_inside(double eta);
 
 /// Reflectance of a smooth interface to matter of index n + ik relative to the outside, for diffuse light
-/// from there, 2 int_0^1 R(c) c dc by the points of Gauss and Legendre: to 2e-5, or 2e-3 where n < 1 and k is
+/// from there, 2 int_0^1 R(c) c dc by the points of Gauss and Legendre: to 5e-5, or 2e-3 where n < 1 and k is
 /// so small that total reflection begins at an angle.
 [[nodiscard]] double diffuse_reflectance(double n, double k);
 

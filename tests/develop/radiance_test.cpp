@@ -38,15 +38,19 @@ TEST(Radiance, ASensorLooksThroughItsExposure) {
 // Else the sensor's pictures would be shown by candelas, its raw files tell of a lens that it never had.
 TEST(Radiance, AFilmTellsOfItsOwnSensorAlone) {
   SpectralImage image = green();
-  for (const char* key : {"aperture", "display_exposure", "electrons_per_lx_s", "exposure_s",
-                          "exposure_s.old", "expTime", "gathering_area_m2", "isoSpeed", "lights_xy", "mosaic",
-                          "sensor", "white", "white_xy", "whiteLuminance"})
+  for (const char* key :
+       {"aperture", "display_exposure", "electrons_per_lx_s", "exposure_s", "exposure_s.old", "expTime",
+        "gathering_area_m2", "isoSpeed", "mosaic", "sensor", "white", "white_xy", "whiteLuminance"})
     image.metadata[key] = "of the old one";
+  image.metadata["lights_xy"] = "of the lights";
   Diagnostics diagnostics;
   const RadianceSensor sensor{{band("V", 510, 590)}, {}, {0.5}, {{"exposure_s", "1"}, {"white", "sun"}}};
   EXPECT_EQ(exposed_film(image, sensor, "a.exr", diagnostics).metadata,
-            (std::map<std::string, std::string>{
-                {"exposure_s", "1"}, {"frame_mean_error", "inf"}, {"seed", "7"}, {"white", "sun"}}));
+            (std::map<std::string, std::string>{{"exposure_s", "1"},
+                                                {"frame_mean_error", "inf"},
+                                                {"lights_xy", "of the lights"},
+                                                {"seed", "7"},
+                                                {"white", "sun"}}));
 }
 
 // What the film says of its error is of its bands, and of no sensor that looks at it.
