@@ -76,10 +76,12 @@ struct TabulatedLight {
   // Warns of tables that end within what an observer sees or the luminous efficacy counts.
   // The other factors have none.
   void check_tables(const Curve& others, Diagnostics& diagnostics) const {
-    std::vector<Channel> counted = observer_channels(Observer::cie1931);
-    counted.push_back(energy_channel("all power", band(380, 780)));
+    const std::vector<Channel> observer = observer_channels(Observer::cie1931);
+    const Curve radiation = band(380, 780);
+    std::vector<Counter> counters = counters_of(observer);
+    counters.push_back({"the luminous efficacy of radiation from 380 to 780 nm", &radiation});
     for (const NamedCurve& table : tables)
-      check_ends(table, product(going_on, others), counted, {}, diagnostics);
+      check_ends(table, product(going_on, others), counters, {}, diagnostics);
   }
 };
 

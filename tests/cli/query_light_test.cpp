@@ -190,7 +190,7 @@ TEST(Query, TablesThatEndWithinWhatIsCountedAreTold) {
   // Of even power 200 of 400 nm lie beyond.
   EXPECT_NE(told([&] {
               return query_light(LightOptions{lamp});
-            }).find("50 % of what channel \"all power\" would count"),
+            }).find("50 % of what the luminous efficacy of radiation from 380 to 780 nm would count"),
             std::string::npos);
   expect_told([&] { return query_light(LightOptions{"D65", lamp}); });
   expect_told([&] {
