@@ -173,23 +173,42 @@ bool takes_what_is_unclear(CurveUnit needed) {
   return needed == CurveUnit::any || needed == CurveUnit::unsaid_response || needed == CurveUnit::per_metre;
 }
 
+// Whether a table is one of logarithms, as "log10 W/nm" and "radiance (log)" are: "log" and "ln" stand for
+// them alone or before what is logged, a unit or a quantity, and not in "log book".
+bool is_of_logarithms(std::string_view line, const ToldUnit& told) {
+  static const Phrases kLogged{"radiance", "irradiance",  "intensity",     "flux",     "power", "energy",
+                               "spectral", "reflectance", "transmittance", "relative", "scale"};
+  if (is_told_as(told, {"log10", "log_10", "logarithm", "logarithmic"})) return true;
+  for (const std::string_view sign : {"log 10", "log", "ln"}) {
+    if (told.quantity == sign || std::count(told.additions.begin(), told.additions.end(), sign) != 0)
+      return true;
+    if (!told.quantity.starts_with(std::string(sign) + ' ')) continue;
+    std::string_view behind = line.substr(told.line.find(sign) + sign.size() + 1);
+    if (behind.starts_with("of ")) behind.remove_prefix(3);
+    const ToldUnit logged = told_unit(behind.substr(0, behind.find_first_of(" ,;")));
+    if (logged.unit || std::count(kLogged.begin(), kLogged.end(), logged.quantity) != 0) return true;
+  }
+  return false;
+}
+
+// A lamp that is scaled is in any unit, and may be in one of any divisor, as "W/nm/lamp".
+bool takes_what_is_unread(CurveUnit needed) {
+  return takes_what_is_unclear(needed) || needed == CurveUnit::power;
+}
+
 using Rule = std::optional<Instead> (*)(const ToldUnit&, CurveUnit);
 
 std::optional<std::string> fault_by(Rule rule, std::string_view name, std::string_view line, CurveUnit needed,
                                     std::string_view remedy) {
-  static const Phrases kLogarithms{"log", "log10", "log_10",    "log 10",
-                                   "ln",  "lg",    "logarithm", "logarithmic"};
   const ToldUnit told = told_unit(line);
-  const bool takes_all = takes_what_is_unclear(needed);
-  if (!takes_all && told.unit && told.unit->unread)
+  if (!takes_what_is_unread(needed) && told.unit && told.unit->unread)
     return fmt::format(
-        "\"{}\" is in a unit that cannot be read (got \"{}\", allowed products as W/(m^2 nm), and words "
-        "behind "
-        "a \";\")",
-        name, line);
-  const std::optional<Instead> instead = !takes_all && is_told_as(told, kLogarithms)
-                                             ? std::optional(Instead{"no logarithms", false})
-                                             : rule(told, needed);
+        "\"{}\" is in a unit that cannot be read (got \"{}\", allowed {}, and words behind a \";\")", name,
+        line, needed == CurveUnit::share ? "shares of 1" : "products as W/(m^2 nm)");
+  const std::optional<Instead> instead =
+      !takes_what_is_unclear(needed) && is_of_logarithms(line, told)
+          ? std::optional(Instead{"no logarithms: 10^x of a log10 x, e^x of a ln x", false})
+          : rule(told, needed);
   if (!instead) return std::nullopt;
   return fmt::format("\"{}\" is in another unit (got \"{}\", allowed {}{})", name, line, instead->allowed,
                      instead->by_factor ? remedy : std::string_view());

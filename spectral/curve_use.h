@@ -13,8 +13,8 @@ namespace abbe {
 
 /// What the values of a curve stand for, where a table may say that its own stand for something else. A
 /// response is `unsaid` while nobody has said whether it multiplies energy, as it is taken to, or photons. A
-/// `power` is one per nm in any unit, as of lamps that are scaled; radiance, intensity, irradiance and flux
-/// are in W/(m^2 sr nm), W/(sr nm), W/(m^2 nm) and W/nm.
+/// `power` is one per nm in any unit, read or unread, as of lamps that are scaled; radiance, intensity,
+/// irradiance and flux are in W/(m^2 sr nm), W/(sr nm), W/(m^2 nm) and W/nm.
 enum class CurveUnit {
   any,
   share,

@@ -109,12 +109,19 @@ std::optional<Unit> unit_at(std::string_view text, std::size_t at) {
   return unit && !unit->is_extent() ? unit : std::nullopt;
 }
 
+// Whether a "/" stands behind a unit: shares are told as quotients of one, as in "W/W".
+bool divides_a_unit(std::string_view text, std::size_t slash) {
+  const std::string_view before = trimmed(text.substr(0, slash));
+  return leading_unit(before.substr(before.find_last_of(' ') + 1)).has_value();
+}
+
 // Within words a unit is compound or stands behind "in": "spectral radiance W/(m2 sr nm)", "flux in mW".
 std::optional<Unit> unit_within(std::string_view text) {
   for (std::size_t blank = text.find(' '); blank != text.npos; blank = text.find(' ', blank + 1)) {
     const std::string_view before = text.substr(0, blank);
     if (is_digit_at(before, blank - 1) || before.ends_with(" per")) continue;
     if (is_digit_at(text, blank + 1) && !text.substr(blank + 1).starts_with("1/")) continue;
+    if (text.substr(blank + 1).starts_with('/') && divides_a_unit(text, blank)) continue;
     const auto unit = unit_at(text, blank + 1);
     if (unit && (unit->is_compound() || before.ends_with(" in"))) return unit;
   }
@@ -125,7 +132,8 @@ std::optional<Unit> unit_within(std::string_view text) {
 // "wavelength/nm".
 std::optional<Unit> unit_dividing_a_word(std::string_view text) {
   const std::size_t slash = text.find('/');
-  if (slash == text.npos || text.find(' ') < slash || is_digit_at(text, 0)) return std::nullopt;
+  if (slash == text.npos || text.find(' ') < slash || is_digit_at(text, 0) || divides_a_unit(text, slash))
+    return std::nullopt;
   const auto unit = leading_unit(text.substr(slash));
   if (!unit || unit->unread) return std::nullopt;
   Unit::Exponents others = unit->exponents;

@@ -189,12 +189,37 @@ TEST(CurveUnit, RemarksMakeNoOtherUnit) {
           "transmittance/cm",
           "V(lambda)",
           "internal transmittance (0-1), 10 mm",
-          "1.0 = 100.0 %"}},
+          "1.0 = 100.0 %",
+          "transmittance (W/W)",
+          "W/W",
+          "W/m2/(W/m2)",
+          "reflectance, W/W",
+          "relative transmittance, LG",
+          "log book 12"}},
         {CurveUnit::power,
-         {"relative power of a quantum-dot LED", "relative power at 60 Hz mains",
-          "relative spectral power in energy units, not photons", "W/(m2 nm), resolution 5 cm-1",
-          "PWM at 1 kHz, relative", "relative energy (not quanta)", "W/nm, measured with a photon counter",
-          "W/cm3", "J/(m2 nm)", "relative, 50 dB SNR", "a.u.", "counts", "nm, relative"}},
+         {"relative power of a quantum-dot LED",
+          "relative power at 60 Hz mains",
+          "relative spectral power in energy units, not photons",
+          "W/(m2 nm), resolution 5 cm-1",
+          "PWM at 1 kHz, relative",
+          "relative energy (not quanta)",
+          "W/nm, measured with a photon counter",
+          "W/cm3",
+          "J/(m2 nm)",
+          "relative, 50 dB SNR",
+          "a.u.",
+          "counts",
+          "nm, relative",
+          "W/nm per lamp",
+          "W/m2/nm per LED",
+          "mW/nm/lamp",
+          "W/m2/nm **",
+          "W/furlong",
+          "relative power, LG",
+          "LG lamp",
+          "log book 12",
+          "log of lamp 12",
+          "Log 12"}},
         {CurveUnit::spectral_radiance,
          {"W/(m2 sr nm), 100 Hz flicker averaged", "W/(m2 sr nm) of 2 mm2 LED",
           "W/(m2 sr nm) with 1 cm2 aperture", "W/(m2 sr nm) vs wavelength / um", "kW/(m2 sr um)",
@@ -256,15 +281,38 @@ TEST(CurveUnit, UnitsThatCannotBeReadAreRefused) {
   struct Case {
     const char* unit;
     CurveUnit needed;
+    const char* allowed = "products as W/(m^2 nm)";
   };
   for (const Case& told : {Case{"W/m2/mum", CurveUnit::spectral_irradiance},
                            {"W/m2/sr/furlong", CurveUnit::spectral_radiance},
-                           {"spectral power, W/furlong", CurveUnit::power},
-                           {"J/furlong", CurveUnit::share}})
+                           {"spectral power, W/furlong", CurveUnit::spectral_flux},
+                           {"W/nm per lamp", CurveUnit::spectral_flux},
+                           {"J/furlong", CurveUnit::share, "shares of 1"}})
     for (const auto& fault :
          {unit_fault("t.csv", told.unit, told.needed), factor_unit_fault("t.csv", told.unit, told.needed)})
-      EXPECT_NE(fault.value_or("").find("is in a unit that cannot be read"), std::string::npos) << told.unit;
+      EXPECT_EQ(fault.value_or(""), "\"t.csv\" is in a unit that cannot be read (got \"" +
+                                        std::string(told.unit) + "\", allowed " + told.allowed +
+                                        ", and words behind a \";\")");
   EXPECT_FALSE(unit_fault("t.csv", "W/m2/mum", CurveUnit::any));
+}
+
+TEST(CurveUnit, LogarithmsAreOthers) {
+  struct Case {
+    CurveUnit needed;
+    std::vector<const char*> units;
+  };
+  for (const Case& told :
+       {Case{CurveUnit::spectral_radiance,
+             {"log10 W/m2/sr/nm", "log W·m⁻²·sr⁻¹·nm⁻¹", "log 10 W/(m2 sr nm)", "ln radiance",
+              "radiance (log)"}},
+        {CurveUnit::power, {"log10 W/nm/lamp", "log radiance", "relative power, log10", "logarithmic"}},
+        {CurveUnit::share,
+         {"log(reflectance)", "ln(T)", "Log10(reflectance)", "log of transmittance", "[log transmittance]"}}})
+    for (const char* unit : told.units)
+      EXPECT_TRUE(unit_fault("t.csv", unit, told.needed, "; a factor converts")
+                      .value_or("")
+                      .ends_with("allowed no logarithms: 10^x of a log10 x, e^x of a ln x)"))
+          << unit;
 }
 
 TEST(CurveUnit, AngstromsAmperesAndVoltsAreOthers) {
@@ -277,8 +325,6 @@ TEST(CurveUnit, AngstromsAmperesAndVoltsAreOthers) {
                            {"W/m2/AA", CurveUnit::spectral_irradiance},
                            {"W/m^2/Ang", CurveUnit::spectral_irradiance},
                            {"ph/s/m2/nm", CurveUnit::power},
-                           {"log10 W/m2/sr/nm", CurveUnit::spectral_radiance},
-                           {"log(reflectance)", CurveUnit::share},
                            {"A/W", CurveUnit::share},
                            {"responsivity (mA/W)", CurveUnit::share},
                            {"V/(uJ/cm2)", CurveUnit::share},
