@@ -52,8 +52,8 @@ void Beam::set_field(double field) {
 
 Ray Beam::launch(const V2d& p) const {
   if (at_->system->object_distance_mm) {
-    const V3d to = V3d(p.x, p.y, 0) - object_;
-    return {object_, to.normalized()};
+    const V3d through(p.x, p.y, 0);  // not from the object: far ones are rounded more than the stop allows
+    return {through, (through - object_).normalized()};
   }
   const V3d up(0, direction_.z, -direction_.y);
   return {V3d(p.x, 0, pupil_z_) + p.y * up, direction_};
