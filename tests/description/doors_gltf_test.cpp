@@ -167,6 +167,19 @@ TEST_F(GltfDoorTest, PerspectiveCamerasComeFirst) {
   EXPECT_FALSE(tells("one camera")) << told_;
 }
 
+// The format leaves the scale of a camera's node out.
+TEST_F(GltfDoorTest, CamerasHaveNoScale) {
+  const auto camera_of = [&](const std::string& scale) {
+    Asset asset = two(R"({"name": "m"}, {"name": "n"})");
+    asset.nodes = R"([{"mesh": 0}, {"camera": 0, "translation": [0, 0, 5], "scale": )" + scale + "}]";
+    return written("a.gltf", asset.text());
+  };
+  const auto plain = camera_of("[1, 1, 1]");
+  ASSERT_TRUE(plain) << told_;
+  EXPECT_EQ(camera_of("[1, 2, 4]"), plain);
+  EXPECT_FALSE(tells("scaled unevenly")) << told_;
+}
+
 TEST_F(GltfDoorTest, BinaryFilesAreOfVersion2) {
   std::string old = test::whole_glb();
   old[4] = 1;

@@ -60,13 +60,22 @@ M44d local_map(const JsonValue& node, const Document& document) {
   return map;
 }
 
+// Without its scale, which the format has no camera heed.
+M44d unscaled(M44d map) {
+  for (int row = 0; row < 3; ++row) {
+    const V3d axis = V3d(map[row][0], map[row][1], map[row][2]).normalized();
+    std::copy_n(axis.getValue(), 3, map[row]);
+  }
+  return map;
+}
+
 void set_view(const View& view, const Document& document) {
   constexpr double kHeight = 720;
   Door& door = document.door;
   const JsonValue& camera = *view.camera;
   GivenCamera given;
   given.where = camera.where;
-  given.to_world = scaling({1, 1, -1}) * view.map;  // it looks along -z
+  given.to_world = unscaled(scaling({1, 1, -1}) * view.map);  // it looks along -z
   if (!is_perspective(view))
     door.note(camera.where, "an orthographic camera has no counterpart here: perspective");
   const double aspect =
