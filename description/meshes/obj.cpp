@@ -266,14 +266,18 @@ bool check_colors(const std::string& name, const std::string& text, MeshReading&
   return true;
 }
 
-// The files that a line of these names: one, whose name may have blanks in it, where there is such a file, or
-// one for each of its words.
+// The files that a line of these names: one for each of its words, or one whose name may have blanks in it,
+// where there is such a file, or none of a word.
 std::vector<std::string> names_of_files(const std::string& line, const MeshReading& reading) {
-  std::error_code error;
-  if (std::filesystem::exists(reading.path.parent_path() / line, error)) return {line};
+  const auto is_file = [&](const std::string& name) {
+    std::error_code error;
+    return std::filesystem::exists(reading.path.parent_path() / name, error);
+  };
+  if (is_file(line)) return {line};
   std::vector<std::string> names;
   std::istringstream words(line);
   for (std::string name; words >> name;) names.push_back(std::move(name));
+  if (std::ranges::none_of(names, is_file)) return {line};
   return names;
 }
 

@@ -161,7 +161,9 @@ TEST_F(ObjTest, FilesOfMaterialsStandInOneLine) {
   write(folder_ / "a.mtl b.mtl", "newmtl red\nKd 1 1 1\nnewmtl blue\nKd 1 1 1\n");
   const MeshFile one = read("two.obj", "mtllib a.mtl b.mtl\n" + faces, FileMaterials::wanted);
   EXPECT_EQ(one.others.size(), 1U) << "a name with blanks";
-  expect_refused("bad.obj", {{"a second that is missing", "mtllib a.mtl gone.mtl\n", ErrorCode::input,
+  expect_refused("bad.obj", {{"blanks in a name that is missing", "mtllib my lost.mtl\n", ErrorCode::input,
+                              "\"my lost.mtl\", which it names: no such file"},
+                             {"a second that is missing", "mtllib a.mtl gone.mtl\n", ErrorCode::input,
                               "\"gone.mtl\", which it names: no such file"},
                              {"a second beyond the folder", "mtllib a.mtl ../b.mtl\n", ErrorCode::input,
                               "it may name files beside it only (got \"../b.mtl\")"}});
