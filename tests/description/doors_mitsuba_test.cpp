@@ -207,7 +207,7 @@ TEST_F(MitsubaTest, MatterWithinMatterHasItsOwnIndex) {
   const std::string water =
       R"(<shape type="sphere"><float name="radius" value="2"/><bsdf type="roughdielectric"><float name="int_ior" value="1.33"/></bsdf></shape>)";
   const std::string enclosed = "here what is around a surface is the closed shape that it lies in";
-  const std::string alone = "\"ext_ior\" is that of no matter in the scene: the index is over it, as there";
+  const std::string alone = "\"ext_ior\" is that of no other matter in the scene: the index is over it";
   EXPECT_NEAR(index_of("dielectric", in_water, water), 1.5046 / kAir, 1e-12);
   EXPECT_TRUE(tells(enclosed)) << told_;
   EXPECT_FALSE(tells(alone)) << told_;
@@ -217,6 +217,7 @@ TEST_F(MitsubaTest, MatterWithinMatterHasItsOwnIndex) {
   EXPECT_NEAR(index_of("dielectric", in_water, ""), 1.5046 / 1.333, 1e-12);
   EXPECT_TRUE(tells(alone)) << told_;
   EXPECT_FALSE(tells(enclosed)) << told_;
+  EXPECT_NEAR(index_of("dielectric", R"(<string name="int_ior" value="water"/>)" + in_water, ""), 1, 1e-12);
   EXPECT_NEAR(index_of("dielectric", R"(<string name="ext_ior" value="vacuum"/>)", water), 1.5046, 1e-12);
   EXPECT_FALSE(tells("ext_ior")) << told_;
 }

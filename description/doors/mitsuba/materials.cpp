@@ -52,9 +52,12 @@ std::optional<double> index_within(const Element& bsdf) {
   return number ? number : named_index(value);
 }
 
-bool has_matter(double index, const World& world) {
+// Whether that is the index of other matter than the surface's own.
+bool has_other_matter(double index, const Object& bsdf, const World& world) {
   constexpr double kAlike = 0.005;  // 1.33 and 1.333 are both water
-  return std::ranges::any_of(world.matter, [&](double n) { return std::abs(n - index) <= kAlike; });
+  return std::ranges::any_of(world.matter, [&](const auto& matter) {
+    return matter.first != &bsdf.element() && std::abs(matter.second - index) <= kAlike;
+  });
 }
 
 /// Of a surface: the index within over that around, as the scene says them, and what matter has here, where
@@ -72,15 +75,17 @@ SurfaceIndex surface_index(const Object& bsdf, std::string_view absent, const Wo
   index.ior.value = index.relative;
   index.ior.where = bsdf.where();
   if (outside <= kGas) return index;
-  if (has_matter(outside, world)) {
+  if (has_other_matter(outside, bsdf, world)) {
     index.ior.value = inside / *named_index("air");
-    world.door.note(bsdf.place_of("ext_ior"),
-                    "\"ext_ior\" is that of matter in the scene: here what is around a surface is the closed "
-                    "shape that it lies in, and air without one");
+    world.door.note(
+        bsdf.place_of("ext_ior"),
+        "\"ext_ior\" is that of other matter in the scene: here what is around a surface is the closed "
+        "shape that it lies in, and air without one");
   } else {
-    world.door.note(bsdf.place_of("ext_ior"),
-                    "\"ext_ior\" is that of no matter in the scene: the index is over it, as there, for a "
-                    "surface that lies in no closed shape");
+    world.door.note(
+        bsdf.place_of("ext_ior"),
+        "\"ext_ior\" is that of no other matter in the scene: the index is over it, as there, for a "
+        "surface that lies in no closed shape");
   }
   return index;
 }
@@ -207,7 +212,7 @@ void find_matter(const Element& element, World& world) {
   for (const Element& child : element.children) {
     const std::string& type = child["type"];
     const bool is_matter = child.tag == "bsdf" && (type == "dielectric" || type == "roughdielectric");
-    if (const auto n = is_matter ? index_within(child) : std::nullopt) world.matter.push_back(*n);
+    if (const auto n = is_matter ? index_within(child) : std::nullopt) world.matter.emplace(&child, *n);
     find_matter(child, world);
   }
 }

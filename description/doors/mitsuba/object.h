@@ -19,8 +19,8 @@ struct World {
   Door& door;
   std::filesystem::path folder;  ///< Of the scene file: where the files it names are.
   std::map<std::string, const Element*> ids{};
-  std::vector<double> matter{};  ///< Indices within its dielectrics, as they say them.
-  Imath::M44d upright{};         ///< What everything goes through: see `upright_world`.
+  std::map<const Element*, double> matter{};  ///< Indices within its dielectrics, as they say them.
+  Imath::M44d upright{};                      ///< What everything goes through: see `upright_world`.
 };
 
 /// The element itself, or what it refers to. An unknown name, and one that stands for something not ended
