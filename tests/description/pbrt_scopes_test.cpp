@@ -35,6 +35,13 @@ TEST_F(PbrtTest, TablesAreZeroBeyondTheirEnds) {
   }
   const auto paint = material<spec::Diffuse>("Material \"diffuse\" \"spectrum reflectance\" [500 .8 550 .8]");
   EXPECT_EQ(table_of(std::get<spec::Curve>(paint.reflectance))(499), 0);
+  const auto metal =
+      material<spec::Conductor>("Material \"conductor\" \"spectrum reflectance\" [600 .8 700 .8]");
+  EXPECT_FALSE(tells("is held from the nearer end")) << told_;
+  const auto& index = std::get<spec::TableIor>(metal.ior.value);
+  const Curve k = table_curve(index.wavelength_nm, index.k.value(), Outside::clamp);
+  for (const double nm : {400.0, 599.99, 700.01, 900.0}) EXPECT_EQ(k(nm), 0) << nm;
+  for (const double nm : {600.0, 650.0, 700.0}) EXPECT_NEAR(k(nm), 4, 1e-12) << nm;
 }
 
 TEST_F(PbrtTest, ImportsLeaveWhatHoldsBehindThem) {

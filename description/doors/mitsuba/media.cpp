@@ -1,7 +1,6 @@
 #include "description/doors/mitsuba/media.h"
 
-#include <cmath>
-#include <limits>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -41,22 +40,10 @@ spec::Curve product_of(const Spectrum& share, const Spectrum& extinction, const 
   return curve;
 }
 
-// What samples leave of 1: where these are 0 beyond their ends, all of it, from the next number on.
-Samples rest_of(const Samples& share) {
-  constexpr double kFar = std::numeric_limits<double>::infinity();
-  Samples rest = share;
-  for (double& value : rest.values) value = 1 - value;
-  rest.outside = Outside::clamp;
-  if (share.outside != Outside::zero) return rest;
-  if (share.nm.front() > kMinWavelengthNm) {
-    rest.nm.insert(rest.nm.begin(), std::nextafter(share.nm.front(), -kFar));
-    rest.values.insert(rest.values.begin(), 1);
-  }
-  if (share.nm.back() < kMaxWavelengthNm) {
-    rest.nm.push_back(std::nextafter(share.nm.back(), kFar));
-    rest.values.push_back(1);
-  }
-  return rest;
+// What samples leave of 1: all of it where these are 0 beyond their ends.
+Samples rest_of(Samples share) {
+  for (double& value : share.values) value = 1 - value;
+  return held(std::move(share), 1);
 }
 
 // What of a share is left of 1.

@@ -40,7 +40,7 @@ spec::Ior index_for(const Spectrum& reflectance, const SourcePosition& where, Do
   const auto* rgb = std::get_if<LinearRgb>(&reflectance);
   const auto* samples = std::get_if<Samples>(&reflectance);
   if (rgb != nullptr || samples != nullptr) {
-    return index_of(1.0, mapped(rgb ? samples_of(*rgb) : *samples, k_of), where, door);
+    return index_of(1.0, held(mapped(rgb ? samples_of(*rgb) : *samples, k_of), k_of(0)), where, door);
   }
   const auto* number = std::get_if<double>(&reflectance);
   return index_of(1.0, number ? Spectrum(k_of(*number)) : reflectance, where, door);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -187,6 +188,22 @@ Samples mapped(const Samples& samples, const std::function<double(double)>& func
   mapped.nm.erase(std::unique(mapped.nm.begin(), mapped.nm.end()), mapped.nm.end());
   for (const double nm : mapped.nm) mapped.values.push_back(function(given(nm)));
   return mapped;
+}
+
+Samples held(Samples samples, double beyond) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  if (std::exchange(samples.outside, Outside::clamp) != Outside::zero) return samples;
+  const double before = std::nextafter(samples.nm.front(), -kFar);
+  const double behind = std::nextafter(samples.nm.back(), kFar);
+  if (before > kMinWavelengthNm) {
+    samples.nm.insert(samples.nm.begin(), {kMinWavelengthNm, before});
+    samples.values.insert(samples.values.begin(), 2, beyond);
+  }
+  if (behind < kMaxWavelengthNm) {
+    samples.nm.insert(samples.nm.end(), {behind, kMaxWavelengthNm});
+    samples.values.insert(samples.values.end(), 2, beyond);
+  }
+  return samples;
 }
 
 std::optional<spec::Curve> mapped_curve_of(const Spectrum& given,

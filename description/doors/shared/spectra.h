@@ -47,6 +47,9 @@ using TextureValue = std::variant<Spectrum, spec::Texture>;
 /// The values through a function that leaves 0 where it is: of samples at each of them and, as lines between
 /// these say something else then, at every 5 nm.
 [[nodiscard]] Samples mapped(const Samples& samples, const std::function<double(double)>& function);
+/// The same held beyond its ends: of samples that are 0 there with rows more of what becomes of 0, from the
+/// next number on to the end of all wavelengths.
+[[nodiscard]] Samples held(Samples samples, double beyond);
 /// The curve of the values through such a function, a colour's as those of `curve_of`; nothing for a
 /// temperature or a table.
 [[nodiscard]] std::optional<spec::Curve> mapped_curve_of(const Spectrum& spectrum,
