@@ -69,7 +69,6 @@ TEST_F(PbrtTest, ImportsLeaveWhatHoldsBehindThem) {
 
   put("open.pbrt", "AttributeBegin\n");
   put("close.pbrt", "AttributeEnd\n");
-  put("here.pbrt", "CoordSysTransform \"here\"\n");
   put("half.pbrt", "Shape \"sphere\" \"float radius\"\n");
   expect_refused({{"a block that goes on", kBegin + "Import \"open.pbrt\"\nAttributeEnd\n",
                    "open.pbrt:1:1: error: begins here and does not end"},
@@ -79,10 +78,27 @@ TEST_F(PbrtTest, ImportsLeaveWhatHoldsBehindThem) {
                    "half.pbrt:2:1: error: expected a number of \"float radius\" (got \"\")"},
                   {"its coordinate systems", kBegin + "Import \"part.pbrt\"\nCoordSysTransform \"there\"\n",
                    "a.pbrt:6:1: error: unknown coordinate system \"there\""},
-                  {"those of others", kBegin + "CoordinateSystem \"here\"\nImport \"here.pbrt\"\n",
-                   "here.pbrt:1:1: error: unknown coordinate system \"here\""},
                   {"before the world", "Import \"part.pbrt\"\n" + kBegin,
                    "a.pbrt:1:1: error: an Import before WorldBegin"}});
+}
+
+TEST_F(PbrtTest, ImportsGoOnWithoutTheSystemsAroundThem) {
+  for (const char* name : {"here", "camera", "world"}) {
+    SCOPED_TRACE(name);
+    put("part.pbrt", fmt::format("CoordSysTransform \"{}\"\nShape \"sphere\"\n", name));
+    const auto sphere =
+        shape<SphereBody>("CoordinateSystem \"here\"\nTranslate 0 4 0\nImport \"part.pbrt\"\n");
+    EXPECT_EQ(sphere.surface.center, Imath::V3d(0, 4, 0));
+    EXPECT_TRUE(
+        tells(fmt::format("part.pbrt:1:1: warning: an imported file does not know the coordinate "
+                          "system \"{}\" of what is around it: its transform stays as it is",
+                          name)))
+        << told_;
+  }
+  put("part.pbrt",
+      "CoordinateSystem \"mine\"\nTranslate 1 0 0\nCoordSysTransform \"mine\"\nShape \"sphere\"\n");
+  EXPECT_EQ(shape<SphereBody>("Import \"part.pbrt\"\n").surface.center, Imath::V3d(0));
+  EXPECT_FALSE(tells("does not know")) << told_;
 }
 
 TEST_F(PbrtTest, BlocksOfTransformsAreThoseOfAttributes) {
@@ -113,6 +129,9 @@ TEST_F(PbrtTest, AttributesAreOfAllThatTheyName) {
   EXPECT_EQ(std::get<spec::Texture>(paint.reflectance).file.mapping.scale, Imath::V2d(3, 2));
   const auto& fog = std::get<spec::Medium>(made.materials[2].value.model);
   ASSERT_TRUE(fog.scattering.phase);
+  EXPECT_FALSE(tells("roughness")) << "of paint, which has none: " << told_;
+  (void)scene("Material \"diffuse\" \"float roughness\" 0.25\nShape \"sphere\"\n");
+  EXPECT_TRUE(tells("\"roughness\" of material \"diffuse\" has no counterpart here: dropped")) << told_;
   expect_refused({{"target", kBegin + "Attribute \"banana\" \"float g\" 1\n",
                    "a.pbrt:5:1: error: unknown target of attributes \"banana\""}});
 }
@@ -154,7 +173,9 @@ TEST_F(PbrtTest, TimesOfTheShutterAreTold) {
             "there: its times are dropped"))
       << told_;
   expect_refused({{"never open", "Camera \"perspective\" \"float shutteropen\" 1\nWorldBegin\n",
-                   "a.pbrt:1:1: error: the shutter closes before it opens (got 1 and 1)"}});
+                   "a.pbrt:1:1: error: the shutter does not open (got 1 and 1)"},
+                  {"back in time", "Camera \"perspective\" \"float shutteropen\" 2\nWorldBegin\n",
+                   "a.pbrt:1:1: error: the shutter closes before it opens (got 1 and 2)"}});
 }
 
 }  // namespace

@@ -41,6 +41,13 @@ bool Reader::coordinate_system(const Token& word) {
 bool Reader::use_coordinate_system(const Token& word) {
   std::vector<std::string> name;
   if (!texts(1, 1, word, name)) return false;
+  if (!importing_.empty() && !systems_.contains(name[0])) {
+    door_.note(word.where,
+               fmt::format("an imported file does not know the coordinate system \"{}\" of what is "
+                           "around it: its transform stays as it is, as there",
+                           name[0]));
+    return true;
+  }
   if (const M44d* system = find(systems_, "coordinate system", name[0], word.where, door_))
     state_.to_world = *system;
   return true;

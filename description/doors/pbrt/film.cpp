@@ -75,8 +75,10 @@ void note_exposure(const Made& camera, Door& door) {
   const double opens = camera.parameters.number("shutteropen", 0, door);
   const double closes = camera.parameters.number("shutterclose", 1, door);
   if (!(closes > opens))
-    door.diagnostics.error(camera.where,
-                           fmt::format("the shutter closes before it opens (got {} and {})", closes, opens));
+    door.diagnostics.error(
+        camera.where,
+        fmt::format("the shutter {} (got {} and {})",
+                    closes < opens ? "closes before it opens" : "does not open", closes, opens));
   else if (closes - opens != 1)
     door.note(camera.where, fmt::format("a shutter that is open for {:.6g} makes a picture as many times as "
                                         "bright there: its times are dropped",
