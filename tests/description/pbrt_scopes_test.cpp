@@ -129,9 +129,6 @@ TEST_F(PbrtTest, AttributesAreOfAllThatTheyName) {
   EXPECT_EQ(std::get<spec::Texture>(paint.reflectance).file.mapping.scale, Imath::V2d(3, 2));
   const auto& fog = std::get<spec::Medium>(made.materials[2].value.model);
   ASSERT_TRUE(fog.scattering.phase);
-  EXPECT_FALSE(tells("roughness")) << "of paint, which has none: " << told_;
-  (void)scene("Material \"diffuse\" \"float roughness\" 0.25\nShape \"sphere\"\n");
-  EXPECT_TRUE(tells("\"roughness\" of material \"diffuse\" has no counterpart here: dropped")) << told_;
   expect_refused({{"target", kBegin + "Attribute \"banana\" \"float g\" 1\n",
                    "a.pbrt:5:1: error: unknown target of attributes \"banana\""}});
 }

@@ -139,7 +139,7 @@ std::optional<Parameters> Parameters::read(Tokens& tokens, Door& door) {
 
 void Parameters::complete(const Parameters& defaults) {
   for (const Parameter& parameter : defaults.list_)
-    if (!has(parameter.name)) list_.emplace_back(parameter).used = true;
+    if (!has(parameter.name)) list_.push_back(parameter);
 }
 
 bool Parameters::has(std::string_view name) const {

@@ -28,8 +28,7 @@ class Parameters {
   /// Reads those that follow. Reports, and ends the reading with, a parameter without type, name or values,
   /// an unknown type, and values that are not of the type or not as many as it takes.
   [[nodiscard]] static std::optional<Parameters> read(Tokens& tokens, Door& door);
-  /// Adds those of `defaults`, which attributes give, that are not there; not all are for this thing, so that
-  /// none needs to be used.
+  /// Adds those of `defaults` that are not there.
   void complete(const Parameters& defaults);
 
   /// The parameter of that name, used from now on; of one of the types, another is reported.
