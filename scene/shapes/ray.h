@@ -42,14 +42,16 @@ struct LoggedRay {
 
 /// A coordinate of where a ray of that direction has come to, rounded to the side that it has come from: to
 /// the nearest float, it may lie on what the ray would have met next, or beyond, where walls along the axes
-/// meet. One that is a float but for what is left of double stays what it is.
+/// meet. One that is a float but for what is left of double stays what it is. Without a branch, as none can
+/// tell to which side the next one will be rounded.
 [[nodiscard]] inline float rounded_back(double x, double direction) {
   constexpr double kExact = 0x1p-44;
   const auto nearest = static_cast<float>(x);
   const double past = static_cast<double>(nearest) - x;
-  if (nearest == 0 || !(past * direction > 0 && std::abs(past) > kExact * std::abs(x))) return nearest;
-  return std::bit_cast<float>(std::bit_cast<std::int32_t>(nearest) +
-                              ((nearest > 0) == (direction > 0) ? -1 : 1));
+  const int away = (nearest > 0) == (direction > 0) ? -1 : 1;
+  const int beyond = static_cast<int>(past * direction > 0) &
+                     static_cast<int>(std::abs(past) > kExact * std::abs(x)) & static_cast<int>(nearest != 0);
+  return std::bit_cast<float>(std::bit_cast<std::int32_t>(nearest) + beyond * away);
 }
 [[nodiscard]] inline Imath::V3f rounded_back(const Imath::V3d& point, const Imath::V3d& direction) {
   return {rounded_back(point.x, direction.x), rounded_back(point.y, direction.y),
