@@ -7,6 +7,7 @@
 #include "io/invalid_input.h"
 #include "io/json_values.h"
 #include "io/value_tree.h"
+#include "python/numbers.h"
 
 namespace abbe::python {
 namespace {
@@ -54,21 +55,22 @@ class Converter {
     if (py::isinstance<py::dict>(object)) return members_of(py::reinterpret_borrow<py::dict>(object));
     if (py::isinstance<py::list>(object) || py::isinstance<py::tuple>(object))
       return elements_of(py::reinterpret_borrow<py::sequence>(object));
+    if (is_time(object)) refuse_kind(py::str(object.attr("dtype")));
     for (const char* method : {"tolist", "__fspath__"})
       if (py::hasattr(object, method)) return converted(object, object.attr(method)());
-    refuse_kind(object);
+    refuse_kind(type_name(object));
   }
 
   // What an object stands for. Of its own kind are the long doubles of numpy, which no type of Python holds.
   Value converted(const py::handle& object, const py::object& stands_for) {
     if (!py::type::handle_of(stands_for).is(py::type::handle_of(object))) return value_of(stands_for);
     const py::object real = py::module_::import("numbers").attr("Real");
-    if (!py::isinstance(stands_for, real)) refuse_kind(object);
+    if (!py::isinstance(stands_for, real)) refuse_kind(type_name(object));
     return number_of(stands_for);
   }
 
-  [[noreturn]] void refuse_kind(const py::handle& object) const {
-    refuse(pointer_, fmt::format("expected what JSON can hold (got a {})", type_name(object)));
+  [[noreturn]] void refuse_kind(const std::string& kind) const {
+    refuse(pointer_, fmt::format("expected what JSON can hold (got a {})", kind));
   }
 
   [[nodiscard]] double number_of(const py::handle& object) const {

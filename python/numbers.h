@@ -33,12 +33,35 @@ inline void require_unmasked(const pybind11::handle& object) {
                             object.attr("size").cast<std::int64_t>()));
 }
 
-/// Throws Error{usage} for complex numbers, dates and spans of time, as numpy makes real numbers of them.
-inline void require_real(const pybind11::array& array) {
-  if (std::string_view("cmM").find(array.dtype().kind()) != std::string_view::npos)
+/// The letter by which numpy tells the kind of what an object holds, such as 'm' of spans of time; 0 of
+/// objects that are not numpy's.
+[[nodiscard]] inline char numpy_kind(const pybind11::handle& object) {
+  const pybind11::object type = pybind11::getattr(object, "dtype", pybind11::none());
+  return pybind11::isinstance<pybind11::dtype>(type) ? type.cast<pybind11::dtype>().kind() : '\0';
+}
+
+/// Whether numpy knows an object as dates or spans of time, which become bare numbers where they are in
+/// nanoseconds.
+[[nodiscard]] inline bool is_time(const pybind11::handle& object) {
+  const char kind = numpy_kind(object);
+  return kind == 'm' || kind == 'M';
+}
+
+/// Throws Error{usage} for what numpy knows as one of `kinds`.
+inline void refuse_kinds(const pybind11::handle& object, std::string_view kinds) {
+  const char kind = numpy_kind(object);
+  if (kind != '\0' && kinds.find(kind) != std::string_view::npos)
     throw Error(ErrorCode::usage, "",
                 fmt::format("expected real numbers (got {}, allowed whole and floating-point numbers)",
-                            std::string(pybind11::str(array.dtype()))));
+                            std::string(pybind11::str(object.attr("dtype")))));
+}
+
+/// Throws Error{usage} for complex numbers, dates and spans of time, as numpy makes real numbers of them, in
+/// arrays of objects too, where further arrays of objects are none.
+inline void require_real(const pybind11::array& array) {
+  refuse_kinds(array, "cmM");
+  if (numpy_kind(array) != 'O') return;
+  for (const pybind11::handle element : array.attr("flat")) refuse_kinds(element, "cmMO");
 }
 
 }  // namespace abbe::python

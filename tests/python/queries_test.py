@@ -11,6 +11,14 @@ from common import Test
 LINES = [486.1327, 587.5618, 656.2725]
 
 
+def objects(*elements):
+    """A one-dimensional array that holds these objects as they are."""
+    array = numpy.empty(len(elements), object)
+    for i, element in enumerate(elements):
+        array[i] = element
+    return array
+
+
 class Queries(Test):
     def query(self, *arguments):
         return json.loads(self.command("query", *arguments, "--json"))
@@ -133,9 +141,13 @@ class Queries(Test):
                 call()
         unmasked = numpy.ma.array(grid, mask=[False, False])
         self.assertEqual(abbe.ior("N-BK7", unmasked).tolist(), abbe.ior("N-BK7", grid).tolist())
+        self.assertEqual(abbe.ior("N-BK7", objects(500, numpy.float32(600))).tolist(), abbe.ior("N-BK7", grid).tolist())
         self.assertEqual(abbe.ior("N-BK7", numpy.array(["500", "600"])).tolist(), abbe.ior("N-BK7", grid).tolist())
         for wrong, kind in (([500 + 1j], "complex128"), (550 + 20j, "complex128"), (numpy.array([500, 600], "m8[s]"), r"timedelta64\[s\]"),
-                            (numpy.array(["2001-01-01"], "M8[D]"), r"datetime64\[D\]")):
+                            (numpy.array(["2001-01-01"], "M8[D]"), r"datetime64\[D\]"), (numpy.timedelta64(500, "ns"), r"timedelta64\[ns\]"),
+                            (objects(numpy.timedelta64(500, "s")), r"timedelta64\[s\]"), (objects(500.0, numpy.datetime64(500, "ns")), r"datetime64\[ns\]"),
+                            ([objects(numpy.array(500, "m8[ns]"))], r"timedelta64\[ns\]"), (objects(numpy.complex128(500 + 1j)), "complex128"),
+                            (objects(objects(500.0)), "object")):
             with self.subTest(kind=kind), self.assertRaisesRegex(abbe.UsageError, rf"^expected real numbers \(got {kind}, allowed whole and floating-point numbers\)$"):
                 abbe.ior("N-BK7", wrong)
 

@@ -81,6 +81,17 @@ class Scenes(Test):
             with self.assertRaisesRegex(abbe.SceneError, "nested deeper than 256"):
                 abbe.Scene(box(lights=deep))
 
+    def test_dates_and_spans_of_time_are_refused_in_every_unit(self):
+        for value in (numpy.timedelta64(10 ** 9, "ns"), numpy.timedelta64(1, "s"), numpy.timedelta64(1), numpy.array(10 ** 9, "m8[ns]"), numpy.array([1], "m8[ns]"),
+                      numpy.datetime64(1, "ns"), numpy.array(["2001-01-01"], "M8[D]")):
+            with self.subTest(value=value), self.assertRaises(abbe.SceneError) as caught:
+                abbe.Scene(box(sensor={**box()["sensor"], "exposure_s": value}))
+            told = caught.exception.diagnostics[0]
+            self.assertEqual((told.pointer, told.message), ("/sensor/exposure_s", f"expected what JSON can hold (got a {value.dtype})"))
+        with self.assertRaises(abbe.SceneError) as caught:
+            abbe.Scene(box(camera={**box()["camera"], "from": numpy.array([0, numpy.timedelta64(-5, "ns"), 2], object)}))
+        self.assertEqual(caught.exception.diagnostics[0].pointer, "/camera/from/1")
+
     def test_long_doubles_are_numbers(self):
         resolution = numpy.array([8, 6], dtype=numpy.longdouble)
         camera = {**box()["camera"], "from": numpy.array([0, -5, 2], dtype=numpy.longdouble), "pinhole": {"fov_deg": numpy.longdouble(40)}}
