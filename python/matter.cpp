@@ -64,13 +64,13 @@ py::dict material(const std::string& name) {
 }
 
 // Layers (material, thickness in nm) from outside inwards.
-Coating coating_of(const std::vector<std::pair<std::string, double>>& layers, const Numbers& wavelengths_nm) {
+Coating coating_of(const std::vector<std::pair<std::string, Real>>& layers, const Numbers& wavelengths_nm) {
   Coating coating;
   for (const auto& [name, thickness_nm] : layers) {
     if (!kFilmThickness.contains(thickness_nm) || coating.layers.size() == Coating::kMaxMaterials)
       throw Error(ErrorCode::usage, "coating",
-                  fmt::format("got {} nm of \"{}\", allowed up to {} layers of {} nm", thickness_nm, name,
-                              Coating::kMaxMaterials, kFilmThickness.text()));
+                  fmt::format("got {} nm of \"{}\", allowed up to {} layers of {} nm", thickness_nm.value,
+                              name, Coating::kMaxMaterials, kFilmThickness.text()));
     NamedIndex matter = find_surface(name, wavelengths_nm);
     coating.layers.push_back({static_cast<std::uint32_t>(coating.materials.size()), thickness_nm});
     coating.materials.push_back({std::move(matter.name), std::move(matter.index)});
@@ -80,7 +80,7 @@ Coating coating_of(const std::vector<std::pair<std::string, double>>& layers, co
 
 // Rs and Rp for light from what its index is relative to, under a coating from air.
 py::tuple reflectance(const std::string& name, const Numbers& wavelengths_nm, const Numbers& angles_deg,
-                      const std::vector<std::pair<std::string, double>>& layers) {
+                      const std::vector<std::pair<std::string, Real>>& layers) {
   const NamedIndex matter = find_surface(name, wavelengths_nm);
   const Coating coating = coating_of(layers, wavelengths_nm);
   for (const double angle : all(angles_deg))
@@ -105,12 +105,13 @@ py::tuple reflectance(const std::string& name, const Numbers& wavelengths_nm, co
   return py::make_tuple(rs[py::tuple()], rp[py::tuple()]);
 }
 
-py::object prism_deviation(const std::string& name, const Numbers& wavelengths_nm, double apex_deg,
-                           std::optional<double> incidence_deg) {
+py::object prism_deviation(const std::string& name, const Numbers& wavelengths_nm, Real apex_deg,
+                           std::optional<Real> incidence_deg) {
   if (!(apex_deg > 0 && apex_deg < 180))
-    throw Error(ErrorCode::usage, "apex_deg", fmt::format("got {}, allowed (0, 180)", apex_deg));
+    throw Error(ErrorCode::usage, "apex_deg", fmt::format("got {}, allowed (0, 180)", apex_deg.value));
   if (incidence_deg && !(std::abs(*incidence_deg) < 90))
-    throw Error(ErrorCode::usage, "incidence_deg", fmt::format("got {}, allowed (-90, 90)", *incidence_deg));
+    throw Error(ErrorCode::usage, "incidence_deg",
+                fmt::format("got {}, allowed (-90, 90)", incidence_deg->value));
   const NamedIndex matter = find_surface(name, wavelengths_nm);
   return each(wavelengths_nm, [&](double nm) {
     if (matter.index.catalogued_k(nm) > kLargestGlassK) return kNan;

@@ -17,6 +17,7 @@
 #include "python/job.h"
 #include "python/json.h"
 #include "python/lock.h"
+#include "python/numbers.h"
 #include "python/render.h"
 #include "python/request.h"
 #include "python/scene.h"
@@ -177,8 +178,8 @@ void add_meter(py::module_& module) {
   module.def(
       "meter",
       [](const py::object& scene, const py::object& only, std::optional<std::int64_t> spp,
-         std::optional<std::int64_t> seed, std::int64_t threads, std::optional<double> error,
-         std::optional<double> time, const py::object& integrator, const py::object& progress) {
+         std::optional<std::int64_t> seed, std::int64_t threads, std::optional<Real> error,
+         std::optional<Real> time, const py::object& integrator, const py::object& progress) {
         return meter(scene, only, {spp, seed, threads, error, time}, integrator, progress);
       },
       py::arg("scene"), py::kw_only(), py::arg("only") = py::none(), py::arg("spp") = py::none(),

@@ -33,6 +33,14 @@ inline void require_unmasked(const pybind11::handle& object) {
                             object.attr("size").cast<std::int64_t>()));
 }
 
+/// What functions take for one real number. Throws Error{usage} as an argument for what is none, as for
+/// Numbers.
+struct Real {
+  double value = 0;
+
+  operator double() const { return value; }
+};
+
 /// The letter by which numpy tells the kind of what an object holds, such as 'm' of spans of time; 0 of
 /// objects that are not numpy's.
 [[nodiscard]] inline char numpy_kind(const pybind11::handle& object) {
@@ -86,6 +94,20 @@ struct pyobject_caster<abbe::python::Numbers> {
   }
 
   PYBIND11_TYPE_CASTER(abbe::python::Numbers, handle_type_name<abbe::python::Numbers>::name);
+};
+
+/// Takes an argument for a Real, as pybind11 does for a double.
+template <>
+struct type_caster<abbe::python::Real> {
+  bool load(const handle& object, bool convert) {
+    abbe::python::refuse_kinds(object, "cmM");
+    make_caster<double> number;
+    if (!number.load(object, convert)) return false;
+    value = {cast_op<double>(number)};
+    return true;
+  }
+
+  PYBIND11_TYPE_CASTER(abbe::python::Real, make_caster<double>::name);
 };
 
 }  // namespace pybind11::detail

@@ -12,6 +12,7 @@
 #include "python/film.h"
 #include "python/job.h"
 #include "python/lock.h"
+#include "python/numbers.h"
 #include "python/render.h"
 #include "python/request.h"
 #include "python/scene.h"
@@ -90,7 +91,7 @@ void add_render(py::module_& module) {
   module.def(
       "render",
       [](SceneHandle& scene, std::optional<std::int64_t> spp, std::optional<std::int64_t> seed,
-         std::int64_t threads, std::optional<double> error, std::optional<double> time,
+         std::int64_t threads, std::optional<Real> error, std::optional<Real> time,
          const py::object& progress, std::optional<std::pair<std::uint64_t, std::uint64_t>> samples) {
         return render_scene(scene, {spp, seed, threads, error, time, samples}, progress);
       },

@@ -151,6 +151,15 @@ class Queries(Test):
             with self.subTest(kind=kind), self.assertRaisesRegex(abbe.UsageError, rf"^expected real numbers \(got {kind}, allowed whole and floating-point numbers\)$"):
                 abbe.ior("N-BK7", wrong)
 
+    def test_angles_that_are_spans_of_time_are_refused(self):
+        self.assertEqual(abbe.prism_deviation("N-SF11", 500.0, numpy.float32(60), numpy.int64(70)), abbe.prism_deviation("N-SF11", 500.0, 60, 70))
+        for call in (lambda wrong: abbe.prism_deviation("N-SF11", 500.0, apex_deg=wrong), lambda wrong: abbe.prism_deviation("N-SF11", 500.0, incidence_deg=wrong),
+                     lambda wrong: abbe.reflectance("N-BK7", 550, coating=[("MgF2", wrong)])):
+            for wrong in (numpy.timedelta64(50, "ns"), numpy.timedelta64(50, "s"), numpy.complex128(50)):
+                with self.assertRaises(abbe.UsageError) as caught:
+                    call(wrong)
+                self.assertEqual(str(caught.exception), f"expected real numbers (got {wrong.dtype}, allowed whole and floating-point numbers)")
+
     def test_what_is_no_spectrum_is_refused(self):
         for spectra, message in (((3,), "illuminant: expected a name, or wavelengths and values (got a int)"),
                                  (("D65", [1]), "reflectance: expected a name, or wavelengths and values (got a list)")):

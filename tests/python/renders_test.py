@@ -95,7 +95,7 @@ class Renders(Test):
         scene = abbe.Scene(CORNELL, sensor=cornell_sensor(96))
         self.assertLess(abbe.render(scene, error=0.3).stats["relative_error"], 0.3)
         self.assertLess(abbe.render(scene, time=0.2).stats["wall_s"], 20)
-        for wrong in ({"spp": 0}, {"error": 2}, {"time": 0}, {"threads": -1}, {"sample_range": (0, 5), "spp": 4}):
+        for wrong in ({"time": numpy.timedelta64(1, "ns")}, {"error": numpy.complex128(0.5)}, {"spp": 0}, {"error": 2}, {"time": 0}, {"threads": -1}, {"sample_range": (0, 5), "spp": 4}):
             with self.subTest(wrong=wrong), self.assertRaises(abbe.UsageError):
                 abbe.render(scene, **wrong)
 
