@@ -12,6 +12,7 @@
 #include "python/arrays.h"
 #include "python/errors.h"
 #include "python/query.h"
+#include "python/text.h"
 #include "sensor/response/channel.h"
 #include "spectral/curve_use.h"
 #include "spectral/library.h"
@@ -104,7 +105,7 @@ Curve sampled(const Numbers& wavelengths_nm, const Numbers& values) {
 // A name, or a pair of wavelengths and values that the use allows.
 template <typename Load>
 Curve curve_of(const py::handle& spectrum, const char* name, const CurveUse& use, Load load) {
-  if (py::isinstance<py::str>(spectrum)) return load(spectrum.cast<std::string>());
+  if (py::isinstance<py::str>(spectrum)) return load(encoded(spectrum));
   const auto [nm, values] =
       argument<std::pair<Numbers, Numbers>>(spectrum, name, "a name, or wavelengths and values");
   Curve curve = sampled(nm, values);

@@ -7,6 +7,7 @@
 
 #include "python/arguments.h"
 #include "python/lock.h"
+#include "python/text.h"
 
 namespace abbe::python {
 namespace {
@@ -31,18 +32,6 @@ const char* class_of(ErrorCode code) {
       break;
   }
   return "InternalError";
-}
-
-// Text that may hold names of files, which need not be UTF-8: as Python itself reads those.
-py::str decoded(const std::string& text) {
-  PyObject* const object =
-      PyUnicode_DecodeUTF8(text.data(), static_cast<py::ssize_t>(text.size()), "surrogateescape");
-  if (object == nullptr) throw py::error_already_set();
-  return py::reinterpret_steal<py::str>(object);
-}
-
-std::string encoded(const py::str& text) {
-  return py::bytes(text.attr("encode")("utf-8", "surrogateescape"));
 }
 
 // What rooms call an option of the command is here a keyword: "camera_response", not "--camera-response".

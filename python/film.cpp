@@ -18,6 +18,7 @@
 #include "python/errors.h"
 #include "python/lock.h"
 #include "python/picture.h"
+#include "python/text.h"
 #include "sensor/film/film_planes.h"
 #include "sensor/film/recorded_error.h"
 #include "sensor/film/variance_name.h"
@@ -158,6 +159,19 @@ std::string repr_of_film(const FilmHandle& film) {
                      film.channels().size());
 }
 
+// Names in files of others need not be UTF-8.
+py::list channels_of(const FilmHandle& film) {
+  py::list names;
+  for (const std::string& name : film.channels()) names.append(decoded(name));
+  return names;
+}
+
+py::dict metadata_of(const FilmHandle& film) {
+  py::dict told;
+  for (const auto& [name, value] : film.metadata()) told[decoded(name)] = decoded(value);
+  return told;
+}
+
 void add_values(py::class_<FilmHandle, std::shared_ptr<FilmHandle>>& film) {
   film.def_property_readonly(
           "array", &FilmHandle::array,
@@ -169,8 +183,7 @@ void add_values(py::class_<FilmHandle, std::shared_ptr<FilmHandle>>& film) {
           "The variance of each of these values, of the same shape; None for an image that does "
           "not tell it, and where samples of some pixels are in fewer than two replicates, so that nothing "
           "is known of it. It is inf where it is beyond single precision.")
-      .def_property_readonly("channels", &FilmHandle::channels,
-                             "The names of the channels, in the order of `array`.")
+      .def_property_readonly("channels", channels_of, "The names of the channels, in the order of `array`.")
       .def_property_readonly(
           "wavelengths", wavelengths,
           "The middles of the bands of a spectral film in nm, in the order of `array`; None for "
@@ -243,8 +256,7 @@ void add_film(py::module_& module) {
            "display picture. The file is the one that `abbe render` writes, and appears whole or not at all. "
            "Raises "
            "OutputError.")
-      .def_property_readonly("metadata", &FilmHandle::metadata,
-                             "What the film's file tells of it, as strings by name.")
+      .def_property_readonly("metadata", metadata_of, "What the film's file tells of it, as strings by name.")
       .def_property_readonly(
           "stats", stats,
           "What the render did, as a dict; None for a film read from an image. `wall_s`, `cpu_s` and "

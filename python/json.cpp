@@ -8,6 +8,7 @@
 #include "io/json_values.h"
 #include "io/value_tree.h"
 #include "python/numbers.h"
+#include "python/text.h"
 
 namespace abbe::python {
 namespace {
@@ -51,7 +52,7 @@ class Converter {
     if (object.is_none()) return nullptr;
     if (py::isinstance<py::bool_>(object)) return object.cast<bool>();
     if (py::isinstance<py::int_>(object) || py::isinstance<py::float_>(object)) return number_of(object);
-    if (py::isinstance<py::str>(object)) return object.cast<std::string>();
+    if (py::isinstance<py::str>(object)) return utf8_of(object);
     if (py::isinstance<py::dict>(object)) return members_of(py::reinterpret_borrow<py::dict>(object));
     if (py::isinstance<py::list>(object) || py::isinstance<py::tuple>(object))
       return elements_of(py::reinterpret_borrow<py::sequence>(object));
@@ -71,6 +72,15 @@ class Converter {
 
   [[noreturn]] void refuse_kind(const std::string& kind) const {
     refuse(pointer_, fmt::format("expected what JSON can hold (got a {})", kind));
+  }
+
+  // JSON is UTF-8, which texts of Python need not be, as names of files.
+  [[nodiscard]] std::string utf8_of(const py::handle& text) const {
+    py::ssize_t size = 0;
+    const char* const bytes = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
+    if (bytes != nullptr) return {bytes, static_cast<std::size_t>(size)};
+    PyErr_Clear();
+    refuse(pointer_, no_utf8(text));
   }
 
   [[nodiscard]] double number_of(const py::handle& object) const {
@@ -104,7 +114,7 @@ class Converter {
     for (const auto& [key, value] : dict) {
       if (!py::isinstance<py::str>(key))
         refuse(pointer_, fmt::format("expected keys that are strings (got a {})", type_name(key)));
-      const auto name = key.cast<std::string>();
+      const std::string name = utf8_of(key);
       members.push_back({name, inner(escaped(name), value)});
     }
     return members;

@@ -21,6 +21,7 @@
 #include "python/render.h"
 #include "python/request.h"
 #include "python/scene.h"
+#include "python/text.h"
 #include "validation/statistics/students_interval.h"
 
 namespace abbe::python {
@@ -113,7 +114,7 @@ std::vector<Override> settings_of(const Request& request, const py::object& inte
 
 std::vector<std::string> names_of(const py::object& only) {
   if (only.is_none()) return {};
-  if (py::isinstance<py::str>(only)) return {only.cast<std::string>()};
+  if (py::isinstance<py::str>(only)) return {encoded(only)};
   auto names = argument<std::vector<std::string>>(only, "only", "the name of a meter or a list of them");
   if (names.empty())
     throw Error(ErrorCode::usage, "only", "names no meter (got [], allowed one or more, or None for all)");

@@ -1,6 +1,6 @@
 #include "python/scene.h"
 
-#include <algorithm>
+#include <variant>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -16,6 +16,7 @@
 #include "python/errors.h"
 #include "python/json.h"
 #include "python/lock.h"
+#include "python/text.h"
 #include "transport/render/choose_integrator.h"
 #include "transport/render/threads.h"
 
@@ -34,12 +35,10 @@ const schema::Fields& scene_fields() {
 
 // Keywords over a file are what `--set` is to the command, so that films tell the same hash.
 std::vector<Override> overrides_of(const py::dict& keywords) {
+  const JsonValue all = to_json(keywords);
   std::vector<Override> overrides;
-  for (const auto& [key, value] : keywords) {
-    const auto name = key.cast<std::string>();
-    const std::string pointer = "/" + escaped(name);
-    overrides.push_back({pointer, to_text(to_json(value, pointer)), name});
-  }
+  for (const auto& [name, value] : std::get<JsonValue::Object>(all.value))
+    overrides.push_back({"/" + escaped(name), to_text(value), name});
   return overrides;
 }
 
@@ -69,10 +68,11 @@ std::string class_text() {
   return text + "\nabbe.help(\"camera\") tells what may stand in them.";
 }
 
-std::string repr_of_scene(const SceneHandle& handle) {
+py::str repr_of_scene(const SceneHandle& handle) {
   const abbe::Scene& scene = handle.scene();
-  return fmt::format("<abbe.Scene {}: {} x {} pixels, {} shapes, {} lights>", handle.name().string(),
-                     scene.camera.width, scene.camera.height, scene.shapes.size(), scene.lights.size());
+  return decoded(fmt::format("<abbe.Scene {}: {} x {} pixels, {} shapes, {} lights>", handle.name().string(),
+                             scene.camera.width, scene.camera.height, scene.shapes.size(),
+                             scene.lights.size()));
 }
 
 }  // namespace

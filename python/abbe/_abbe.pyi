@@ -82,7 +82,7 @@ class Film:
         """The variance of each of these values, of the same shape; None for an image that does not tell it, and where samples of some pixels are in fewer than two replicates, so that nothing is known of it. It is inf where it is beyond single precision."""
 
     @property
-    def channels(self) -> typing.List[str]:
+    def channels(self) -> list[str]:
         """The names of the channels, in the order of `array`."""
 
     @property
@@ -100,7 +100,7 @@ class Film:
         """Writes the film: to .exr with its variance, to .abbepart with its exact sums, to .png, .jpg or .tif its display picture. The file is the one that `abbe render` writes, and appears whole or not at all. Raises OutputError."""
 
     @property
-    def metadata(self) -> typing.Dict[str, str]:
+    def metadata(self) -> dict[str, str]:
         """What the film's file tells of it, as strings by name."""
 
     @property
@@ -171,7 +171,7 @@ class Scene:
         """The film's rows of pixels."""
 
     @property
-    def channels(self) -> typing.List[str]:
+    def channels(self) -> list[str]:
         """The names of the film's planes."""
 
     @property

@@ -21,7 +21,8 @@ TYPES = ((r"abbe\._abbe\.", ""), (r"numpy\.ndarray\[numpy\.float64\]", "ArrayLik
 # What is returned where pybind11 knows no more than `object`.
 RESULTS = {"array": "NDArray[numpy.float32]", "variance": "NDArray[numpy.float32] | None", "wavelengths": "NDArray[numpy.float64] | None",
            **{name: "NDArray[numpy.float32] | None" for name in ("exposure", "electrons", "codes", "saturated", "calibrated")},
-           "to_dict": "dict[str, typing.Any]", "spectrum": "NDArray[numpy.float32]", "picture": "NDArray[numpy.float32]", "stats": "dict[str, typing.Any] | None"}
+           "to_dict": "dict[str, typing.Any]", "spectrum": "NDArray[numpy.float32]", "picture": "NDArray[numpy.float32]", "stats": "dict[str, typing.Any] | None",
+           "channels": "list[str]", "metadata": "dict[str, str]"}
 
 
 def known(signature):

@@ -199,6 +199,14 @@ class Films(Test):
         with self.assertRaisesRegex(abbe.UsageError, "one or three channels"):
             abbe.render(abbe.Scene(box())).picture()
 
+    def test_names_of_channels_that_are_not_utf_8_are_told(self):
+        abbe.render(abbe.Scene(box()), spp=1).write(self.scratch / "f.exr")
+        odd = self.scratch / "odd.exr"
+        odd.write_bytes((self.scratch / "f.exr").read_bytes().replace(b"long", b"l\xf6ng"))
+        film = abbe.Film.read(odd)
+        self.assertEqual(film.channels, ["l\udcf6ng", "short"])
+        self.assertIn("channel.l\udcf6ng", film.metadata)
+
 
 if __name__ == "__main__":
     unittest.main()

@@ -1,4 +1,5 @@
 """Scenes from paths, dicts and keywords, and what is wrong with them."""
+import json
 import pathlib
 import pickle
 import unittest
@@ -130,6 +131,31 @@ class Scenes(Test):
             abbe.Scene(odd)
         self.assertEqual(caught.exception.diagnostics[0].file, str(odd))
         self.assertIn("odd?:1:2", str(caught.exception.diagnostics[0]))
+        odd.write_text(json.dumps(box(abbe=1)))
+        scene = abbe.Scene(odd)
+        self.assertEqual(repr(scene), f"<abbe.Scene {odd}: 8 x 6 pixels, 1 shapes, 1 lights>")
+        film = abbe.render(scene, spp=1)
+        film.write(self.scratch / "film.exr")
+        for told in (film, abbe.Film.read(self.scratch / "film.exr")):
+            self.assertEqual(told.metadata["scene"], "odd\udcff")
+
+    def test_text_that_is_not_utf_8_is_refused_where_it_stands(self):
+        (self.scratch / "box.json").write_text(json.dumps(box(abbe=1)))
+        film = abbe.render(abbe.Scene(box()), spp=1)
+        for half in ("\udce9", "\ud800"):
+            for call, pointer in ((lambda: abbe.Scene({"camera": {"from": half}}), "/camera/from"), (lambda: abbe.Scene({"camera": {half: 1}}), "/camera"),
+                                  (lambda: abbe.Scene(box(output={"image": pathlib.Path(half)})), "/output/image"), (lambda: abbe.Scene(box(), **{half: 1}), ""),
+                                  (lambda: abbe.Scene(self.scratch / "box.json", camera={"from": [half]}), "/camera/from/0"),
+                                  (lambda: abbe.Scene(self.scratch / "box.json", **{half: 1}), ""), (lambda: abbe.develop(film, white=half), "/output/white")):
+                with self.subTest(half=half, pointer=pointer), self.assertRaises(abbe.SceneError) as caught:
+                    call()
+                told = caught.exception.diagnostics[0]
+                self.assertEqual((told.pointer, told.message), (pointer, f"expected text that UTF-8 can hold (got {half!r})"))
+        for call in (lambda name: abbe.color(name), lambda name: abbe.meter(box(meters={"a": {"at": [0, 0, 1], "normal": [0, 0, 1]}}), only=name)):
+            with self.assertRaisesRegex(abbe.Error, "caf[?\udce9]"):
+                call("caf\udce9")
+            with self.assertRaisesRegex(abbe.UsageError, r"^expected text that UTF-8 can hold \(got 'caf\\ud800'\)$"):
+                call("caf\ud800")
 
     def test_errors_cross_processes(self):
         with self.assertRaises(abbe.SceneError) as caught:
