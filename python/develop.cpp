@@ -8,13 +8,13 @@
 #include "film/spectral.h"
 #include "film/white.h"
 #include "io/extension.h"
-#include "io/picture.h"
 #include "python/arguments.h"
 #include "python/develop.h"
 #include "python/errors.h"
 #include "python/film.h"
 #include "python/json.h"
 #include "python/lock.h"
+#include "python/picture.h"
 #include "python/request.h"
 #include "python/scene.h"
 #include "sensor/film/recorded_white.h"
@@ -33,15 +33,7 @@ struct Developed {
   FilmSensor sensor;
   DevelopedFilm planes;
 
-  [[nodiscard]] Image display() const { return display_planes(sensor, planes.calibrated); }
-  [[nodiscard]] std::optional<double> scale() const {
-    return sensor.display_exposure ? std::optional(1 / *sensor.display_exposure) : std::nullopt;
-  }
-  [[nodiscard]] Image picture() const {
-    if (!sensor.display)
-      throw Error(ErrorCode::usage, kWhere, "a picture needs a sensor of one or three channels, and a light");
-    return (*sensor.display)(display(), scale()).image;
-  }
+  [[nodiscard]] std::optional<Image> picture() const { return display_picture(sensor, planes.calibrated); }
 };
 
 std::vector<std::string> names_of(const Image& image, const std::string& prefix) {
@@ -113,7 +105,8 @@ Developed develop_film(const FilmHandle& film, const py::object& readout, const 
 void write_developed(const Developed& developed, const fs::path& path) {
   require_developed_extension(path);
   if (extension_of(path) == ".exr")
-    return write_parts(path, developed.planes, developed.display(), developed.sensor, developed.scale());
+    return write_parts(path, developed.planes, display_planes(developed.sensor, developed.planes.calibrated),
+                       developed.sensor, display_scale(developed.sensor));
   if (!developed.sensor.readout)
     throw Error(ErrorCode::usage, path.string(), "the film has no read-out to make codes with");
   if (const auto dark = own_dark_signals(developed.sensor)) warn(*dark);
@@ -144,7 +137,7 @@ py::list figures(const Developed& developed) {
 }
 
 py::object picture_array(const Developed& developed) {
-  const Image picture = developed.picture();
+  const Image picture = existing(developed.picture());
   return planes_of(picture, names_of(picture, ""));
 }
 
@@ -180,11 +173,13 @@ void add_develop(py::module_& module) {
           "figures", figures,
           "For each plane a dict of its mean, the error of the render, None where it is not known, and the "
           "noise of the sensor, in electrons where there is a read-out.")
-      .def("picture", picture_array, "Returns the result as an sRGB display shows it, code values in [0, 1].")
+      .def("picture", picture_array,
+           "Returns the result as an sRGB display shows it, code values in [0, 1]. Raises UsageError where "
+           "no display can show what the sensor sees.")
       .def(
           "write", write_developed, py::arg("path"),
           "Writes the codes to a 16-bit .tif or .png, or all planes to an .exr of parts. Raises OutputError.")
-      .def("_repr_png_", [](const Developed& d) { return py::bytes(encoded_picture(".png", d.picture())); });
+      .def("_repr_png_", [](const Developed& d) { return png_of(d.picture()); });
   module.def("develop", develop_film, py::arg("film"), py::kw_only(), py::arg("readout") = py::none(),
              py::arg("white") = py::none(), py::arg("seed") = py::none(), py::arg("scene") = py::none(),
              "Reads a film out without rendering: noise, digital numbers, and what these say.\n\n`readout` "

@@ -72,7 +72,7 @@ void write_film(const FilmHandle& film, const fs::path& path) {
   if (is_part && !film.part())
     throw Error(ErrorCode::usage, path.string(),
                 "the film was read from an image: only a film with its exact sums can be written as a part");
-  if (!is_part && extension_of(path) != ".exr") return write_picture(path, shown(film).image);
+  if (!is_part && extension_of(path) != ".exr") return write_picture(path, existing(display_picture(film)));
   const Image* const image = is_part ? nullptr : &film.image();
   const Released released;
   if (is_part)
@@ -243,7 +243,7 @@ void add_film(py::module_& module) {
       "The film of a scene's sensor: values per pixel and channel with their variance, before noise.\n\n"
       "`abbe.render` and `abbe.merge` make films that keep their exact sums, Film.read reads them from "
       "files. Jupyter "
-      "shows a film as its display picture.");
+      "shows a film as its display picture where it has one.");
   forbid_bare_new(film);
   add_values(film);
   film.def_static(

@@ -1,17 +1,28 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
 #include <pybind11/pybind11.h>
 
-#include "calibration/output/display.h"
+#include "develop/film_sensor.h"
+#include "io/image.h"
 #include "python/film.h"
 
 namespace abbe::python {
 
-/// The film as the display of `abbe render` shows it, for sRGB. Throws Error{usage} for a film that no
-/// display can show.
-[[nodiscard]] DisplayPicture shown(const FilmHandle& film);
+/// By what a display multiplies what a sensor sees; nothing where that hangs on the picture.
+[[nodiscard]] std::optional<double> display_scale(const FilmSensor& sensor);
+
+/// What a sensor sees as the display of `abbe render` shows it, for sRGB; nothing where no display can.
+[[nodiscard]] std::optional<Image> display_picture(const FilmSensor& sensor, const Image& calibrated);
+/// The film as that display shows it, likewise.
+[[nodiscard]] std::optional<Image> display_picture(const FilmHandle& film);
+
+/// A picture that a call asks for. Throws Error{usage} where there is none.
+[[nodiscard]] Image existing(std::optional<Image> picture);
+/// The picture as Jupyter asks for it, in a PNG; None where there is none, so that text stands for it.
+[[nodiscard]] pybind11::object png_of(const std::optional<Image>& picture);
 
 /// Adds to films what shows them.
 void add_pictures(pybind11::class_<FilmHandle, std::shared_ptr<FilmHandle>>& film);

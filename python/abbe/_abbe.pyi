@@ -42,7 +42,7 @@ class Developed:
         """For each plane a dict of its mean, the error of the render, None where it is not known, and the noise of the sensor, in electrons where there is a read-out."""
 
     def picture(self: Developed) -> NDArray[numpy.float32]:
-        """Returns the result as an sRGB display shows it, code values in [0, 1]."""
+        """Returns the result as an sRGB display shows it, code values in [0, 1]. Raises UsageError where no display can show what the sensor sees."""
 
     def write(self: Developed, path: str | os.PathLike[str]) -> None:
         """Writes the codes to a 16-bit .tif or .png, or all planes to an .exr of parts. Raises OutputError."""
@@ -71,7 +71,7 @@ class Diagnostic:
 class Film:
     """The film of a scene's sensor: values per pixel and channel with their variance, before noise.
 
-    `abbe.render` and `abbe.merge` make films that keep their exact sums, Film.read reads them from files. Jupyter shows a film as its display picture."""
+    `abbe.render` and `abbe.merge` make films that keep their exact sums, Film.read reads them from files. Jupyter shows a film as its display picture where it has one."""
 
     @property
     def array(self) -> NDArray[numpy.float32]:

@@ -199,6 +199,21 @@ class Films(Test):
         with self.assertRaisesRegex(abbe.UsageError, "one or three channels"):
             abbe.render(abbe.Scene(box())).picture()
 
+    def test_notebooks_show_films_without_a_picture_as_text(self):
+        bands = {name: {"band": [400 + 50 * i, 450 + 50 * i]} for i, name in enumerate("abcd")}
+        for channels in (1, 2, 3, 4):
+            film = abbe.render(abbe.Scene(box(sensor={**box()["sensor"], "channels": dict(list(bands.items())[:channels])})), spp=1)
+            for shown in (film, abbe.develop(film)):
+                with self.subTest(channels=channels, shown=shown):
+                    if channels in (1, 3):
+                        self.assertEqual(shown._repr_png_()[:4], b"\x89PNG")
+                        continue
+                    self.assertIsNone(shown._repr_png_())
+                    with self.assertRaisesRegex(abbe.UsageError, "one or three channels"):
+                        shown.picture()
+        with self.assertRaisesRegex(abbe.InputError, "another emissiveUnits"):
+            self.write_bands([400, 500, 600], "W.m^-2.sr^-1.nm^-1")._repr_png_()
+
     def test_names_of_channels_that_are_not_utf_8_are_told(self):
         abbe.render(abbe.Scene(box()), spp=1).write(self.scratch / "f.exr")
         odd = self.scratch / "odd.exr"
