@@ -15,6 +15,7 @@
 #include "python/numbers.h"
 #include "python/render.h"
 #include "python/request.h"
+#include "python/sample_range.h"
 #include "python/scene.h"
 #include "transport/render/collect.h"
 
@@ -31,7 +32,7 @@ RenderOptions how_to_render(const Request& request, int stated) {
   const auto [first, last] = *request.samples;
   require(first < last && last <= static_cast<std::uint64_t>(stated), "sample_range",
           fmt::format("({}, {})", first, last), "first < last, up to the samples of the whole render");
-  how.samples = SampleRange{first, last};
+  how.samples = request.samples;
   return how;
 }
 
@@ -92,7 +93,7 @@ void add_render(py::module_& module) {
       "render",
       [](SceneHandle& scene, std::optional<std::int64_t> spp, std::optional<std::int64_t> seed,
          std::int64_t threads, std::optional<Real> error, std::optional<Real> time,
-         const py::object& progress, std::optional<std::pair<std::uint64_t, std::uint64_t>> samples) {
+         const py::object& progress, std::optional<SampleRange> samples) {
         return render_scene(scene, {spp, seed, threads, error, time, samples}, progress);
       },
       py::arg("scene"), py::kw_only(), py::arg("spp") = py::none(), py::arg("seed") = py::none(),
@@ -105,7 +106,7 @@ void add_render(py::module_& module) {
       "end of "
       "a pass; neither goes with `spp` or `sample_range`. `progress` is called after passes with a Progress, "
       "on the calling thread. `sample_range` "
-      "(first, last) "
+      "(first, last), or range(first, last), "
       "renders these samples only, for `merge`. Other threads of Python run meanwhile. Ctrl-C, and what "
       "`progress` "
       "raises, end the render after the pass that runs and are raised here.");

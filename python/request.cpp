@@ -1,5 +1,7 @@
 #include "python/request.h"
 
+#include <utility>
+
 #include <fmt/format.h>
 
 #include "description/render_limits.h"

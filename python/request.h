@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
-#include <utility>
 
 #include "transport/render/render.h"
+#include "transport/render/sample_ranges.h"
 
 namespace abbe::python {
 
@@ -16,7 +16,7 @@ struct Request {
   std::int64_t threads = 0;
   std::optional<double> error;
   std::optional<double> time;
-  std::optional<std::pair<std::uint64_t, std::uint64_t>> samples = {};
+  std::optional<SampleRange> samples = {};
 };
 
 /// Throws Error{usage} naming the argument that is out of its range, or that another excludes.

@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 '''
 # What pybind11 calls types, as checkers know them.
 TYPES = ((r"abbe\._abbe\.", ""), (r"numpy\.ndarray\[numpy\.float64\]", "ArrayLike"), (r"os\.PathLike", "str | os.PathLike[str]"), (r"\bobject\b", "typing.Any"),
-         (r"\bhandle\b", "typing.Any"), (r"\bSequence\b", "typing.Sequence[typing.Any]"), (r"\b(List|Dict|Tuple|Optional)\[", r"typing.\1["),
+         (r"\bhandle\b", "typing.Any"), (r"\bSequence\b", "typing.Sequence[typing.Any]"), (r"\b(List|Dict|Tuple|Optional|Union)\[", r"typing.\1["),
          (r"\bsequence\b", "typing.Sequence[typing.Any]"), (r": (Scene|Film) = None", r": \1 | None = None"), (r"\*\*kwargs", "**keywords: typing.Any"))
 # What is returned where pybind11 knows no more than `object`.
 RESULTS = {"array": "NDArray[numpy.float32]", "variance": "NDArray[numpy.float32] | None", "wavelengths": "NDArray[numpy.float64] | None",

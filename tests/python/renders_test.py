@@ -117,6 +117,21 @@ class Renders(Test):
                 with self.assertRaisesRegex(abbe.UsageError, f"^{fixed} excludes {other}$"):
                     abbe.render(scene, **{fixed: given[fixed], other: given[other]})
 
+    def test_ranges_of_python_are_ranges_of_samples(self):
+        scene = abbe.Scene(box())
+        for given in (range(1, 3), [1, 3], numpy.array([1, 3])):
+            with self.subTest(given=given):
+                film = abbe.render(scene, sample_range=given)
+                self.assertEqual(film.stats["samples_per_pixel"], 2)
+                numpy.testing.assert_array_equal(film.array, abbe.render(scene, sample_range=(1, 3)).array)
+        numpy.testing.assert_array_equal(abbe.merge([abbe.render(scene, sample_range=range(i, i + 2)) for i in (0, 2)]).array, abbe.render(scene).array)
+        with self.assertRaisesRegex(abbe.UsageError, r"^sample_range: got \(2, 2\), allowed first < last"):
+            abbe.render(scene, sample_range=range(2, 2))
+        for wrong in (range(0, 4, 2), range(1, 3, 2), range(1, -1, -1), range(-1, 2), b"\0\2", "02", {0, 2}, (0, 1, 2), (0, 1.5), 3):
+            with self.subTest(wrong=wrong), self.assertRaises(TypeError) as caught:
+                abbe.render(scene, sample_range=wrong)
+            self.assertEqual(str(caught.exception), f"sample_range: expected (first, last), whole numbers from 0 on, or a range of step 1 (got {wrong!r})")
+
     def test_memory_is_flat_over_many_renders(self):
         edge, renders = (128, 100) if NIGHTLY else (80, 50)
         scene = abbe.Scene(CORNELL, sensor={"resolution": [edge, edge], "observer": "1931"})

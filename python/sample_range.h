@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+#include <pybind11/pybind11.h>
+
+#include "transport/render/sample_ranges.h"
+
+namespace pybind11::detail {
+
+/// Takes (first, last) for a range of samples, or a range of Python from first to last, whose elements are
+/// not these two. Another object is a TypeError of Python that says so.
+template <>
+struct type_caster<abbe::SampleRange> {
+  bool load(const handle& object, bool convert) {
+    make_caster<std::pair<std::uint64_t, std::uint64_t>> pair;
+    if (isinstance<bytes>(object) || !pair.load(ends_of(object), convert))
+      throw type_error(fmt::format(
+          "sample_range: expected (first, last), whole numbers from 0 on, or a range of step 1 (got {})",
+          std::string(repr(object))));
+    const auto [first, last] = cast_op<std::pair<std::uint64_t, std::uint64_t>>(pair);
+    value = {first, last};
+    return true;
+  }
+
+  PYBIND11_TYPE_CASTER(abbe::SampleRange, const_name("Union[Tuple[int, int], range]"));
+
+ private:
+  static object ends_of(const handle& samples) {
+    if (!PyRange_Check(samples.ptr())) return reinterpret_borrow<object>(samples);
+    const object step = samples.attr("step");
+    if (!step.equal(int_(1))) return none();
+    return make_tuple(samples.attr("start"), samples.attr("stop"));
+  }
+};
+
+}  // namespace pybind11::detail
