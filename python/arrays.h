@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -13,6 +14,8 @@
 #include "python/numbers.h"
 
 namespace abbe::python {
+
+inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 [[nodiscard]] inline std::span<const double> all(const Numbers& numbers) {
   return {numbers.data(), static_cast<std::size_t>(numbers.size())};

@@ -1,5 +1,4 @@
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -20,8 +19,6 @@ namespace abbe::python {
 namespace {
 
 namespace py = pybind11;
-
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // The material of that name, which must hold at all wavelengths asked for.
 NamedIndex find(const std::string& name, const Numbers& wavelengths_nm) {

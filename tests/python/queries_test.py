@@ -77,14 +77,14 @@ class Queries(Test):
         for formula, key in (("2000", "dE00"), ("94", "dE94"), ("76", "dE76")):
             self.assertEqual(abbe.delta_e(*labs, formula=formula), told[key])
         self.assertEqual(abbe.delta_e(numpy.zeros((4, 5, 3)), labs[0]).shape, (4, 5))
-        for formula in ("2000", "94", "76"):
+        for formula in ("2000", "94", "76", "cam16", "itp"):
             for axis in range(3):
-                for wrong in (numpy.nan, numpy.inf):
+                for wrong in (numpy.nan, numpy.inf, -numpy.inf):
                     lab = [50.0, 10.0, 10.0]
                     lab[axis] = wrong
                     for pair in ((lab, labs[0]), (labs[0], lab), (lab, lab)):
                         with self.subTest(formula=formula, pair=pair):
-                            self.assertFalse(numpy.isfinite(abbe.delta_e(*pair, formula=formula)))
+                            self.assertTrue(numpy.isnan(abbe.delta_e(*pair, formula=formula)))
 
     def test_tables_at_wavelengths(self):
         self.assertEqual(abbe.illuminant("A", 560.0), 100)
