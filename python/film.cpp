@@ -145,7 +145,8 @@ py::object stats(const FilmHandle& film) {
     all["cpu_s"] = stats.cpu_s;
     all["threads"] = stats.threads;
   }
-  all["samples_per_pixel"] = stats.samples_per_pixel;
+  all["samples_per_pixel"] = py::none();
+  if (film.part()->areas.empty()) all["samples_per_pixel"] = stats.samples_per_pixel;
   all["paths"] = stats.paths;
   all["rays"] = stats.rays;
   all["relative_error"] = known(stats.error.median);
@@ -261,7 +262,9 @@ void add_film(py::module_& module) {
           "stats", stats,
           "What the render did, as a dict; None for a film read from an image. `wall_s`, `cpu_s` and "
           "`threads` are None of a film that was merged or read from a part, and its errors unless the "
-          "render was given `error` or `progress`.")
+          "render was given `error` or `progress`; `samples_per_pixel` is None where pixels have different "
+          "samples "
+          "or none, of which `metadata` then tells the `areas`.")
       .def_property_readonly(
           "width", [](const FilmHandle& f) { return f.image().width; }, "The film's columns of pixels.")
       .def_property_readonly(

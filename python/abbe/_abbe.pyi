@@ -105,7 +105,7 @@ class Film:
 
     @property
     def stats(self) -> dict[str, typing.Any] | None:
-        """What the render did, as a dict; None for a film read from an image. `wall_s`, `cpu_s` and `threads` are None of a film that was merged or read from a part, and its errors unless the render was given `error` or `progress`."""
+        """What the render did, as a dict; None for a film read from an image. `wall_s`, `cpu_s` and `threads` are None of a film that was merged or read from a part, and its errors unless the render was given `error` or `progress`; `samples_per_pixel` is None where pixels have different samples or none, of which `metadata` then tells the `areas`."""
 
     @property
     def width(self) -> int:

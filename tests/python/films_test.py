@@ -1,5 +1,6 @@
 """What films tell, how they are written, read and added up."""
 import importlib.util
+import json
 import pathlib
 import threading
 import unittest
@@ -175,6 +176,7 @@ class Films(Test):
         with self.assertRaisesRegex(abbe.InputError, "samples 8:16 are missing"):
             abbe.merge(parts[:1])
         self.assertEqual(abbe.merge(parts[:1], partial=True).stats["samples_per_pixel"], 8)
+        self.assertEqual(whole.stats["samples_per_pixel"], 16)
         with self.assertRaisesRegex(abbe.InputError, r"films\[1\]"):
             abbe.merge([parts[0], parts[0]])
         for other in (None, 3):
@@ -185,6 +187,18 @@ class Films(Test):
                 abbe.merge(text)
         with self.assertRaisesRegex(abbe.UsageError, "read from an image"):
             abbe.merge([abbe.Film.read(self.scratch / "w.exr")])
+
+    def test_pixels_of_different_samples_have_no_count_in_common(self):
+        (self.scratch / "box.json").write_text(json.dumps(box(abbe=1)))
+        parts = []
+        for samples, crop in (("0:2", "0,0,4,6"), ("0:1", "4,0,8,6")):
+            parts.append(self.scratch / f"{crop}.abbepart")
+            self.command("render", self.scratch / "box.json", "--spp", 2, "--sample-range", samples, "--crop", crop, "--quiet", "-o", parts[-1])
+        uneven = abbe.merge(parts, partial=True)
+        self.assertIsNone(uneven.stats["samples_per_pixel"])
+        self.assertNotIn("samples_per_pixel", uneven.metadata)
+        self.assertEqual(uneven.stats["paths"], (2 + 1) * 4 * 6)
+        self.assertEqual(abbe.Film.read(parts[0]).stats["samples_per_pixel"], 2)
 
     def test_parts_of_the_program_are_of_another_build(self):
         abbe.render(abbe.Scene(CORNELL), spp=2, sample_range=(0, 1)).write(self.scratch / "a.abbepart")
