@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <deque>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -16,12 +18,20 @@ namespace {
 
 constexpr double kFitted = 0.7;  // of the signal at saturation
 constexpr double kPatternsAt = 0.5;
-constexpr double kLeastKnown = 0.5;  // relative error from which a gain is none
+constexpr double kFullDeviations = 6;  // from the mean of full pixels, as of `white_level`
+constexpr double kLeastKnown = 0.5;    // relative error from which a gain is none
 constexpr const char* kNoLight =
     "no lit pair between darkness and saturation: their codes scatter no more than those of the dark pairs";
 
 [[noreturn]] void refuse(const std::string& what) {
   throw Error(ErrorCode::input, "photon transfer", what);
+}
+
+[[noreturn]] void refuse_bright_pairs(double saturation_dn, std::size_t lit_pairs) {
+  refuse(
+      fmt::format("no lit pair is below {} of the signal where the sensor saturates, taken to be the {:.5g} "
+                  "DN where the codes scatter most: weaker light is needed beside it ({} lit pair{} given)",
+                  kFitted, saturation_dn, lit_pairs, lit_pairs == 1 ? "" : "s"));
 }
 
 // Of a pair [DN, DN^2]: mean, variance from one exposure to the next without that of rounding, variance over
@@ -76,9 +86,17 @@ PairSums pair_sums(const FlatPair& pair, const std::vector<CodeLevel>& levels) {
   return all;
 }
 
+void require_frames(std::span<const FlatPair> dark, std::span<const FlatPair> lit) {
+  if (dark.empty() || lit.empty()) refuse("no dark or no lit pairs");
+  const std::size_t pixels = dark.front().first.size();
+  for (const std::span<const FlatPair> pairs : {dark, lit})
+    for (const FlatPair& pair : pairs)
+      if (pixels < 2 || pair.first.size() != pixels || pair.second.size() != pixels)
+        refuse("frames of unequal sizes");
+}
+
 PairMoments moments(const FlatPair& pair, const std::vector<CodeLevel>& levels) {
   const auto n = static_cast<double>(pair.first.size());
-  if (pair.first.size() < 2 || pair.first.size() != pair.second.size()) refuse("a pair of unequal frames");
   const PairSums all = pair_sums(pair, levels);
   const double both = (all.difference_squares - all.difference * all.difference / n) / (n - 1) / 2;
   const double of_means = (all.squares - all.sum * all.sum / n) / (n - 1) / 4;
@@ -164,6 +182,153 @@ RelativeErrors relative_errors(const std::vector<PairMoments>& dark,
   return {std::sqrt(gain), read_variance > 0 ? std::optional(std::sqrt(noise)) : std::nullopt};
 }
 
+// A pair and how much its frames count in a sum.
+struct WeightedPair {
+  const FlatPair* pair;
+  double weight;
+};
+
+// Darkness after such an exposure, pixel by pixel: that of the pairs of this very exposure time, else what
+// the line through all of them has there, since the dark signal of each pixel grows in proportion to time.
+std::vector<WeightedPair> dark_sum(std::span<const FlatPair> pairs, const std::vector<PairMoments>& dark,
+                                   double exposure_s) {
+  std::vector<WeightedPair> equal;
+  for (const FlatPair& pair : pairs)
+    if (pair.exposure_s == exposure_s) equal.push_back({&pair, 1});
+  for (WeightedPair& term : equal) term.weight /= static_cast<double>(equal.size());
+  if (!equal.empty()) return equal;
+  const std::vector<double> weights = line_weights(dark, exposure_s);
+  std::vector<WeightedPair> line;
+  for (std::size_t j = 0; j < pairs.size(); ++j) line.push_back({&pairs[j], weights[j]});
+  return line;
+}
+
+// A lit pair less darkness of its exposure time.
+std::vector<WeightedPair> light_sum(std::span<const FlatPair> dark_pairs,
+                                    const std::vector<PairMoments>& dark, const FlatPair& lit) {
+  std::vector<WeightedPair> sum = dark_sum(dark_pairs, dark, lit.exposure_s);
+  for (WeightedPair& term : sum) term.weight = -term.weight;
+  sum.push_back({&lit, 1});
+  return sum;
+}
+
+// The variance of a pattern [DN^2]: how the sum of the first frames varies over the pixels together with that
+// of the second ones, whose noise is another. It is below 0 where noise alone makes it so.
+double pattern_variance(const std::vector<WeightedPair>& sum, const std::vector<CodeLevel>& levels) {
+  const std::size_t pixels = sum.front().pair->first.size();
+  const auto n = static_cast<double>(pixels);
+  double first = 0;
+  double second = 0;
+  double products = 0;
+  for (std::size_t i = 0; i < pixels; ++i) {
+    double a = 0;
+    double b = 0;
+    for (const auto& [pair, weight] : sum) {
+      a += weight * levels[pair->first[i]].signal_dn;
+      b += weight * levels[pair->second[i]].signal_dn;
+    }
+    first += a;
+    second += b;
+    products += a * b;
+  }
+  return (products - first * second / n) / (n - 1);
+}
+
+// What pairs say, as long as no pixel is full where it should not be.
+struct Analysis {
+  PhotonTransfer transfer;
+  std::size_t half;  // the lit pair nearest to half of saturation
+  double full_dn;    // what full pixels have at least
+};
+
+Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair> lit_pairs, int bits,
+                 const std::vector<CodeLevel>& levels) {
+  const std::vector<PairMoments> dark = all_moments(dark_pairs, levels);
+  const std::vector<PairMoments> lit = all_moments(lit_pairs, levels);
+  const Line dark_mean = fitted(dark, &PairMoments::mean);
+  const Line dark_variance = fitted(dark, &PairMoments::temporal);
+  const auto signal = [&](const PairMoments& m) { return m.mean - dark_mean.at(m.exposure_s); };
+
+  // Saturation is where the variance is largest.
+  const auto by = [](auto value) {
+    return [value](const PairMoments& a, const PairMoments& b) { return value(a) < value(b); };
+  };
+  const auto variance = [](const PairMoments& m) { return m.temporal; };
+  const double saturation = signal(*std::max_element(lit.begin(), lit.end(), by(variance)));
+  double products = 0;
+  double squares = 0;
+  std::vector<PairMoments> below;
+  for (const PairMoments& m : lit)
+    if (signal(m) <= kFitted * saturation) {
+      below.push_back(m);
+      products += signal(m) * (m.temporal - dark_variance.at(m.exposure_s));
+      squares += signal(m) * signal(m);
+    }
+  if (below.empty()) refuse_bright_pairs(saturation, lit.size());
+  if (!(products > 0)) refuse(kNoLight);
+  const double gain = squares / products;
+  const double read_variance = dark_variance.at_zero;
+  const RelativeErrors errors = relative_errors(dark, below, dark_mean, products, read_variance);
+  if (errors.gain > kLeastKnown) refuse(kNoLight);
+
+  const PairMoments& brightest = *std::max_element(lit.begin(), lit.end(), by(signal));
+  const auto root = [](double x) { return std::sqrt(std::max(0.0, x)); };
+  const std::size_t highest_code = (1U << static_cast<unsigned>(bits)) - 1;
+  // In a full well all pixels hold the same, so that the variance is far below that of the light.
+  const bool full =
+      brightest.temporal - dark_variance.at(brightest.exposure_s) < signal(brightest) / gain / 2;
+  std::optional<double> full_well;
+  if (full && brightest.mean < static_cast<double>(highest_code) - 1)
+    full_well = (brightest.mean - dark_mean.at_zero) * gain;
+
+  const double scatter = root(brightest.temporal + brightest.spatial);
+  const double full_dn = full ? brightest.mean - kFullDeviations * scatter : levels[highest_code].signal_dn;
+  const auto from_half = [&](const PairMoments& m) { return std::abs(signal(m) - kPatternsAt * saturation); };
+  const auto half_pair = std::min_element(lit.begin(), lit.end(), by(from_half));
+  const auto half = static_cast<std::size_t>(half_pair - lit.begin());
+  const auto light = light_sum(dark_pairs, dark, lit_pairs[half]);
+  std::vector<TransferPoint> points;
+  for (const PairMoments& m : lit) points.push_back({signal(m), m.temporal - dark_variance.at(m.exposure_s)});
+  const double read_noise = root(read_variance) * gain;
+  return {
+      {gain, read_noise, dark_mean.slope * gain,
+       100 * root(pattern_variance(light, levels)) / signal(*half_pair),
+       root(pattern_variance(dark_sum(dark_pairs, dark, 0), levels)) * gain, full_well, std::move(points),
+       errors.gain * gain, errors.read_noise ? std::optional(*errors.read_noise * read_noise) : std::nullopt},
+      half,
+      full_dn};
+}
+
+// Whether each pixel is full in one of these pairs.
+std::vector<bool> full_pixels(std::span<const FlatPair> dark, const FlatPair& half,
+                              const std::vector<CodeLevel>& levels, double full_dn) {
+  std::vector<bool> full(half.first.size(), false);
+  const auto add = [&](const FlatPair& pair) {
+    for (std::size_t i = 0; i < full.size(); ++i)
+      if (std::max(levels[pair.first[i]].signal_dn, levels[pair.second[i]].signal_dn) >= full_dn)
+        full[i] = true;
+  };
+  for (const FlatPair& pair : dark) add(pair);
+  add(half);
+  return full;
+}
+
+// Pairs without some of their pixels.
+struct KeptPairs {
+  std::deque<std::vector<std::uint16_t>> codes;
+  std::vector<FlatPair> pairs;
+
+  KeptPairs(std::span<const FlatPair> all, const std::vector<bool>& left_out) {
+    const auto kept = [&](std::span<const std::uint16_t> frame) {
+      std::vector<std::uint16_t>& some = codes.emplace_back();
+      for (std::size_t i = 0; i < frame.size(); ++i)
+        if (!left_out[i]) some.push_back(frame[i]);
+      return std::span<const std::uint16_t>(some);
+    };
+    for (const FlatPair& pair : all) pairs.push_back({pair.exposure_s, kept(pair.first), kept(pair.second)});
+  }
+};
+
 }  // namespace
 
 // Widths that differ from code to code do no harm: where the noise is wider than they are, the code of
@@ -192,63 +357,16 @@ std::vector<CodeLevel> code_levels(const Readout& readout) {
 
 PhotonTransfer photon_transfer(std::span<const FlatPair> dark_pairs, std::span<const FlatPair> lit_pairs,
                                int bits, const std::vector<CodeLevel>& levels) {
-  const std::vector<PairMoments> dark = all_moments(dark_pairs, levels);
-  const std::vector<PairMoments> lit = all_moments(lit_pairs, levels);
-  if (dark.empty() || lit.empty()) refuse("no dark or no lit pairs");
-  const Line dark_mean = fitted(dark, &PairMoments::mean);
-  const Line dark_variance = fitted(dark, &PairMoments::temporal);
-  const auto signal = [&](const PairMoments& m) { return m.mean - dark_mean.at(m.exposure_s); };
-
-  // Saturation is where the variance is largest.
-  const auto by = [](auto value) {
-    return [value](const PairMoments& a, const PairMoments& b) { return value(a) < value(b); };
-  };
-  const auto variance = [](const PairMoments& m) { return m.temporal; };
-  const double saturation = signal(*std::max_element(lit.begin(), lit.end(), by(variance)));
-  double products = 0;
-  double squares = 0;
-  std::vector<PairMoments> below;
-  for (const PairMoments& m : lit)
-    if (signal(m) <= kFitted * saturation) {
-      below.push_back(m);
-      products += signal(m) * (m.temporal - dark_variance.at(m.exposure_s));
-      squares += signal(m) * signal(m);
-    }
-  if (below.empty())
-    refuse(fmt::format(
-        "no lit pair is below {} of the signal where the sensor saturates, taken to be the {:.5g} "
-        "DN where the codes scatter most: weaker light is needed beside it ({} lit pair{} given)",
-        kFitted, saturation, lit.size(), lit.size() == 1 ? "" : "s"));
-  if (!(products > 0)) refuse(kNoLight);
-  const double gain = squares / products;
-  const double read_variance = dark_variance.at_zero;
-  const RelativeErrors errors = relative_errors(dark, below, dark_mean, products, read_variance);
-  if (errors.gain > kLeastKnown) refuse(kNoLight);
-
-  const auto from_half = [&](const PairMoments& m) { return std::abs(signal(m) - kPatternsAt * saturation); };
-  const PairMoments& half = *std::min_element(lit.begin(), lit.end(), by(from_half));
-  const PairMoments& shortest =
-      *std::min_element(dark.begin(), dark.end(), by([](const PairMoments& m) { return m.exposure_s; }));
-  const PairMoments& brightest = *std::max_element(lit.begin(), lit.end(), by(signal));
-  const auto root = [](double x) { return std::sqrt(std::max(0.0, x)); };
-  const double highest_code = static_cast<double>((1U << bits) - 1);
-  // In a full well all pixels hold the same, so that the variance is far below that of the light.
-  const bool full =
-      brightest.temporal - dark_variance.at(brightest.exposure_s) < signal(brightest) / gain / 2;
-  std::optional<double> full_well;
-  if (full && brightest.mean < highest_code - 1) full_well = (brightest.mean - dark_mean.at_zero) * gain;
-  std::vector<TransferPoint> points;
-  for (const PairMoments& m : lit) points.push_back({signal(m), m.temporal - dark_variance.at(m.exposure_s)});
-  const double read_noise = root(read_variance) * gain;
-  return {gain,
-          read_noise,
-          dark_mean.slope * gain,
-          100 * root(half.spatial - shortest.spatial) / signal(half),
-          root(shortest.spatial) * gain,
-          full_well,
-          std::move(points),
-          errors.gain * gain,
-          errors.read_noise ? std::optional(*errors.read_noise * read_noise) : std::nullopt};
+  require_frames(dark_pairs, lit_pairs);
+  Analysis found = analyse(dark_pairs, lit_pairs, bits, levels);
+  // Hot pixels that are full tell neither how their dark signal grows nor how it scatters.
+  const std::vector<bool> full = full_pixels(dark_pairs, lit_pairs[found.half], levels, found.full_dn);
+  const auto full_ones = static_cast<std::size_t>(std::count(full.begin(), full.end(), true));
+  if (full_ones == 0) return std::move(found.transfer);
+  if (full_ones + 2 > full.size()) refuse("all pixels of a dark pair are full: shorter exposures are needed");
+  const KeptPairs dark(dark_pairs, full);
+  const KeptPairs lit(lit_pairs, full);
+  return analyse(dark.pairs, lit.pairs, bits, levels).transfer;
 }
 
 }  // namespace abbe
