@@ -191,14 +191,18 @@ std::vector<ChannelCodes> raw_codes(const Image& image, const RawScale& scale) {
   for (const std::string& name : scale.channels)
     if (is_mosaic) all.push_back({name, {}});
   for (const Crop& area : recorded_areas(image))
-    for (int y = area.y0; y < area.y1; ++y)
+    for (int y = area.y0; y < area.y1; ++y) {
+      for (ChannelCodes& channel : all) channel.rows.push_back({y, 0});
       for (int x = area.x0; x < area.x1; ++x) {
         const std::size_t pixel =
             static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(x);
-        for (std::size_t c = 0; c < image.channels.size(); ++c)
-          all[is_mosaic ? static_cast<std::size_t>(scale.mosaic->at(x, y)) : c].dn.push_back(
-              code_of(image.channels[c].values[pixel]));
+        for (std::size_t c = 0; c < image.channels.size(); ++c) {
+          ChannelCodes& channel = all[is_mosaic ? static_cast<std::size_t>(scale.mosaic->at(x, y)) : c];
+          channel.dn.push_back(code_of(image.channels[c].values[pixel]));
+          ++channel.rows.back().count;
+        }
       }
+    }
   return all;
 }
 

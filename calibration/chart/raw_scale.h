@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <map>
@@ -88,8 +89,14 @@ struct RawImage {
 /// pixels that were rendered (`recorded_pixels`). `image` is as `read_raw_image` gives it, in which 65535 is
 /// 1.
 struct ChannelCodes {
+  /// How many codes lie one after the other in a row of the image.
+  struct RowCodes {
+    int y;
+    std::size_t count;
+  };
   std::string channel;
   std::vector<double> dn;
+  std::vector<RowCodes> rows = {};  ///< Of all codes, in their order.
 };
 [[nodiscard]] std::vector<ChannelCodes> raw_codes(const Image& image, const RawScale& scale);
 

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <numeric>
 
 #include <fmt/format.h>
@@ -18,7 +20,8 @@ constexpr double kOfTheCodes = 0.99;
 constexpr double kSameGain = 1e-6;  // relative, of texts of few digits
 constexpr double kSameLight = 0.1;  // relative, more than lamps flicker
 constexpr double kStandardErrors = 5;
-constexpr double kUnderflow = 0.005;  // of a channel's pixels
+constexpr std::size_t kRowsThatTell = 8;  // how sure the mean of their means is
+constexpr double kUnderflow = 0.005;      // of a channel's pixels
 
 // A frame's codes, a list for each channel.
 struct Frame {
@@ -29,6 +32,7 @@ struct Frame {
   std::vector<Crop> areas;  // whose pixels were rendered
   std::vector<std::string> channels;
   std::vector<std::vector<std::uint16_t>> codes;
+  std::vector<std::vector<ChannelCodes::RowCodes>> rows;
 };
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
@@ -40,10 +44,11 @@ Frame read_frame(const std::filesystem::path& file, Inputs& inputs) {
   const auto [image, scale] = read_raw_image(file, &inputs);
   if (!scale || !scale->exposure_s)
     refuse(file, "tells neither bits nor exposure time: a raw file of `abbe develop` is needed");
-  Frame frame{*scale->exposure_s, *scale, image.width, image.height, recorded_areas(image), {}, {}};
+  Frame frame{*scale->exposure_s, *scale, image.width, image.height, recorded_areas(image), {}, {}, {}};
   for (const ChannelCodes& channel : raw_codes(image, *scale)) {
     frame.channels.push_back(channel.channel);
     frame.codes.emplace_back(channel.dn.begin(), channel.dn.end());
+    frame.rows.push_back(channel.rows);
     if (channel.dn.size() < 2)
       refuse(file, fmt::format("has too few pixels in {} to tell noise (got {}, allowed 2 or more)",
                                channel.channel, channel.dn.size()));
@@ -89,18 +94,33 @@ void require_no_underflow(const Frame& frame, const std::filesystem::path& file)
 
 struct Moments {
   double mean;
-  double mean_variance;  // of the mean, pixels being independent
+  double mean_variance;  // of the mean
+  std::size_t rows;
 };
-Moments moments(const std::vector<std::uint16_t>& codes) {
+
+// The mean errs as that of independent pixels or, with noise that the pixels of a row have in common, as that
+// of independent rows.
+Moments moments(const Frame& frame, std::size_t channel) {
+  const std::vector<std::uint16_t>& codes = frame.codes[channel];
   const auto n = static_cast<double>(codes.size());
   const double mean = std::accumulate(codes.begin(), codes.end(), 0.0) / n;
+  std::map<int, double> of_rows;
   double squares = 0;
-  for (const std::uint16_t code : codes) squares += (code - mean) * (code - mean);
-  return {mean, squares / n / n};
+  auto code = codes.begin();
+  for (const auto& [y, count] : frame.rows[channel])
+    for (std::size_t i = 0; i < count; ++i, ++code) {
+      const double above = *code - mean;
+      squares += above * above;
+      of_rows[y] += above;
+    }
+  double row_squares = 0;
+  for (const auto& [y, above] : of_rows) row_squares += above * above;
+  return {mean, std::max(squares, row_squares) / n / n, of_rows.size()};
 }
 
-// Whether the second of two frames saw the light of the first, and is another frame.
-void require_pair(const Frame& first, const Frame& second, const std::filesystem::path& file) {
+// Whether the second of two frames saw the light of the first, and is another frame. In the dark a few rows
+// do not tell whether their means differ by more than noise.
+void require_pair(const Frame& first, const Frame& second, bool are_dark, const std::filesystem::path& file) {
   if (second.exposure_s != first.exposure_s)
     refuse(file,
            fmt::format("is exposed for {} s and the frame before it for {}: two of each are needed, one "
@@ -108,10 +128,11 @@ void require_pair(const Frame& first, const Frame& second, const std::filesystem
                        second.exposure_s, first.exposure_s));
   bool is_copy = first.codes == second.codes;
   for (std::size_t c = 0; c < first.codes.size(); ++c) {
-    const Moments a = moments(first.codes[c]);
-    const Moments b = moments(second.codes[c]);
+    const Moments a = moments(first, c);
+    const Moments b = moments(second, c);
     // Frames of one code only, all dark or all full, may be alike.
     is_copy = is_copy && a.mean_variance > 0;
+    if (are_dark && a.rows < kRowsThatTell) continue;
     const double apart = std::abs(a.mean - b.mean);
     const double signal = std::max(a.mean, b.mean) - first.scale.offset_dn;
     if (apart > kSameLight * signal && apart > kStandardErrors * std::sqrt(a.mean_variance + b.mean_variance))
@@ -123,13 +144,13 @@ void require_pair(const Frame& first, const Frame& second, const std::filesystem
   if (is_copy) refuse(file, "has the very codes of the frame before it: two exposures are needed");
 }
 
-std::vector<Frame> read_frames(std::span<const std::filesystem::path> files, Inputs& inputs) {
+std::vector<Frame> read_frames(std::span<const std::filesystem::path> files, bool are_dark, Inputs& inputs) {
   std::vector<Frame> frames;
   for (const std::filesystem::path& file : files) {
     frames.push_back(read_frame(file, inputs));
     require_alike(frames.back(), frames.front(), file);
     require_no_underflow(frames.back(), file);
-    if (frames.size() % 2 == 0) require_pair(frames[frames.size() - 2], frames.back(), file);
+    if (frames.size() % 2 == 0) require_pair(frames[frames.size() - 2], frames.back(), are_dark, file);
   }
   if (files.size() % 2 == 1) refuse(files.back(), "is alone: two frames of each exposure are needed");
   return frames;
@@ -147,8 +168,8 @@ std::vector<FlatPair> pairs_of(const std::vector<Frame>& frames, std::size_t cha
 
 std::vector<ChannelTransfer> measure_transfer(std::span<const std::filesystem::path> dark,
                                               std::span<const std::filesystem::path> lit, Inputs& inputs) {
-  const std::vector<Frame> dark_frames = read_frames(dark, inputs);
-  const std::vector<Frame> lit_frames = read_frames(lit, inputs);
+  const std::vector<Frame> dark_frames = read_frames(dark, true, inputs);
+  const std::vector<Frame> lit_frames = read_frames(lit, false, inputs);
   if (dark_frames.empty() || lit_frames.empty())
     throw Error(ErrorCode::usage, "photon transfer", "needs dark and lit frames, two of each exposure");
   const Frame& first = lit_frames.front();

@@ -29,7 +29,8 @@ struct ChannelTransfer {
 /// Throws Error{input} naming a file that tells of no read-out or differs from the first in size, rendered
 /// pixels, channels, bits, gain or response curve, one of which more than 0.5 % of a channel's codes, but not
 /// all, are the lowest, where noise is cut off [EMVA1288], and one without a second of its exposure that saw
-/// the same light and is another frame; otherwise as `photon_transfer`.
+/// the same light, as far as row noise lets that be known, and is another frame; otherwise as
+/// `photon_transfer`.
 [[nodiscard]] std::vector<ChannelTransfer> measure_transfer(std::span<const std::filesystem::path> dark,
                                                             std::span<const std::filesystem::path> lit,
                                                             Inputs& inputs);

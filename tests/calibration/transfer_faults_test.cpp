@@ -42,6 +42,26 @@ class TransferFaults : public test::PlantedFrames {
     return file;
   }
 
+  // A frame of which each row of 64 pixels has a noise of its own of 3 e, beside 2 e of each pixel.
+  fs::path row_frame(double electrons, double exposure_s, int height = kEdge) {
+    Readout readout;
+    readout.gain_e_per_dn = 2;
+    readout.bits = 12;
+    readout.offset_dn = 100;
+    readout.read_noise_e = 2;
+    readout.row_noise_e = 3;
+    const std::vector<float> expected(static_cast<std::size_t>(kEdge * height),
+                                      static_cast<float>(electrons));
+    const RawFrame raw =
+        read_out(readout, expected, {exposure_s, static_cast<std::uint64_t>(frames_), 0, kEdge});
+    Image image{kEdge, height, {{"raw", {raw.dn.begin(), raw.dn.end()}}}, {}};
+    image.metadata = {{"exposure_s", fmt::format("{}", exposure_s)},
+                      {"sensor", R"({"readout":{"bits":12,"offset_dn":100}})"}};
+    const fs::path file = folder_ / fmt::format("{}.tif", ++frames_);
+    write_raw_picture(file, image);
+    return file;
+  }
+
   // A frame of which the pixels of `areas` alone were rendered, beside them darker than any.
   fs::path cropped_frame(double electrons, double exposure_s, const std::string& areas,
                          const std::string& end) {
@@ -72,6 +92,27 @@ TEST_F(TransferFaults, FramesOfAPairSeeTheSameLight) {
   const Files dark{frame(0, 0.01), frame(0, 0.01), frame(0, 1), frame(0, 1)};
   const Files lit{frame(500, 0.01), frame(500, 0.01), frame(1000, 0.01), frame(3000, 0.01)};
   refused(dark, lit, lit[3], "has a mean of 15");
+}
+
+// All pixels of a row have its noise in common, so that the mean of a frame is less sure than of as many
+// independent pixels; of two rows nothing is told of how sure.
+TEST_F(TransferFaults, RowNoiseIsNoOtherLight) {
+  for (const int height : {kEdge, 2}) {
+    Files dark;
+    Files lit;
+    for (int pair = 0; pair < 20; ++pair)
+      for (int i = 0; i < 2; ++i) dark.push_back(row_frame(0, pair % 2 == 0 ? 0.01 : 1, height));
+    for (const double e : {20, 20, 300, 300, 1000, 1000, 3000, 3000})
+      lit.push_back(row_frame(e, 0.01, height));
+    Inputs inputs;
+    EXPECT_EQ(measure_transfer(dark, lit, inputs).size(), 1U) << height;
+  }
+}
+
+TEST_F(TransferFaults, DarkFramesOfAPairSeeTheSameLight) {
+  const Files dark{row_frame(0, 0.01), row_frame(0, 0.01), row_frame(0, 1), row_frame(30, 1)};
+  const Files lit{frame(500, 0.01), frame(500, 0.01)};
+  refused(dark, lit, dark[3], "has a mean of 11");
 }
 
 TEST_F(TransferFaults, OneFrameIsNoPair) {

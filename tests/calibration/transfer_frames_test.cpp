@@ -23,7 +23,12 @@ TEST(RawCodes, AreOfThePixelsThatWereRendered) {
   EXPECT_EQ(found[1].dn, std::vector<double>{1});
   EXPECT_EQ(found[2].dn, (std::vector<double>{5, 7}));
   scale.mosaic.reset();
-  EXPECT_EQ(raw_codes(image, scale)[0].dn, (std::vector<double>{1, 5, 7}));
+  const ChannelCodes all = raw_codes(image, scale)[0];
+  EXPECT_EQ(all.dn, (std::vector<double>{1, 5, 7}));
+  ASSERT_EQ(all.rows.size(), 3U);
+  EXPECT_EQ(all.rows[0].y, 0);
+  EXPECT_EQ(all.rows[2].y, 1);
+  EXPECT_EQ(all.rows[2].count, 1U);
 }
 
 class TransferFrames : public test::PlantedFrames {
