@@ -1,7 +1,8 @@
 #include "cli/calibrate.h"
 
 #include <algorithm>
-#include <set>
+#include <map>
+#include <string>
 #include <utility>
 
 #include <fmt/format.h>
@@ -29,11 +30,20 @@ std::vector<fs::path> output_files(const CalibrateOptions& options) {
                                 : calibration_files(options.output, options.illuminants);
 }
 
+// As names of OpenColorIO's colour spaces, which ignore case: a later light would replace an earlier one.
 void require_named_once(const std::string& illuminants) {
-  std::set<std::string> seen;
-  for (const std::string& illuminant : split(illuminants, ','))
-    if (!seen.insert(illuminant).second)
+  std::map<std::string, std::string> seen;
+  for (const std::string& illuminant : split(illuminants, ',')) {
+    const auto [earlier, is_new] = seen.emplace(lower_case(illuminant), illuminant);
+    if (is_new) continue;
+    if (earlier->second == illuminant)
       throw Error(ErrorCode::usage, "--illuminant", fmt::format("{} is named twice", illuminant));
+    throw Error(
+        ErrorCode::usage, "--illuminant",
+        fmt::format("{} differs from {} in case only, of which the names of OpenColorIO know nothing: "
+                    "give one of them another name",
+                    illuminant, earlier->second));
+  }
 }
 
 int calibrate_response(const CalibrateOptions& options) {

@@ -156,6 +156,11 @@ TEST(CalibrateRaw, LightsAreNamedOnce) {
   options.illuminants = "D65,D65";
   options.output = scratch() / "twice";
   EXPECT_EQ(fault([&] { calibrate(options); }, "--illuminant: D65 is named twice"), ErrorCode::usage);
+  options.illuminants = "lamp.csv,A,Lamp.csv";
+  EXPECT_EQ(fault([&] { calibrate(options); },
+                  "--illuminant: Lamp.csv differs from lamp.csv in case only, of which the names of "
+                  "OpenColorIO know nothing"),
+            ErrorCode::usage);
 }
 
 TEST(CalibrateRaw, OneExposureTwiceIsASentenceAndNoReportOfTheSolver) {
