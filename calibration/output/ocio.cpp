@@ -1,9 +1,12 @@
 #include "calibration/output/ocio.h"
 
+#include <algorithm>
 #include <array>
 #include <cctype>
-#include <random>
+#include <cmath>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include <OpenColorIO/OpenColorIO.h>
 #include <fmt/format.h>
@@ -44,8 +47,10 @@ const std::array kDisplaySpaces{
 constexpr const char* kAcesOutput = "ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - SDR-VIDEO_1.0";
 constexpr std::size_t kMaxCurveSize = std::size_t{1} << 20;
 constexpr int kCubeEdge = 65;
-constexpr int kBakeTrials = 4000;
-constexpr double kDarkestTrial = 0.002;  // as a share of where the cube ends
+// In half steps of a cube, from the first above 0.2 % of its end on.
+constexpr int kDarkestTrial = 17;
+constexpr int kBrightTrials = 49;
+constexpr int kBrightStride = 6;
 constexpr double kDarkestChart = 0.125;  // as a share of full scale, in a photograph of any use
 
 bool has_curve(const CameraProfile& profile) {
@@ -247,22 +252,32 @@ std::string clf_text(const OCIO::ConstConfigRcPtr& config, const CameraProfile& 
   return text.str();
 }
 
+// Linear values in the middle between the cube's points, where interpolation errs most, and at them: all that
+// are dark, where the eye sees most of it, and some of the others.
+std::vector<double> bake_trials(double end) {
+  std::vector<double> values;
+  const int half_steps = 2 * (kCubeEdge - 1);
+  for (int i = kDarkestTrial; i < half_steps; i += i < kBrightTrials ? 1 : kBrightStride)
+    values.push_back(end * std::pow(static_cast<double>(i) / half_steps, 3));
+  return values;
+}
+
 double bake_error(const OCIO::ConstConfigRcPtr& config, const CameraProfile& profile) {
   const OCIO::GroupTransformRcPtr baked = OCIO::GroupTransform::Create();
   append_cube(baked, profile);
   const auto processor = config->getProcessor(baked)->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS);
   const XYZ white = unit_xyz(kD65);
-  std::mt19937_64 random(1);
-  std::uniform_real_distribution<double> value(kDarkestTrial, 1);
-  const double end = cube_end(profile);
-  double worst = 0;
-  for (int k = 0; k < kBakeTrials; ++k) {
-    const Raw raw{end * value(random), end * value(random), end * value(random)};
+  const auto loss = [&](const Raw& raw) {
     float rgb[3] = {static_cast<float>(raw[0]), static_cast<float>(raw[1]), static_cast<float>(raw[2])};
     processor->applyRGB(rgb);
     const Lab shown = xyz_to_lab(XYZ{rgb[0], rgb[1], rgb[2]}, white);
-    worst = std::max(worst, delta_e_2000(xyz_to_lab(to_xyz_d65(profile, raw), white), shown));
-  }
+    return delta_e_2000(xyz_to_lab(to_xyz_d65(profile, raw), white), shown);
+  };
+  const std::vector<double> values = bake_trials(cube_end(profile));
+  double worst = 0;
+  for (const double r : values)
+    for (const double g : values)
+      for (const double b : values) worst = std::max(worst, loss({r, g, b}));
   return worst;
 }
 

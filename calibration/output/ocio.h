@@ -48,7 +48,8 @@ void make_folder(const std::filesystem::path& folder);
 /// What was written.
 struct WrittenConfig {
   /// What a root polynomial's cube costs: the largest CIEDE2000 between OpenColorIO's interpolation and the
-  /// polynomial, over random camera values that the cube holds; 0 for a matrix.
+  /// polynomial, over camera values from 0.2 % of the cube's end on: in the middle between points of the cube
+  /// and at them, all of dark ones and some of the others; 0 for a matrix.
   double bake_error = 0;
   std::vector<std::filesystem::path> files;
 };

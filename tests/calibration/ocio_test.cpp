@@ -207,9 +207,29 @@ TEST_F(OcioFolder, ScenesSpacesShareOneWhite) {
               {1.055 * std::pow(0.18, 1 / 2.4) - 0.055, 1.055 * std::pow(0.5, 1 / 2.4) - 0.055, 1}, 2e-6);
 }
 
+// The largest CIEDE2000 of a cube over random linear values from 0.2 % of where it ends on, as even over the
+// cube's steps as the colours of a picture are.
+double largest_loss(const CameraProfile& camera, const OCIO::ConstProcessorRcPtr& from_linear, double end) {
+  const auto processor = from_linear->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS);
+  const XYZ white = unit_xyz(kD65);
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> root(std::cbrt(0.002), 1);
+  const auto value = [&] { return end * std::pow(root(random), 3); };
+  double largest = 0;
+  for (int i = 0; i < 50000; ++i) {
+    const Rgb linear{value(), value(), value()};
+    float rgb[3] = {static_cast<float>(linear[0]), static_cast<float>(linear[1]),
+                    static_cast<float>(linear[2])};
+    processor->applyRGB(rgb);
+    const Lab shown = xyz_to_lab(XYZ{rgb[0], rgb[1], rgb[2]}, white);
+    largest = std::max(largest, delta_e_2000(xyz_to_lab(to_xyz_d65(camera, linear), white), shown));
+  }
+  return largest;
+}
+
 void expect_fine_cube(const WrittenFolder& folder) {
   EXPECT_GT(folder.written().bake_error, 0);
-  EXPECT_LT(folder.written().bake_error, 0.1);
+  EXPECT_LT(folder.written().bake_error, 0.2);
   const CameraProfile root = profile("blackbody:3200", test::kRootPolynomial);
   const auto processor = folder.config()->getProcessor("Camera blackbody:3200", "Linear XYZ-D65");
   const OCIO::FileTransformRcPtr clf = OCIO::FileTransform::Create();
@@ -264,8 +284,11 @@ INSTANTIATE_TEST_SUITE_P(Units, OcioFolderOfAUnit, testing::Values(3500, 2.7e12)
 TEST_P(OcioFolderOfAUnit, ShowsTheColoursOfThePolynomial) {
   const CameraProfile camera = in_unit(GetParam());
   const WrittenFolder folder(std::array{camera});
-  EXPECT_LT(folder.written().bake_error, 0.1);
   const auto processor = folder.config()->getProcessor(camera_space(camera).c_str(), kReferenceSpace);
+  const double end = std::exp2(std::ceil(std::log2(camera.brightest_patch)));
+  const double loss = largest_loss(camera, processor, end);
+  EXPECT_GE(folder.written().bake_error, loss);
+  EXPECT_LT(folder.written().bake_error, 2 * loss);
   const OCIO::FileTransformRcPtr clf = OCIO::FileTransform::Create();
   clf->setSrc(camera_file(camera, ".clf").c_str());
   const auto from_clf = folder.config()->getProcessor(clf);
