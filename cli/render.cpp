@@ -6,6 +6,7 @@
 #include <functional>
 #include <memory>
 #include <system_error>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -17,6 +18,7 @@
 #include "cli/output_files.h"
 #include "cli/progress.h"
 #include "cli/render_stats.h"
+#include "cli/same_render.h"
 #include "cli/warnings.h"
 #include "film/rendered_film.h"
 #include "film/sensor_identity.h"
@@ -233,7 +235,9 @@ RenderPart develop(const Scene& scene, const RenderOptions& options,
       try_to_save(checkpoint, identity, result);
       if (watch.stop() && result.unfinished) say("ending with the sample begun; another signal ends at once");
     };
-  RenderPart part{identity, abbe::render(scene, how, earlier(options, identity, how, scene.render.samples))};
+  std::optional<RenderResult> start = earlier(options, identity, how, scene.render.samples);
+  require_same_render(how.crew, identity, how, start);
+  RenderPart part{identity, abbe::render(scene, how, std::move(start))};
   display.finish();
   return part;
 }

@@ -15,13 +15,17 @@ namespace abbe::test {
 namespace {
 
 // More processes than processors are no mistake here.
-constexpr char kRun[] =
-    "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 mpirun --oversubscribe --bind-to none --quiet "
-    "-n {} " ABBE_BINARY " render {}";
+constexpr char kStart[] =
+    "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 {} mpirun --oversubscribe --bind-to none "
+    "--quiet -n {} {}";
 
-/// Renders with so many processes.
+/// The command that renders with so many processes.
+std::string command(int processes, const std::string& arguments) {
+  return fmt::format(kStart, "", processes, ABBE_BINARY " render " + arguments);
+}
+
 Outcome together(int processes, const std::string& arguments) {
-  return shell(fmt::format(kRun, processes, arguments));
+  return shell(command(processes, arguments));
 }
 
 class Mpi : public testing::Test {
@@ -82,9 +86,9 @@ TEST_F(Mpi, ALostProcessEndsAllAndLosesNoCheckpoint) {
   const std::string whole =
       fmt::format("{} --spp {} --threads 1 --quiet", scene("cornell"), nightly() ? 200 : 120);
   const std::string saving = fmt::format("{} --checkpoint {} --checkpoint-every 0.1s", whole, save);
-  const Outcome lost = shell(fmt::format(kRun, 2, saving + " -o " + (scratch() / "lost.exr").string()) +
-                             " & pid=$!; while [ ! -e " + save +
-                             " ]; do sleep 0.05; done; kill -9 $(pgrep -P $pid | tail -n 1); wait $pid");
+  const Outcome lost =
+      shell(command(2, saving + " -o " + (scratch() / "lost.exr").string()) + " & pid=$!; while [ ! -e " +
+            save + " ]; do sleep 0.05; done; kill -9 $(pgrep -P $pid | tail -n 1); wait $pid");
   EXPECT_NE(lost.code, 0);
   ASSERT_TRUE(std::filesystem::exists(save));
   const auto film = scratch() / "film.abbepart";
@@ -103,6 +107,43 @@ void expect_told_once(const Outcome& run, int code, const std::string& complaint
 
 TEST_F(Mpi, WhatIsWrongIsToldOnce) {
   expect_told_once(together(3, "nowhere.json"), 4, "nowhere.json: error: cannot open the file");
+}
+
+/// Renders with two processes, each by a command line of its own, which is given up after a minute.
+Outcome apart(const std::string& first, const std::string& second) {
+  const std::string shell_of_each = "sh -c 'if [ $OMPI_COMM_WORLD_RANK = 0 ]; then exec " ABBE_BINARY
+                                    " render " +
+                                    first + "; else exec " ABBE_BINARY " render " + second + "; fi'";
+  return shell(fmt::format(kStart, "timeout 60", 2, shell_of_each));
+}
+
+// Sums of films that are not the same one are the film of no render.
+TEST_F(Mpi, ProcessesThatRenderSomethingElseAreRefused) {
+  const std::string film = (scratch() / "mixed.abbepart").string();
+  const std::string start = (scratch() / "start.abbepart").string();
+  const std::string each = " --threads 1 --quiet -o " + film;
+  const std::string whole = scene("furnace", 16) + " --spp 64";
+  ASSERT_EQ(abbe("render " + whole + " --threads 1 --quiet --sample-range 0:3 -o " + start).code, 0);
+  for (const std::string& other :
+       {scene("furnace", 16) + " --set /materials/wall/diffuse/reflectance=0.7 --spp 64",
+        scene("furnace", 20) + " --spp 64", scene("furnace", 16) + " --spp 65", whole + " --seed 7",
+        whole + " --sample-range 0:32", whole + " --crop 0,0,8,16", whole + " --integrator light",
+        scene("furnace", 16) + " --time 9s", scene("furnace", 16) + " --error 1%", whole + " --aov depth",
+        whole + " --checkpoint " + start + " --resume"}) {
+    expect_told_once(apart(whole + each, other + each), 4, "mpirun: process 1 renders something else");
+    EXPECT_FALSE(std::filesystem::remove(film)) << other;
+  }
+}
+
+TEST_F(Mpi, ProcessesMayDifferInWhatChangesNoFilm) {
+  const std::string whole = scene("cornell", 24) + " --spp 64";
+  const auto film = scratch() / "first.abbepart";
+  const auto alone = scratch() / "alone.abbepart";
+  ASSERT_EQ(abbe("render " + whole + " --threads 1 --quiet -o " + alone.string()).code, 0);
+  const Outcome run = apart(whole + " --threads 1 --quiet -o " + film.string(),
+                            whole + " --threads 2 -o " + (scratch() / "second.abbepart").string());
+  EXPECT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(read_file(film) == read_file(alone));
 }
 
 TEST_F(Mpi, TheSceneComesFromAFile) {

@@ -276,6 +276,11 @@ PartHeader read_part_header(const fs::path& path) {
   return std::move(parsed->header);
 }
 
+FilmIdentity told_apart_by(FilmIdentity identity) {
+  for (const std::string_view key : kTellNothing) identity.erase(std::string(key));
+  return identity;
+}
+
 void require_same_film(const fs::path& path, const FilmIdentity& identity, const FilmIdentity& wanted) {
   FilmIdentity all = wanted;
   all.insert(identity.begin(), identity.end());
@@ -283,9 +288,8 @@ void require_same_film(const fs::path& path, const FilmIdentity& identity, const
     const auto found = of.find(key);
     return found == of.end() ? std::string("none") : found->second;
   };
-  for (const auto& [key, unused] : all) {
-    const bool tells = std::find(kTellNothing.begin(), kTellNothing.end(), key) == kTellNothing.end();
-    if (!tells || value(identity, key) == value(wanted, key)) continue;
+  for (const auto& [key, unused] : told_apart_by(std::move(all))) {
+    if (value(identity, key) == value(wanted, key)) continue;
     throw Error(ErrorCode::input, path.string(),
                 fmt::format("is a part of another render: another {} (got {}, allowed {})", key,
                             value(identity, key), value(wanted, key)));

@@ -58,6 +58,9 @@ void write_part(const std::filesystem::path& path, const FilmIdentity& identity,
 /// Reads no sums, so that damage to them is not found; throws as `read_part` does otherwise.
 [[nodiscard]] PartHeader read_part_header(const std::filesystem::path& path);
 
+/// What of an identity tells its film from others.
+[[nodiscard]] FilmIdentity told_apart_by(FilmIdentity identity);
+
 /// Throws Error{input} naming `path` and the first thing in which its film differs from the one wanted.
 void require_same_film(const std::filesystem::path& path, const FilmIdentity& identity,
                        const FilmIdentity& wanted);
