@@ -24,9 +24,11 @@ void add_features(const Scene& scene, const std::vector<Feature>& features, Film
   identity[kFeaturesKey] = to_text(features);
   const bool ids = std::find(features.begin(), features.end(), Feature::id) != features.end();
   if (!ids || scene.shapes.size() > kMostShapes) return;
-  nlohmann::ordered_json names = nlohmann::ordered_json::array();
+  using Json = nlohmann::ordered_json;
+  Json names = Json::array();
   for (const ShapeInstance& shape : scene.shapes) names.push_back(shape.name);
-  identity[kShapeNamesKey] = names.dump();
+  // Mesh files may name their materials by any bytes.
+  identity[kShapeNamesKey] = names.dump(-1, ' ', false, Json::error_handler_t::replace);
 }
 
 }  // namespace

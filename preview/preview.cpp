@@ -23,8 +23,10 @@ constexpr double kMaxEncodingShare = 0.01;
 constexpr std::chrono::milliseconds kMinPause{200};
 constexpr double kMaxStops = 30;
 
+// Files may have names of any bytes: those that are no UTF-8 are told by U+FFFD.
 PageAnswer json_page(const Json& json) {
-  return {200, "application/json", std::make_shared<const std::string>(json.dump())};
+  return {200, "application/json",
+          std::make_shared<const std::string>(json.dump(-1, ' ', false, Json::error_handler_t::replace))};
 }
 
 // Nothing for what is not known yet.

@@ -88,6 +88,20 @@ TEST(Aov, AChannelOfTheSensorKeepsItsName) {
       << run.err;
 }
 
+// Mesh files may name their materials, and so shapes, by any bytes: a film tells those that are no UTF-8 by
+// U+FFFD.
+TEST(Aov, NamesOfLatin1AreTold) {
+  (void)scratch().write("latin1.mtl", "newmtl caf\xE9\nKd 0.5 0.5 0.5\nnewmtl b\nKd 0.5 0.5 0.5\n");
+  (void)scratch().write("latin1.obj",
+                        "mtllib latin1.mtl\nv -9 0 0\nv 9 0 0\nv 0 0 9\nv 0 0 -9\nusemtl caf\xE9\nf 1 2 3\n"
+                        "usemtl b\nf 1 2 4\n");
+  const auto scene =
+      scratch().write("latin1.json", scene_text("", R"({"name": "thing", "mesh": "latin1.obj"})"));
+  const Outcome run = run_render(scene.string(), file("latin1.exr"), "--aov id");
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_EQ(read_exr(file("latin1.exr")).metadata.at("shapes"), "[\"thing/caf\xEF\xBF\xBD\",\"thing/b\"]");
+}
+
 TEST(Aov, WhatIsNoFeatureOrAnotherIsRefused) {
   const Outcome unknown = rendered_ball("no.exr", "--aov depth,colour");
   EXPECT_EQ(unknown.code, 2);

@@ -24,10 +24,10 @@ using Clock = std::chrono::steady_clock;
 // A render in the background, which is asked by its page.
 class Watched {
  public:
-  explicit Watched(const std::string& options) {
+  explicit Watched(const std::string& options, const std::string& scene = ball()) {
     const std::string err = file("watched.err");
     std::filesystem::remove(err);
-    pid_ = shell(ABBE_BINARY " render " + ball() + " --quiet --preview 0 " + options + " 2>" + err +
+    pid_ = shell(ABBE_BINARY " render " + scene + " --quiet --preview 0 " + options + " 2>" + err +
                  " >/dev/null & echo $!")
                .out;
     pid_.pop_back();
@@ -95,6 +95,13 @@ TEST(Preview, ThePictureComesSoonAfterTheFirstPass) {
   EXPECT_EQ(state["width"], 200);
   EXPECT_GE(state["views"].size(), 2U);
   EXPECT_EQ(render.json("/pixel?x=100&y=75")["values"].size(), 3U);
+}
+
+// Linux lets files have names of any bytes.
+TEST(Preview, ASceneMayHaveANameThatIsNoUtf8) {
+  const auto scene = scratch().write("caf\xE9.json", ball_scene());
+  Watched render("--time 20s -o " + file("latin1.exr"), scene.string());
+  EXPECT_EQ(render.json("/state")["scene"], "caf\xEF\xBF\xBD.json");
 }
 
 TEST(Preview, ThereAreNoOtherPages) {
