@@ -131,6 +131,12 @@ void require_no_more(const fs::path& path, const SampleRanges& held, const abbe:
                           to_text(asked)));
 }
 
+// What a checkpoint holds.
+std::string in_words(const RenderResult& held) {
+  if (held.samples.empty()) return "a part of the first sample";
+  return fmt::format("samples {}{}", to_text(held.samples), held.unfinished ? " and a part of the next" : "");
+}
+
 // What an earlier run left, if it is asked for and there is some.
 std::optional<RenderResult> earlier(const RenderOptions& options, const FilmIdentity& identity,
                                     const abbe::RenderOptions& how, int samples) {
@@ -149,9 +155,7 @@ std::optional<RenderResult> earlier(const RenderOptions& options, const FilmIden
     throw Error(ErrorCode::input, path.string(),
                 "has pixels with different samples, which merge alone completes");
   require_no_more(path, part.result.samples, how, samples);
-  if (!options.quiet)
-    say(fmt::format("{}: going on after samples {}{}", path.string(), to_text(part.result.samples),
-                    part.result.unfinished ? " and a part of the next" : ""));
+  if (!options.quiet) say(fmt::format("{}: going on after {}", path.string(), in_words(part.result)));
   return std::move(part.result);
 }
 

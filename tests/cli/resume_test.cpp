@@ -145,6 +145,24 @@ TEST(Merge, SamplesSpreadByNoiseAreOfAnotherFilm) {
   EXPECT_NE(run.err.find("camera_paths"), std::string::npos) << run.err;
 }
 
+TEST(Resume, WhatACheckpointHoldsIsTold) {
+  const std::string saved = file("saved.abbepart");
+  const auto told = [&saved](const std::string& samples, const std::string& unfinished) {
+    PartFile part = read_part_file(part_of_ball("one", "--sample-range 0:2"));
+    part.header["samples"] = samples;
+    if (!unfinished.empty()) part.header["unfinished"] = unfinished;
+    write_part_file(saved, part.header, part.bytes);
+    const Outcome run =
+        abbe("render " + ball() + " --resume --checkpoint " + saved + " -o " + file("on.exr"));
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.err.substr(0, run.err.find('\n'));
+  };
+  const std::string begin = "abbe: " + saved + ": going on after ";
+  EXPECT_EQ(told("0:2", ""), begin + "samples 0:2");
+  EXPECT_EQ(told("0:1", "1 2 1"), begin + "samples 0:1 and a part of the next");
+  EXPECT_EQ(told("", "0 2 1"), begin + "a part of the first sample");
+}
+
 // What another process is still writing has another name until it is whole.
 TEST(Merge, ReadsPartsWhileOthersAreWritten) {
   const std::string a = part_of_ball("part-0", "--sample-range 0:4");
