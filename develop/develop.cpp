@@ -168,6 +168,7 @@ std::uint64_t render_seed(const Image& film) {
 Image display_planes(const FilmSensor& sensor, const Image& calibrated) {
   Image planes = sensor.mosaic ? demosaic(calibrated, sensor.planes.front(), *sensor.mosaic, sensor.channels)
                                : calibrated;
+  forget_layers_and_features(planes.metadata);
   if (!sensor.readout || !sensor.display || sensor.channels.size() != 3) return planes;
   const Readout& readout = *sensor.readout;
   const double full_e = electrons_of(readout, white_level(readout));

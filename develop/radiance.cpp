@@ -73,7 +73,6 @@ Image observed(const SpectralImage& image) {
   const SpectralImage bands{image.width, image.height, image.bands, {}, {}};
   Image xyz = expose(bands, observer_channels(Observer::cie1931), std::vector<double>(pixels, 1.0));
   xyz.metadata = image.metadata;
-  forget_error(xyz.metadata);
   return rec709_image(xyz, Matrix3());
 }
 

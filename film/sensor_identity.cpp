@@ -132,6 +132,7 @@ Image film_image(const RenderPart& part) {
 }
 
 Image shown_film(const Scene& scene, Image film) {
+  forget_layers_and_features(film.metadata);
   if (scene.mosaic) return demosaic(film, kRawPlane, *scene.mosaic, scene.channel_names());
   return film;
 }

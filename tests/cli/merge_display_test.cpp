@@ -3,10 +3,13 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "io/exr.h"
+#include "io/picture.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
 
-// The picture that `merge` writes of a film is the one that a render of all its samples writes.
+// The picture that `merge` writes of a film is the one that a render of all its samples writes, as is that of
+// `develop` where there is no noise, in what it tells too.
 
 namespace abbe::test {
 namespace {
@@ -36,12 +39,20 @@ TEST_P(MergeDisplay, IsThatOfTheRender) {
       abbe(fmt::format("merge {} {} -o {} --display {}", a, b, file("sum.exr"), file("sum.png")));
   ASSERT_EQ(run.code, 0) << run.err;
   EXPECT_TRUE(read_file(file("sum.png")) == read_file(file("whole.png")));
+  if (GetParam().sensor.find("readout") != std::string::npos) return;
+  const Outcome developed = abbe("develop " + file("whole.exr") + " --display " + file("developed.png"));
+  ASSERT_EQ(developed.code, 0) << developed.err;
+  EXPECT_TRUE(read_file(file("developed.png")) == read_file(file("whole.png")));
+  const auto told = read_picture(file("developed.png")).metadata;
+  EXPECT_EQ(told.at("frame_mean_error"), read_exr(file("whole.exr")).metadata.at("frame_mean_error"));
+  for (const char* key : {"aov", "shapes", "layers"}) EXPECT_FALSE(told.contains(key)) << key;
 }
 
 INSTANTIATE_TEST_SUITE_P(
     Sensors, MergeDisplay,
     testing::Values(Shown{"observer", R"("observer": "1931")", ""},
                     Shown{"exposed", R"("observer": "1931")", "--set /output/exposure=2"},
+                    Shown{"features", R"("observer": "1931")", "--aov id,depth --layers lights"},
                     Shown{"counting", kCounting, ""},
                     Shown{"mosaic", kCounting + std::string(R"(, "mosaic": [["R", "G"], ["G", "B"]])"), ""},
                     Shown{"spectral", R"("spectral": {"from_nm": 400, "to_nm": 700, "step_nm": 20})", ""},
