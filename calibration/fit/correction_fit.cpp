@@ -17,6 +17,10 @@ namespace {
 
 constexpr double kLossScale = 0.05;  // colour difference below which the loss turns quadratic
 constexpr std::size_t kPatchesPerTerm = 4;
+// How far channels must differ, of their largest value: films are floats, whose rounding, 6e-8 of that value,
+// would be the colours of channels that differ less. Measured filters differ by 8e-4 and more, bands of 10 nm
+// that lie 1 nm apart by 8e-5.
+constexpr double kLeastDifference = 1e-6;
 
 // The columns of all terms but the last, which follows from the white.
 using Parameters = std::vector<double>;
@@ -127,7 +131,7 @@ double objective_of(const PatchErrors& errors, const PatchColors& colors, Object
   return std::inner_product(values.begin(), values.end(), colors.weights.begin(), 0.0);
 }
 
-void require_three_dimensions(const Eigen::MatrixXd& a, Eigen::Index rank) {
+void require_determined(const Eigen::MatrixXd& a, Eigen::Index rank) {
   if (rank == a.cols() && a.allFinite()) return;
   throw Error(ErrorCode::input, "colour correction",
               fmt::format("these {} patches do not determine the correction: they show {} independent "
@@ -138,26 +142,38 @@ void require_three_dimensions(const Eigen::MatrixXd& a, Eigen::Index rank) {
 // Least squares solution of a x = b, column by column.
 Eigen::MatrixXd solve_least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
-  require_three_dimensions(a, qr.rank());
+  require_determined(a, qr.rank());
   return qr.solve(b);
+}
+
+Eigen::MatrixXd rows_of(const std::vector<std::array<double, 3>>& values) {
+  Eigen::MatrixXd rows(static_cast<Eigen::Index>(values.size()), 3);
+  for (Eigen::Index i = 0; i < rows.rows(); ++i)
+    rows.row(i) = Eigen::Map<const Eigen::RowVector3d>(values[static_cast<std::size_t>(i)].data());
+  return rows;
+}
+
+// Columns of values up to `largest`, or of their differences: those of equal channels are rounding, which is
+// not to pass for colours.
+void require_independent(const Eigen::MatrixXd& columns, double largest) {
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
+  qr.setThreshold(kLeastDifference * largest / qr.maxPivot());
+  require_determined(columns, qr.rank());
 }
 
 }  // namespace
 
 Matrix3 least_squares_matrix(const PatchColors& colors) {
-  const auto n = static_cast<Eigen::Index>(colors.raw.size());
-  Eigen::MatrixXd a(n, 3);
-  Eigen::MatrixXd b(n, 3);
-  for (Eigen::Index i = 0; i < n; ++i) {
-    a.row(i) = Eigen::Map<const Eigen::RowVector3d>(colors.raw[static_cast<std::size_t>(i)].data());
-    b.row(i) = Eigen::Map<const Eigen::RowVector3d>(colors.xyz[static_cast<std::size_t>(i)].data());
-  }
-  const Eigen::MatrixXd x = solve_least_squares(a, b);
+  const Eigen::MatrixXd raw = rows_of(colors.raw);
+  require_independent(raw, raw.lpNorm<Eigen::Infinity>());
+  const Eigen::MatrixXd x = solve_least_squares(raw, rows_of(colors.xyz));
   return {x(0, 0), x(1, 0), x(2, 0), x(0, 1), x(1, 1), x(2, 1), x(0, 2), x(1, 2), x(2, 2)};
 }
 
 ColorCorrection white_preserving_least_squares(const PatchColors& colors, CorrectionModel model) {
-  const auto n = static_cast<Eigen::Index>(colors.raw.size());
+  const Eigen::MatrixXd raw = rows_of(colors.raw);
+  require_independent(raw.leftCols(2).colwise() - raw.col(2), raw.lpNorm<Eigen::Infinity>());
+  const Eigen::Index n = raw.rows();
   const auto free_terms = static_cast<Eigen::Index>(term_count(model)) - 1;
   Eigen::MatrixXd a(n, free_terms);
   Eigen::MatrixXd b(n, 3);

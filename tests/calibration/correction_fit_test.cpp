@@ -174,5 +174,34 @@ TEST(CorrectionFit, SaysWhenItFails) {
                      "they show 1 independent colours (needed 2)");
 }
 
+// What one filter gives at exposures of 0.01, 0.1 and 1 differs, once balanced, in last digits alone.
+TEST(CorrectionFit, RoundingIsNoColour) {
+  std::vector<Channel> bracket;
+  for (const double ratio : {0.01, 0.1, 1.0})
+    bracket.push_back(exposed(energy_channel("C", band(500, 600)), ratio));
+  const PatchColors colors = integrate(test::chart(), bracket, test::illuminant("D65"));
+  for (const CorrectionModel model : {CorrectionModel::linear, CorrectionModel::root_polynomial_2})
+    test::expect_error([&] { static_cast<void>(white_preserving_least_squares(colors, model)); },
+                       ErrorCode::input, "they show 0 independent colours (needed 2)");
+  test::expect_error([&] { static_cast<void>(least_squares_matrix(colors)); }, ErrorCode::input,
+                     "they show 1 independent colours (needed 3)");
+}
+
+// Channels that differ by a share of 1e-4, about that of bands of 10 nm which lie 1 nm apart.
+TEST(CorrectionFit, NearlyGreyChannelsHaveColours) {
+  PatchColors colors = nikon("D65");
+  const Matrix3 planted(0.6, 0.25, 0.1, 0.2, 0.95, -0.15, 0.05, -0.2, 1.2);
+  colors.white = multiply(planted, {1, 1, 1});
+  constexpr double kShare = 1e-4;  // of the colour that is left
+  for (std::size_t i = 0; i < colors.raw.size(); ++i) {
+    colors.xyz[i] = multiply(planted, colors.raw[i]);
+    for (const std::size_t k : {0U, 2U})
+      colors.raw[i][k] = colors.raw[i][1] + kShare * (colors.raw[i][k] - colors.raw[i][1]);
+  }
+  const ColorCorrection found = white_preserving_least_squares(colors);
+  for (std::size_t i = 0; i < colors.raw.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(found(colors.raw[i])[k], colors.xyz[i][k], 1e-9) << i;
+}
+
 }  // namespace
 }  // namespace abbe
