@@ -154,6 +154,7 @@ std::optional<FilmSensor> film_sensor(const Image& film, const std::filesystem::
   sensor.electrons_per_lx_s = data.find_number("electrons_per_lx_s");
   sensor.f_number = data.find_number("aperture");
   sensor.display = read_display(data, sensor, view, white);
+  sensor.no_picture = data.find(kNoPictureKey).value_or("");
   sensor.white = white ? white : recorded_white(film);
   sensor.display_exposure = recorded_display_exposure(film, path);
   return sensor;
@@ -170,9 +171,10 @@ std::optional<double> common_exposure(const FilmSensor& sensor) {
 }
 
 void require_display(const FilmSensor& sensor) {
-  if (!sensor.display)
-    throw Error(ErrorCode::usage, "--display",
-                "a picture needs a sensor of one or three channels, and a light");
+  if (sensor.display) return;
+  if (!sensor.no_picture.empty()) throw Error(ErrorCode::usage, "", sensor.no_picture);
+  throw Error(ErrorCode::usage, "--display",
+              "a picture needs a sensor of one or three channels, and a light");
 }
 
 void require_planes(const Image& film, const FilmSensor& sensor, const std::filesystem::path& path) {

@@ -40,6 +40,7 @@ struct FilmSensor {
   std::string camera;       ///< Name of its model, else of the measured camera; empty where it has none.
   std::string measured_camera;  ///< That whose curves it has; empty where its channels are of its own.
   std::optional<DisplayTransform> display;
+  std::string no_picture;                  ///< Why there is no display; empty where no reason is known.
   std::optional<double> display_exposure;  ///< Film value shown as white.
   std::optional<Chromaticity> white;       ///< Shown as white: what was asked for, else the film's own.
   std::string white_name;                  ///< Of what was asked for; empty for the film's own.
@@ -88,7 +89,7 @@ using CalibrationFrame = std::variant<BiasFrame, DarkFrame, FlatFrame>;
 /// Puts that in the place of the film, without variance. Throws Error{usage} for a sensor without a read-out.
 void expose_to(ExposedFilm& exposed, const CalibrationFrame& frame);
 
-/// Throws Error{usage} unless displays can show what the sensor sees.
+/// Throws Error{usage} unless displays can show what the sensor sees, with the reason that the film tells.
 void require_display(const FilmSensor& sensor);
 
 /// Throws Error{input} naming `path` unless the film has each plane of the sensor, and its variance.

@@ -9,6 +9,7 @@
 
 #include "sensor/film/film_planes.h"
 #include "sensor/film/recorded_mosaic.h"
+#include "sensor/film/recorded_white.h"
 #include "sensor/readout/demosaic.h"
 #include "sensor/response/polariser_group.h"
 #include "sensor/response/stokes_channels.h"
@@ -87,7 +88,8 @@ Image stokes_of_polarisers(const Image& film) {
   std::vector<std::string> names;
   for (const ImageChannel& channel : stokes.channels) names.push_back(channel.name);
   stokes.metadata["sensor_channels"] = fmt::format("{}", fmt::join(names, ","));
-  for (const char* of_sensor : {"mosaic", "mosaic_channels", "to_xyz_d65"}) stokes.metadata.erase(of_sensor);
+  for (const char* of_sensor : {"mosaic", "mosaic_channels", "to_xyz_d65", kNoPictureKey})
+    stokes.metadata.erase(of_sensor);
   return stokes;
 }
 

@@ -105,9 +105,9 @@ void forget_sensor(std::map<std::string, std::string>& metadata) {
   std::erase_if(metadata, [](const auto& entry) {
     return entry.first.starts_with(kAnalyserKey) || entry.first.starts_with("exposure_s");
   });
-  for (const char* key :
-       {"sensor", "sensor_channels", "mosaic", "mosaic_channels", "gathering_area_m2", "electrons_per_lx_s",
-        "to_xyz_d65", "display_exposure", kWhiteKey, kWhiteXyKey, kLightsXyKey, kHandednessKey})
+  for (const char* key : {"sensor", "sensor_channels", "mosaic", "mosaic_channels", "gathering_area_m2",
+                          "electrons_per_lx_s", "to_xyz_d65", kNoPictureKey, "display_exposure", kWhiteKey,
+                          kWhiteXyKey, kLightsXyKey, kHandednessKey})
     metadata.erase(key);
 }
 

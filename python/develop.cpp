@@ -33,7 +33,7 @@ struct Developed {
   FilmSensor sensor;
   DevelopedFilm planes;
 
-  [[nodiscard]] std::optional<Image> picture() const { return display_picture(sensor, planes.calibrated); }
+  [[nodiscard]] Image picture() const { return display_picture(sensor, planes.calibrated); }
 };
 
 std::vector<std::string> names_of(const Image& image, const std::string& prefix) {
@@ -137,7 +137,7 @@ py::list figures(const Developed& developed) {
 }
 
 py::object picture_array(const Developed& developed) {
-  const Image picture = existing(developed.picture());
+  const Image picture = developed.picture();
   return planes_of(picture, names_of(picture, ""));
 }
 
@@ -179,7 +179,7 @@ void add_develop(py::module_& module) {
       .def(
           "write", write_developed, py::arg("path"),
           "Writes the codes to a 16-bit .tif or .png, or all planes to an .exr of parts. Raises OutputError.")
-      .def("_repr_png_", [](const Developed& d) { return png_of(d.picture()); });
+      .def("_repr_png_", [](const Developed& d) { return png_of(d.sensor, d.planes.calibrated); });
   module.def("develop", develop_film, py::arg("film"), py::kw_only(), py::arg("readout") = py::none(),
              py::arg("white") = py::none(), py::arg("seed") = py::none(), py::arg("scene") = py::none(),
              "Reads a film out without rendering: noise, digital numbers, and what these say.\n\n`readout` "

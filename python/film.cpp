@@ -72,7 +72,7 @@ void write_film(const FilmHandle& film, const fs::path& path) {
   if (is_part && !film.part())
     throw Error(ErrorCode::usage, path.string(),
                 "the film was read from an image: only a film with its exact sums can be written as a part");
-  if (!is_part && extension_of(path) != ".exr") return write_picture(path, existing(display_picture(film)));
+  if (!is_part && extension_of(path) != ".exr") return write_picture(path, display_picture(film));
   const Image* const image = is_part ? nullptr : &film.image();
   const Released released;
   if (is_part)

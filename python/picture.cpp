@@ -26,10 +26,15 @@ ExposedFilm exposed(const Image& film) {
 }
 
 py::object picture(const FilmHandle& film) {
-  const Image image = existing(display_picture(film));
+  const Image image = display_picture(film);
   std::vector<std::string> names;
   for (const ImageChannel& channel : image.channels) names.push_back(channel.name);
   return planes_of(image, names);
+}
+
+py::object png(const FilmHandle& film) {
+  const ExposedFilm source = exposed(film.image());
+  return png_of(source.sensor, develop(source, 0).calibrated);
 }
 
 }  // namespace
@@ -38,24 +43,19 @@ std::optional<double> display_scale(const FilmSensor& sensor) {
   return sensor.display_exposure ? std::optional(1 / *sensor.display_exposure) : std::nullopt;
 }
 
-std::optional<Image> display_picture(const FilmSensor& sensor, const Image& calibrated) {
-  if (!sensor.display) return std::nullopt;
+Image display_picture(const FilmSensor& sensor, const Image& calibrated) {
+  require_display(sensor);
   return (*sensor.display)(display_planes(sensor, calibrated), display_scale(sensor)).image;
 }
 
-std::optional<Image> display_picture(const FilmHandle& film) {
+Image display_picture(const FilmHandle& film) {
   const ExposedFilm source = exposed(film.image());
   return display_picture(source.sensor, develop(source, 0).calibrated);
 }
 
-Image existing(std::optional<Image> picture) {
-  if (!picture)
-    throw Error(ErrorCode::usage, "film", "a picture needs a sensor of one or three channels, and a light");
-  return *std::move(picture);
-}
-
-py::object png_of(const std::optional<Image>& picture) {
-  return picture ? py::object(py::bytes(encoded_picture(".png", *picture))) : py::object(py::none());
+py::object png_of(const FilmSensor& sensor, const Image& calibrated) {
+  if (!sensor.display) return py::none();
+  return py::bytes(encoded_picture(".png", display_picture(sensor, calibrated)));
 }
 
 void add_pictures(py::class_<FilmHandle, std::shared_ptr<FilmHandle>>& film) {
@@ -63,7 +63,7 @@ void add_pictures(py::class_<FilmHandle, std::shared_ptr<FilmHandle>>& film) {
            "Returns the film as an sRGB display shows it: rows, columns, and R, G, B or grey, code values in "
            "[0, 1]. "
            "Raises UsageError for a film that no display can show.")
-      .def("_repr_png_", [](const FilmHandle& f) { return png_of(display_picture(f)); });
+      .def("_repr_png_", png);
 }
 
 }  // namespace abbe::python

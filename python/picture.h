@@ -14,15 +14,14 @@ namespace abbe::python {
 /// By what a display multiplies what a sensor sees; nothing where that hangs on the picture.
 [[nodiscard]] std::optional<double> display_scale(const FilmSensor& sensor);
 
-/// What a sensor sees as the display of `abbe render` shows it, for sRGB; nothing where no display can.
-[[nodiscard]] std::optional<Image> display_picture(const FilmSensor& sensor, const Image& calibrated);
+/// What a sensor sees as the display of `abbe render` shows it, for sRGB. Throws Error{usage} where none can.
+[[nodiscard]] Image display_picture(const FilmSensor& sensor, const Image& calibrated);
 /// The film as that display shows it, likewise.
-[[nodiscard]] std::optional<Image> display_picture(const FilmHandle& film);
+[[nodiscard]] Image display_picture(const FilmHandle& film);
 
-/// A picture that a call asks for. Throws Error{usage} where there is none.
-[[nodiscard]] Image existing(std::optional<Image> picture);
-/// The picture as Jupyter asks for it, in a PNG; None where there is none, so that text stands for it.
-[[nodiscard]] pybind11::object png_of(const std::optional<Image>& picture);
+/// The picture as Jupyter asks for it, in a PNG; None where no display can show it, so that text stands for
+/// it.
+[[nodiscard]] pybind11::object png_of(const FilmSensor& sensor, const Image& calibrated);
 
 /// Adds to films what shows them.
 void add_pictures(pybind11::class_<FilmHandle, std::shared_ptr<FilmHandle>>& film);

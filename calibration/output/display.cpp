@@ -8,6 +8,7 @@
 #include <map>
 #include <numeric>
 #include <sstream>
+#include <utility>
 
 #include <OpenColorIO/OpenColorIO.h>
 #include <fmt/format.h>
@@ -135,6 +136,28 @@ DisplayTransform grey_display(const Channel& channel, const ViewOptions& options
   return {{channel.name}, Matrix3(white[0], 0, 0, white[1], 0, 0, white[2], 0, 0), {}, options};
 }
 
+// Film values of three channels that are no observer's to XYZ in the light.
+std::pair<CorrectionFit, Matrix3> fit_channels(const std::vector<Channel>& channels,
+                                               const std::vector<std::string>& names,
+                                               const Curve& illuminant) {
+  Diagnostics diagnostics;
+  const std::optional<Chart> chart = load_chart(kChart, {}, diagnostics);
+  if (!chart) throw Error(diagnostics.code(), kChart, diagnostics.text());
+  try {
+    const std::vector<double> diffuser = diffuser_values(channels, illuminant);
+    CorrectionFit fit = fit_correction(integrate(*chart, channels, illuminant));
+    const Matrix3 balance = diagonal({diffuser[1] / diffuser[0], 1, diffuser[1] / diffuser[2]});
+    const Matrix3 to_xyz = linear_part(fit.correction) * balance;
+    return {std::move(fit), to_xyz};
+  } catch (const Error& error) {
+    if (error.code != ErrorCode::input) throw;
+    throw Error(ErrorCode::usage, "display",
+                fmt::format("channels {} do not tell colours apart between 380 and 780 nm, so that no colour "
+                            "picture can be made of them: {}",
+                            fmt::join(names, ", "), error.what()));
+  }
+}
+
 }  // namespace
 
 struct DisplayTransform::Processor {
@@ -253,14 +276,8 @@ DisplayTransform make_display(const std::vector<Channel>& channels, const Curve&
   for (const Channel& channel : channels) names.push_back(channel.name);
   const Matrix3 adapted = white_adaptation(white.value_or(chromaticity(illuminant)));
   if (is_observer(channels)) return {std::move(names), adapted, {}, options};
-  Diagnostics diagnostics;
-  const std::optional<Chart> chart = load_chart(kChart, {}, diagnostics);
-  if (!chart) throw Error(diagnostics.code(), kChart, diagnostics.text());
-  const std::vector<double> diffuser = diffuser_values(channels, illuminant);
-  CorrectionFit fit = fit_correction(integrate(*chart, channels, illuminant));
-  const Matrix3 balance = diagonal({diffuser[1] / diffuser[0], 1, diffuser[1] / diffuser[2]});
-  const Matrix3 to_xyz_d65 = adapted * linear_part(fit.correction) * balance;
-  return {std::move(names), to_xyz_d65, std::move(fit), options};
+  auto [fit, to_xyz] = fit_channels(channels, names, illuminant);
+  return {std::move(names), adapted * to_xyz, std::move(fit), options};
 }
 
 }  // namespace abbe

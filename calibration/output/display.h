@@ -88,8 +88,8 @@ class DisplayTransform {
 /// white is adapted to D65 (Bradford). Other three channels are white balanced on the light and corrected by
 /// the white-preserving matrix fitted on the ColorChecker (BabelColor average) in that light; then the white,
 /// which is the light's unless another is given, is adapted. Luminance is in units of the second channel's
-/// value of a neutral. One channel is shown as grey. Throws Error{usage} for another number, Error{input}
-/// when the light or the channels do not determine the colours.
+/// value of a neutral. One channel is shown as grey. Throws Error{usage} for another number, and for
+/// channels that in the light do not determine colours.
 [[nodiscard]] DisplayTransform make_display(const std::vector<Channel>& channels, const Curve& illuminant,
                                             const ViewOptions& options = {},
                                             std::optional<Chromaticity> white = {});

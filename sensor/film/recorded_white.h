@@ -17,6 +17,8 @@ inline constexpr const char* kWhiteXyKey = "white_xy";
 /// The attribute with the chromaticities of the scene's lights: a JSON object of [x, y] by name, null for a
 /// name that several lights have.
 inline constexpr const char* kLightsXyKey = "lights_xy";
+/// The attribute that says why no picture can be made of a film, in place of the matrix of its pictures.
+inline constexpr const char* kNoPictureKey = "no_picture";
 
 /// Adds a white to what a film tells.
 void record_white(const std::string& name, const Chromaticity& xy,

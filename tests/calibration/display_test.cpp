@@ -284,6 +284,14 @@ TEST(Display, RefusesWhatItCannotShow) {
   const std::vector<Channel> two(2, energy_channel("G", band(500, 600)));
   test::expect_error([&] { static_cast<void>(make_display(two, light)); }, ErrorCode::usage,
                      "one or three channels (got 2)");
+  for (const double from_nm : {500.0, 790.0}) {  // all alike, the second time in the infrared
+    std::vector<Channel> blind;
+    for (const char* name : {"a", "b", "c"}) blind.push_back(energy_channel(name, band(from_nm, 800)));
+    test::expect_error(
+        [&] { static_cast<void>(make_display(blind, light)); }, ErrorCode::usage,
+        "display: channels a, b, c do not tell colours apart between 380 and 780 nm, so that no "
+        "colour picture can be made of them: ");
+  }
   const DisplayTransform display({"R", "G", "B"}, Matrix3());
   test::expect_error(
       [&] {

@@ -77,5 +77,28 @@ TEST(MergeDisplay, IsRefusedBeforeAnySumIsRead) {
   EXPECT_EQ(abbe("merge " + part + " -o " + file("two.exr") + " --display /nowhere/two.png").code, 5);
 }
 
+// The reason is in the film and its parts, so that all who are asked for a picture tell it.
+TEST(MergeDisplay, ChannelsThatShowNoColoursAreToldAlike) {
+  const std::string render =
+      "render " + ball() +
+      R"( --quiet --set '/sensor={"resolution": [24, 16], "pixel_pitch_um": 600, "channels": {"a": {"band": [800, 850]}, "b": {"band": [850, 900]}, "c": {"band": [900, 950]}}}' -o )";
+  const std::string film = file("infrared.exr");
+  const std::string part = file("infrared.abbepart");
+  const std::string shown = " --display " + file("infrared.png");
+  const Outcome rendered = abbe(render + film + shown);
+  EXPECT_FALSE(std::filesystem::exists(film)) << "told before anything is rendered";
+  ASSERT_EQ(abbe(render + film).code, 0);
+  ASSERT_EQ(abbe(render + part).code, 0);
+  for (const Outcome& run : {rendered, abbe("develop " + film + shown),
+                             abbe("merge " + part + " -o " + file("merged.exr") + shown)}) {
+    EXPECT_EQ(run.code, 2);
+    EXPECT_NE(
+        run.err.find("abbe: display: channels a, b, c do not tell colours apart between 380 and 780 nm, "
+                     "so that no colour picture can be made of them: "),
+        std::string::npos)
+        << run.err;
+  }
+}
+
 }  // namespace
 }  // namespace abbe::test

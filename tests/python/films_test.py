@@ -212,6 +212,11 @@ class Films(Test):
         self.assertTrue(0 <= picture.min() and 0.9 < picture.max() <= 1)
         with self.assertRaisesRegex(abbe.UsageError, "one or three channels"):
             abbe.render(abbe.Scene(box())).picture()
+        alike = {name: {"band": [400, 500]} for name in "abc"}
+        film = abbe.render(abbe.Scene(box(sensor={"resolution": [8, 6], "channels": alike})))
+        for picture in (film.picture, abbe.develop(film).picture):
+            with self.assertRaisesRegex(abbe.UsageError, "channels a, b, c do not tell colours apart"):
+                picture()
 
     def test_notebooks_show_films_without_a_picture_as_text(self):
         bands = {name: {"band": [400 + 50 * i, 450 + 50 * i]} for i, name in enumerate("abcd")}
