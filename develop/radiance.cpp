@@ -117,7 +117,7 @@ void forget_layers_and_features(std::map<std::string, std::string>& metadata) {
 
 void forget_layout(std::map<std::string, std::string>& metadata) {
   for (const char* key : {"spectralLayoutVersion", "emissiveUnits", "whiteLuminance", "expTime", "to_xyz_d65",
-                          kHandednessKey, kSpectralBinsKey, kAxisKey, kDistanceKey, kShutterKey})
+                          kHandednessKey, kSpectralBinsKey, kAxisKey, kDistanceKey, kOpeningKey, kShutterKey})
     metadata.erase(key);
 }
 

@@ -18,9 +18,11 @@ namespace abbe {
 /// Metadata that a film of spectral bins has and others have not.
 inline constexpr const char* kSpectralBinsKey = "spectral_bins";
 /// How the radiances of a spectral film were seen: the irradiance on the axis that a unit of radiance gives
-/// [sr], and the distance from lens to film in pixels, which a meter has not.
+/// [sr], the distance from lens to film in pixels, which a meter has not, and the `opening_tangent` of a thin
+/// lens that is in focus at a finite distance.
 inline constexpr const char* kAxisKey = "irradiance_per_radiance_sr";
 inline constexpr const char* kDistanceKey = "image_distance_px";
+inline constexpr const char* kOpeningKey = "opening_tangent";
 /// Mean transmission of the shutter over the exposure, of one that does not let all light through.
 inline constexpr const char* kShutterKey = "shutter_transmission";
 

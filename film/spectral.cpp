@@ -10,6 +10,7 @@
 #include "film/sensor_identity.h"
 #include "io/error.h"
 #include "io/text.h"
+#include "scene/camera/mean_weight.h"
 #include "sensor/film/spectral_film.h"
 
 namespace abbe {
@@ -20,7 +21,7 @@ constexpr const char* kRadiance = "radiance, W per m^2 and sr of the band";
 
 double axis_weight(const Camera& camera) {
   const Imath::V2f center(static_cast<float>(camera.width) / 2, static_cast<float>(camera.height) / 2);
-  return central_weight(camera, center);
+  return mean_weight(camera, opening_tangent(camera), center);
 }
 
 // Lens to film in pixels, by which light falls off towards the corners; nothing for a probe.
@@ -29,25 +30,31 @@ std::optional<double> image_distance(const Camera& camera) {
   return distance ? std::optional(*distance / camera.pixel_pitch) : std::nullopt;
 }
 
-// A camera that weighs radiance as the one that made a film did.
+double opening_of(const Image& film) {
+  const auto opening = film.metadata.find(kOpeningKey);
+  return opening == film.metadata.end() ? 0 : parse_number(opening->second).value();
+}
+
+// A camera that, with the opening of the one that made a film, weighs radiance as that did.
 Camera camera_of(const Image& film) {
-  const double axis = parse_number(film.metadata.at(kAxisKey)).value();
+  const double central =
+      parse_number(film.metadata.at(kAxisKey)).value() * (1 + std::pow(opening_of(film), 2));
   Camera camera{Probe{}, film.width, film.height, 1};
   if (const auto distance = film.metadata.find(kDistanceKey); distance != film.metadata.end()) {
     Pinhole lens;
     lens.image_distance = parse_number(distance->second).value();
-    lens.aperture_radius = lens.image_distance * std::sqrt(axis / std::numbers::pi);
+    lens.aperture_radius = lens.image_distance * std::sqrt(central / std::numbers::pi);
     camera.kind = lens;
   }
   return camera;
 }
 
-std::vector<double> exposure_per_radiance(const Camera& camera, double exposure_s) {
+std::vector<double> exposure_per_radiance(const Camera& camera, double opening, double exposure_s) {
   std::vector<double> factors;
   for (int y = 0; y < camera.height; ++y)
     for (int x = 0; x < camera.width; ++x) {
       const Imath::V2f center(static_cast<float>(x) + 0.5F, static_cast<float>(y) + 0.5F);
-      factors.push_back(exposure_s * central_weight(camera, center));
+      factors.push_back(exposure_s * mean_weight(camera, opening, center));
     }
   return factors;
 }
@@ -90,17 +97,20 @@ void add_spectral_identity(const Scene& scene, FilmIdentity& identity) {
   identity[kAxisKey] = fmt::format("{}", axis_weight(scene.camera));
   if (const auto distance = image_distance(scene.camera))
     identity[kDistanceKey] = fmt::format("{}", *distance);
+  if (const double opening = opening_tangent(scene.camera); opening > 0)
+    identity[kOpeningKey] = fmt::format("{}", opening);
   if (scene.shutter.mean() != 1) identity[kShutterKey] = fmt::format("{}", scene.shutter.mean());
   identity["whiteLuminance"] = "1";  // cd/m^2 that 1 in all channels of the preview stands for
 }
 
 std::vector<double> exposure_per_radiance(const Scene& scene) {
-  return exposure_per_radiance(scene.camera, scene.exposure_s * scene.shutter.mean());
+  return exposure_per_radiance(scene.camera, opening_tangent(scene.camera),
+                               scene.exposure_s * scene.shutter.mean());
 }
 
 Image spectral_film_image(const Image& film) {
-  SpectralImage image =
-      spectral_film(film, bins_of(film), exposure_per_radiance(camera_of(film), exposure_of(film)));
+  SpectralImage image = spectral_film(
+      film, bins_of(film), exposure_per_radiance(camera_of(film), opening_of(film), exposure_of(film)));
   for (ImageChannel& channel : observed(image).channels) image.others.push_back(std::move(channel));
   forget_channels(image.metadata);
   for (int component = 0; component < (image.is_polarised() ? 4 : 1); ++component)

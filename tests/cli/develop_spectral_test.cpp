@@ -55,6 +55,42 @@ TEST(DevelopSpectral, BinsHoldTheRadianceThatIsSeenFromCornerToCorner) {
   EXPECT_NEAR(corner, 150, 0.3) << "the lens darkens its corners to a half, the scene does not";
 }
 
+// Life size at f/1, where rays of the rim of the lens are at 14 degrees with the axis, and f/2 off the axis.
+TEST(DevelopSpectral, CloseUpsHoldTheRadianceToo) {
+  for (const char* lens : {R"("f_number": 1)", R"("f_number": 2, "blades": 5)"}) {
+    const auto scene = [&](const std::string& name, const std::string& sensor) {
+      return scratch()
+          .write(name, fmt::format(R"({{"abbe": 1,
+            "camera": {{"thin_lens": {{"focal_length": 0.1, {}, "focus_distance": 0.2}},
+                        "from": [0, 0, 0], "to": [0, 0, 1], "up": [0, 1, 0]}},
+            "sensor": {{"resolution": [12, 8], "pixel_pitch_um": 10000, {}}},
+            "lights": [{{"environment": {{}}, "emission": {{"spectrum": {{"band": [400, 700], "value": 0.5}}}}}}],
+            "render": {{"samples": 4096}}}})",
+                                   lens, sensor))
+          .string();
+    };
+    const std::string path =
+        film_of(scene("macro.json", R"("spectral": {"from_nm": 400, "to_nm": 700, "step_nm": 150})"), "macro",
+                "--stats " + file("macro.stats"));
+    const auto stats = nlohmann::json::parse(read_file(file("macro.stats")));
+    const SpectralImage image = spectral_image(read_exr(path), path);
+    for (const SpectralBand& band : image.bands) {
+      double mean = 0;
+      for (const float radiance : band.radiance) mean += static_cast<double>(radiance) / 96;
+      EXPECT_NEAR(mean, 75, 0.15) << lens;
+      EXPECT_NEAR(band.radiance.front(), 75, 0.4) << lens;
+      EXPECT_NEAR(band.radiance[53], 75, 0.4) << lens;
+    }
+    EXPECT_NEAR(stats["film"]["475nm"]["mean"], 75, 0.15) << lens;
+    const std::string counting = scene("counting_macro.json", kBroadBands);
+    developed(path + " --scene " + counting + " -o " + file("seen.exr"));
+    const Image seen = read_exr_parts(file("seen.exr")).front().image;
+    const Image direct = read_exr(film_of(counting, "direct_macro"));
+    for (const std::size_t pixel : {0U, 53U})
+      EXPECT_NEAR(seen.find("G")->values[pixel] / direct.find("G")->values[pixel], 1, 0.015) << lens;
+  }
+}
+
 TEST(DevelopSpectral, StatsAreOfTheRadiancesThatTheFilmHolds) {
   const std::string path = dome_film("stats", R"("spectral": {"from_nm": 400, "to_nm": 700, "step_nm": 100})",
                                      "--crop 0,0,12,16 --stats " + file("dome.stats"));
