@@ -27,7 +27,7 @@ std::string sensitivities_json(const std::string& camera, std::span<const Channe
   for (int nm = kRange.low_nm; nm <= kRange.high_nm; nm += kStep)
     for (const Channel& channel : channels)
       data["data"]["main"][std::to_string(nm)].push_back(channel.weight(nm) / greatest);
-  return file.dump(2) + "\n";
+  return file.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 }  // namespace abbe

@@ -98,7 +98,7 @@ TEST(Sensitivities, AreReadBackAsTheCamera) {
   const std::vector<Channel> camera = test::camera();
   const auto file = std::filesystem::path(testing::TempDir()) /
                     ("abbe_sensitivities_" + std::to_string(::getpid()) + ".json");
-  std::ofstream(file) << sensitivities_json("a \"camera\"", camera);
+  std::ofstream(file) << sensitivities_json("a \"camera\" named in Latin-1: caf\xE9", camera);
   Diagnostics diagnostics;
   const auto read = load_camera(file.string(), {}, diagnostics);
   ASSERT_TRUE(read) << diagnostics.text();
