@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 #include <fmt/format.h>
 
@@ -176,18 +177,24 @@ struct Code {
   double deviation = 0;
 };
 
-// The mean of a patch and its standard error, 0 where one pixel tells none; an end of the scale where a pixel
-// has reached it.
+// The standard error of the median of normal noise, in deviations of a pixel: of two it is their mean.
+double error_of_median(std::size_t pixels) {
+  const double times_that_of_mean = pixels > 2 ? std::sqrt(std::numbers::pi / 2) : 1;
+  return times_that_of_mean / std::sqrt(static_cast<double>(pixels));
+}
+
+// The median of a patch and its standard error, 0 where one pixel tells none; an end of the scale where a
+// pixel has reached it. Noise arises before the response, as that of photons and read-out, or behind it: a
+// curve takes the median of light to that of the codes, but its mean to another.
 Code patch_code(const PatchChannel& patch, const Scale& scale) {
   // Of pixels, which are in single precision; codes of 16 bits are 15 times as far apart.
   constexpr double kRounding = 1e-6;
   const double range = scale.full - scale.black;
   if (patch.lowest <= scale.black * (1 + kRounding)) return {0, 0};
   if (patch.highest >= scale.full * (1 - kRounding)) return {1, 0};
-  const double value = (patch.mean - scale.black) / range;
+  const double value = (patch.median - scale.black) / range;
   if (!patch.deviation) return {value, 0};
-  const double error = *patch.deviation / range / std::sqrt(static_cast<double>(patch.pixels));
-  return {value, std::hypot(error, scale.rounding)};
+  return {value, std::hypot(*patch.deviation / range * error_of_median(patch.pixels), scale.rounding)};
 }
 
 PatchOutline outline_of(const Region& r) {

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "io/error.h"
+#include "sensor/film/grouped_median.h"
 
 namespace abbe {
 namespace {
@@ -71,11 +72,9 @@ std::vector<Pixel> pixels_in(const PatchOutline& outline, const std::vector<Crop
 // Of the pixels that a channel has.
 PatchChannel measure(const Image& image, const ImageChannel& plane, const std::vector<Pixel>& pixels,
                      const std::optional<double>& saturation) {
-  PatchChannel found{pixels.size(),
-                     0,
-                     {},
-                     std::numeric_limits<double>::infinity(),
-                     -std::numeric_limits<double>::infinity()};
+  PatchChannel found{.pixels = pixels.size(),
+                     .lowest = std::numeric_limits<double>::infinity(),
+                     .highest = -std::numeric_limits<double>::infinity()};
   const auto value = [&](const Pixel& pixel) {
     return static_cast<double>(
         plane.values[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(image.width) +
@@ -92,6 +91,9 @@ PatchChannel measure(const Image& image, const ImageChannel& plane, const std::v
   double squares = 0;
   for (const Pixel& pixel : pixels) squares += (value(pixel) - found.mean) * (value(pixel) - found.mean);
   if (count > 1) found.deviation = std::sqrt(squares / (count - 1));
+  std::vector<double> values;
+  std::transform(pixels.begin(), pixels.end(), std::back_inserter(values), value);
+  found.median = grouped_median(std::move(values));
   return found;
 }
 

@@ -26,6 +26,7 @@ struct PatchOutline {
 struct PatchChannel {
   std::size_t pixels = 0;
   double mean = 0;
+  double median = 0;                     ///< As `grouped_median` has it.
   std::optional<double> deviation = {};  ///< Standard deviation of the pixels; nothing of a single one.
   double lowest = 0;
   double highest = 0;

@@ -1,0 +1,139 @@
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <random>
+
+#include <fmt/format.h>
+
+#include "calibration/chart/photographed_series.h"
+#include "io/exr.h"
+#include "tests/calibration/response_fixture.h"
+#include "tests/tier.h"
+
+// What noise makes of photographs, pixel by pixel: of light before the response, as in a camera, or of codes.
+
+namespace abbe::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr int kEdge = 10;
+constexpr int kPatches = 24;
+
+enum class Noise { of_light, of_codes };
+
+/// A camera of 20 000 electrons at full scale, with 12 bits.
+struct Photographer {
+  PlantedResponse response;
+  double read = 0.001;  ///< Deviation in the dark, of full scale.
+  Noise noise = Noise::of_light;
+
+  [[nodiscard]] double pixel(double light, double normal) const {
+    const double deviation = std::sqrt(light / 20000 + read * read);
+    double code = response.code(light + deviation * normal);
+    if (noise == Noise::of_codes) {
+      const double slope = (response.code(light + 1e-6) - response.code(light)) / 1e-6;
+      code = std::clamp(response.code(light) + std::min(0.05, slope * deviation) * normal, 0.0, 1.0);
+    }
+    return std::round(code * 4095) / 4095;
+  }
+};
+
+class PhotographedNoise : public testing::Test {
+ protected:
+  void SetUp() override { fs::create_directories(folder_); }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  // Patches between 0.5 and 90 % of full scale in a second, each of kEdge x kEdge pixels, in a row.
+  ExposureSeries photograph(const Photographer& camera, std::uint64_t seed) {
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    std::uniform_real_distribution<double> level(std::log(0.005), std::log(0.9));
+    std::vector<double> values(kPatches);
+    for (double& value : values) value = std::exp(level(random));
+    std::string exposures;
+    for (const double time : stops(-6, 3, 1)) {
+      Image image{kPatches * kEdge, kEdge, {{"Y", {}}}, {}};
+      for (int y = 0; y < kEdge; ++y)
+        for (int x = 0; x < kPatches * kEdge; ++x) {
+          const double code =
+              camera.pixel(values[static_cast<std::size_t>(x / kEdge)] * time, normal(random));
+          image.channels[0].values.push_back(static_cast<float>(code));
+        }
+      const std::string name = fmt::format("{}.exr", time);
+      write_exr(folder_ / name, image);
+      exposures += fmt::format("{{\"file\": \"{}\", \"exposure_s\": {}}},", name, time);
+    }
+    std::string regions;
+    for (int i = 0; i < kPatches; ++i)
+      regions += fmt::format("[{}, 0, {}, {}],", i * kEdge, (i + 1) * kEdge, kEdge);
+    std::ofstream(folder_ / "series.json")
+        << "{\"bits\": 12, \"exposures\": [" << exposures << "], \"regions\": [" << regions << "]}";
+    Diagnostics diagnostics;
+    auto all = read_series(folder_ / "series.json", diagnostics);
+    EXPECT_TRUE(all) << diagnostics.text();
+    return all ? all->series.at(0) : ExposureSeries{};
+  }
+
+  // The share of dark codes where the interval holds the planted exposure.
+  static double dark_coverage(const ResponseFit& fit, const PlantedResponse& planted) {
+    int inside = 0;
+    for (int i = 100; i < 300; ++i) {
+      const double error = std::abs(std::log(exposure_ratio(fit, planted, i / 1000.0)));
+      inside += error <= 1.96 * linearise(fit.log_deviation, i / 1000.0) ? 1 : 0;
+    }
+    return inside / 200.0;
+  }
+
+  // The mean relative error of the exposure of a code over many series stays within what their scatter makes
+  // of a mean, and the intervals hold the planted curve as often as they say.
+  void expect_unbiased(const char* name, double read, Noise noise) {
+    const Photographer camera{PlantedResponse(name), read, noise};
+    const int seeds = nightly() ? 80 : 8;
+    const std::array codes{0.1, 0.15, 0.2, 0.3};
+    std::array<double, codes.size()> sums{};
+    std::array<double, codes.size()> squares{};
+    double covered = 0;
+    double dark = 0;
+    for (int seed = 1; seed <= seeds; ++seed) {
+      const ResponseFit fit = recover_response(photograph(camera, static_cast<std::uint64_t>(seed)));
+      covered += coverage(fit, camera.response) / seeds;
+      dark += dark_coverage(fit, camera.response) / seeds;
+      for (std::size_t i = 0; i < codes.size(); ++i) {
+        const double error = std::log(exposure_ratio(fit, camera.response, codes[i]));
+        sums[i] += error / seeds;
+        squares[i] += error * error / seeds;
+      }
+    }
+    for (std::size_t i = 0; i < codes.size(); ++i) {
+      const double scatter = std::sqrt(std::max(0.0, squares[i] - sums[i] * sums[i]) / (seeds - 1));
+      EXPECT_LT(std::abs(sums[i]), 4.5 * scatter) << name << " at code " << codes[i];
+    }
+    const std::string told =
+        fmt::format("{} {} {}", name, read, noise == Noise::of_light ? "light" : "codes");
+    RecordProperty("coverage of " + told, std::to_string(covered));
+    RecordProperty("coverage in the dark of " + told, std::to_string(dark));
+    EXPECT_GE(covered, nightly() ? 0.90 : 0.85) << told;
+    EXPECT_GE(dark, nightly() ? 0.90 : 0.85) << told;
+  }
+
+  fs::path folder_ = fs::path(testing::TempDir()) / ("abbe_noise_" + std::to_string(::getpid()));
+};
+
+// The mean of curved codes is not the code of the mean light.
+TEST_F(PhotographedNoise, OfLightBeforeTheCurveLeavesNoBias) {
+  expect_unbiased("gamma:2.2", 0.001, Noise::of_light);
+  expect_unbiased("gamma:2.2", 0.0003, Noise::of_light);
+  expect_unbiased("s-curve", 0.001, Noise::of_light);
+}
+
+TEST_F(PhotographedNoise, OfCodesBehindTheCurveLeavesNoBias) {
+  expect_unbiased("gamma:2.2", 0.001, Noise::of_codes);
+  expect_unbiased("linear", 0.001, Noise::of_codes);
+}
+
+}  // namespace
+}  // namespace abbe::test
