@@ -108,10 +108,16 @@ void require_light_of(const ChartTargets& chart, const NamedCurve& light) {
                             light.name, named[0], named[1], own[0], own[1]));
 }
 
-// Code values to linear ones.
+// Code values to linear ones, with their noise.
 void linearise_all(MeasuredPatches& patches, const std::vector<ChannelResponse>& responses) {
-  for (Raw& value : patches.values)
-    for (std::size_t k = 0; k < 3; ++k) value[k] = linearise(responses[k].fit.linear, value[k]);
+  for (std::size_t i = 0; i < patches.values.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::vector<double>& curve = responses[k].fit.linear;
+      double& value = patches.values[i][k];
+      if (!patches.deviations.empty())
+        patches.deviations[i][k] = linearise_deviation(curve, value, patches.deviations[i][k]);
+      value = linearise(curve, value);
+    }
 }
 
 }  // namespace

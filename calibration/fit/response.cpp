@@ -248,4 +248,10 @@ double linearise(const std::vector<double>& table, double code) {
   return std::lerp(table[i], table[i + 1], x - static_cast<double>(i));
 }
 
+double linearise_deviation(const std::vector<double>& table, double code, double deviation) {
+  const double low = std::clamp(code - deviation, 0.0, 1.0);
+  const double high = std::clamp(code + deviation, 0.0, 1.0);
+  return high > low ? deviation * (linearise(table, high) - linearise(table, low)) / (high - low) : 0;
+}
+
 }  // namespace abbe

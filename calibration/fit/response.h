@@ -59,4 +59,8 @@ struct ResponseOptions {
 /// Linear exposure of a code value in [0, 1] by linear interpolation in such a table.
 [[nodiscard]] double linearise(const std::vector<double>& table, double code);
 
+/// Standard deviation of the linear exposure of a code of this standard deviation: that times the mean slope
+/// of such a table within a deviation of the code.
+[[nodiscard]] double linearise_deviation(const std::vector<double>& table, double code, double deviation);
+
 }  // namespace abbe

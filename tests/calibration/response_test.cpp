@@ -61,6 +61,15 @@ TEST(ResponseFit, RecoversTheToeInRelativeTermsToo) {
     EXPECT_NEAR(linearise(fit.linear, code) / planted.exposure(code), 1, 0.005) << code;
 }
 
+TEST(ResponseFit, DeviationsFollowTheSlopeOfTheCurve) {
+  std::vector<double> square;
+  for (int i = 0; i <= 1000; ++i) square.push_back(i / 1000.0 * (i / 1000.0));
+  for (const double code : {0.1, 0.5, 0.9})
+    EXPECT_NEAR(linearise_deviation(square, code, 1e-3), 2 * code * 1e-3, 1e-12) << code;
+  EXPECT_NEAR(linearise_deviation(square, 1, 0.01), 1.99 * 0.01, 1e-12) << "within the codes";
+  EXPECT_EQ(linearise_deviation(square, 0.5, 0), 0);
+}
+
 TEST(ResponseFit, DoesNotDependOnTheUnknownBrightness) {
   std::vector<double> values = chart_values();
   const std::vector<double> times = stops(-8, 5, 0.5);

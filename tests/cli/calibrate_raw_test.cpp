@@ -1,4 +1,7 @@
+#include <cmath>
 #include <fstream>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -21,8 +24,8 @@ using namespace abbe::cli;
 constexpr double kBlack = 64;
 constexpr double kFull = 4095 - kBlack;
 
-// Exposures of a wedge by a linear camera of 12 bits that tells its levels.
-std::filesystem::path write_series() {
+// Exposures of a wedge by a camera of 12 bits that tells its levels, of this gamma.
+std::filesystem::path write_series(double gamma = 1) {
   constexpr int kWidth = 96;
   constexpr int kHeight = 64;
   std::string listing;
@@ -31,7 +34,8 @@ std::filesystem::path write_series() {
     for (const char* name : {"R", "G", "B"}) {
       ImageChannel& plane = image.channels.emplace_back(ImageChannel{name, {}});
       for (int i = 0; i < kWidth * kHeight; ++i) {
-        const double dn = kBlack + seconds * (i % kWidth + 1) / kWidth * 0.6 * kFull;
+        const double light = seconds * (i % kWidth + 1) / kWidth * 0.6;
+        const double dn = kBlack + std::pow(light, 1 / gamma) * kFull;
         plane.values.push_back(static_cast<float>(std::min(4095.0, std::floor(dn + 0.5))));
       }
     }
@@ -94,6 +98,49 @@ TEST(CalibrateRaw, NumbersAboveBlackAreSharesOfWhatTheSeriesTells) {
   options.series = write_series();
   const json both = json_output(calibrate, options);
   EXPECT_NEAR(both["dE00_mean"].get<double>(), plain, 0.05) << "the response is a straight line";
+}
+
+// The chart in values of this gamma, of which the same noise of light, if it is told, makes more in the dark.
+std::filesystem::path write_chart(double gamma, bool is_noisy) {
+  Diagnostics diagnostics;
+  const auto channels = load_camera("Nikon_D5100", {}, diagnostics);
+  const auto chart = load_chart(CalibrateOptions().chart, {}, diagnostics);
+  const Curve lamp = load_illuminant("D65", {}, diagnostics)->curve;
+  std::string rows = "# unit: shares of full scale\npatch,R,G,B";
+  rows += is_noisy ? ",R_deviation,G_deviation,B_deviation,R_pixels,G_pixels,B_pixels\n" : "\n";
+  for (const Patch& patch : chart->patches) {
+    std::string values;
+    std::string noise;
+    for (const double raw : camera_raw(*channels, lamp, patch.reflectance)) {
+      const double code = std::pow(0.8 * raw, 1 / gamma);
+      values += fmt::format(",{}", code);
+      noise += fmt::format(",{}", 0.01 * code / (gamma * 0.8 * raw));
+    }
+    rows += patch.name + values + (is_noisy ? noise + ",1,1,1\n" : "\n");
+  }
+  return scratch().write("chart_of_gamma.csv", rows);
+}
+
+// What the noise does to the fit is the same for linear values and for codes; what the curve's errors do,
+// noise or none, is the same too.
+TEST(CalibrateRaw, NoiseIsMadeLinearWithTheValues) {
+  CalibrateOptions options;
+  options.how.bootstrap.replicates = 2;
+  options.how.fit.objective = Objective::xyz;
+  const auto shifts = [&](double gamma) {
+    std::vector<double> shift(24, 0);
+    for (const bool is_noisy : {false, true}) {
+      options.measured = write_chart(gamma, is_noisy);
+      const json patches = json_output(calibrate, options)["patches"];
+      for (std::size_t i = 0; i < 24; ++i)
+        shift[i] += (is_noisy ? 1 : -1) * patches.at(i)["dE00"].get<double>();
+    }
+    return shift;
+  };
+  const std::vector<double> linear = shifts(1);
+  options.series = write_series(2.2);
+  const std::vector<double> curved = shifts(2.2);
+  for (std::size_t i = 0; i < 24; ++i) EXPECT_NEAR(curved[i], linear[i], 0.03) << i;
 }
 
 TEST(CalibrateRaw, ResponsesAreMatchedWithMeasuredValuesByName) {
