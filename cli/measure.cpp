@@ -88,17 +88,13 @@ Measurement measure_image(const fs::path& file, const ChartToMeasure& chart,
   Measurement measured{file, read.channels, read.unit, {}, {}};
   try {
     const std::vector<PatchOutline> outlines = outlines_in(read, chart, options, measured);
-    measured.patches = measure_patches(read.image, read.planes(), outlines);
-    if (flat) {
-      flat_field(read, *flat, options.flat);
-      const std::vector<PatchValues> evened = measure_patches(read.image, read.planes(), outlines);
-      for (std::size_t i = 0; i < evened.size(); ++i)
-        for (std::size_t k = 0; k < evened[i].channels.size(); ++k) {
-          PatchChannel channel = evened[i].channels[k];
-          channel.saturated = measured.patches[i].channels[k].saturated;  // as the pixels were
-          measured.patches[i].channels[k] = channel;
-        }
-    }
+    if (flat) inputs.take_memory(file.string(), read.image.memory_bytes());
+    const Image exposed = flat ? read.image : Image{};
+    if (flat) flat_field(read, *flat, options.flat);
+    MeasuredPlanes planes = read.planes();
+    for (const ImageChannel& plane : exposed.channels) planes.exposed.push_back(&plane);
+    measured.patches = measure_patches(read.image, planes, outlines);
+    inputs.give_back_memory(exposed.memory_bytes());
   } catch (const Error& error) {
     throw Error(error.code, file.string(), error.what());
   }
@@ -120,11 +116,13 @@ void warn_of_saturation(const Measurement& measured) {
   std::vector<std::string> names;
   for (const PatchValues& patch : measured.patches)
     if (std::any_of(patch.channels.begin(), patch.channels.end(),
-                    [](const PatchChannel& channel) { return channel.saturated > 0; }))
+                    [](const PatchChannel& channel) { return channel.is_saturated(); }))
       names.push_back(patch.name);
   if (!names.empty())
-    say(fmt::format("warning: {}: saturated pixels, whose values are too low, in {}", measured.file.string(),
-                    fmt::join(names, ", ")));
+    say(
+        fmt::format("warning: {}: saturated pixels, whose values are too low, in {} (more than {:g} %, up to "
+                    "which they are taken for defective and left out)",
+                    measured.file.string(), fmt::join(names, ", "), 100 * kMostDefective));
 }
 
 Json json_of(const Measurement& measured) {

@@ -19,6 +19,7 @@
 #include "io/error.h"
 #include "io/extension.h"
 #include "io/picture_codec.h"
+#include "sensor/film/defective_pixels.h"
 #include "sensor/film/film_planes.h"
 #include "sensor/film/recorded_mosaic.h"
 
@@ -65,20 +66,19 @@ void warn_of_nonlinear(const Image& image, const std::filesystem::path& path) {
 // it beside any edge.
 void warn_of_cut_codes(const RawImage& read, std::span<const double> values,
                        const std::filesystem::path& path) {
-  constexpr double kMostPercent = 1;
   if (extension_of(path) == ".exr") return;
   const std::optional<EndOfCodes> end = end_of_codes(read);
   if (!end) return;
-  const auto saturated = std::count_if(values.begin(), values.end(), [&](double value) {
+  const auto pixels = static_cast<double>(values.size());
+  const auto saturated = static_cast<double>(std::count_if(values.begin(), values.end(), [&](double value) {
     return code_of(static_cast<float>(value)) >= end->dn;
-  });
-  const double percent = 100 * static_cast<double>(saturated) / static_cast<double>(values.size());
-  if (percent > kMostPercent)
+  }));
+  if (exceeds_defects(saturated, pixels))
     say(fmt::format(
         "warning: {}: the bright side of the edge {} saturated (got {:.3g} % of its pixels at {}, "
         "allowed {} %), so that its mtf is not that of the light: expose it less",
-        path.string(), end->is_told ? "is" : "may be", percent,
-        end->is_told ? "the white level or above" : "the highest code", kMostPercent));
+        path.string(), end->is_told ? "is" : "may be", 100 * saturated / pixels,
+        end->is_told ? "the white level or above" : "the highest code", 100 * kMostDefective));
 }
 
 EdgeResponse measure_edge(const MtfOptions& options, Inputs& inputs) {

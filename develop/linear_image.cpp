@@ -15,6 +15,7 @@
 #include "io/raw_picture.h"
 #include "io/spectral_exr.h"
 #include "io/text.h"
+#include "sensor/film/defective_pixels.h"
 #include "sensor/film/film_planes.h"
 #include "sensor/film/recorded_crop.h"
 #include "sensor/film/recorded_mosaic.h"
@@ -144,7 +145,6 @@ std::string described(const LinearImage& image) {
 
 // What is clipped is even whatever the light; hot pixels are clipped in any flat.
 void require_unsaturated(const LinearImage& flat, const std::filesystem::path& path) {
-  constexpr double kMostPercent = 1;
   if (!flat.saturation) return;
   double saturated = 0;
   for (const ImageChannel& channel : flat.image.channels)
@@ -152,13 +152,12 @@ void require_unsaturated(const LinearImage& flat, const std::filesystem::path& p
         static_cast<double>(std::count_if(channel.values.begin(), channel.values.end(), [&](float value) {
           return static_cast<double>(value) >= *flat.saturation;
         }));
-  const double percent =
-      100 * saturated / static_cast<double>(flat.image.pixels() * flat.image.channels.size());
-  if (percent > kMostPercent)
+  const auto pixels = static_cast<double>(flat.image.pixels() * flat.image.channels.size());
+  if (exceeds_defects(saturated, pixels))
     throw Error(
         ErrorCode::input, path.string(),
         fmt::format("the flat is saturated (got {:.3g} % of its pixels, allowed {} %): expose it less",
-                    percent, kMostPercent));
+                    100 * saturated / pixels, 100 * kMostDefective));
 }
 
 }  // namespace

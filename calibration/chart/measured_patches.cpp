@@ -11,6 +11,7 @@
 #include "io/error.h"
 #include "io/table.h"
 #include "io/text.h"
+#include "sensor/film/defective_pixels.h"
 #include "spectral/curve_use.h"
 
 namespace abbe {
@@ -56,6 +57,7 @@ bool each_once(const std::vector<std::string>& names, const Table& table, Diagno
 }
 
 constexpr std::array kDeviations{"R_deviation", "G_deviation", "B_deviation"};
+constexpr std::array kPixels{"R_pixels", "G_pixels", "B_pixels"};
 
 // An empty cell, or the 0 of one pixel, which has no spread and would pass for certain.
 bool is_unknown(const std::string& deviation, double pixels) {
@@ -92,7 +94,7 @@ std::optional<std::vector<Raw>> pixel_deviations(Table table, Diagnostics& diagn
 std::optional<std::vector<Raw>> deviations_of(const Table& table, const MeasuredPatches& patches,
                                               Diagnostics& diagnostics) {
   if (!table.column(kDeviations[0])) return std::vector<Raw>{};
-  const auto pixels = triples(table, {"R_pixels", "G_pixels", "B_pixels"}, diagnostics);
+  const auto pixels = triples(table, kPixels, diagnostics);
   auto deviations = pixel_deviations(table, diagnostics);
   if (!deviations || !pixels) return std::nullopt;
   for (std::size_t i = 0; i < deviations->size(); ++i)
@@ -107,20 +109,35 @@ std::optional<std::vector<Raw>> deviations_of(const Table& table, const Measured
   return is_noise_unknown(table, patches, *pixels, diagnostics) ? std::vector<Raw>{} : deviations;
 }
 
-// Patches with saturated pixels, each of which is warned of.
+// Whether so many of the pixels are saturated by the light; less than one is no number of them but a share,
+// of which any counts.
+bool is_too_bright(double saturated, double pixels) {
+  return saturated >= 1 ? exceeds_defects(saturated, pixels) : saturated > 0;
+}
+
+// Patches with more saturated pixels than may be defective, each of which is warned of; without columns of
+// pixels, with any.
 std::set<std::string> saturated_in(const Table& table, const std::vector<std::string>& names,
                                    Diagnostics& diagnostics) {
   std::set<std::string> saturated;
   if (!table.column("R_saturated")) return saturated;
-  const auto shares = triples(table, {"R_saturated", "G_saturated", "B_saturated"}, diagnostics);
-  for (std::size_t i = 0; shares && i < shares->size(); ++i)
-    if (std::any_of((*shares)[i].begin(), (*shares)[i].end(), [](double share) { return share > 0; })) {
-      saturated.insert(names[i]);
-      diagnostics.warning(table.position(i),
-                          fmt::format("patch \"{}\" has saturated pixels, so that its values are too low: it "
-                                      "is left out; expose less",
-                                      names[i]));
-    }
+  const auto counts = triples(table, {"R_saturated", "G_saturated", "B_saturated"}, diagnostics);
+  const auto pixels =
+      table.column(kPixels[0]) ? triples(table, kPixels, diagnostics) : std::vector<Raw>(names.size());
+  if (!counts || !pixels) return saturated;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    bool is_saturated = false;
+    for (std::size_t k = 0; k < 3; ++k)
+      is_saturated = is_saturated || is_too_bright((*counts)[i][k], (*pixels)[i][k]);
+    if (!is_saturated) continue;
+    saturated.insert(names[i]);
+    diagnostics.warning(
+        table.position(i),
+        fmt::format("patch \"{}\" has saturated pixels, so that its values are too low: it is "
+                    "left out; expose less, or show it on more pixels where defective ones "
+                    "exceed {:g} % of it",
+                    names[i], 100 * kMostDefective));
+  }
   return saturated;
 }
 

@@ -38,15 +38,16 @@ void warn_of_codes(const std::filesystem::path& file, const std::string& instead
 /// with `R_deviation` (of a pixel), `R_pixels` and those of G and B, as `abbe measure` writes them, it tells
 /// their noise too, unless that of a patch that is not left out is unknown: of an empty cell, or a
 /// deviation of 0 of one pixel, a warning tells that all count alike. Deviations below 0 and fewer pixels
-/// than 1 are errors at any rate. Where `R_saturated`, `G_saturated` or `B_saturated` is above 0, a warning
-/// names the patch as left out.
+/// than 1 are errors at any rate. Where `R_saturated`, `G_saturated` or `B_saturated` is more than may be
+/// defective of `R_pixels`, `G_pixels` or `B_pixels` (`exceeds_defects`), or above 0 without these columns, a
+/// warning names the patch as left out.
 struct MeasuredPatches {
   std::vector<std::string> names;
   std::vector<Raw> values;
   std::vector<Raw> deviations = {};  ///< Standard deviations of the values; empty: unknown.
   std::string unit = {};             ///< As the table has it.
   std::set<std::string> saturated =
-      {};  ///< Names of patches with saturated pixels, whose values are too low.
+      {};  ///< Names of patches that the light saturates, whose values are too low.
 };
 [[nodiscard]] std::optional<MeasuredPatches> load_measured_patches(const std::filesystem::path& path,
                                                                    Diagnostics& diagnostics);

@@ -183,15 +183,13 @@ double error_of_median(std::size_t pixels) {
   return times_that_of_mean / std::sqrt(static_cast<double>(pixels));
 }
 
-// The median of a patch and its standard error, 0 where one pixel tells none; an end of the scale where a
-// pixel has reached it. Noise arises before the response, as that of photons and read-out, or behind it: a
-// curve takes the median of light to that of the codes, but its mean to another.
+// The median of a patch and its standard error, 0 where one pixel tells none; an end of the scale where more
+// pixels than defective ones have reached it. Noise arises before the response, as that of photons and
+// read-out, or behind it: a curve takes the median of light to that of the codes, but its mean to another.
 Code patch_code(const PatchChannel& patch, const Scale& scale) {
-  // Of pixels, which are in single precision; codes of 16 bits are 15 times as far apart.
-  constexpr double kRounding = 1e-6;
   const double range = scale.full - scale.black;
-  if (patch.lowest <= scale.black * (1 + kRounding)) return {0, 0};
-  if (patch.highest >= scale.full * (1 - kRounding)) return {1, 0};
+  if (patch.is_black()) return {0, 0};
+  if (patch.is_saturated()) return {1, 0};
   const double value = (patch.median - scale.black) / range;
   if (!patch.deviation) return {value, 0};
   return {value, std::hypot(*patch.deviation / range * error_of_median(patch.pixels), scale.rounding)};
@@ -228,7 +226,10 @@ std::string objection(const Image& image, const Image& first, const Listing& lis
 void add(const Image& image, const std::optional<RawScale>& told, const std::vector<Region>& regions,
          const Listing& listing, PhotographedSeries& all) {
   const Scale scale = scale_of(image, listing, told);
-  MeasuredPlanes planes{planes_of(image), all.channels, mosaic_of(image, told), {}};
+  // Of pixels, which are in single precision; codes of 16 bits are 15 times as far apart.
+  constexpr double kRounding = 1e-6;
+  MeasuredPlanes planes{planes_of(image), all.channels, mosaic_of(image, told), scale.full * (1 - kRounding)};
+  planes.black = scale.black * (1 + kRounding);
   std::vector<PatchOutline> outlines;
   std::transform(regions.begin(), regions.end(), std::back_inserter(outlines), outline_of);
   const std::vector<PatchValues> patches = measure_patches(image, planes, outlines);

@@ -25,16 +25,16 @@ struct PhotographedSeries {
 ///      "regions": [[x0, y0, x1, y1], ...], "full_scale": 1, "bits": 12}
 ///
 /// Paths are relative to that file. Each region [pixels, the last ones excluded] gives one patch: the median
-/// of its code values, with the median's standard error from their spread and from rounding to `bits`; a
-/// region with a black or clipped pixel counts as black or clipped, and one without spread, as of a single
-/// pixel, leaves the noise of its channel unknown. Without regions, single pixels of a regular grid are the
-/// patches, and nothing is known of their noise. Codes are divided by `full_scale`, the value at which the
-/// camera clips. What the listing does not say, raw files tell themselves, as far as `read_raw_image` has it:
-/// exposure time, full scale, which is their white level, the code of darkness, bits and mosaic, of which
-/// each channel is a series; for others `exposure_s` is needed, and full scale is 1, an integer file's
-/// largest. Channels are the planes of the sensor that a file tells of, else all but alpha and variances.
-/// Reports photographs of unequal size or channels, regions beyond them, and values that are not finite.
-/// `inputs` learns of every file.
+/// of its code values, with the median's standard error from their spread and from rounding to `bits`. A
+/// region of which more pixels are black or clipped than may be defective (`exceeds_defects`) counts as black
+/// or clipped, and one without spread, as of a single pixel, leaves the noise of its channel unknown. Without
+/// regions, single pixels of a regular grid are the patches, and nothing is known of their noise. Codes are
+/// divided by `full_scale`, the value at which the camera clips. What the listing does not say, raw files
+/// tell themselves, as far as `read_raw_image` has it: exposure time, full scale, which is their white level,
+/// the code of darkness, bits and mosaic, of which each channel is a series; for others `exposure_s` is
+/// needed, and full scale is 1, an integer file's largest. Channels are the planes of the sensor that a file
+/// tells of, else all but alpha and variances. Reports photographs of unequal size or channels, regions
+/// beyond them, and values that are not finite. `inputs` learns of every file.
 [[nodiscard]] std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
                                                             Diagnostics& diagnostics,
                                                             Inputs* inputs = nullptr);

@@ -10,6 +10,7 @@
 #include "calibration/fit/correction_fit.h"
 #include "io/diagnostics.h"
 #include "io/error.h"
+#include "sensor/film/defective_pixels.h"
 
 namespace abbe {
 namespace {
@@ -50,9 +51,11 @@ BalancedPatches in_order(const ChartTargets& chart, const MeasuredPatches& measu
     throw Error(ErrorCode::input, "measured patches", fmt::format("missing: {}", fmt::join(missing, ", ")));
   const std::size_t left = patches.colors.names.size();
   if (2 * left < chart.names.size())
-    throw Error(ErrorCode::input, "measured patches",
-                fmt::format("{} of {} have saturated pixels: expose less", chart.names.size() - left,
-                            chart.names.size()));
+    throw Error(
+        ErrorCode::input, "measured patches",
+        fmt::format("{} of {} have saturated pixels: expose less, or show the chart on more pixels where "
+                    "defective ones exceed {:g} % of a patch",
+                    chart.names.size() - left, chart.names.size(), 100 * kMostDefective));
   return patches;
 }
 

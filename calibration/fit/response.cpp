@@ -18,6 +18,7 @@
 #include "calibration/fit/response_roughness.h"
 #include "calibration/fit/response_samples.h"
 #include "calibration/fit/series_checks.h"
+#include "sensor/film/defective_pixels.h"
 
 namespace abbe {
 namespace {
@@ -176,9 +177,12 @@ std::vector<double> tabulate(const ResponseUnknowns& unknowns, std::size_t size)
 }
 
 void require_samples(const std::vector<ResponseSample>& samples) {
-  require_for_response(samples.size() >= kMinSamples,
-                       fmt::format("only {} code values are neither black nor clipped (needed {})",
-                                   samples.size(), kMinSamples));
+  require_for_response(
+      samples.size() >= kMinSamples,
+      fmt::format(
+          "only {} code values are neither black nor clipped (needed {}): a region is either where more "
+          "than {:g} % of its pixels are, as by one defective pixel of fewer than {:.0f}",
+          samples.size(), kMinSamples, 100 * kMostDefective, 1 / kMostDefective));
 }
 
 // The first pass knows neither slopes nor the size of errors.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <iterator>
+#include <numeric>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -69,31 +71,44 @@ std::vector<Pixel> pixels_in(const PatchOutline& outline, const std::vector<Crop
   return pixels;
 }
 
-// Of the pixels that a channel has.
-PatchChannel measure(const Image& image, const ImageChannel& plane, const std::vector<Pixel>& pixels,
-                     const std::optional<double>& saturation) {
-  PatchChannel found{.pixels = pixels.size(),
-                     .lowest = std::numeric_limits<double>::infinity(),
-                     .highest = -std::numeric_limits<double>::infinity()};
-  const auto value = [&](const Pixel& pixel) {
-    return static_cast<double>(
-        plane.values[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(image.width) +
-                     static_cast<std::size_t>(pixel.x)]);
-  };
-  for (const Pixel& pixel : pixels) {
-    found.mean += value(pixel);
-    found.lowest = std::min(found.lowest, value(pixel));
-    found.highest = std::max(found.highest, value(pixel));
-    found.saturated += saturation && value(pixel) >= *saturation ? 1 : 0;
-  }
-  const auto count = static_cast<double>(pixels.size());
-  found.mean /= count;
+// Mean and deviation of values, of which there is one at least.
+void average(const std::vector<double>& values, PatchChannel& found) {
+  const auto count = static_cast<double>(values.size());
+  found.mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
   double squares = 0;
-  for (const Pixel& pixel : pixels) squares += (value(pixel) - found.mean) * (value(pixel) - found.mean);
+  for (const double value : values) squares += (value - found.mean) * (value - found.mean);
   if (count > 1) found.deviation = std::sqrt(squares / (count - 1));
-  std::vector<double> values;
-  std::transform(pixels.begin(), pixels.end(), std::back_inserter(values), value);
-  found.median = grouped_median(std::move(values));
+}
+
+// Of the pixels that a channel has, in its plane.
+PatchChannel measure(int width, const MeasuredPlanes& planes, std::size_t plane,
+                     const std::vector<Pixel>& pixels) {
+  const ImageChannel& measured = *planes.planes[plane];
+  const ImageChannel& exposed = planes.exposed.empty() ? measured : *planes.exposed[plane];
+  const auto value = [width](const ImageChannel& channel, const Pixel& pixel) {
+    return static_cast<double>(
+        channel.values[static_cast<std::size_t>(pixel.y) * static_cast<std::size_t>(width) +
+                       static_cast<std::size_t>(pixel.x)]);
+  };
+  const auto is_black = [&](const Pixel& pixel) {
+    return planes.black && value(exposed, pixel) <= *planes.black;
+  };
+  const auto is_saturated = [&](const Pixel& pixel) {
+    return planes.saturation && value(exposed, pixel) >= *planes.saturation;
+  };
+  PatchChannel found{.pixels = pixels.size()};
+  found.black = static_cast<std::size_t>(std::count_if(pixels.begin(), pixels.end(), is_black));
+  found.saturated = static_cast<std::size_t>(std::count_if(pixels.begin(), pixels.end(), is_saturated));
+  std::vector<double> all;
+  std::vector<double> sound;
+  for (const Pixel& pixel : pixels) {
+    all.push_back(value(measured, pixel));
+    const bool is_defective =
+        (is_black(pixel) && !found.is_black()) || (is_saturated(pixel) && !found.is_saturated());
+    if (!is_defective) sound.push_back(all.back());
+  }
+  average(sound, found);
+  found.median = grouped_median(std::move(all));
   return found;
 }
 
@@ -117,7 +132,7 @@ std::vector<PatchValues> measure_patches(const Image& image, const MeasuredPlane
         throw Error(ErrorCode::input, outline.name,
                     fmt::format("its middle holds no whole pixel{}: the film is too coarse",
                                 planes.mosaic ? " of channel " + planes.channels[k] : ""));
-      patch.channels.push_back(measure(image, *planes.planes[planes.mosaic ? 0 : k], own, planes.saturation));
+      patch.channels.push_back(measure(image.width, planes, planes.mosaic ? 0 : k, own));
     }
     patches.push_back(std::move(patch));
   }

@@ -11,6 +11,7 @@
 
 #include "io/image.h"
 #include "sensor/film/crop.h"
+#include "sensor/film/defective_pixels.h"
 #include "sensor/response/mosaic.h"
 
 namespace abbe {
@@ -22,15 +23,23 @@ struct PatchOutline {
   std::array<Imath::V2d, 4> corners;
 };
 
-/// What an image holds of a patch in one channel.
+/// What an image holds of a patch in one channel. Black and saturated pixels are left out of mean and
+/// deviation where there are so few of them that they are taken for defective (`exceeds_defects`).
 struct PatchChannel {
-  std::size_t pixels = 0;
+  std::size_t pixels = 0;  ///< All of them.
   double mean = 0;
-  double median = 0;                     ///< As `grouped_median` has it.
+  double median = 0;                     ///< Of all of them, as `grouped_median` has it.
   std::optional<double> deviation = {};  ///< Standard deviation of the pixels; nothing of a single one.
-  double lowest = 0;
-  double highest = 0;
-  std::size_t saturated = 0;  ///< Pixels at or above saturation.
+  std::size_t black = 0;                 ///< Pixels at or below black.
+  std::size_t saturated = 0;             ///< Pixels at or above saturation.
+
+  /// Whether more pixels are there than defective ones.
+  [[nodiscard]] bool is_black() const {
+    return exceeds_defects(static_cast<double>(black), static_cast<double>(pixels));
+  }
+  [[nodiscard]] bool is_saturated() const {
+    return exceeds_defects(static_cast<double>(saturated), static_cast<double>(pixels));
+  }
 };
 struct PatchValues {
   std::string name;
@@ -45,6 +54,10 @@ struct MeasuredPlanes {
   std::optional<Mosaic> mosaic;
   std::optional<double> saturation;  ///< Values from which a pixel counts as saturated.
   std::vector<Crop> rendered = {};   ///< The pixels that hold anything, as disjoint areas; of none all do.
+  std::optional<double> black = {};  ///< Values up to which a pixel counts as black.
+  /// The planes before they were divided by a flat, which tell what is black or saturated; of none `planes`
+  /// do.
+  std::vector<const ImageChannel*> exposed = {};
 };
 
 /// Measures the pixels that lie wholly within each outline. Throws Error{input} naming a patch that reaches

@@ -240,5 +240,17 @@ TEST(ChartTargets, ReflectancesCannotBeMadeFromColours) {
   EXPECT_NE(diagnostics.text().find("states colours and not reflectances"), std::string::npos);
 }
 
+// Hot pixels are saturated whatever the light is.
+TEST_F(Measured, PatchesOfFewDefectivePixelsCount) {
+  const std::string columns = "patch,R,G,B,R_pixels,G_pixels,B_pixels,R_saturated,G_saturated,B_saturated\n";
+  const auto measured = read(columns + "sound,1,1,1,200,400,200,2,4,0\nbright,1,1,1,200,400,200,0,5,0\n");
+  ASSERT_TRUE(measured) << diagnostics_.text();
+  EXPECT_EQ(measured->saturated, (std::set<std::string>{"bright"}));
+  EXPECT_NE(
+      diagnostics_.text().find("expose less, or show it on more pixels where defective ones exceed 1 %"),
+      std::string::npos)
+      << diagnostics_.text();
+}
+
 }  // namespace
 }  // namespace abbe

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <random>
 
 #include <fmt/format.h>
@@ -30,6 +31,7 @@ struct Photographer {
   PlantedResponse response;
   double read = 0.001;  ///< Deviation in the dark, of full scale.
   Noise noise = Noise::of_light;
+  std::optional<double> defect = {};  ///< The code of one pixel of each region.
 
   [[nodiscard]] double pixel(double light, double normal) const {
     const double deviation = std::sqrt(light / 20000 + read * read);
@@ -61,7 +63,8 @@ class PhotographedNoise : public testing::Test {
         for (int x = 0; x < kPatches * kEdge; ++x) {
           const double code =
               camera.pixel(values[static_cast<std::size_t>(x / kEdge)] * time, normal(random));
-          image.channels[0].values.push_back(static_cast<float>(code));
+          const bool is_defective = camera.defect && x % kEdge == 5 && y == 5;
+          image.channels[0].values.push_back(static_cast<float>(is_defective ? *camera.defect : code));
         }
       const std::string name = fmt::format("{}.exr", time);
       write_exr(folder_ / name, image);
@@ -133,6 +136,30 @@ TEST_F(PhotographedNoise, OfLightBeforeTheCurveLeavesNoBias) {
 TEST_F(PhotographedNoise, OfCodesBehindTheCurveLeavesNoBias) {
   expect_unbiased("gamma:2.2", 0.001, Noise::of_codes);
   expect_unbiased("linear", 0.001, Noise::of_codes);
+}
+
+// One of the hundred pixels of each region, at either end.
+TEST_F(PhotographedNoise, OneDefectivePixelOfARegionIsNoFault) {
+  Photographer camera{PlantedResponse("gamma:2.2")};
+  const ExposureSeries sound = photograph(camera, 1);
+  const double worst = worst_error(recover_response(sound), camera.response);
+  for (const double defect : {0.0, 1.0}) {
+    camera.defect = defect;
+    const ExposureSeries series = photograph(camera, 1);
+    double shift = 0;
+    double samples = 0;
+    for (std::size_t i = 0; i < series.codes.size(); ++i)
+      for (std::size_t j = 0; j < series.times_s.size(); ++j) {
+        const double deviation = sound.deviations[i][j];
+        if (!(sound.codes[i][j] > 0.1 && sound.codes[i][j] < 0.95)) continue;  // beside what noise does
+        shift += (series.codes[i][j] - sound.codes[i][j]) / deviation;
+        samples += 1;
+        EXPECT_NEAR(series.deviations[i][j], deviation, 0.1 * deviation) << defect;
+      }
+    // Half a pixel's place in a normal law, sqrt(pi / 2) / 100, as a share of the median's sqrt(pi / 2) / 10.
+    EXPECT_NEAR(std::abs(shift / samples), 0.1, 0.05) << defect;
+    EXPECT_LT(worst_error(recover_response(series), camera.response), worst + 5e-4) << defect;
+  }
 }
 
 }  // namespace
