@@ -48,13 +48,13 @@ void add_speed(const Scene& scene, double area_m2, FilmIdentity& identity) {
   if (scene.readout) identity[kIsoSpeedKey] = single(saturation_speed(*scene.readout, *sensitivity));
 }
 
-// How pictures show the film, or why none can.
+// How pictures show the film, or why none can; that a table is missing is no property of it.
 void add_display(const Scene& scene, FilmIdentity& identity) {
   try {
     identity["to_xyz_d65"] = to_text(display_of(scene).to_xyz_d65());
   } catch (const Error& error) {
     if (error.code == ErrorCode::internal) throw;
-    identity[kNoPictureKey] = error.what();
+    if (error.code == ErrorCode::usage) identity[kNoPictureKey] = error.what();
   }
 }
 

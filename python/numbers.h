@@ -65,11 +65,16 @@ inline void refuse_kinds(const pybind11::handle& object, std::string_view kinds)
 }
 
 /// Throws Error{usage} for complex numbers, dates and spans of time, as numpy makes real numbers of them, in
-/// arrays of objects too, where further arrays of objects are none.
+/// arrays of objects too, where further arrays of objects are none unless they hold one.
 inline void require_real(const pybind11::array& array) {
   refuse_kinds(array, "cmM");
   if (numpy_kind(array) != 'O') return;
-  for (const pybind11::handle element : array.attr("flat")) refuse_kinds(element, "cmMO");
+  for (const pybind11::handle element : array.attr("flat")) {
+    if (pybind11::isinstance<pybind11::array>(element) && element.attr("ndim").equal(pybind11::int_(0)))
+      require_real(pybind11::reinterpret_borrow<pybind11::array>(element));
+    else
+      refuse_kinds(element, "cmMO");
+  }
 }
 
 }  // namespace abbe::python
@@ -100,7 +105,10 @@ struct pyobject_caster<abbe::python::Numbers> {
 template <>
 struct type_caster<abbe::python::Real> {
   bool load(const handle& object, bool convert) {
-    abbe::python::refuse_kinds(object, "cmM");
+    if (isinstance<array>(object))
+      abbe::python::require_real(reinterpret_borrow<array>(object));
+    else
+      abbe::python::refuse_kinds(object, "cmM");
     make_caster<double> number;
     if (!number.load(object, convert)) return false;
     value = {cast_op<double>(number)};

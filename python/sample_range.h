@@ -17,7 +17,9 @@ template <>
 struct type_caster<abbe::SampleRange> {
   bool load(const handle& object, bool convert) {
     make_caster<std::pair<std::uint64_t, std::uint64_t>> pair;
-    if (isinstance<bytes>(object) || !pair.load(ends_of(object), convert))
+    const bool is_bytes =
+        isinstance<bytes>(object) || isinstance<bytearray>(object) || isinstance<memoryview>(object);
+    if (is_bytes || !pair.load(ends_of(object), convert))
       throw type_error(fmt::format(
           "sample_range: expected (first, last), whole numbers from 0 on, or a range of step 1 (got {})",
           std::string(repr(object))));

@@ -103,6 +103,20 @@ TEST_F(InputFiles, TablesAndConfigurationsAreNotRenderedOver) {
       "users/config.ocio");
 }
 
+// Pictures are fitted to its patches; films are not.
+TEST_F(InputFiles, FilmsAndPartsNeedNoChart) {
+  fs::copy(data_directory(), folder_ / "data", fs::copy_options::recursive);
+  ASSERT_EQ(fs::remove(folder_ / "data/reflectance/colorchecker24_babelcolor_average.csv"), true);
+  for (const char* file : {"a.exr", "a.abbepart"}) {
+    const Outcome run = here(fmt::format(
+        "ABBE_DATA=$PWD/data " ABBE_BINARY
+        " render wall.json --quiet --spp 1 -o {} --set "
+        R"('/sensor={{"resolution":[2,1],"channels":{{"a":{{"band":[400,500]}},"b":{{"band":[500,600]}},"c":{{"band":[600,700]}}}}}}')",
+        file));
+    EXPECT_EQ(run.code, 0) << run.err;
+  }
+}
+
 TEST_F(InputFiles, AreKeptByEveryCommand) {
   ASSERT_EQ(here(ABBE_BINARY " render wall.json --quiet -o one.abbepart --sample-range 0:1").code, 0);
   ASSERT_EQ(here(ABBE_BINARY " render wall.json --quiet -o two.abbepart --sample-range 1:2").code, 0);

@@ -151,6 +151,11 @@ class Queries(Test):
             with self.subTest(kind=kind), self.assertRaisesRegex(abbe.UsageError, rf"^expected real numbers \(got {kind}, allowed whole and floating-point numbers\)$"):
                 abbe.ior("N-BK7", wrong)
 
+    def test_an_object_that_is_an_array_of_one_number_is_one(self):
+        one = numpy.array(500.0, dtype=object)
+        self.assertEqual(abbe.ior("N-BK7", [one])[0], abbe.ior("N-BK7", one))
+        self.assertEqual(abbe.ior("N-BK7", one), abbe.ior("N-BK7", 500.0))
+
     def test_angles_that_are_spans_of_time_are_refused(self):
         self.assertEqual(abbe.prism_deviation("N-SF11", 500.0, numpy.float32(60), numpy.int64(70)), abbe.prism_deviation("N-SF11", 500.0, 60, 70))
         for call in (lambda wrong: abbe.prism_deviation("N-SF11", 500.0, apex_deg=wrong), lambda wrong: abbe.prism_deviation("N-SF11", 500.0, incidence_deg=wrong),
@@ -158,6 +163,9 @@ class Queries(Test):
             for wrong in (numpy.timedelta64(50, "ns"), numpy.timedelta64(50, "s"), numpy.complex128(50)):
                 with self.assertRaises(abbe.UsageError) as caught:
                     call(wrong)
+                self.assertEqual(str(caught.exception), f"expected real numbers (got {wrong.dtype}, allowed whole and floating-point numbers)")
+                with self.assertRaises(abbe.UsageError) as caught:
+                    call(numpy.array(wrong, dtype=object))
                 self.assertEqual(str(caught.exception), f"expected real numbers (got {wrong.dtype}, allowed whole and floating-point numbers)")
 
     def test_what_is_no_spectrum_is_refused(self):

@@ -127,7 +127,7 @@ class Renders(Test):
         numpy.testing.assert_array_equal(abbe.merge([abbe.render(scene, sample_range=range(i, i + 2)) for i in (0, 2)]).array, abbe.render(scene).array)
         with self.assertRaisesRegex(abbe.UsageError, r"^sample_range: got \(2, 2\), allowed first < last"):
             abbe.render(scene, sample_range=range(2, 2))
-        for wrong in (range(0, 4, 2), range(1, 3, 2), range(1, -1, -1), range(-1, 2), b"\0\2", "02", {0, 2}, (0, 1, 2), (0, 1.5), 3):
+        for wrong in (range(0, 4, 2), range(1, 3, 2), range(1, -1, -1), range(-1, 2), b"\0\2", bytearray(b"\0\2"), memoryview(b"\0\2"), "02", {0, 2}, (0, 1, 2), (0, 1.5), 3):
             with self.subTest(wrong=wrong), self.assertRaises(TypeError) as caught:
                 abbe.render(scene, sample_range=wrong)
             self.assertEqual(str(caught.exception), f"sample_range: expected (first, last), whole numbers from 0 on, or a range of step 1 (got {wrong!r})")
