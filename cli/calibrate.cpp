@@ -30,11 +30,13 @@ std::vector<fs::path> output_files(const CalibrateOptions& options) {
                                 : calibration_files(options.output, options.illuminants);
 }
 
-// As names of OpenColorIO's colour spaces, which ignore case: a later light would replace an earlier one.
-void require_named_once(const std::string& illuminants) {
+// In files as names of OpenColorIO's colour spaces, which ignore case: a later light would replace an earlier
+// one.
+void require_named_once(const std::string& illuminants, bool are_written) {
   std::map<std::string, std::string> seen;
   for (const std::string& illuminant : split(illuminants, ',')) {
-    const auto [earlier, is_new] = seen.emplace(lower_case(illuminant), illuminant);
+    const auto [earlier, is_new] =
+        seen.emplace(are_written ? lower_case(illuminant) : illuminant, illuminant);
     if (is_new) continue;
     if (earlier->second == illuminant)
       throw Error(ErrorCode::usage, "--illuminant", fmt::format("{} is named twice", illuminant));
@@ -138,7 +140,7 @@ int calibrate(const CalibrateOptions& options) {
   if ((is_real || options.all_cameras) && options.illuminants.find(',') != std::string::npos)
     throw Error(ErrorCode::usage, "--illuminant",
                 fmt::format("got {}, allowed one light, or several with --camera", options.illuminants));
-  require_named_once(options.illuminants);
+  require_named_once(options.illuminants, !options.output.empty());
   std::vector<fs::path> inputs =
       files_among({options.camera, options.chart, options.test, options.measured.string()});
   for (const std::string& illuminant : split(options.illuminants, ','))

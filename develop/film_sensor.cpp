@@ -173,8 +173,7 @@ std::optional<double> common_exposure(const FilmSensor& sensor) {
 void require_display(const FilmSensor& sensor) {
   if (sensor.display) return;
   if (!sensor.no_picture.empty()) throw Error(ErrorCode::usage, "", sensor.no_picture);
-  throw Error(ErrorCode::usage, "--display",
-              "a picture needs a sensor of one or three channels, and a light");
+  throw Error(ErrorCode::usage, "film", "a picture needs a sensor of one or three channels, and a light");
 }
 
 void require_planes(const Image& film, const FilmSensor& sensor, const std::filesystem::path& path) {

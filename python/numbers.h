@@ -70,7 +70,7 @@ inline void require_real(const pybind11::array& array) {
   refuse_kinds(array, "cmM");
   if (numpy_kind(array) != 'O') return;
   for (const pybind11::handle element : array.attr("flat")) {
-    if (pybind11::isinstance<pybind11::array>(element) && element.attr("ndim").equal(pybind11::int_(0)))
+    if (pybind11::isinstance<pybind11::array>(element) && element.attr("ndim").cast<int>() == 0)
       require_real(pybind11::reinterpret_borrow<pybind11::array>(element));
     else
       refuse_kinds(element, "cmMO");

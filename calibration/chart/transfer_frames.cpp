@@ -115,6 +115,8 @@ Moments moments(const Frame& frame, std::size_t channel) {
     }
   double row_squares = 0;
   for (const auto& [y, above] : of_rows) row_squares += above * above;
+  const auto rows = static_cast<double>(of_rows.size());
+  if (rows > 1) row_squares *= rows / (rows - 1);
   return {mean, std::max(squares, row_squares) / n / n, of_rows.size()};
 }
 

@@ -17,9 +17,10 @@ namespace {
 
 constexpr double kLossScale = 0.05;  // colour difference below which the loss turns quadratic
 constexpr std::size_t kPatchesPerTerm = 4;
-// How far channels must differ, of their largest value: films are floats, whose rounding, 6e-8 of that value,
-// would be the colours of channels that differ less. Measured filters differ by 8e-4 and more, bands of 10 nm
-// that lie 1 nm apart by 8e-5.
+// How far channels must differ, of their largest value, for a correction that tells them apart by more than
+// the inverse: films are floats, whose rounding, 6e-8 of that value, would be the colours of channels that
+// differ less. Measured filters differ by 8e-4 and more, bands of 10 nm that lie 1 nm apart by 8e-5. In the
+// light of a line all channels differ by next to nothing, and so do the colours.
 constexpr double kLeastDifference = 1e-6;
 
 // The columns of all terms but the last, which follows from the white.
@@ -139,11 +140,20 @@ void require_determined(const Eigen::MatrixXd& a, Eigen::Index rank) {
                           a.rows(), rank, a.cols()));
 }
 
-// Least squares solution of a x = b, column by column.
-Eigen::MatrixXd solve_least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+// Least squares solution of a x = b, column by column, a being made of `channels`, whose values go up to
+// `largest`, or of their differences. Where it makes colours of next to nothing, channels that are alike are
+// none: what is left between them is rounding.
+Eigen::MatrixXd solve_least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
+                                    const Eigen::MatrixXd& channels, double largest) {
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
+  const Eigen::MatrixXd solution = qr.solve(b);
+  const bool is_large = !(solution.lpNorm<Eigen::Infinity>() < 1 / kLeastDifference);
+  if (qr.rank() == a.cols() && a.allFinite() && !is_large) return solution;
+  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> colours(channels);
+  colours.setThreshold(kLeastDifference * largest / colours.maxPivot());
+  require_determined(channels, colours.rank());
   require_determined(a, qr.rank());
-  return qr.solve(b);
+  return solution;
 }
 
 Eigen::MatrixXd rows_of(const std::vector<std::array<double, 3>>& values) {
@@ -153,26 +163,16 @@ Eigen::MatrixXd rows_of(const std::vector<std::array<double, 3>>& values) {
   return rows;
 }
 
-// Columns of values up to `largest`, or of their differences: those of equal channels are rounding, which is
-// not to pass for colours.
-void require_independent(const Eigen::MatrixXd& columns, double largest) {
-  Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(columns);
-  qr.setThreshold(kLeastDifference * largest / qr.maxPivot());
-  require_determined(columns, qr.rank());
-}
-
 }  // namespace
 
 Matrix3 least_squares_matrix(const PatchColors& colors) {
   const Eigen::MatrixXd raw = rows_of(colors.raw);
-  require_independent(raw, raw.lpNorm<Eigen::Infinity>());
-  const Eigen::MatrixXd x = solve_least_squares(raw, rows_of(colors.xyz));
+  const Eigen::MatrixXd x = solve_least_squares(raw, rows_of(colors.xyz), raw, raw.lpNorm<Eigen::Infinity>());
   return {x(0, 0), x(1, 0), x(2, 0), x(0, 1), x(1, 1), x(2, 1), x(0, 2), x(1, 2), x(2, 2)};
 }
 
 ColorCorrection white_preserving_least_squares(const PatchColors& colors, CorrectionModel model) {
   const Eigen::MatrixXd raw = rows_of(colors.raw);
-  require_independent(raw.leftCols(2).colwise() - raw.col(2), raw.lpNorm<Eigen::Infinity>());
   const Eigen::Index n = raw.rows();
   const auto free_terms = static_cast<Eigen::Index>(term_count(model)) - 1;
   Eigen::MatrixXd a(n, free_terms);
@@ -188,7 +188,9 @@ ColorCorrection white_preserving_least_squares(const PatchColors& colors, Correc
     a.row(i) *= weight;
     b.row(i) *= weight;
   }
-  const Eigen::MatrixXd columns = solve_least_squares(a, b).transpose();
+  const Eigen::MatrixXd columns =
+      solve_least_squares(a, b, raw.leftCols(2).colwise() - raw.col(2), raw.lpNorm<Eigen::Infinity>())
+          .transpose();
   return correction_of(model, {columns.data(), columns.data() + columns.size()}, colors.white);
 }
 

@@ -151,10 +151,11 @@ std::pair<CorrectionFit, Matrix3> fit_channels(const std::vector<Channel>& chann
     return {std::move(fit), to_xyz};
   } catch (const Error& error) {
     if (error.code != ErrorCode::input) throw;
-    throw Error(ErrorCode::usage, "display",
-                fmt::format("channels {} do not tell colours apart between 380 and 780 nm, so that no colour "
-                            "picture can be made of them: {}",
-                            fmt::join(names, ", "), error.what()));
+    throw Error(
+        ErrorCode::usage, "display",
+        fmt::format("in its light channels {} do not tell colours apart between 380 and 780 nm, so that no "
+                    "colour picture can be made of them: {}",
+                    fmt::join(names, ", "), error.what()));
   }
 }
 

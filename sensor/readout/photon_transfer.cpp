@@ -18,8 +18,9 @@ namespace {
 
 constexpr double kFitted = 0.7;  // of the signal at saturation
 constexpr double kPatternsAt = 0.5;
-constexpr double kFullDeviations = 6;  // from the mean of full pixels, as of `white_level`
-constexpr double kLeastKnown = 0.5;    // relative error from which a gain is none
+constexpr double kFull = 0.9;           // of the signal of the brightest pair, where it is full
+constexpr double kLeastKnown = 0.5;     // relative error from which a gain is none
+constexpr double kPatternNoise = 0.25;  // of a pattern, which extrapolated darkness may have
 constexpr const char* kNoLight =
     "no lit pair between darkness and saturation: their codes scatter no more than those of the dark pairs";
 
@@ -188,30 +189,6 @@ struct WeightedPair {
   double weight;
 };
 
-// Darkness after such an exposure, pixel by pixel: that of the pairs of this very exposure time, else what
-// the line through all of them has there, since the dark signal of each pixel grows in proportion to time.
-std::vector<WeightedPair> dark_sum(std::span<const FlatPair> pairs, const std::vector<PairMoments>& dark,
-                                   double exposure_s) {
-  std::vector<WeightedPair> equal;
-  for (const FlatPair& pair : pairs)
-    if (pair.exposure_s == exposure_s) equal.push_back({&pair, 1});
-  for (WeightedPair& term : equal) term.weight /= static_cast<double>(equal.size());
-  if (!equal.empty()) return equal;
-  const std::vector<double> weights = line_weights(dark, exposure_s);
-  std::vector<WeightedPair> line;
-  for (std::size_t j = 0; j < pairs.size(); ++j) line.push_back({&pairs[j], weights[j]});
-  return line;
-}
-
-// A lit pair less darkness of its exposure time.
-std::vector<WeightedPair> light_sum(std::span<const FlatPair> dark_pairs,
-                                    const std::vector<PairMoments>& dark, const FlatPair& lit) {
-  std::vector<WeightedPair> sum = dark_sum(dark_pairs, dark, lit.exposure_s);
-  for (WeightedPair& term : sum) term.weight = -term.weight;
-  sum.push_back({&lit, 1});
-  return sum;
-}
-
 // The variance of a pattern [DN^2]: how the sum of the first frames varies over the pixels together with that
 // of the second ones, whose noise is another. It is below 0 where noise alone makes it so.
 double pattern_variance(const std::vector<WeightedPair>& sum, const std::vector<CodeLevel>& levels) {
@@ -234,11 +211,42 @@ double pattern_variance(const std::vector<WeightedPair>& sum, const std::vector<
   return (products - first * second / n) / (n - 1);
 }
 
+// The pattern [DN^2] of darkness after such an exposure, pixel by pixel, or of a lit pair less that darkness:
+// that of the pairs of this very exposure time, else what the line through all of them has there, since the
+// dark signal of each pixel grows in proportion to time. Where the line adds too much noise, that of the pair
+// nearest in time.
+double pattern(std::span<const FlatPair> pairs, const std::vector<PairMoments>& dark,
+               const std::vector<CodeLevel>& levels, double exposure_s, const FlatPair* lit) {
+  const auto variance = [&](std::vector<WeightedPair> sum) {
+    for (WeightedPair& term : sum) term.weight = -term.weight;
+    if (lit != nullptr) sum.push_back({lit, 1});
+    return pattern_variance(sum, levels);
+  };
+  std::vector<WeightedPair> equal;
+  for (const FlatPair& pair : pairs)
+    if (pair.exposure_s == exposure_s) equal.push_back({&pair, 1});
+  for (WeightedPair& term : equal) term.weight /= static_cast<double>(equal.size());
+  if (!equal.empty()) return variance(std::move(equal));
+
+  const std::vector<double> weights = line_weights(dark, exposure_s);
+  std::vector<WeightedPair> line;
+  double noise = 0;  // of a frame's sum, and so of the covariance of two times the root of all pixels
+  for (std::size_t j = 0; j < pairs.size(); ++j) {
+    line.push_back({&pairs[j], weights[j]});
+    noise += weights[j] * weights[j] * dark[j].temporal;
+  }
+  noise /= std::sqrt(static_cast<double>(pairs.front().first.size()));
+  const auto nearer = [&](const FlatPair& a, const FlatPair& b) {
+    return std::abs(a.exposure_s - exposure_s) < std::abs(b.exposure_s - exposure_s);
+  };
+  const double by_nearest = variance({{&*std::min_element(pairs.begin(), pairs.end(), nearer), 1}});
+  return noise > kPatternNoise * by_nearest ? by_nearest : variance(std::move(line));
+}
+
 // What pairs say, as long as no pixel is full where it should not be.
 struct Analysis {
   PhotonTransfer transfer;
-  std::size_t half;  // the lit pair nearest to half of saturation
-  double full_dn;    // what full pixels have at least
+  double full_dn;  // what full pixels have at least
 };
 
 Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair> lit_pairs, int bits,
@@ -281,35 +289,30 @@ Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair>
   if (full && brightest.mean < static_cast<double>(highest_code) - 1)
     full_well = (brightest.mean - dark_mean.at_zero) * gain;
 
-  const double scatter = root(brightest.temporal + brightest.spatial);
-  const double full_dn = full ? brightest.mean - kFullDeviations * scatter : levels[highest_code].signal_dn;
+  const double full_dn = full ? dark_mean.at_zero + kFull * (brightest.mean - dark_mean.at_zero)
+                              : levels[highest_code].signal_dn;
   const auto from_half = [&](const PairMoments& m) { return std::abs(signal(m) - kPatternsAt * saturation); };
   const auto half_pair = std::min_element(lit.begin(), lit.end(), by(from_half));
-  const auto half = static_cast<std::size_t>(half_pair - lit.begin());
-  const auto light = light_sum(dark_pairs, dark, lit_pairs[half]);
+  const FlatPair& half = lit_pairs[static_cast<std::size_t>(half_pair - lit.begin())];
   std::vector<TransferPoint> points;
   for (const PairMoments& m : lit) points.push_back({signal(m), m.temporal - dark_variance.at(m.exposure_s)});
   const double read_noise = root(read_variance) * gain;
   return {
       {gain, read_noise, dark_mean.slope * gain,
-       100 * root(pattern_variance(light, levels)) / signal(*half_pair),
-       root(pattern_variance(dark_sum(dark_pairs, dark, 0), levels)) * gain, full_well, std::move(points),
+       100 * root(pattern(dark_pairs, dark, levels, half.exposure_s, &half)) / signal(*half_pair),
+       root(pattern(dark_pairs, dark, levels, 0, nullptr)) * gain, full_well, std::move(points),
        errors.gain * gain, errors.read_noise ? std::optional(*errors.read_noise * read_noise) : std::nullopt},
-      half,
       full_dn};
 }
 
 // Whether each pixel is full in one of these pairs.
-std::vector<bool> full_pixels(std::span<const FlatPair> dark, const FlatPair& half,
-                              const std::vector<CodeLevel>& levels, double full_dn) {
-  std::vector<bool> full(half.first.size(), false);
-  const auto add = [&](const FlatPair& pair) {
+std::vector<bool> full_pixels(std::span<const FlatPair> pairs, const std::vector<CodeLevel>& levels,
+                              double full_dn) {
+  std::vector<bool> full(pairs.front().first.size(), false);
+  for (const FlatPair& pair : pairs)
     for (std::size_t i = 0; i < full.size(); ++i)
-      if (std::max(levels[pair.first[i]].signal_dn, levels[pair.second[i]].signal_dn) >= full_dn)
+      if (std::min(levels[pair.first[i]].signal_dn, levels[pair.second[i]].signal_dn) >= full_dn)
         full[i] = true;
-  };
-  for (const FlatPair& pair : dark) add(pair);
-  add(half);
   return full;
 }
 
@@ -360,7 +363,7 @@ PhotonTransfer photon_transfer(std::span<const FlatPair> dark_pairs, std::span<c
   require_frames(dark_pairs, lit_pairs);
   Analysis found = analyse(dark_pairs, lit_pairs, bits, levels);
   // Hot pixels that are full tell neither how their dark signal grows nor how it scatters.
-  const std::vector<bool> full = full_pixels(dark_pairs, lit_pairs[found.half], levels, found.full_dn);
+  const std::vector<bool> full = full_pixels(dark_pairs, levels, found.full_dn);
   const auto full_ones = static_cast<std::size_t>(std::count(full.begin(), full.end(), true));
   if (full_ones == 0) return std::move(found.transfer);
   if (full_ones + 2 > full.size()) refuse("all pixels of a dark pair are full: shorter exposures are needed");

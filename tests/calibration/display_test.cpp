@@ -279,6 +279,15 @@ TEST(Display, UsesAUsersConfigurationThatKnowsAces) {
   std::filesystem::remove_all(folder);
 }
 
+// Sodium light, all but one colour: what channels differ by in it is no rounding.
+TEST(Display, ShowsTheLightOfALine) {
+  const Curve line({{589, 0}, {589, 1}, {590, 1}, {590, 0}});
+  const DisplayTransform display = make_display(test::camera(), line);
+  const Matrix3 to_xyz = display.to_xyz_d65();
+  const PatchColors patches = integrate(test::chart(), test::camera(), line);
+  for (std::size_t i = 0; i < patches.raw.size(); ++i) EXPECT_GT(multiply(to_xyz, patches.raw[i])[1], 0) << i;
+}
+
 TEST(Display, RefusesWhatItCannotShow) {
   const Curve light = test::illuminant("D65");
   const std::vector<Channel> two(2, energy_channel("G", band(500, 600)));
@@ -289,7 +298,7 @@ TEST(Display, RefusesWhatItCannotShow) {
     for (const char* name : {"a", "b", "c"}) blind.push_back(energy_channel(name, band(from_nm, 800)));
     test::expect_error(
         [&] { static_cast<void>(make_display(blind, light)); }, ErrorCode::usage,
-        "display: channels a, b, c do not tell colours apart between 380 and 780 nm, so that no "
+        "display: in its light channels a, b, c do not tell colours apart between 380 and 780 nm, so that no "
         "colour picture can be made of them: ");
   }
   const DisplayTransform display({"R", "G", "B"}, Matrix3());

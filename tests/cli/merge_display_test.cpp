@@ -93,8 +93,9 @@ TEST(MergeDisplay, ChannelsThatShowNoColoursAreToldAlike) {
                              abbe("merge " + part + " -o " + file("merged.exr") + shown)}) {
     EXPECT_EQ(run.code, 2);
     EXPECT_NE(
-        run.err.find("abbe: display: channels a, b, c do not tell colours apart between 380 and 780 nm, "
-                     "so that no colour picture can be made of them: "),
+        run.err.find(
+            "abbe: display: in its light channels a, b, c do not tell colours apart between 380 and 780 nm, "
+            "so that no colour picture can be made of them: "),
         std::string::npos)
         << run.err;
   }

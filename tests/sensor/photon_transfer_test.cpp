@@ -5,6 +5,7 @@
 #include <cmath>
 #include <deque>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "io/error.h"
@@ -24,7 +25,9 @@ struct Flats {
   std::size_t pixels = kPixels;
 
   void add(double electrons, double exposure_s) {
-    const std::vector<float> expected(pixels, static_cast<float>(electrons));
+    add(std::vector<float>(pixels, static_cast<float>(electrons)), exposure_s);
+  }
+  void add(const std::vector<float>& expected, double exposure_s) {
     for (int i = 0; i < 2; ++i) frames.push_back(read_out(readout, expected, {exposure_s, 20, frame++}));
     pairs.push_back({exposure_s, frames[frames.size() - 2].dn, frames.back().dn});
   }
@@ -228,6 +231,60 @@ void expect_refusal(const std::vector<FlatPair>& dark, const std::vector<FlatPai
     ADD_FAILURE() << "nothing is refused";
   } catch (const Error& error) {
     EXPECT_NE(std::string(error.what()).find(text), std::string::npos) << error.what();
+  }
+}
+
+// Of light that falls off to a tenth, of which the middle alone fills the wells of the brightest pair.
+TEST(PhotonTransfer, ShadedFlatsHaveTheGainOfEvenOnes) {
+  const Readout readout = with_hot_pixels();
+  Bench bench{{readout}, {readout}};
+  bench.dark.pixels = 65536;
+  bench.lit.frame = 100;
+  for (const double seconds : {0.01, 10.0}) bench.dark.add(0, seconds);
+  for (const double share : {0.05, 0.2, 0.35, 0.5, 0.65, 2.0, 3.0}) {
+    std::vector<float> expected;
+    for (std::size_t i = 0; i < bench.dark.pixels; ++i)
+      expected.push_back(static_cast<float>(share * 7500 * std::pow(0.1, static_cast<double>(i) / 65536)));
+    bench.lit.add(expected, 0.01);
+  }
+  const PhotonTransfer found = transfer(bench, readout.bits);
+  EXPECT_NEAR(found.gain_e_per_dn, readout.gain_e_per_dn, 0.02);
+  EXPECT_NEAR(found.dsnu_e, readout.dsnu_e, 0.25);
+}
+
+// The well holds twenty times the read noise.
+TEST(PhotonTransfer, AWellOfFewElectronsLeavesNoPixelOut) {
+  Readout readout = with_hot_pixels();
+  readout.gain_e_per_dn = 1;
+  readout.full_well_e = 200;
+  readout.read_noise_e = 10;
+  readout.dsnu_e = 15;
+  readout.hot_pixels_percent = 0;
+  Bench bench{{readout}, {readout}};
+  bench.dark.pixels = bench.lit.pixels = 65536;
+  bench.lit.frame = 100;
+  for (const double seconds : {0.01, 1.0}) bench.dark.add(0, seconds);
+  for (const double electrons : {20.0, 60.0, 100.0, 130.0, 260.0}) bench.lit.add(electrons, 0.01);
+  const PhotonTransfer found = transfer(bench, readout.bits);
+  EXPECT_NEAR(found.gain_e_per_dn, 1, 0.05);
+  EXPECT_NEAR(found.read_noise_e, 10, 0.4);
+  EXPECT_NEAR(found.dsnu_e, 15, 0.3);
+}
+
+// A line through darkness that is told from afar by times next to each other is noise.
+TEST(PhotonTransfer, DarknessIsNotExtrapolatedIntoNoise) {
+  Readout readout = with_hot_pixels();
+  readout.hot_pixels_percent = 0;
+  for (const auto& [dark_s, lit_s] :
+       {std::pair{std::vector{5.0, 6.0}, 0.01}, {{10.0, 10.5}, 0.01}, {{0.01, 1.0}, 100.0}}) {
+    Bench bench{{readout}, {readout}};
+    bench.dark.pixels = bench.lit.pixels = 65536;
+    bench.lit.frame = 100;
+    for (const double seconds : dark_s) bench.dark.add(0, seconds);
+    for (const double share : {0.1, 0.2, 0.35, 0.5, 0.65, 1.3}) bench.lit.add(share * 7500, lit_s);
+    const PhotonTransfer found = transfer(bench, readout.bits);
+    EXPECT_NEAR(found.prnu_percent, 1, 0.1) << dark_s.front() << " s";
+    EXPECT_NEAR(found.dsnu_e, 2, 0.2) << dark_s.front() << " s";
   }
 }
 
