@@ -199,8 +199,7 @@ TEST(Calibrate, WritesConfigurationAndReportForEachLight) {
                            "camera_A_to_aces.clf"})
     EXPECT_GT(std::filesystem::file_size(folder / name), 1000U) << name;
   const auto report = nlohmann::json::parse(read_file(folder / "report.json"));
-  EXPECT_GT(report["bake_dE00_max"], 0.2) << "dark values are among those that it is the largest of";
-  EXPECT_LT(report["bake_dE00_max"], 0.3);
+  EXPECT_NEAR(report["bake_dE00_max"].get<double>(), 0.25, 0.05);  // dark values are among those it is of
   ASSERT_EQ(report["calibrations"].size(), 2U);
   const auto& tungsten = report["calibrations"][1];
   EXPECT_EQ(tungsten["illuminant"], "A");

@@ -1,10 +1,8 @@
 #include <gtest/gtest.h>
 
-#include <limits>
-
-#include "scene/camera/mean_weight.h"
 #include "scenes.h"
 #include "tests/angles.h"
+#include "tests/scene/cameras.h"
 #include "tests/scene/solid_angle.h"
 
 namespace abbe {
@@ -13,65 +11,34 @@ namespace {
 using Imath::V2f;
 using Imath::V3d;
 using Imath::V3f;
+using test::bladed_lens;
+using test::disc_meter;
+using test::frame;
+using test::kWavelengths;
+using test::lens;
+using test::meter;
+using test::narrow_pinhole;
+using test::point_meter;
 using test::Random;
+using test::ray_of;
 using test::solid_angle;
+using test::sphere_meter;
+using test::turned_lens;
+using test::wide_lens;
+using test::wide_pinhole;
 
-// Looking along -y from (1, 2, 3), up is z, so right is -x.
-CameraFrame frame() {
-  return {{1, 2, 3}, {-1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
-}
-
-Camera pinhole() {
-  return {Pinhole{frame(), 0.05, 0.00625}, 6, 4, 0.005};
-}
-// The corners of its film are at 75 degrees.
-Camera wide_pinhole() {
-  return {Pinhole{frame(), 0.005, 0.001, 0.7}, 6, 4, 0.005};
-}
-// Focal length 50 mm in focus at 0.5 m, f/2.
-Camera lens() {
-  return {ThinLens{frame(), 1 / (1 / 0.05 - 1 / 0.5), 0.5, 0.0125}, 6, 4, 0.005};
-}
-// The same with five blades, and with seven that are turned and a radius of as much light.
-Camera bladed_lens() {
-  return {ThinLens{frame(), 1 / (1 / 0.05 - 1 / 0.5), 0.5, 0.0125, 1, lens::Iris(5, 0)}, 6, 4, 0.005};
-}
-Camera turned_lens() {
-  return {ThinLens{frame(), 1 / (1 / 0.05 - 1 / 0.5), 0.5, 0.02, 0.7, lens::Iris(7, 50)}, 6, 4, 0.005};
-}
-Camera wide_lens() {
-  return {ThinLens{frame(), 0.006, 0.03, 0.002, 0.7}, 6, 4, 0.005};
-}
-// The parallelogram meter's pixels are skew.
-Camera meter() {
-  return {Probe{Quad{{1, 1, 1}, {2, 0, 0}, {1, -4, 0}}}, 2, 4, 1};
-}
-Camera disc_meter() {
-  return {Probe{Disc{{1, 1, 1}, V3d(0, 0.6, 0.8), 2}, 0.3}, 2, 4, 1};
-}
-Camera sphere_meter() {
-  return {Probe{SphereSide{{{1, 1, 1}, 2}, true}}, 2, 4, 1};
-}
-Camera point_meter() {
-  return {Probe{PointOfMeter{{1, 1, 1}, {0, 0, -1}}}, 2, 4, 1};
-}
-
-const SampledSpectrum kWavelengths(550);
-CameraRay ray_of(const Camera& camera, V2f film, V2f u) {
-  return sample_ray(camera, film, u, kWavelengths, 0, 0.25F);
-}
 std::optional<CameraConnection> connection(const Camera& camera, const V3f& point, V2f u) {
   return sample_towards(camera, point, u, kWavelengths, 0.25F);
 }
 
 TEST(Camera, ImageIsUpright) {
-  const CameraRay center = ray_of(pinhole(), {3, 2}, {0, 0});
+  const CameraRay center = ray_of(narrow_pinhole(), {3, 2}, {0, 0});
   EXPECT_EQ(center.ray.origin, V3f(1, 2, 3));
   EXPECT_EQ(center.ray.direction, V3f(0, -1, 0));
   EXPECT_EQ(center.cos_film, 1);
-  const V3f right_edge = ray_of(pinhole(), {6, 2}, {0, 0}).ray.direction;
+  const V3f right_edge = ray_of(narrow_pinhole(), {6, 2}, {0, 0}).ray.direction;
   EXPECT_NEAR(right_edge.x / right_edge.y, 0.015 / 0.05, 1e-6) << "3 pixels of 5 mm at 50 mm, to the right";
-  const V3f top_edge = ray_of(pinhole(), {3, 0}, {0, 0}).ray.direction;
+  const V3f top_edge = ray_of(narrow_pinhole(), {3, 0}, {0, 0}).ray.direction;
   EXPECT_NEAR(top_edge.z / -top_edge.y, 0.010 / 0.05, 1e-6) << "upwards";
 }
 
@@ -89,9 +56,9 @@ void expect_right_is_right(const Camera& camera, float time) {
 }
 
 TEST(Camera, TellsTheRightOfItsPicture) {
-  expect_right_is_right(pinhole(), 0);
+  expect_right_is_right(narrow_pinhole(), 0);
   expect_right_is_right(wide_lens(), 0);
-  Camera turning = pinhole();
+  Camera turning = narrow_pinhole();
   turning.motion = std::make_shared<const Motion>(
       std::vector<Motion::Keyframe>{{0, {0, 1, 0}, 0, {0, 0, 0}}, {1, {0, 1, 0}, 1.2, {0, 0, 0}}});
   for (const float time : {0.0F, 0.5F, 1.0F}) expect_right_is_right(turning, time);
@@ -108,7 +75,7 @@ TEST(Camera, ExposureIsThatOfTheLensFormula) {
   const CameraRay edge = ray_of(camera, {6, 2}, {0.5F, 0.5F});
   EXPECT_NEAR(static_cast<double>(edge.weight[0]), kPi / (4 * n * n) * std::pow(cosine, 4), 1e-8);
   EXPECT_NEAR(static_cast<double>(edge.cos_film), cosine, 1e-6);
-  EXPECT_NEAR(static_cast<double>(ray_of(pinhole(), {6, 2}, {0, 0}).weight[0]),
+  EXPECT_NEAR(static_cast<double>(ray_of(narrow_pinhole(), {6, 2}, {0, 0}).weight[0]),
               kPi / 64 * std::pow(cosine, 4), 1e-7)
       << "a pinhole exposes as its nominal aperture would";
 }
@@ -207,7 +174,7 @@ TEST(Camera, RaysComeToTheSideOfASphereThatTakesThem) {
 
 TEST(Camera, ConnectionsAreTheReverseOfRays) {
   Random random(3);
-  for (const Camera& camera : {pinhole(), lens(), bladed_lens(), turned_lens()})
+  for (const Camera& camera : {narrow_pinhole(), lens(), bladed_lens(), turned_lens()})
     for (int i = 0; i < 10000; ++i) {
       const V2f film(6 * random.uniform(), 4 * random.uniform());
       const V2f u = random.pair();
@@ -231,10 +198,10 @@ TEST(Camera, ConnectionsAreTheReverseOfRays) {
 }
 
 TEST(Camera, NothingBehindOrBesideIsImaged) {
-  EXPECT_FALSE(connection(pinhole(), {1, 3, 3}, {0, 0})) << "behind";
-  EXPECT_FALSE(connection(pinhole(), {1, 2, 4}, {0, 0})) << "in the plane of the lens";
-  EXPECT_FALSE(connection(pinhole(), {0.5F, 1, 3}, {0, 0})) << "beyond the right edge";
-  EXPECT_TRUE(connection(pinhole(), {0.75F, 1, 3}, {0, 0}));
+  EXPECT_FALSE(connection(narrow_pinhole(), {1, 3, 3}, {0, 0})) << "behind";
+  EXPECT_FALSE(connection(narrow_pinhole(), {1, 2, 4}, {0, 0})) << "in the plane of the lens";
+  EXPECT_FALSE(connection(narrow_pinhole(), {0.5F, 1, 3}, {0, 0})) << "beyond the right edge";
+  EXPECT_TRUE(connection(narrow_pinhole(), {0.75F, 1, 3}, {0, 0}));
   const Camera probe{Probe{Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, 1, 1, 1};
   EXPECT_FALSE(connection(probe, {0, 0, 1}, {0, 0}));
 }
@@ -253,7 +220,7 @@ struct Estimate {
 TEST(Camera, BothWaysCollectTheSameEnergy) {
   const Disc patch{{1.04, 0.6, 2.98}, V3d(0.3, 1, 0.2).normalized(), 0.2};
   constexpr int kCount = 400000;
-  for (const Camera& camera : {pinhole(), lens(), bladed_lens()}) {
+  for (const Camera& camera : {narrow_pinhole(), lens(), bladed_lens()}) {
     Random random(4);
     Estimate film_to_patch;
     Estimate patch_to_film;
@@ -286,8 +253,8 @@ TEST(Camera, BothWaysCollectTheSameEnergy) {
 
 TEST(Camera, DensitiesGiveTheWeightsOfBothWays) {
   Random random(7);
-  for (const Camera& camera : {pinhole(), wide_pinhole(), lens(), bladed_lens(), turned_lens(), wide_lens(),
-                               meter(), disc_meter(), sphere_meter(), point_meter()})
+  for (const Camera& camera : {narrow_pinhole(), wide_pinhole(), lens(), bladed_lens(), turned_lens(),
+                               wide_lens(), meter(), disc_meter(), sphere_meter(), point_meter()})
     for (int i = 0; i < 10000; ++i) {
       const V2f film(static_cast<float>(camera.width) * random.uniform(),
                      static_cast<float>(camera.height) * random.uniform());
@@ -319,7 +286,7 @@ TEST(Camera, DensitiesCountPointsByAreaUnlessThereIsOne) {
     return static_cast<double>(
         density(camera, ray_of(camera, {1, 1}, {0.5F, 0.5F}).ray, kWavelengths)->pdf_position);
   };
-  EXPECT_EQ(pdf_position(pinhole()), 1);
+  EXPECT_EQ(pdf_position(narrow_pinhole()), 1);
   EXPECT_EQ(pdf_position(point_meter()), 1);
   EXPECT_NEAR(pdf_position(lens()) * kPi * 0.0125 * 0.0125, 1, 1e-6);
   EXPECT_NEAR(pdf_position(meter()), 1, 1e-6) << "8 m^2 of 8 pixels";
@@ -333,7 +300,7 @@ TEST(Camera, DensitiesCountPointsByAreaUnlessThereIsOne) {
 TEST(Camera, DirectionsThroughAPixelIntegrateToOne) {
   constexpr int kParts = 64;
   const V2f u(0.9F, 0.3F);
-  for (const Camera& camera : {pinhole(), wide_pinhole(), lens(), wide_lens()})
+  for (const Camera& camera : {narrow_pinhole(), wide_pinhole(), lens(), wide_lens()})
     for (const V2f& pixel : {V2f(3, 2), V2f(0, 0)}) {
       const auto ray = [&](double x, double y) {
         return ray_of(camera, pixel + V2f(static_cast<float>(x / kParts), static_cast<float>(y / kParts)), u)
@@ -362,43 +329,8 @@ TEST(Camera, NothingIsSeenBackwardsOrBesideTheFilm) {
     ray.direction = -ray.direction;
     EXPECT_FALSE(density(camera, ray, kWavelengths));
   }
-  for (const Camera& camera : {pinhole(), lens()})
+  for (const Camera& camera : {narrow_pinhole(), lens()})
     EXPECT_FALSE(density(camera, {{1, 2, 3}, V3f(1, -1, 0).normalized()}, kWavelengths));
-}
-
-// Life size at f/1, the fastest of close-ups.
-Camera macro_lens(std::optional<lens::Iris> iris = {}) {
-  return {ThinLens{frame(), 0.2, 0.2, 0.05, 0.7, iris}, 6, 4, 0.02};
-}
-
-double mean_weight_at(const Camera& camera, V2f film) {
-  return mean_weight(camera, opening_tangent(camera), film);
-}
-
-// On the axis pi a^2 tau / (v^2 (1 + a^2/s^2)), as of all lenses that meet Abbe's sine condition; a pinhole's
-// rays are one, and those of a lens in focus at infinity have one direction.
-TEST(MeanWeight, IsThatOfTheSineConditionOnTheAxis) {
-  EXPECT_NEAR(mean_weight_at(macro_lens(), {3, 2}), kPi * 0.0025 * 0.7 / 0.04 / 1.0625, 1e-7);
-  EXPECT_NEAR(mean_weight_at(lens(), {3, 2}), kPi * 0.25 * 0.25 * 0.81 / (1 + 0.025 * 0.025), 1e-7);
-  const Camera far{ThinLens{frame(), 0.2, std::numeric_limits<double>::infinity(), 0.05}, 6, 4, 0.02};
-  for (const Camera& camera : {far, wide_pinhole(), meter()})
-    for (const V2f& film : {V2f(1, 1), V2f(0.1F, 3.9F)})
-      EXPECT_EQ(mean_weight_at(camera, film), central_weight(camera, film));
-}
-
-TEST(MeanWeight, IsTheMeanOfTheRaysThroughTheOpening) {
-  constexpr int kSide = 300;
-  for (const Camera& camera : {lens(), bladed_lens(), turned_lens(), wide_lens(), macro_lens(),
-                               macro_lens(lens::Iris(5, 10)), macro_lens(lens::Iris(9, 0))})
-    for (const V2f& film : {V2f(3, 2), V2f(1, 3), V2f(0, 0)}) {
-      double sum = 0;
-      for (int j = 0; j < kSide; ++j)
-        for (int i = 0; i < kSide; ++i) {
-          const V2f u((static_cast<float>(i) + 0.5F) / kSide, (static_cast<float>(j) + 0.5F) / kSide);
-          sum += static_cast<double>(ray_of(camera, film, u).weight[0]);
-        }
-      EXPECT_NEAR(mean_weight_at(camera, film) * kSide * kSide / sum, 1, 5e-5) << film;
-    }
 }
 
 TEST(Probe, MeasuresTheHemisphere) {
