@@ -146,7 +146,7 @@ void require_determined(const Eigen::MatrixXd& a, Eigen::Index rank) {
 Eigen::MatrixXd solve_least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                                     const Eigen::MatrixXd& channels, double largest) {
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
-  const Eigen::MatrixXd solution = qr.solve(b);
+  Eigen::MatrixXd solution = qr.solve(b);
   const bool is_large = !(solution.lpNorm<Eigen::Infinity>() < 1 / kLeastDifference);
   if (qr.rank() == a.cols() && a.allFinite() && !is_large) return solution;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> colours(channels);
