@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cmath>
-#include <limits>
 #include <span>
 #include <string>
 #include <utility>
@@ -14,8 +13,6 @@
 #include "python/numbers.h"
 
 namespace abbe::python {
-
-inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 [[nodiscard]] inline std::span<const double> all(const Numbers& numbers) {
   return {numbers.data(), static_cast<std::size_t>(numbers.size())};

@@ -130,10 +130,6 @@ py::dict color(const py::object& illuminant, const py::object& reflectance, cons
   return told;
 }
 
-bool is_finite(const Lab& lab) {
-  return std::all_of(lab.begin(), lab.end(), [](double v) { return std::isfinite(v); });
-}
-
 py::object lab_difference(const Numbers& lab1, const Numbers& lab2, const std::string& formula) {
   constexpr std::array<const char*, 5> kFormulas{"2000", "94", "76", "cam16", "itp"};
   const auto* const found = std::find(kFormulas.begin(), kFormulas.end(), formula);
@@ -150,11 +146,8 @@ py::object lab_difference(const Numbers& lab1, const Numbers& lab2, const std::s
     const double* lab = labs.data() + 3 * i;
     return Lab{lab[0], lab[1], lab[2]};
   };
-  for (py::ssize_t i = 0; i < differences.size(); ++i) {
-    const Lab from = at(standard, i);
-    const Lab to = at(sample, i);
-    differences.mutable_data()[i] = is_finite(from) && is_finite(to) ? delta_e(how, from, to) : kNan;
-  }
+  for (py::ssize_t i = 0; i < differences.size(); ++i)
+    differences.mutable_data()[i] = delta_e(how, at(standard, i), at(sample, i));
   return differences[py::tuple()];
 }
 

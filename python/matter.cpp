@@ -1,4 +1,5 @@
 #include <cmath>
+#include <limits>
 
 #include <fmt/format.h>
 #include <pybind11/stl.h>
@@ -19,6 +20,8 @@ namespace abbe::python {
 namespace {
 
 namespace py = pybind11;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 // The material of that name, which must hold at all wavelengths asked for.
 NamedIndex find(const std::string& name, const Numbers& wavelengths_nm) {

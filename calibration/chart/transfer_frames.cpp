@@ -107,12 +107,14 @@ Moments moments(const Frame& frame, std::size_t channel) {
   std::map<int, double> of_rows;
   double squares = 0;
   auto code = codes.begin();
-  for (const auto& [y, count] : frame.rows[channel])
+  for (const auto& [y, count] : frame.rows[channel]) {
+    double& of_row = of_rows[y];
     for (std::size_t i = 0; i < count; ++i, ++code) {
       const double above = *code - mean;
       squares += above * above;
-      of_rows[y] += above;
+      of_row += above;
     }
+  }
   double row_squares = 0;
   for (const auto& [y, above] : of_rows) row_squares += above * above;
   const auto rows = static_cast<double>(of_rows.size());

@@ -196,5 +196,16 @@ TEST(Compare, RefusesWhatCannotBeCompared) {
   EXPECT_THROW(static_cast<void>(compare_images(image({{"Y", {NAN}}}), image({{"Y", {1}}}))), Error);
 }
 
+TEST(DeltaEChoice, OfWhatIsNotFiniteIsUnknown) {
+  const Lab finite{50, 2, -79};
+  for (const double v : {std::numeric_limits<double>::infinity(), std::numeric_limits<double>::quiet_NaN()})
+    for (const DeltaE formula :
+         {DeltaE::cie2000, DeltaE::cie94, DeltaE::cie76, DeltaE::cam16_ucs, DeltaE::itp}) {
+      EXPECT_TRUE(std::isnan(delta_e(formula, {v, 0, 0}, finite)));
+      EXPECT_TRUE(std::isnan(delta_e(formula, finite, {v, 0, 0})));
+      EXPECT_TRUE(std::isnan(delta_e(formula, {v, 0, 0}, {v, 0, 0})));
+    }
+}
+
 }  // namespace
 }  // namespace abbe

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
@@ -203,6 +204,9 @@ std::vector<XYZ> tristimuli(const Image& image) {
 }
 
 double delta_e(DeltaE formula, const Lab& standard, const Lab& sample) {
+  const auto is_finite = [](double v) { return std::isfinite(v); };
+  if (!std::ranges::all_of(standard, is_finite) || !std::ranges::all_of(sample, is_finite))
+    return std::numeric_limits<double>::quiet_NaN();
   switch (formula) {
     case DeltaE::cie94:
       return delta_e_94(standard, sample);

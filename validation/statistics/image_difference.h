@@ -15,6 +15,7 @@ enum class DeltaE { cie2000, cie94, cie76, cam16_ucs, itp };
 /// Colour difference by one of the formulas; `standard` is the reference of the one that is not symmetric.
 /// For CAM16-UCS and ITP the colours are relative to a white D65: for the one seen as surfaces in a booth
 /// (`ViewingConditions`), for the other shown with a white of `kReferenceWhite`.
+/// NaN where a colour is not finite.
 [[nodiscard]] double delta_e(DeltaE formula, const Lab& standard, const Lab& sample);
 
 /// Colour differences over the pixels of two images.
