@@ -7,6 +7,7 @@
 
 #include "calibration/fit/noise_weights.h"
 #include "io/error.h"
+#include "io/text.h"
 
 namespace abbe {
 namespace {
@@ -95,7 +96,7 @@ CameraCalibration calibrate_measured(const MeasuredCamera& camera, const Charact
   result.unseen_mean = bootstrap_mean(result.unseen.delta_e, options.bootstrap);
   result.columns = bootstrap_columns(colors, how, options.bootstrap);
   result.profile.light = camera.light;
-  result.profile.description = fmt::format("{} under {}", camera.name, camera.light);
+  result.profile.description = valid_utf8(fmt::format("{} under {}", camera.name, camera.light));
   for (std::size_t k = 0; k < camera.responses.size(); ++k)
     result.profile.linearisation.at(k) = camera.responses[k].fit.linear;
   result.profile.gains = camera.gains;

@@ -28,17 +28,12 @@ std::size_t code_points(std::string_view text) {
 /// A hostile input must not reach the user's terminal as control sequences.
 std::string printable(std::string_view text) {
   std::string shown;
-  while (!text.empty()) {
-    const std::size_t valid = valid_prefix(text);
-    for (const char c : text.substr(0, valid)) {
-      const auto byte = static_cast<unsigned char>(c);
-      if (byte >= 0x80 && byte < 0xA0 && shown.ends_with('\xC2'))  // U+0080 to U+009F
-        shown.back() = '?';
-      else
-        shown += (byte < 0x20 && c != '\t') || byte == 0x7F ? '?' : c;
-    }
-    if (valid < text.size()) shown += '?';
-    text.remove_prefix(std::min(valid + 1, text.size()));
+  for (const char c : valid_utf8(text, "?")) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte >= 0x80 && byte < 0xA0 && shown.ends_with('\xC2'))  // U+0080 to U+009F
+      shown.back() = '?';
+    else
+      shown += (byte < 0x20 && c != '\t') || byte == 0x7F ? '?' : c;
   }
   return shown;
 }

@@ -243,6 +243,17 @@ std::size_t valid_prefix(std::string_view text) {
   return text.size();
 }
 
+std::string valid_utf8(std::string_view text, std::string_view instead) {
+  std::string valid;
+  for (;;) {
+    const std::size_t size = valid_prefix(text);
+    valid += text.substr(0, size);
+    if (size == text.size()) return valid;
+    valid += instead;
+    text.remove_prefix(size + 1);
+  }
+}
+
 std::optional<double> parse_number(std::string_view text) {
   if (text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
   double number = 0;

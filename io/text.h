@@ -40,6 +40,10 @@ inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 /// How many leading bytes of `text` are valid UTF-8 without NUL; all of them for a proper text.
 [[nodiscard]] std::size_t valid_prefix(std::string_view text);
 
+/// `text` with `instead` in place of each byte that valid UTF-8 has not there, and of NUL: a name that is in
+/// another encoding, for files that say they are UTF-8.
+[[nodiscard]] std::string valid_utf8(std::string_view text, std::string_view instead = "\uFFFD");
+
 /// A finite number in the C locale's syntax, whatever the process's locale; nothing unless all of `text` is
 /// one.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);

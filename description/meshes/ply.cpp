@@ -37,6 +37,7 @@ struct Header {
   std::size_t vertices = 0;
   std::size_t faces = 0;
   std::vector<std::pair<std::string, std::string>> numbers = {};  ///< Of each vertex: name and type.
+  std::optional<std::string> corners = {};                        ///< Their type, where faces list them.
 
   [[nodiscard]] bool has(std::string_view name) const {
     return std::any_of(numbers.begin(), numbers.end(),
@@ -52,9 +53,13 @@ bool is_faces(std::string_view element) {
   return element == "face" || element == "faces";
 }
 
-// What is wrong with the numbers of vertices: the library reads 0 for a position that is not there, and no
-// whole numbers.
-std::optional<std::string> vertex_fault(const Header& header) {
+// What is wrong with the types: the library reads 0 for a position that is not there, no whole numbers for
+// positions, and corners of faces in 32 bits alone.
+std::optional<std::string> type_fault(const Header& header) {
+  constexpr std::array<std::string_view, 4> kCorners{"int", "int32", "uint", "uint32"};
+  if (header.corners && std::find(kCorners.begin(), kCorners.end(), *header.corners) == kCorners.end())
+    return fmt::format("the type of the corners of faces (got {}, allowed {})", *header.corners,
+                       fmt::join(kCorners, ", "));
   constexpr std::array<std::string_view, 6> kRead{"x", "y", "z", "nx", "ny", "nz"};
   constexpr std::array<std::string_view, 4> kFloating{"float", "float32", "double", "float64"};
   std::vector<std::string> names;
@@ -78,7 +83,7 @@ std::optional<Header> sound_header(std::istream& stream) {
       "int",  "int32", "uint",  "uint32", "float", "float32", "double", "float64"};
   const auto* const long_types = kTypes.begin() + 8;
   Header header;
-  bool vertices = false;
+  std::string element;
   int elements = 0;
   int properties = 1;  // of the last element
   for (std::string line; std::getline(stream, line);) {
@@ -91,9 +96,9 @@ std::optional<Header> sound_header(std::istream& stream) {
       if (properties == 0) return std::nullopt;
       properties = 0;
       ++elements;
-      vertices = is_vertices(type);
-      if (vertices) words >> header.vertices;
-      if (is_faces(type)) words >> header.faces;
+      element = type;
+      if (is_vertices(element)) words >> header.vertices;
+      if (is_faces(element)) words >> header.faces;
     } else if (key == "property") {
       std::string count = "char";
       std::string name;
@@ -104,7 +109,9 @@ std::optional<Header> sound_header(std::istream& stream) {
           std::find(kTypes.begin(), kTypes.end(), type) == kTypes.end())
         return std::nullopt;
       ++properties;
-      if (vertices && !list) header.numbers.emplace_back(name, type);
+      if (is_vertices(element) && !list) header.numbers.emplace_back(name, type);
+      if (is_faces(element) && list && (name == "vertex_index" || name == "vertex_indices"))
+        header.corners = type;
     }
   }
   return std::nullopt;
@@ -203,7 +210,7 @@ bool read_ply(std::string&& bytes, MeshReading& reading) {
   stream.imbue(std::locale::classic());
   const auto header = sound_header(stream);
   if (!header) return reading.refuse("malformed PLY header, or lists counted in 32 bits");
-  if (const auto fault = vertex_fault(*header)) return reading.refuse("malformed PLY header: " + *fault);
+  if (const auto fault = type_fault(*header)) return reading.refuse("malformed PLY header: " + *fault);
   take_memory(header->vertices, header->faces, stream.view().size(), reading);
   stream.seekg(0);
   Points points;

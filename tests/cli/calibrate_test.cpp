@@ -1,4 +1,5 @@
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <set>
 #include <utility>
@@ -8,6 +9,8 @@
 
 #include "calibration/chart/patches.h"
 #include "cli/calibrate.h"
+#include "io/data_directory.h"
+#include "io/text.h"
 #include "spectral/library.h"
 #include "tests/cli/json_output.h"
 #include "tests/cli/program.h"
@@ -83,6 +86,21 @@ TEST(Calibrate, WritesTheMatricesOfDngAndTheCurvesOfRawtoaces) {
   again.camera = (options.output / "sensitivities.json").string();
   const double first = json_output(calibrate, nikon())["dE00_mean"];
   EXPECT_NEAR(json_output(calibrate, again)["dE00_mean"].get<double>(), first, 0.01);
+}
+
+// OpenColorIO refuses a CLF with a byte that is no UTF-8, and pages say that they have none.
+TEST(Calibrate, NamesThatAreNoUtf8StandInNoFileAsTheyAre) {
+  CalibrateOptions options = nikon();
+  options.camera = (scratch() / "caf\xE9.csv").string();
+  std::filesystem::copy_file(data_directory() / "camera/Nikon_D5100.csv", options.camera);
+  options.illuminants = "A";
+  options.output = scratch() / "folder";
+  json_output(calibrate, options);
+  for (const char* name : {"camera_A.clf", "camera_A_to_aces.clf", "config.ocio", "report.html"}) {
+    const std::string text = read_file(options.output / name);
+    EXPECT_NE(text.find("caf\uFFFD under A"), std::string::npos) << name;
+    EXPECT_EQ(valid_prefix(text), text.size()) << name;
+  }
 }
 
 // A table of the chart as the camera sees it, the white being given, as `abbe measure` writes it.

@@ -45,6 +45,25 @@ TEST_F(PlyTest, ReadsPly) {
   EXPECT_NE(load(shaped(R"("mesh": "binary.ply")")).text().find("promises more"), std::string::npos);
 }
 
+// The library said of these that the file is cut short.
+TEST_F(PlyTest, CornersOfFewerBitsAreTold) {
+  const std::string square = ply(4, 1, kSquare);
+  for (const char* type : {"uchar", "short", "uint16"}) {
+    std::string narrow = square;
+    narrow.replace(narrow.find("list uchar int"), 14, fmt::format("list uchar {}", type));
+    write(folder_ / "narrow.ply", narrow);
+    EXPECT_NE(load(shaped(R"("mesh": "narrow.ply")"))
+                  .text()
+                  .find(fmt::format("the type of the corners of faces (got {}, allowed int, ", type)),
+              std::string::npos);
+  }
+  std::string textured = square;
+  textured.replace(textured.find("end_header"), 0, "property list uchar short texcoord\n");
+  textured.insert(textured.size() - 1, " 0");
+  write(folder_ / "textured.ply", textured);
+  EXPECT_DOUBLE_EQ(area(shape(R"("mesh": "textured.ply")")), 1) << "other lists are passed over";
+}
+
 TEST_F(PlyTest, PolygonsNeedNotBeConvex) {
   write(folder_ / "dented.ply", ply(4, 1, "0 0 0\n2 0 0\n2 1 0\n1 0.2 0\n4 0 1 2 3\n"));
   EXPECT_NEAR(area(shape(R"("mesh": "dented.ply")")), 0.7, 1e-7);

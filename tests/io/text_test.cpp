@@ -66,6 +66,14 @@ TEST(ValidPrefix, StopsAtTheFirstBadByte) {
   EXPECT_EQ(valid_prefix("ab\xCE"), 2U) << "cut short";
 }
 
+TEST(ValidUtf8, ReplacesTheOtherBytesAlone) {
+  EXPECT_EQ(valid_utf8("aλ€𝄞"), "aλ€𝄞");
+  EXPECT_EQ(valid_utf8(""), "");
+  EXPECT_EQ(valid_utf8("caf\xE9 \xFF"), "caf\uFFFD \uFFFD");
+  EXPECT_EQ(valid_utf8(std::string_view("a\0b", 3), "?"), "a?b");
+  EXPECT_EQ(valid_utf8("ab\xCE", "?"), "ab?") << "cut short";
+}
+
 TEST(ParseNumber, AllOfTheTextOrNothing) {
   EXPECT_EQ(parse_number("587.5618"), 587.5618);
   EXPECT_EQ(parse_number("+1e-3"), 0.001);

@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "io/text.h"
+
 namespace abbe {
 namespace {
 
@@ -21,7 +23,7 @@ std::string opening(double width, double height) {
 
 std::string escaped(const std::string& text) {
   std::string safe;
-  for (const char c : text)
+  for (const char c : valid_utf8(text))
     safe += c == '&'   ? "&amp;"
             : c == '<' ? "&lt;"
             : c == '>' ? "&gt;"

@@ -6,7 +6,7 @@
 
 namespace abbe {
 
-/// Text as XML and HTML hold it.
+/// Text as XML and HTML in UTF-8 hold it; what of it is no UTF-8 is U+FFFD.
 [[nodiscard]] std::string escaped(const std::string& text);
 
 // Elements of an SVG picture, each on a line of its own, in pixels from its upper left corner; `attributes`
