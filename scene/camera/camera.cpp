@@ -104,8 +104,9 @@ std::optional<CameraConnection> connection_through(const Camera& camera, const O
   const Ray back = ray_at(point, -light.direction, light.time);
   const auto seen = density(camera, back, wavelengths_nm);
   if (!seen) return std::nullopt;
-  return CameraConnection{seen->film, is_meter(camera) ? off_meter(camera, back) : point, seen->importance,
-                          seen->cos_film, seen->images};
+  return CameraConnection{seen->film,         is_meter(camera) ? off_meter(camera, back) : point,
+                          seen->pdf_position, seen->importance,
+                          seen->cos_film,     seen->images};
 }
 
 std::optional<GhostEntrance> sample_ghost(const Camera& camera, Imath::V2f lens, float time) {

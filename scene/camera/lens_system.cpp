@@ -37,7 +37,9 @@
 // it to the pixel at x_j. As densities of both ways are to be told in one measure, a ray counts as drawn by
 // its place on that disc, with 1/B, and by its direction from there, with p_j cos B. The disc is that of the
 // entrance pupil; where this lies within the lens, rays begin and end in the plane of the first vertex, and d
-// counts from the disc all the same.
+// counts from the disc all the same. In that plane, where the rays of one direction are as dense as on the
+// disc, those of one scene point are closer together: (d/d')^2 times as dense, d' being the distance from
+// there.
 
 namespace abbe {
 namespace {
@@ -240,7 +242,9 @@ std::optional<CameraConnection> LensSystem::sample_towards(const FilmGrid& grid,
   const double cos_theta = way.dot(entrance.normal) / distance;
   const double behind = route == 0 ? (optics->pupil.entrance().z - front_z(*this)) / kMmPerM : 0;
   if (!(cos_theta > 0 && distance * cos_theta > behind)) return std::nullopt;
-  const V3f lens_point(entrance.point + way / distance * (behind / cos_theta));
+  const double from_disc = behind / cos_theta;  // along the ray, to the lens point
+  const V3f lens_point(entrance.point + way / distance * from_disc);
+  const double farther = distance / (distance - from_disc);
   const auto lanes =
       land(*this, grid, {ray_at(lens_point, V3f(way / distance), time), wavelengths_nm}, route);
   if (!lanes) return std::nullopt;
@@ -248,6 +252,7 @@ std::optional<CameraConnection> LensSystem::sample_towards(const FilmGrid& grid,
       cos_theta / (entrance.pdf * distance * distance * grid.pixel_pitch * grid.pixel_pitch);
   return CameraConnection{{lanes->images.x[0], lanes->images.y[0]},
                           lens_point,
+                          static_cast<float>(entrance.pdf * farther * farther),
                           lanes->transmittance * static_cast<float>(weight),
                           lanes->images.cos_film[0],
                           lanes->images,

@@ -58,6 +58,7 @@ struct CameraRay {
 struct CameraConnection {
   Imath::V2f film;
   Imath::V3f lens_point;
+  float pdf_position;      ///< Of the lens point, as it was drawn for that scene point [1/m^2].
   SampledSpectrum weight;  ///< [1/m^2], lane by lane.
   float cos_film;
   std::optional<LaneImages> images =
@@ -77,8 +78,10 @@ struct GhostEntrance {
 /// `sample_ray` draws the ray for a film position uniform over one pixel [Veach1997, sec. 8.3.2]:
 ///     weight of `sample_ray`     = importance cos(theta) / (pdf_position pdf_direction),
 ///     weight of `sample_towards` = importance cos(theta) / (pdf_position d^2),
-/// d being the distance to the point. A ray that can leave a single point only has all of its importance
-/// there: `pdf_position` is 1, and both it and `importance` count as per point instead of per area.
+/// d being the distance to the point, and `pdf_position` there the connection's, which is another where the
+/// lens point lies before the pupil that it is drawn by. A ray that can leave a single point only has all of
+/// its importance there: `pdf_position` is 1, and both it and `importance` count as per point instead of per
+/// area.
 struct CameraDensity {
   Imath::V2f film;                ///< Where the ray comes from.
   SampledSpectrum importance;     ///< Irradiance of the pixel per flux along the ray [1/m^2].

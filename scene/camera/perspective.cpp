@@ -41,13 +41,14 @@ SeenPoint seen_from(const CameraFrame& frame, const Imath::V3f& point) {
 }
 
 CameraConnection connection_through(const Perspective& view, const FilmGrid& grid, Imath::V2f film,
-                                    const LensCrossing& at, double depth) {
+                                    const LensCrossing& at, double depth, double pdf_position) {
   const double cos_theta = at.cos_theta;
   const double distance = depth / cos_theta;
   const double pitch = grid.pixel_pitch;
   const double weight = view.exposing_area * cos_theta / (distance * distance * pitch * pitch);
   return {film, Imath::V3f(view.frame.position + in_scene(view.frame, at.on_lens)),
-          SampledSpectrum(static_cast<float>(weight)), static_cast<float>(at.cos_film)};
+          static_cast<float>(pdf_position), SampledSpectrum(static_cast<float>(weight)),
+          static_cast<float>(at.cos_film)};
 }
 
 std::optional<PlanePoint> tangent_of(const CameraFrame& frame, const Imath::V3f& direction) {

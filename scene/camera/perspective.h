@@ -57,8 +57,10 @@ struct SeenPoint {
 };
 [[nodiscard]] SeenPoint seen_from(const CameraFrame& frame, const Imath::V3f& point);
 
+/// Of a point at that depth, the lens point being drawn with `pdf_position`.
 [[nodiscard]] CameraConnection connection_through(const Perspective& view, const FilmGrid& grid,
-                                                  Imath::V2f film, const LensCrossing& at, double depth);
+                                                  Imath::V2f film, const LensCrossing& at, double depth,
+                                                  double pdf_position);
 
 /// The tangent of a direction of the scene; nothing backwards.
 [[nodiscard]] std::optional<PlanePoint> tangent_of(const CameraFrame& frame, const Imath::V3f& direction);

@@ -31,7 +31,7 @@ std::optional<CameraConnection> Pinhole::sample_towards(const FilmGrid& grid, co
   const PlanePoint tangent = seen.across / seen.depth;
   const std::optional<Imath::V2f> film = film_position(grid, tangent * image_distance);
   if (!film) return std::nullopt;
-  return connection_through(view_of(*this), grid, *film, crossing(tangent), seen.depth);
+  return connection_through(view_of(*this), grid, *film, crossing(tangent), seen.depth, 1);
 }
 
 std::optional<CameraDensity> Pinhole::density(const FilmGrid& grid, const Ray& ray,

@@ -16,6 +16,10 @@ PlanePoint lens_plane(const ThinLens& camera, Imath::V2f lens) {
   return (camera.iris ? camera.iris->point(disc) : disc) * camera.aperture_radius;
 }
 
+double pdf_on_lens(const ThinLens& camera) {
+  return 1 / (exposing_area(camera.aperture_radius, 1) * camera.open_share());
+}
+
 // Through any lens point the scene ray aims at the point in focus that the ray through the centre of the lens
 // shows; and back, where on the film that centre ray comes from.
 PlanePoint tangent_from(const ThinLens& camera, const PlanePoint& film, const PlanePoint& lens) {
@@ -53,7 +57,7 @@ std::optional<CameraConnection> ThinLens::sample_towards(const FilmGrid& grid, c
   const std::optional<Imath::V2f> film = film_position(grid, on_film);
   if (!film) return std::nullopt;
   return connection_through(view_of(*this), grid, *film, crossing(*this, on_film, on_lens, tangent),
-                            seen.depth);
+                            seen.depth, pdf_on_lens(*this));
 }
 
 std::optional<CameraDensity> ThinLens::density(const FilmGrid& grid, const Ray& ray,
@@ -66,7 +70,7 @@ std::optional<CameraDensity> ThinLens::density(const FilmGrid& grid, const Ray& 
   const std::optional<Imath::V2f> film = film_position(grid, on_film);
   if (!film) return std::nullopt;
   return density_through(view_of(*this), grid, *film, crossing(*this, on_film, on_lens, *tangent),
-                         1 / (exposing_area(aperture_radius, 1) * open_share()));
+                         pdf_on_lens(*this));
 }
 
 double ThinLens::least_film_cosine(const FilmGrid& grid) const {

@@ -50,6 +50,36 @@ TEST(LensCamera, TellsFiniteNumbersOfEveryLane) {
   EXPECT_GT(parted, 300);
 }
 
+// The entrance pupil of the last lies 58 mm behind its first vertex, in the plane of which rays end.
+TEST(LensCamera, ConnectionsOfNearPointsWeighAsDensitiesTell) {
+  const SampledSpectrum wavelengths = spread_wavelengths();
+  Random random(8);
+  for (const auto& [name, ghosts] : {std::pair("achromat", Ghosts::left_out),
+                                     {"tessar", Ghosts::left_out},
+                                     {"double_gauss", Ghosts::enumerated},
+                                     {"double_gauss", Ghosts::left_out}}) {
+    const lens::System lens = lens_named(name);
+    const Camera camera = looking_through(lens, lens::stop_radius(lens), 400, ghosts);
+    int found = 0;
+    for (int i = 0; i < 4000; ++i) {
+      const V3f point(1 + 0.04F * random.uniform(), 1.8F, 3 + 0.04F * random.uniform());  // at 0.2 m
+      const auto seen = sample_towards(camera, point, random.pair(), wavelengths, 0);
+      if (!seen || seen->weight.is_zero()) continue;
+      const V3f way = point - seen->lens_point;
+      const auto of =
+          density(camera, ray_at(seen->lens_point, way.normalized(), 0), wavelengths, seen->route);
+      if (!of) continue;  // at the rim of the film
+      ++found;
+      const double at_film = static_cast<double>(of->cos_theta / seen->pdf_position / way.length2());
+      for (int j = 0; j < kLanes; ++j)
+        EXPECT_NEAR(at_film * static_cast<double>(of->importance[j]), static_cast<double>(seen->weight[j]),
+                    1e-4 * static_cast<double>(seen->weight[j]))
+            << name << ", route " << seen->route;
+    }
+    EXPECT_GT(found, 200) << name;
+  }
+}
+
 TEST(LensCamera, TellsTheSameOfARayFromBothEnds) {
   const lens::System lens = lens_named("double_gauss");
   const Camera camera = looking_through(lens, lens::stop_radius(lens));

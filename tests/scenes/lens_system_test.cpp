@@ -130,6 +130,35 @@ TEST(LensSystemScene, NothingOfTheSceneIsWithinTheLens) {
   }
 }
 
+// Light that a mirror throws on matt walls, which paths from the light alone come to, and that by connections
+// to the lens: from 0.3 m, where places on its first surface lie a fifth nearer than those of the entrance
+// pupil.
+TEST(LensSystemScene, ConnectionsToTheLensCountFromWhereTheyEnd) {
+  const auto seen = [](const char* prescription, const char* integrator, int samples) {
+    return render(test::load_text(fmt::format(R"({{
+      "abbe": 1,
+      "camera": {{"lens_system": {{"prescription": "{}", "focus_distance": 0.6, "f_number": 8}}, "from": [0, 0.7, 0], "to": [0, 1, 0], "up": [0, 0, 1]}},
+      "sensor": {{"resolution": [12, 10], "pixel_pitch_um": 2500, "channels": {{"g": {{"band": [500, 650]}}}}}},
+      "materials": {{"white": {{"diffuse": {{"reflectance": 0.5}}}}, "mirror": {{"mirror": {{"reflectance": 1}}}}}},
+      "lights": [{{"spot": {{"at": [0.1, 0.8, 0], "direction": [-0.2, 0.1333, 0], "half_angle_deg": 8}}, "emission": {{"spectrum": 1, "intensity": 1}}}}],
+      "shapes": [{{"quad": {{"corner": [-1, 1, -1], "edge_u": [2, 0, 0], "edge_v": [0, 0, 2]}}, "material": "white"}},
+                 {{"quad": {{"corner": [-0.1, 0.8, -0.1], "edge_u": [0, 0.195, 0], "edge_v": [0, 0, 0.2]}}, "material": "mirror"}}],
+      "render": {{"integrator": "{}", "samples": {}}}}})",
+                                              prescription, integrator, samples)),
+                  {})
+        .film;
+  };
+  const int samples = test::nightly() ? 4096 : 512;
+  for (const char* lens : {"double_gauss", "tessar"}) {
+    const Film light = seen(lens, "light", samples);
+    const Film film = seen(lens, "bdpt", samples);
+    const test::Comparison c = test::compare_regions(light, film, 1);
+    std::printf("%s: largest z %.2f, ratio of the means %.5f\n", lens, c.largest_z, c.ratio);
+    EXPECT_LT(c.largest_z, 5) << lens;
+    EXPECT_NEAR(c.ratio, 1, test::ratio_margin(light, film, 0.01, 0.1)) << lens;
+  }
+}
+
 // A small white disc 60 mm above the axis and 300 mm before the lens, in the beam of a spotlight.
 constexpr const char* kSpeck = R"({
   "abbe": 1, "units": "mm",

@@ -148,12 +148,9 @@ void BidirectionalTracer::connect_to_lens(std::uint32_t i, std::size_t s) {
   if (!seen) return;
   PathVertex lens;
   lens.at = CameraVertex{seen->lens_point, seen->route};
-  const auto of = density(scene_.camera, ray_at(seen->lens_point, way_from(lens, from).direction, from.time),
-                          from.lambda_nm(), seen->route);
-  if (!of) return;
   lens.packet.wavelengths = from.packet.wavelengths;
   lens.packet.hero = from.packet.hero;
-  lens.packet.throughput = SampledSpectrum(1 / of->pdf_position);
+  lens.packet.throughput = SampledSpectrum(1 / seen->pdf_position);
   lens.inside = lens.beyond = camera_matter(plan_, seen->lens_point, from.time);
   lens.time = from.time;
   set_joined(i, 0, photon, s);
