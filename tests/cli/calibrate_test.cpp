@@ -98,7 +98,7 @@ TEST(Calibrate, NamesThatAreNoUtf8StandInNoFileAsTheyAre) {
   json_output(calibrate, options);
   for (const char* name : {"camera_A.clf", "camera_A_to_aces.clf", "config.ocio", "report.html"}) {
     const std::string text = read_file(options.output / name);
-    EXPECT_NE(text.find("caf\uFFFD under A"), std::string::npos) << name;
+    EXPECT_NE(text.find("caf\uFFFD.csv under A"), std::string::npos) << name;
     EXPECT_EQ(valid_prefix(text), text.size()) << name;
   }
 }

@@ -47,7 +47,7 @@ TEST_F(PlyTest, ReadsPly) {
 
 // The library said of these that the file is cut short.
 TEST_F(PlyTest, CornersOfFewerBitsAreTold) {
-  const std::string square = ply(4, 1, kSquare);
+  const std::string square = ply(4, 1, kSquare + "4 0 1 2 3\n");
   for (const char* type : {"uchar", "short", "uint16"}) {
     std::string narrow = square;
     narrow.replace(narrow.find("list uchar int"), 14, fmt::format("list uchar {}", type));
