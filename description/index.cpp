@@ -59,13 +59,12 @@ Kind metal_ior() {
 }
 
 Fields fields(Tag<TintedIor>) {
-  return describe(
-      "tinted_index", "",
-      {field("ior", &TintedIor::ior,
-             "Refractive index: n above 0, n and k, a name of data/glass, MAKER/GLASS, or a "
-             "FILE.csv or FILE.yml."),
-       field("absorption_per_m", &TintedIor::absorption_per_m,
-             "Absorption coefficient inside [1/m], 0 or more, with a constant real index only.")});
+  return describe("tinted_index", "",
+                  {field("ior", &TintedIor::ior,
+                         "Refractive index: n above 0, n and k, a name of data/glass, MAKER/GLASS, or a "
+                         "FILE.csv or FILE.yml."),
+                   field("absorption_per_m", &TintedIor::absorption_per_m,
+                         "Absorption coefficient inside [1/m], 0 or more, with an index without k only.")});
 }
 
 static Fields fields(Tag<Layer>) {
@@ -127,13 +126,12 @@ std::optional<Ior> table_ior(const spec::TableIor& said, LoadContext& context) {
   const auto n = curve(said.n);
   const auto k = said.k ? curve(*said.k) : Curve();
   if (!n || !k) return std::nullopt;
-  return Ior{"of a table",
-             RefractiveIndex(*n, *k, IndexMedium::air, said.wavelength_nm.front(), said.wavelength_nm.back()),
-             false};
+  return Ior{"of a table", RefractiveIndex(*n, *k, IndexMedium::air, said.wavelength_nm.front(),
+                                           said.wavelength_nm.back())};
 }
 
 Ior constant_ior(double n, double k) {
-  return {k > 0 ? fmt::format("{} + {}i", n, k) : fmt::format("{}", n), RefractiveIndex(n, k), true};
+  return {k > 0 ? fmt::format("{} + {}i", n, k) : fmt::format("{}", n), RefractiveIndex(n, k)};
 }
 
 }  // namespace
@@ -149,21 +147,20 @@ std::optional<Ior> build(const spec::Ior& said, LoadContext& context) {
   if (!name) return std::nullopt;
   auto named = load_index(*name, said.where, context.diagnostics);
   if (!named) return std::nullopt;
-  return Ior{std::move(named->name), std::move(named->index), false};
+  return Ior{std::move(named->name), std::move(named->index)};
 }
 
 std::optional<Ior> build(const spec::TintedIor& said, LoadContext& context) {
   auto ior = build(said.ior, context);
   if (!ior || !said.absorption_per_m) return ior;
-  if (!ior->constant || ior->index.absorbing()) {
+  if (ior->index.absorbing()) {
     context.diagnostics.error(said.absorption_per_m->where,
-                              "absorption_per_m goes with a constant real index; this one brings its own k");
+                              "absorption_per_m goes with an index without k; this one brings its own");
     return std::nullopt;
   }
   const auto alpha = build(*said.absorption_per_m, {"filter", spec::kPower, CurveUnit::per_metre}, context);
   if (!alpha) return std::nullopt;
-  ior->index = RefractiveIndex(Curve(ior->index.catalogued_n(kMinWavelengthNm)), extinction(*alpha),
-                               IndexMedium::air, kMinWavelengthNm, kMaxWavelengthNm);
+  ior->index = ior->index.with_k(extinction(*alpha));
   return ior;
 }
 

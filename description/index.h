@@ -67,7 +67,6 @@ namespace abbe::description {
 struct Ior {
   std::string name;
   RefractiveIndex index;
-  bool constant;
 };
 /// Reports an unknown name; nothing then.
 [[nodiscard]] std::optional<Ior> build(const spec::Ior& ior, LoadContext& context);

@@ -78,6 +78,14 @@ RefractiveIndex::RefractiveIndex(Curve n, std::optional<Extinction> k, IndexMedi
 RefractiveIndex::RefractiveIndex(Curve n, Curve k, IndexMedium medium, double low_nm, double high_nm)
     : RefractiveIndex(std::move(n), Extinction{std::move(k), {low_nm, high_nm}}, medium, low_nm, high_nm) {}
 
+RefractiveIndex RefractiveIndex::with_k(Curve k) const {
+  RefractiveIndex index = *this;
+  if (medium_ == IndexMedium::vacuum) k = product(k, each_nm(air_index));
+  index.take(Extinction{std::move(k), {0, std::numeric_limits<double>::infinity()}});
+  index.bake();
+  return index;
+}
+
 void RefractiveIndex::take(std::optional<Extinction> k) {
   if (!k) return;
   k_ = std::move(k->k);

@@ -45,6 +45,9 @@ class RefractiveIndex {
   /// Tabulated n and k, both valid on [low_nm, high_nm].
   RefractiveIndex(Curve n, Curve k, IndexMedium medium, double low_nm, double high_nm);
 
+  /// The same n with that k relative to air in place of its own, at all wavelengths.
+  [[nodiscard]] RefractiveIndex with_k(Curve k) const;
+
   /// The catalogued numbers at a wavelength [nm], relative to `medium()`.
   [[nodiscard]] double catalogued_n(double wavelength_nm) const;
   [[nodiscard]] double catalogued_k(double wavelength_nm) const;

@@ -318,7 +318,7 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
        ErrorCode::scene, "a scene has one environment"},
       {"glass brings its own",
        R"({"materials": {"m": {"dielectric": {"ior": "N-BK7", "absorption_per_m": 1}}}})", ErrorCode::scene,
-       "absorption_per_m goes with a constant real index"},
+       "absorption_per_m goes with an index without k; this one brings its own"},
       {"unknown glass", R"({"materials": {"m": {"dielectric": {"ior": "N-BK77"}}}})", ErrorCode::scene,
        "did you mean \"N-BK7\"?"},
       {"energy times efficiency",

@@ -1,4 +1,6 @@
 // Scenes of glTF, converted, beside the same scenes written by hand.
+#include <cmath>
+
 #include "doors.h"
 #include "gltf_asset.h"
 #include "io/schema/write.h"
@@ -198,6 +200,28 @@ TEST_F(GltfSceneTest, DispersionHasTheAbbeNumber) {
   const Curve n = table_curve(table.wavelength_nm, table.n, Outside::clamp);
   EXPECT_NEAR(n(587.5618), 1.6, 1e-4);
   EXPECT_NEAR((n(587.5618) - 1) / (n(486.1327) - n(656.2725)), 40, 0.1);
+}
+
+// Of grey, half of which is left after 2 m, with an index as without absorption; of a colour its spectrum.
+TEST_F(GltfSceneTest, DispersionKeepsTheAbsorption) {
+  const auto glass = [this](const std::string& attenuation) {
+    const auto made = convert(
+        "a.gltf", gltf(
+                      R"({"name": "m", "extensions": {"KHR_materials_transmission": {"transmissionFactor": 1},
+      "KHR_materials_volume": {"thicknessFactor": 1)" +
+                      attenuation + R"(}, "KHR_materials_dispersion": {"dispersion": 0.5}}})"));
+    EXPECT_TRUE(made) << told_;
+    return made ? std::get<spec::Dielectric>(made->materials.at(0).value.model).ior : spec::TintedIor{};
+  };
+  const auto clear = glass("");
+  EXPECT_FALSE(clear.absorption_per_m);
+  const auto grey = glass(R"(, "attenuationColor": [0.5, 0.5, 0.5], "attenuationDistance": 2)");
+  EXPECT_EQ(std::get<spec::TableIor>(grey.ior.value).n, std::get<spec::TableIor>(clear.ior.value).n);
+  ASSERT_TRUE(grey.absorption_per_m);
+  EXPECT_NEAR(std::get<double>(grey.absorption_per_m->value), std::log(2) / 2, 1e-12);
+  EXPECT_FALSE(tells("a colour has no spectrum")) << told_;
+  EXPECT_TRUE(glass(R"(, "attenuationColor": [0.5, 1, 1], "attenuationDistance": 2)").absorption_per_m);
+  EXPECT_TRUE(tells("a colour has no spectrum")) << told_;
 }
 
 TEST_F(GltfSceneTest, Emission) {

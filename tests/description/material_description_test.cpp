@@ -33,6 +33,36 @@ TEST_F(DescriptionTest, ReadsMaterials) {
   EXPECT_GT(std::get<ConductorMaterial>(loaded->materials[3].model).index.k(500), 2);
 }
 
+TEST_F(DescriptionTest, AbsorptionGoesWithAnyIndexThatHasNone) {
+  const std::string dispersive = R"({"wavelength_nm": [400, 700], "n": [1.53, 1.51]})";
+  for (const std::string& ior :
+       {std::string("1.5"), dispersive, std::string(R"("fused_silica")"), std::string(R"("water_20.0C")")}) {
+    SCOPED_TRACE(ior);
+    const auto index = [&](const std::string& beside) {
+      const Loaded loaded =
+          load(fmt::format(R"({{"materials": {{"m": {{"dielectric": {{"ior": {}{}}}}}}}}})", ior, beside));
+      EXPECT_TRUE(loaded.scene) << loaded.text();
+      return loaded.scene ? std::get<DielectricMaterial>(loaded->materials[0].model).index
+                          : RefractiveIndex(1.0);
+    };
+    const RefractiveIndex clear = index("");
+    const RefractiveIndex tinted = index(
+        R"(, "absorption_per_m": {"table": {"wavelength_nm": [400, 700], "values": [100, 400], "outside": "clamp"}})");
+    EXPECT_FALSE(clear.absorbing());
+    EXPECT_NEAR(tinted.absorption_per_m(350), 100, 1e-3);
+    EXPECT_NEAR(tinted.absorption_per_m(500), 200, 1e-3);
+    EXPECT_NEAR(tinted.absorption_per_m(SampledSpectrum(500))[0], 200, 1e-3);
+    EXPECT_EQ(tinted.dispersive(), clear.dispersive());
+    for (const double nm : {350.0, 500.0, 900.0}) EXPECT_EQ(tinted.n(nm), clear.n(nm));
+    EXPECT_EQ(tinted.low_nm(), clear.low_nm());
+    EXPECT_EQ(tinted.high_nm(), clear.high_nm());
+  }
+  expect_refused(
+      {{"a table's own",
+        R"({"materials": {"m": {"dielectric": {"ior": {"wavelength_nm": [400, 700], "n": [1.5, 1.5], "k": [0, 1e-6]}, "absorption_per_m": 1}}}})",
+        ErrorCode::scene, "absorption_per_m goes with an index without k; this one brings its own"}});
+}
+
 TEST_F(DescriptionTest, ReadsTablesOfIndices) {
   const Loaded loaded = load(R"({"materials": {
     "melt": {"dielectric": {"ior": {"wavelength_nm": [400, 600], "n": [1.6, 1.5]}}},

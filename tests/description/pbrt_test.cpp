@@ -168,6 +168,11 @@ TEST_F(PbrtTest, DielectricsAndWhatIsWithin) {
   EXPECT_EQ(std::get<double>(milk.ior.absorption_per_m.value().value), 10);
   EXPECT_EQ(std::get<double>(milk.scattering.per_m.value().value), 20);
   EXPECT_EQ(std::get<spec::HenyeyGreenstein>(milk.scattering.phase.value().value).g, 0.5);
+  const auto smoked = material<spec::Dielectric>(
+      "MakeNamedMedium \"smoke\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [1 1 1] \"rgb sigma_s\" [0 "
+      "0 0]\nMediumInterface \"smoke\" \"\"\nMaterial \"dielectric\" \"spectrum eta\" [400 1.53 700 1.51]");
+  EXPECT_EQ(std::get<spec::TableIor>(smoked.ior.ior.value).n, (std::vector<double>{1.53, 1.51}));
+  EXPECT_EQ(std::get<double>(smoked.ior.absorption_per_m.value().value), 1);
   const auto fog = material<spec::Medium>(
       "MakeNamedMedium \"fog\" \"string type\" \"homogeneous\" \"rgb sigma_a\" [0 0 0] \"rgb sigma_s\" [1 1 "
       "1]\n"

@@ -1,11 +1,21 @@
 // Scenes of other renderers, converted, look as the same scenes written for Abbe.
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <memory>
+#include <numbers>
 #include <ostream>
 #include <string>
 
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
 #include "description/doors/doors.h"
+#include "spectral/colorimetry.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/source_tree.h"
 #include "tests/tier.h"
@@ -65,6 +75,39 @@ INSTANTIATE_TEST_SUITE_P(All, Doors,
                                            Pair{"pbrt/metals.pbrt", "bench/metals.json"},
                                            Pair{"mitsuba/cornell.xml", "scenes/cornell.json"},
                                            Pair{"mitsuba/metals.xml", "bench/metals.json"}));
+
+// Y in the middle of the picture of a ball of radius 5 by pbrt's default pinhole, f/4, under an even sky of
+// radiance 1. `before` holds directives before the material.
+test::Region ball_under_even_sky(const std::string& eta, const std::string& before) {
+  const fs::path file = fs::temp_directory_path() / fmt::format("abbe_ball_{}.pbrt", ::getpid());
+  std::ofstream(file)
+      << "Scale -1 1 1\nLookAt 0 0 -20  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 1\n"
+         "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 16\n"
+         "Sampler \"independent\" \"integer pixelsamples\" 64\n"
+         "Integrator \"volpath\" \"integer maxdepth\" 50\nWorldBegin\n"
+         "LightSource \"infinite\" \"rgb L\" [1 1 1]\n"
+      << before << "Material \"dielectric\" " << eta << "\nShape \"sphere\" \"float radius\" 5\n";
+  Scene scene = converted(file);
+  fs::remove(file);
+  return test::whole(render(scene, {}).film, 1);
+}
+
+// In the middle a ball is a slab as thick as it is wide: of the sky behind (1 - R)^2 t/(1 - R^2 t^2) is let
+// through and R + (1 - R)^2 R t^2/(1 - R^2 t^2) of that before it is reflected, t = exp(-alpha d), here
+// exp(-0.1 * 10), and R = 0.04.
+TEST(PbrtGlass, MatterWithinDispersiveGlassAbsorbs) {
+  const double r = 0.04;
+  const double t = std::exp(-1);
+  const double share = r + (1 - r) * (1 - r) * t * (1 + r * t) / (1 - r * r * t * t);
+  const double expected = kLuminousEfficacy * std::numbers::pi / 64 * share;
+  const test::Region seen = ball_under_even_sky("\"spectrum eta\" [400 1.5 700 1.5]",
+                                                "MakeNamedMedium \"m\" \"string type\" \"homogeneous\" \"rgb "
+                                                "sigma_a\" [0.1 0.1 0.1] \"rgb sigma_s\" [0 "
+                                                "0 0]\nMediumInterface \"m\" \"\"\n");
+  std::printf("Y %.3f +- %.3f of %.3f\n", seen.mean, std::sqrt(seen.variance), expected);
+  EXPECT_NEAR(seen.mean, expected, 1e-3 * expected + 5 * std::sqrt(seen.variance));
+  EXPECT_LT(std::sqrt(seen.variance), 0.01 * expected);
+}
 
 }  // namespace
 }  // namespace abbe

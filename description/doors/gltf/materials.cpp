@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <numbers>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -104,22 +103,15 @@ spec::Reflectance base_colour(const JsonValue* material, const SourcePosition& w
 }
 
 // An index of so much at the d line, with the Abbe number 20/dispersion, by the formula of
-// KHR_materials_dispersion, and the absorption [1/m] of colours.
-spec::Ior index_of_volume(double n, double dispersion, const std::optional<LinearRgb>& absorption_per_m,
-                          const SourcePosition& where, Door& door) {
+// KHR_materials_dispersion.
+spec::Ior dispersive_index(double n, double dispersion, const SourcePosition& where, Door& door) {
   Samples index;
-  Samples k;
   constexpr double kStep = 10;
   for (double nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; nm += kStep) {
     index.nm.push_back(nm);
     index.values.push_back(std::max(n + (n - 1) * dispersion / 20 * (523655 / (nm * nm) - 1.5168), 1.0));
   }
-  if (!absorption_per_m) return index_of(index, 0.0, where, door);
-  // A mixture of what absorbs as the colour's parts do; k = alpha lambda/(4 pi).
-  const Curve alpha = rgb_spectrum(*absorption_per_m);
-  k.nm = index.nm;
-  for (const double nm : k.nm) k.values.push_back(alpha(nm) * nm * 1e-9 / (4 * std::numbers::pi));
-  return index_of(index, k, where, door);
+  return index_of(index, 0.0, where, door);
 }
 
 // What a length of matter takes away, if it has a colour.
@@ -154,14 +146,10 @@ void set_glass(const JsonValue* material, const SourcePosition& where, spec::Mat
     to.model = pane;
     return;
   }
-  const auto absorption = absorption_per_m(material, document);
   spec::Dielectric glass;
-  if (dispersion > 0) {
-    glass.ior.ior = index_of_volume(n, dispersion, absorption, where, door);
-  } else {
-    glass.ior.ior = index;
-    if (absorption) glass.ior.absorption_per_m = curve_of(*absorption, where, door);
-  }
+  glass.ior.ior = dispersion > 0 ? dispersive_index(n, dispersion, where, door) : index;
+  if (const auto absorption = absorption_per_m(material, document))
+    glass.ior.absorption_per_m = curve_of(*absorption, where, door);
   glass.roughness = roughness_of(roughness * roughness, roughness * roughness, FacetShape::ggx, where, door);
   to.model = std::move(glass);
 }
