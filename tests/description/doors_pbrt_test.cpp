@@ -2,10 +2,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <string>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "io/exr.h"
 #include "pbrt_scenes.h"
+#include "spectral/curve.h"
 #include "tests/materials/index_of.h"
 
 namespace abbe {
@@ -15,15 +20,21 @@ using test::kBegin;
 using test::PbrtTest;
 using test::SphereBody;
 
+// Of these n alone, as there.
 TEST_F(PbrtTest, GlassesAreThoseOfItsNames) {
-  const auto index = [&](const std::string& name) {
-    return std::get<std::string>(
-        material<spec::Dielectric>("Material \"dielectric\" \"spectrum eta\" \"" + name + "\"")
-            .ior.ior.value);
-  };
-  EXPECT_EQ(index("glass-F5"), "schott/SF5");
-  EXPECT_EQ(index("glass-F10"), "SF10");
-  EXPECT_EQ(index("glass-F11"), "SF11");
+  for (const auto& [theirs, ours] : {std::pair{"glass-BK7", "N-BK7"}, std::pair{"glass-BAF10", "N-BAF10"},
+                                     std::pair{"glass-FK51A", "N-FK51A"}, std::pair{"glass-F5", "schott/SF5"},
+                                     std::pair{"glass-F10", "SF10"}, std::pair{"glass-F11", "SF11"}}) {
+    SCOPED_TRACE(theirs);
+    const spec::TintedIor glass =
+        material<spec::Dielectric>(fmt::format("Material \"dielectric\" \"spectrum eta\" \"{}\"", theirs))
+            .ior;
+    const auto& table = std::get<spec::TableIor>(glass.ior.value);
+    const Curve n = table_curve(table.wavelength_nm, table.n, Outside::clamp);
+    for (const double nm : {400.0, 550.0, 700.0}) EXPECT_NEAR(n(nm), index_of(ours).n(nm), 1e-9);
+    EXPECT_EQ(std::ranges::count(table.k.value(), 0), std::ssize(table.k.value()));
+    EXPECT_FALSE(glass.absorption_per_m);
+  }
 }
 
 TEST_F(PbrtTest, WidthsOfFacetsBeyond1AreCut) {

@@ -92,6 +92,19 @@ test::Region ball_under_even_sky(const std::string& eta, const std::string& befo
   return test::whole(render(scene, {}).film, 1);
 }
 
+// What is reflected and what is let through add up to the sky, whatever the index: Y = 683.002 pi/(4 4^2).
+TEST(PbrtGlass, ClearBallsShowAnEvenSkyAsItIs) {
+  const double sky = kLuminousEfficacy * std::numbers::pi / 64;
+  for (const char* eta : {"\"float eta\" 1.5", "\"spectrum eta\" \"glass-BK7\"",
+                          "\"spectrum eta\" \"glass-BAF10\"", "\"spectrum eta\" \"glass-F11\""}) {
+    SCOPED_TRACE(eta);
+    const test::Region seen = ball_under_even_sky(eta, "");
+    std::printf("%s: Y %.3f +- %.3f of %.3f\n", eta, seen.mean, std::sqrt(seen.variance), sky);
+    EXPECT_NEAR(seen.mean, sky, 1e-3 * sky + 5 * std::sqrt(seen.variance));
+    EXPECT_LT(std::sqrt(seen.variance), 0.01 * sky);
+  }
+}
+
 // In the middle a ball is a slab as thick as it is wide: of the sky behind (1 - R)^2 t/(1 - R^2 t^2) is let
 // through and R + (1 - R)^2 R t^2/(1 - R^2 t^2) of that before it is reflected, t = exp(-alpha d), here
 // exp(-0.1 * 10), and R = 0.04.

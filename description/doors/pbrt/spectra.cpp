@@ -241,13 +241,6 @@ spec::Ior glass_index(const Parameters& parameters, std::string_view eta, World&
   spec::Ior ior;
   ior.value = 1.5;
   if (n == nullptr) return ior;
-  ior.where = n->where;
-  if (n->type == "spectrum" && !n->texts.empty()) {
-    if (const auto glass = renamed(kGlasses, n->texts.front())) {
-      ior.value = *glass;
-      return ior;
-    }
-  }
   const Spectrum value = spectrum(parameters, eta, 1.5, world);
   ior = index_of(value, 0.0, n->where, world.door);
   if (const auto* constant = std::get_if<spec::MetalIor>(&ior.value)) ior.value = double{constant->n};

@@ -31,7 +31,8 @@ namespace abbe::doors::pbrt {
 /// The index of a metal said by `eta` and `k`; of what is absent that of copper.
 [[nodiscard]] spec::Ior metal_index(const Parameters& parameters, std::string_view eta, std::string_view k,
                                     World& world);
-/// The index of a dielectric said by `eta`: a number, a glass, a colour or samples.
+/// The index of a dielectric said by `eta`: a number, a colour or samples, as of a named
+/// glass, which absorbs nothing there.
 [[nodiscard]] spec::Ior glass_index(const Parameters& parameters, std::string_view eta, World& world);
 
 }  // namespace abbe::doors::pbrt
