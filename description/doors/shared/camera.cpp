@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <variant>
+
+#include <fmt/format.h>
 
 #include "description/camera.h"
 #include "description/doors/shared/placement.h"
@@ -32,6 +35,23 @@ void note_uneven_scale(const GivenCamera& camera, Door& door) {
       return door.note(
           camera.where,
           "a camera that is scaled unevenly has no counterpart here: its picture is not stretched");
+}
+
+// There pixels tell the radiance that comes to them, here the irradiance of the film, unless it holds
+// radiances: by cos^4 of the angle to the axis less of these.
+void note_dark_corners(const GivenCamera& camera, Door& door) {
+  constexpr double kAlike = 0.9;
+  if (std::holds_alternative<spec::Bins>(door.scene.sensor->counts)) return;
+  const auto width = static_cast<double>(camera.resolution[0]);
+  const auto height = static_cast<double>(camera.resolution[1]);
+  const double corner =
+      std::tan(camera.fov_deg * std::numbers::pi / 360) * std::hypot(width, height) / std::min(width, height);
+  const double share = 1 / std::pow(1 + corner * corner, 2);
+  if (share < kAlike)
+    door.note(camera.where,
+              fmt::format("a picture darkens towards its corners here, by cos^4 of the angle to the axis as "
+                          "behind lenses, and not there: to {:.2g} of its middle",
+                          share));
 }
 
 // Brightness does not depend on the opening of the other renderer's lens, nor on the size of its film. So its
@@ -73,6 +93,7 @@ void set_camera(const GivenCamera& given, Door& door) {
   const Imath::V3d up = axis(camera, 1).normalized();
   note_uneven_scale(camera, door);
   if (!door.scene.sensor) door.scene.sensor.emplace();
+  note_dark_corners(camera, door);
   door.scene.sensor->resolution = {{camera.resolution}, camera.where};
   const spec::View view{from, from + onwards, up, 0};
   spec::Camera& said = door.scene.camera.emplace();
