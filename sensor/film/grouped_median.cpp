@@ -1,7 +1,9 @@
 #include "sensor/film/grouped_median.h"
 
 #include <algorithm>
-#include <cmath>
+#include <iterator>
+
+#include "sensor/film/defective_pixels.h"
 
 namespace abbe {
 
@@ -9,12 +11,17 @@ double grouped_median(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const double value = values[values.size() / 2];
   const auto [first, last] = std::equal_range(values.begin(), values.end(), value);
-  if (first == values.begin() && last == values.end()) return value;
-  // To the ends of the step.
-  double below = first == values.begin() ? 0 : (value - *(first - 1)) / 2;
-  double above = last == values.end() ? 0 : (*last - value) / 2;
-  if (first == values.begin()) below = above;
-  if (last == values.end()) above = below;
+  // To the ends of the step; a few values apart from all others are no codes beside it.
+  const auto tells = [&](auto from, auto to) {
+    return exceeds_defects(static_cast<double>(std::distance(from, to)), static_cast<double>(values.size()));
+  };
+  const bool has_below = tells(values.begin(), first);
+  const bool has_above = tells(last, values.end());
+  if (!has_below && !has_above) return value;
+  double below = has_below ? (value - *(first - 1)) / 2 : 0;
+  double above = has_above ? (*last - value) / 2 : 0;
+  if (!has_below) below = above;
+  if (!has_above) above = below;
   // Where half of all values is reached, as a share of the step from its middle, to -1 and 1.
   const double half = static_cast<double>(values.size()) / 2 - static_cast<double>(first - values.begin());
   const double share = 2 * half / static_cast<double>(last - first) - 1;

@@ -99,16 +99,14 @@ PatchChannel measure(int width, const MeasuredPlanes& planes, std::size_t plane,
   PatchChannel found{.pixels = pixels.size()};
   found.black = static_cast<std::size_t>(std::count_if(pixels.begin(), pixels.end(), is_black));
   found.saturated = static_cast<std::size_t>(std::count_if(pixels.begin(), pixels.end(), is_saturated));
-  std::vector<double> all;
   std::vector<double> sound;
   for (const Pixel& pixel : pixels) {
-    all.push_back(value(measured, pixel));
     const bool is_defective =
         (is_black(pixel) && !found.is_black()) || (is_saturated(pixel) && !found.is_saturated());
-    if (!is_defective) sound.push_back(all.back());
+    if (!is_defective) sound.push_back(value(measured, pixel));
   }
   average(sound, found);
-  found.median = grouped_median(std::move(all));
+  found.median = grouped_median(std::move(sound));
   return found;
 }
 

@@ -23,12 +23,12 @@ struct PatchOutline {
   std::array<Imath::V2d, 4> corners;
 };
 
-/// What an image holds of a patch in one channel. Black and saturated pixels are left out of mean and
+/// What an image holds of a patch in one channel. Black and saturated pixels are left out of mean, median and
 /// deviation where there are so few of them that they are taken for defective (`exceeds_defects`).
 struct PatchChannel {
   std::size_t pixels = 0;  ///< All of them.
   double mean = 0;
-  double median = 0;                     ///< Of all of them, as `grouped_median` has it.
+  double median = 0;                     ///< As `grouped_median` has it.
   std::optional<double> deviation = {};  ///< Standard deviation of the pixels; nothing of a single one.
   std::size_t black = 0;                 ///< Pixels at or below black.
   std::size_t saturated = 0;             ///< Pixels at or above saturation.
