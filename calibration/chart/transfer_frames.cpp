@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "calibration/chart/raw_scale.h"
+#include "calibration/chart/white_level.h"
 #include "io/error.h"
 #include "sensor/film/recorded_crop.h"
 
@@ -27,6 +28,7 @@ constexpr double kUnderflow = 0.005;      // of a channel's pixels
 struct Frame {
   double exposure_s;
   RawScale scale;
+  double white_dn;
   int width;
   int height;
   std::vector<Crop> areas;  // whose pixels were rendered
@@ -44,7 +46,15 @@ Frame read_frame(const std::filesystem::path& file, Inputs& inputs) {
   const auto [image, scale] = read_raw_image(file, &inputs);
   if (!scale || !scale->exposure_s)
     refuse(file, "tells neither bits nor exposure time: a raw file of `abbe develop` is needed");
-  Frame frame{*scale->exposure_s, *scale, image.width, image.height, recorded_areas(image), {}, {}, {}};
+  Frame frame{*scale->exposure_s,
+              *scale,
+              white_dn(image, *scale),
+              image.width,
+              image.height,
+              recorded_areas(image),
+              {},
+              {},
+              {}};
   for (const ChannelCodes& channel : raw_codes(image, *scale)) {
     frame.channels.push_back(channel.channel);
     frame.codes.emplace_back(channel.dn.begin(), channel.dn.end());
@@ -179,10 +189,11 @@ std::vector<ChannelTransfer> measure_transfer(std::span<const std::filesystem::p
   const Frame& first = lit_frames.front();
   require_alike(first, dark_frames.front(), lit.front());
   const std::vector<CodeLevel> levels = code_levels(first.scale.curved.value_or(Readout{}));
+  const auto white = static_cast<std::uint16_t>(std::clamp(std::round(first.white_dn), 0.0, 65535.0));
   std::vector<ChannelTransfer> all;
   for (std::size_t c = 0; c < first.channels.size(); ++c) {
     PhotonTransfer found =
-        photon_transfer(pairs_of(dark_frames, c), pairs_of(lit_frames, c), first.scale.bits, levels);
+        photon_transfer(pairs_of(dark_frames, c), pairs_of(lit_frames, c), first.scale.bits, levels, white);
     // What fills the codes tells nothing of the well.
     const double range_e = (first.scale.highest() - first.scale.offset_dn) * found.gain_e_per_dn;
     if (found.full_well_e && *found.full_well_e > kOfTheCodes * range_e) found.full_well_e.reset();

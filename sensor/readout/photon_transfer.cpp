@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
+#include <limits>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -189,26 +191,34 @@ struct WeightedPair {
   double weight;
 };
 
-// The variance of a pattern [DN^2]: how the sum of the first frames varies over the pixels together with that
-// of the second ones, whose noise is another. It is below 0 where noise alone makes it so.
-double pattern_variance(const std::vector<WeightedPair>& sum, const std::vector<CodeLevel>& levels) {
-  const std::size_t pixels = sum.front().pair->first.size();
-  const auto n = static_cast<double>(pixels);
+// The variance of a pattern [DN^2], that of darkness or of a lit pair less it: how the sum of the first
+// frames varies over the pixels together with that of the second ones, whose noise is another. It is below 0
+// where noise alone makes it so. Only pixels of a dark signal up to `most_dark_dn` count, so that being
+// bright in the light leaves none out.
+double pattern_variance(const std::vector<WeightedPair>& darkness, const FlatPair* lit, double most_dark_dn,
+                        const std::vector<CodeLevel>& levels) {
+  double n = 0;
   double first = 0;
   double second = 0;
   double products = 0;
-  for (std::size_t i = 0; i < pixels; ++i) {
+  for (std::size_t i = 0; i < darkness.front().pair->first.size(); ++i) {
     double a = 0;
     double b = 0;
-    for (const auto& [pair, weight] : sum) {
+    for (const auto& [pair, weight] : darkness) {
       a += weight * levels[pair->first[i]].signal_dn;
       b += weight * levels[pair->second[i]].signal_dn;
     }
+    if ((a + b) / 2 > most_dark_dn) continue;
+    if (lit != nullptr) {
+      a -= levels[lit->first[i]].signal_dn;
+      b -= levels[lit->second[i]].signal_dn;
+    }
+    n += 1;
     first += a;
     second += b;
     products += a * b;
   }
-  return (products - first * second / n) / (n - 1);
+  return n > 1 ? (products - first * second / n) / (n - 1) : 0;
 }
 
 // The pattern [DN^2] of darkness after such an exposure, pixel by pixel, or of a lit pair less that darkness:
@@ -216,17 +226,16 @@ double pattern_variance(const std::vector<WeightedPair>& sum, const std::vector<
 // dark signal of each pixel grows in proportion to time. Where the line adds too much noise, that of the pair
 // nearest in time.
 double pattern(std::span<const FlatPair> pairs, const std::vector<PairMoments>& dark,
-               const std::vector<CodeLevel>& levels, double exposure_s, const FlatPair* lit) {
-  const auto variance = [&](std::vector<WeightedPair> sum) {
-    for (WeightedPair& term : sum) term.weight = -term.weight;
-    if (lit != nullptr) sum.push_back({lit, 1});
-    return pattern_variance(sum, levels);
+               const std::vector<CodeLevel>& levels, double exposure_s, const FlatPair* lit = nullptr,
+               double most_dark_dn = std::numeric_limits<double>::infinity()) {
+  const auto variance = [&](const std::vector<WeightedPair>& darkness) {
+    return pattern_variance(darkness, lit, most_dark_dn, levels);
   };
   std::vector<WeightedPair> equal;
   for (const FlatPair& pair : pairs)
     if (pair.exposure_s == exposure_s) equal.push_back({&pair, 1});
   for (WeightedPair& term : equal) term.weight /= static_cast<double>(equal.size());
-  if (!equal.empty()) return variance(std::move(equal));
+  if (!equal.empty()) return variance(equal);
 
   const std::vector<double> weights = line_weights(dark, exposure_s);
   std::vector<WeightedPair> line;
@@ -240,7 +249,7 @@ double pattern(std::span<const FlatPair> pairs, const std::vector<PairMoments>& 
     return std::abs(a.exposure_s - exposure_s) < std::abs(b.exposure_s - exposure_s);
   };
   const double by_nearest = variance({{&*std::min_element(pairs.begin(), pairs.end(), nearer), 1}});
-  return noise > kPatternNoise * by_nearest ? by_nearest : variance(std::move(line));
+  return noise > kPatternNoise * by_nearest ? by_nearest : variance(line);
 }
 
 // What pairs say, as long as no pixel is full where it should not be.
@@ -250,7 +259,7 @@ struct Analysis {
 };
 
 Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair> lit_pairs, int bits,
-                 const std::vector<CodeLevel>& levels) {
+                 const std::vector<CodeLevel>& levels, double white_dn) {
   const std::vector<PairMoments> dark = all_moments(dark_pairs, levels);
   const std::vector<PairMoments> lit = all_moments(lit_pairs, levels);
   const Line dark_mean = fitted(dark, &PairMoments::mean);
@@ -289,19 +298,21 @@ Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair>
   if (full && brightest.mean < static_cast<double>(highest_code) - 1)
     full_well = (brightest.mean - dark_mean.at_zero) * gain;
 
-  const double full_dn = full ? dark_mean.at_zero + kFull * (brightest.mean - dark_mean.at_zero)
-                              : levels[highest_code].signal_dn;
+  const double full_dn = full ? dark_mean.at_zero + kFull * (brightest.mean - dark_mean.at_zero) : white_dn;
   const auto from_half = [&](const PairMoments& m) { return std::abs(signal(m) - kPatternsAt * saturation); };
   const auto half_pair = std::min_element(lit.begin(), lit.end(), by(from_half));
   const FlatPair& half = lit_pairs[static_cast<std::size_t>(half_pair - lit.begin())];
+  // The dark signal up to which a pixel holds the light of that pair.
+  const double most_dark_dn = (full ? brightest.mean : white_dn) - signal(*half_pair);
   std::vector<TransferPoint> points;
   for (const PairMoments& m : lit) points.push_back({signal(m), m.temporal - dark_variance.at(m.exposure_s)});
   const double read_noise = root(read_variance) * gain;
   return {
       {gain, read_noise, dark_mean.slope * gain,
-       100 * root(pattern(dark_pairs, dark, levels, half.exposure_s, &half)) / signal(*half_pair),
-       root(pattern(dark_pairs, dark, levels, 0, nullptr)) * gain, full_well, std::move(points),
-       errors.gain * gain, errors.read_noise ? std::optional(*errors.read_noise * read_noise) : std::nullopt},
+       100 * root(pattern(dark_pairs, dark, levels, half.exposure_s, &half, most_dark_dn)) /
+           signal(*half_pair),
+       root(pattern(dark_pairs, dark, levels, 0)) * gain, full_well, std::move(points), errors.gain * gain,
+       errors.read_noise ? std::optional(*errors.read_noise * read_noise) : std::nullopt},
       full_dn};
 }
 
@@ -359,9 +370,11 @@ std::vector<CodeLevel> code_levels(const Readout& readout) {
 }
 
 PhotonTransfer photon_transfer(std::span<const FlatPair> dark_pairs, std::span<const FlatPair> lit_pairs,
-                               int bits, const std::vector<CodeLevel>& levels) {
+                               int bits, const std::vector<CodeLevel>& levels, std::uint16_t white_dn) {
   require_frames(dark_pairs, lit_pairs);
-  Analysis found = analyse(dark_pairs, lit_pairs, bits, levels);
+  const double white =
+      levels[std::min<std::size_t>(white_dn, (1U << static_cast<unsigned>(bits)) - 1)].signal_dn;
+  Analysis found = analyse(dark_pairs, lit_pairs, bits, levels, white);
   // Hot pixels that are full tell neither how their dark signal grows nor how it scatters.
   const std::vector<bool> full = full_pixels(dark_pairs, levels, found.full_dn);
   const auto full_ones = static_cast<std::size_t>(std::count(full.begin(), full.end(), true));
@@ -369,7 +382,7 @@ PhotonTransfer photon_transfer(std::span<const FlatPair> dark_pairs, std::span<c
   if (full_ones + 2 > full.size()) refuse("all pixels of a dark pair are full: shorter exposures are needed");
   const KeptPairs dark(dark_pairs, full);
   const KeptPairs lit(lit_pairs, full);
-  return analyse(dark.pairs, lit.pairs, bits, levels).transfer;
+  return analyse(dark.pairs, lit.pairs, bits, levels, white).transfer;
 }
 
 }  // namespace abbe

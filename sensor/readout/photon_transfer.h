@@ -54,15 +54,17 @@ struct PhotonTransfer {
 /// fitted up to 70 % of saturation, the full well taken from the brightest pair. PRNU is the pattern of the
 /// lit pair nearest to 50 % of saturation less, pixel by pixel, darkness of its exposure time: of the dark
 /// pairs of that time where there are some, else from the line through each pixel's dark signals over the
-/// exposure time or, where a line from afar would add too much noise, from the pair nearest in time. DSNU is
-/// the pattern of darkness at 0 s, likewise. Both are 0 where noise hides them. Pixels that are full in a
-/// dark pair, as hot ones are in long exposures, do not count in anything. Standard errors are of the pairs'
-/// temporal variances, each known by its pixels' fourth moment and, of noise that is narrower than a code, as
-/// far as rounding is; they are carried through the fits. Pixels count as independent, which those of a row
-/// with noise of its own are not. `bits`: of the codes; `levels`: what each of them stands for. Throws
+/// exposure time or, where a line from afar would add too much noise, from the pair nearest in time. Pixels
+/// whose darkness leaves no room for the light of that pair do not count in it. DSNU is the pattern of
+/// darkness at 0 s, likewise. Both are 0 where noise hides them. Pixels that are full in a dark pair, as hot
+/// ones are in long exposures, do not count in anything. Standard errors are of the pairs' temporal
+/// variances, each known by its pixels' fourth moment and, of noise that is narrower than a code, as far as
+/// rounding is; they are carried through the fits. Pixels count as independent, which those of a row with
+/// noise of its own are not. `bits`: of the codes; `levels`: what each of them stands for; `white_dn`: the
+/// code from which a pixel is full where no lit pair tells that, the highest one if it is beyond. Throws
 /// Error{input} for pairs that do not determine this.
 [[nodiscard]] PhotonTransfer photon_transfer(std::span<const FlatPair> dark, std::span<const FlatPair> lit,
-                                             int bits,
-                                             const std::vector<CodeLevel>& levels = code_levels({}));
+                                             int bits, const std::vector<CodeLevel>& levels = code_levels({}),
+                                             std::uint16_t white_dn = 65535);
 
 }  // namespace abbe

@@ -184,6 +184,41 @@ TEST_F(CurvedFrames, AreOfOneCurve) {
           "has another response curve, offset_dn or saturation_dn than the first frame");
 }
 
+// One pixel in a thousand clips in the longer darkness, and no lit pair does.
+TEST_F(TransferFrames, WhiteLevelsTellWhichHotPixelsAreFull) {
+  Readout readout;
+  readout.gain_e_per_dn = 2;
+  readout.bits = 12;
+  readout.offset_dn = 100;
+  readout.saturation_dn = 3000;
+  readout.read_noise_e = 5;
+  readout.dsnu_e = 3;
+  readout.hot_pixels_percent = 0.1;
+  readout.hot_pixel_e_per_s = 1000;
+  std::uint32_t number = 0;
+  const auto add_pair = [&](Files& files, double electrons, double exposure_s) {
+    for (int i = 0; i < 2; ++i, ++number) {
+      const RawFrame raw = read_out(readout, std::vector<float>(256 * 256, static_cast<float>(electrons)),
+                                    {exposure_s, 1, number});
+      files.push_back(
+          write(fmt::format("{}.tif", number),
+                {256,
+                 256,
+                 {{"mono", {raw.dn.begin(), raw.dn.end()}}},
+                 {{"exposure_s", fmt::format("{}", exposure_s)},
+                  {"white_level_dn", "3000"},
+                  {"sensor",
+                   R"({"readout":{"gain_e_per_dn":2,"bits":12,"offset_dn":100,"saturation_dn":3000}})"}}}));
+    }
+  };
+  Files dark;
+  Files lit;
+  for (const double seconds : {1.0, 10.0}) add_pair(dark, 0, seconds);
+  for (const double electrons : {1200.0, 2900.0, 4700.0}) add_pair(lit, electrons, 1);
+  Inputs inputs;
+  EXPECT_NEAR(measure_transfer(dark, lit, inputs).at(0).transfer.dsnu_e, 3, 0.2);
+}
+
 TEST_F(TransferFrames, ObjectsInSentences) {
   const std::vector<fs::path> dark = pair(0, 0.01);
   const std::vector<fs::path> lit = pair(500, 0.01);

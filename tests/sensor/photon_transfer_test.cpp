@@ -1,8 +1,11 @@
 #include "sensor/readout/photon_transfer.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 #include <deque>
 #include <string>
 #include <utility>
@@ -221,6 +224,40 @@ TEST(PhotonTransfer, HotPixelsAreNoPatternOfLightOrOffsets) {
     EXPECT_NEAR(found.prnu_percent, readout.prnu_percent, 0.03) << dark_s.front() << " to " << dark_s.back();
     EXPECT_NEAR(found.dsnu_e, readout.dsnu_e, 0.25) << dark_s.front() << " to " << dark_s.back();
     expect_within_errors(readout, found);
+  }
+}
+
+// Where no lit pair fills the well, the code from which it is full tells which pixels hot ones fill in long
+// darkness; where hot pixels fill it in the light alone, the darkness that they have by then.
+TEST(PhotonTransfer, HotPixelsThatFillTheWellUnseenAreNoPattern) {
+  struct Series {
+    double hot_percent;
+    std::vector<double> dark_s;
+    double lit_s;
+    std::vector<double> lit;
+    int bits;
+  };
+  for (const auto& [hot_percent, dark_s, lit_s, lit, bits] :
+       {Series{0.1, {1, 10}, 1, {0.2, 0.8}, 14}, Series{1, {0.1, 10}, 10, {0.2, 0.5, 0.8, 1.5}, 14},
+        Series{0.1, {1, 5}, 10, {0.2, 0.5, 0.8, 1.5}, 12}, Series{1, {0.1, 10}, 10, {0.2, 0.65, 0.9}, 12},
+        Series{0, {0.1, 10}, 10, {0.02, 0.9, 0.94}, 12}, Series{1, {0.1, 10}, 10, {0.02, 0.9, 0.94}, 12}}) {
+    Readout readout = with_hot_pixels();
+    readout.bits = bits;
+    readout.hot_pixels_percent = hot_percent;
+    for (readout.serial = 1; readout.serial <= 6; ++readout.serial) {
+      Bench bench{{readout}, {readout}};
+      bench.dark.pixels = bench.lit.pixels = 65536;
+      bench.lit.frame = 100;
+      for (const double seconds : dark_s) bench.dark.add(0, seconds);
+      for (const double share : lit) bench.lit.add(share * 7500, lit_s);
+      const auto white_dn = static_cast<std::uint16_t>(white_level(readout));
+      const PhotonTransfer found =
+          photon_transfer(bench.dark.pairs, bench.lit.pairs, bits, code_levels(readout), white_dn);
+      const std::string at =
+          fmt::format("{} % hot, dark {} s, serial {}", hot_percent, dark_s, readout.serial);
+      EXPECT_NEAR(found.prnu_percent, readout.prnu_percent, 0.05) << at;
+      EXPECT_NEAR(found.dsnu_e, readout.dsnu_e, 0.25) << at;
+    }
   }
 }
 
