@@ -1,5 +1,10 @@
 #include <array>
 #include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "calibration/chart/transfer_frames.h"
 #include "cli/answer.h"
@@ -10,10 +15,26 @@
 #include "io/extension.h"
 
 namespace abbe::cli {
+namespace {
+
+void warn_of_dim_light(const std::vector<ChannelTransfer>& channels) {
+  std::string dim;
+  for (const ChannelTransfer& one : channels)
+    if (!one.transfer.saturation_e) dim += (dim.empty() ? "" : ", ") + one.channel;
+  if (dim.empty()) return;
+  say(fmt::format(
+      "warning: no lit pair saturates {}, of which full well and dynamic range are not known: add "
+      "a pair in light beyond saturation",
+      dim));
+}
+
+}  // namespace
+
 int transfer(const TransferOptions& options) {
   if (!options.plot.empty()) require_extension(options.plot, {".svg"});
   Inputs inputs(options.max_memory_bytes);
   const std::vector<ChannelTransfer> channels = measure_transfer(options.dark, options.lit, inputs);
+  warn_of_dim_light(channels);
   Json answer;
   for (const ChannelTransfer& one : channels) {
     const PhotonTransfer& found = one.transfer;
@@ -27,8 +48,8 @@ int transfer(const TransferOptions& options) {
     answer["prnu_percent"].push_back(found.prnu_percent);
     answer["dsnu_e"].push_back(found.dsnu_e);
     answer["full_well_e"].push_back(found.full_well_e ? Json(*found.full_well_e) : Json());
-    answer["dynamic_range_db"].push_back(std::isfinite(one.dynamic_range_db) ? Json(one.dynamic_range_db)
-                                                                             : Json());
+    const std::optional<double>& range_db = one.dynamic_range_db;
+    answer["dynamic_range_db"].push_back(range_db && std::isfinite(*range_db) ? Json(*range_db) : Json());
     answer["snr10_e"].push_back(one.snr10_e);
     answer["snr10_lx_s"].push_back(one.snr10_lx_s ? Json(*one.snr10_lx_s) : Json());
   }

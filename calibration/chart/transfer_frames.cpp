@@ -197,11 +197,13 @@ std::vector<ChannelTransfer> measure_transfer(std::span<const std::filesystem::p
     // What fills the codes tells nothing of the well.
     const double range_e = (first.scale.highest() - first.scale.offset_dn) * found.gain_e_per_dn;
     if (found.full_well_e && *found.full_well_e > kOfTheCodes * range_e) found.full_well_e.reset();
-    const double most_e = found.full_well_e.value_or(range_e);
+    const auto range_db = found.saturation_e
+                              ? std::optional(20 * std::log10(*found.saturation_e / found.read_noise_e))
+                              : std::nullopt;
     // e^2 = 100 (e + s^2)
     const double snr10 = 50 + std::sqrt(2500 + 100 * found.read_noise_e * found.read_noise_e);
     const auto sensitivity = first.scale.electrons_per_lx_s;
-    all.push_back({first.channels[c], found, 20 * std::log10(most_e / found.read_noise_e), snr10,
+    all.push_back({first.channels[c], found, range_db, snr10,
                    sensitivity ? std::optional(snr10 / *sensitivity) : std::nullopt});
   }
   return all;

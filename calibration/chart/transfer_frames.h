@@ -15,8 +15,8 @@ namespace abbe {
 struct ChannelTransfer {
   std::string channel;
   PhotonTransfer transfer;
-  /// Full well, or what the highest code stands for, over read noise [dB]: 20 log10 of it [EMVA1288].
-  double dynamic_range_db;
+  /// What saturates over read noise [dB]: 20 log10 of it [EMVA1288]. Nothing where no lit pair saturates.
+  std::optional<double> dynamic_range_db;
   /// Electrons at which the signal is ten times its noise: e/sqrt(e + read noise^2) = 10.
   double snr10_e;
   std::optional<double>

@@ -294,9 +294,9 @@ Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair>
   // In a full well all pixels hold the same, so that the variance is far below that of the light.
   const bool full =
       brightest.temporal - dark_variance.at(brightest.exposure_s) < signal(brightest) / gain / 2;
-  std::optional<double> full_well;
-  if (full && brightest.mean < static_cast<double>(highest_code) - 1)
-    full_well = (brightest.mean - dark_mean.at_zero) * gain;
+  const auto saturation_e = full ? std::optional((brightest.mean - dark_mean.at_zero) * gain) : std::nullopt;
+  const auto full_well_e =
+      brightest.mean < static_cast<double>(highest_code) - 1 ? saturation_e : std::nullopt;
 
   const double full_dn = full ? dark_mean.at_zero + kFull * (brightest.mean - dark_mean.at_zero) : white_dn;
   const auto from_half = [&](const PairMoments& m) { return std::abs(signal(m) - kPatternsAt * saturation); };
@@ -311,8 +311,8 @@ Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair>
       {gain, read_noise, dark_mean.slope * gain,
        100 * root(pattern(dark_pairs, dark, levels, half.exposure_s, &half, most_dark_dn)) /
            signal(*half_pair),
-       root(pattern(dark_pairs, dark, levels, 0)) * gain, full_well, std::move(points), errors.gain * gain,
-       errors.read_noise ? std::optional(*errors.read_noise * read_noise) : std::nullopt},
+       root(pattern(dark_pairs, dark, levels, 0)) * gain, full_well_e, std::move(points), errors.gain * gain,
+       errors.read_noise ? std::optional(*errors.read_noise * read_noise) : std::nullopt, saturation_e},
       full_dn};
 }
 

@@ -41,21 +41,23 @@ struct PhotonTransfer {
   double dark_e_per_s;
   double prnu_percent;
   double dsnu_e;
-  std::optional<double> full_well_e;       ///< Nothing where no pair fills it before the codes end.
-  std::vector<TransferPoint> points = {};  ///< The lit pairs in their order.
-  double gain_standard_error = 0;          ///< [e/DN]
+  std::optional<double> full_well_e;                     ///< `saturation_e`, if the codes do not end first.
+  std::vector<TransferPoint> points = {};                ///< The lit pairs in their order.
+  double gain_standard_error = 0;                        ///< [e/DN]
   std::optional<double> read_noise_standard_error = {};  ///< [e]; nothing where rounding hides the noise.
+  /// Electrons at which wells are full or codes end; nothing where the brightest lit pair reaches neither.
+  std::optional<double> saturation_e = {};
 };
 
 /// The photon transfer method of [EMVA1288]: temporal variance, from the difference of two exposures, less
 /// that of rounding, grows with the mean by 1/K DN per DN, the read noise being what darkness leaves; fixed
 /// patterns are how the first frames of pairs vary over the pixels together with the second ones. `dark`
 /// holds pairs of two or more exposure times, `lit` pairs from weak light to light beyond saturation: K is
-/// fitted up to 70 % of saturation, the full well taken from the brightest pair. PRNU is the pattern of the
-/// lit pair nearest to 50 % of saturation less, pixel by pixel, darkness of its exposure time: of the dark
-/// pairs of that time where there are some, else from the line through each pixel's dark signals over the
-/// exposure time or, where a line from afar would add too much noise, from the pair nearest in time. Pixels
-/// whose darkness leaves no room for the light of that pair do not count in it. DSNU is the pattern of
+/// fitted up to 70 % of saturation, which is taken from the brightest pair, as is the full well. PRNU is the
+/// pattern of the lit pair nearest to 50 % of saturation less, pixel by pixel, darkness of its exposure time:
+/// of the dark pairs of that time where there are some, else from the line through each pixel's dark signals
+/// over the exposure time or, where a line from afar would add too much noise, from the pair nearest in time.
+/// Pixels whose darkness leaves no room for the light of that pair do not count in it. DSNU is the pattern of
 /// darkness at 0 s, likewise. Both are 0 where noise hides them. Pixels that are full in a dark pair, as hot
 /// ones are in long exposures, do not count in anything. Standard errors are of the pairs' temporal
 /// variances, each known by its pixels' fourth moment and, of noise that is narrower than a code, as far as

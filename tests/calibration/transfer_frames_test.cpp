@@ -56,7 +56,7 @@ TEST_F(TransferFrames, FindThePlantedSensorInEachChannel) {
   std::vector<fs::path> lit;
   for (const double t : {0.01, 1.0})
     for (const fs::path& file : pair(0, t)) dark.push_back(file);
-  for (const double e : {100.0, 500.0, 1500.0, 3000.0})
+  for (const double e : {100.0, 500.0, 1500.0, 3000.0, 10000.0})
     for (const fs::path& file : pair(e, e / 1e5)) lit.push_back(file);
   Inputs inputs;
   const std::vector<ChannelTransfer> found = measure_transfer(dark, lit, inputs);
@@ -65,11 +65,11 @@ TEST_F(TransferFrames, FindThePlantedSensorInEachChannel) {
   for (const ChannelTransfer& one : found) {
     EXPECT_NEAR(one.transfer.gain_e_per_dn, 2, 0.02);
     EXPECT_NEAR(one.transfer.read_noise_e, 6, 0.05);
-    EXPECT_EQ(one.transfer.points.size(), 4U);
+    EXPECT_EQ(one.transfer.points.size(), 5U);
     const double noise = one.transfer.read_noise_e;
     EXPECT_NEAR(one.snr10_e / std::sqrt(one.snr10_e + noise * noise), 10, 1e-12);
     EXPECT_NEAR(one.snr10_lx_s.value(), one.snr10_e / 1000, 1e-12);
-    EXPECT_NEAR(one.dynamic_range_db, 20 * std::log10((4095 - 50) * 2 / 6.0), 0.2);
+    EXPECT_NEAR(one.dynamic_range_db.value(), 20 * std::log10((4095 - 50) * 2 / 6.0), 0.2);
   }
 }
 
@@ -184,7 +184,7 @@ TEST_F(CurvedFrames, AreOfOneCurve) {
           "has another response curve, offset_dn or saturation_dn than the first frame");
 }
 
-// One pixel in a thousand clips in the longer darkness, and no lit pair does.
+// One pixel in a thousand clips in the longer darkness, and no lit pair does at first.
 TEST_F(TransferFrames, WhiteLevelsTellWhichHotPixelsAreFull) {
   Readout readout;
   readout.gain_e_per_dn = 2;
@@ -216,7 +216,14 @@ TEST_F(TransferFrames, WhiteLevelsTellWhichHotPixelsAreFull) {
   for (const double seconds : {1.0, 10.0}) add_pair(dark, 0, seconds);
   for (const double electrons : {1200.0, 2900.0, 4700.0}) add_pair(lit, electrons, 1);
   Inputs inputs;
-  EXPECT_NEAR(measure_transfer(dark, lit, inputs).at(0).transfer.dsnu_e, 3, 0.2);
+  const ChannelTransfer dim = measure_transfer(dark, lit, inputs).at(0);
+  EXPECT_NEAR(dim.transfer.dsnu_e, 3, 0.2);
+  EXPECT_FALSE(dim.transfer.full_well_e);
+  EXPECT_FALSE(dim.dynamic_range_db) << "nothing tells what saturates";
+  add_pair(lit, 7000, 1);
+  const ChannelTransfer full = measure_transfer(dark, lit, inputs).at(0);
+  EXPECT_FALSE(full.transfer.full_well_e) << "the codes end first";
+  EXPECT_NEAR(full.dynamic_range_db.value(), 20 * std::log10(2900 * 2 / 5.0), 0.1);
 }
 
 TEST_F(TransferFrames, ObjectsInSentences) {

@@ -58,6 +58,23 @@ TEST(Transfer, FindsWhatTheFramesWereMadeOf) {
   EXPECT_EQ(found["read_noise_standard_error"][0], 0);
   EXPECT_EQ(found["prnu_percent"][0], 0);
   EXPECT_TRUE(found["full_well_e"][0].is_null()) << "the codes end first";
+  const double most_e = (4095 - 50) * gain;
+  EXPECT_NEAR(found["dynamic_range_db"][0], 20 * std::log10(most_e / found["read_noise_e"][0].get<double>()),
+              0.01);
+  EXPECT_EQ(run.err, "");
+}
+
+TEST(Transfer, LightThatSaturatesNothingTellsNoRange) {
+  const Outcome run = abbe("transfer " + dark_pairs() + "--lit " + pair("weak", 210, 3, 0.01) +
+                           pair("half", 530, 5, 0.01) + pair("most", 1010, 7, 0.01) + "--json");
+  ASSERT_EQ(run.code, 0) << run.err;
+  EXPECT_TRUE(run.json()["full_well_e"][0].is_null());
+  EXPECT_TRUE(run.json()["dynamic_range_db"][0].is_null());
+  EXPECT_NE(
+      run.err.find("warning: no lit pair saturates Y, of which full well and dynamic range are not known: "
+                   "add a pair in light beyond saturation"),
+      std::string::npos)
+      << run.err;
 }
 
 void expect_fault(const std::string& arguments, int code, const std::string& message) {
