@@ -15,6 +15,7 @@
 #include "calibration/output/color_spaces.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
+#include "io/text.h"
 #include "spectral/rgb.h"
 
 namespace abbe {
@@ -307,7 +308,7 @@ const DisplayCodes& codes_of_display(const std::string& display) {
 }
 
 std::string camera_space(const CameraProfile& profile) {
-  return "Camera " + profile.light;
+  return valid_utf8("Camera " + profile.light);
 }
 
 std::string camera_file(const CameraProfile& profile, const std::string& extension) {

@@ -210,7 +210,7 @@ bool read_ply(std::string&& bytes, MeshReading& reading) {
   stream.imbue(std::locale::classic());
   const auto header = sound_header(stream);
   if (!header) return reading.refuse("malformed PLY header, or lists counted in 32 bits");
-  if (const auto fault = type_fault(*header)) return reading.refuse("malformed PLY header: " + *fault);
+  if (const auto fault = type_fault(*header)) return reading.refuse("PLY header: " + *fault);
   take_memory(header->vertices, header->faces, stream.view().size(), reading);
   stream.seekg(0);
   Points points;

@@ -185,18 +185,32 @@ RelativeErrors relative_errors(const std::vector<PairMoments>& dark,
   return {std::sqrt(gain), read_variance > 0 ? std::optional(std::sqrt(noise)) : std::nullopt};
 }
 
-// A pair and how much its frames count in a sum.
+// A dark pair and how much its frames count in a sum.
 struct WeightedPair {
   const FlatPair* pair;
+  const PairMoments* moments;
   double weight;
 };
 
+// Up to where a sum's pixels count: so much above their mean, and beyond that what noise seldom makes.
+double most_darkness(const std::vector<WeightedPair>& darkness, double room_dn) {
+  constexpr double kDeviations = 4;
+  double mean = 0;
+  double noise = 0;  // of the mean of both frames' sums
+  for (const auto& [pair, moments, weight] : darkness) {
+    mean += weight * moments->mean;
+    noise += weight * weight * std::max(0.0, moments->temporal) / 2;
+  }
+  return mean + room_dn + kDeviations * std::sqrt(noise);
+}
+
 // The variance of a pattern [DN^2], that of darkness or of a lit pair less it: how the sum of the first
 // frames varies over the pixels together with that of the second ones, whose noise is another. It is below 0
-// where noise alone makes it so. Only pixels of a dark signal up to `most_dark_dn` count, so that being
-// bright in the light leaves none out.
-double pattern_variance(const std::vector<WeightedPair>& darkness, const FlatPair* lit, double most_dark_dn,
+// where noise alone makes it so. Only pixels whose darkness is up to `room_dn` above its mean count, so that
+// being bright in the light leaves none out.
+double pattern_variance(const std::vector<WeightedPair>& darkness, const FlatPair* lit, double room_dn,
                         const std::vector<CodeLevel>& levels) {
+  const double most_dn = most_darkness(darkness, room_dn);
   double n = 0;
   double first = 0;
   double second = 0;
@@ -204,11 +218,11 @@ double pattern_variance(const std::vector<WeightedPair>& darkness, const FlatPai
   for (std::size_t i = 0; i < darkness.front().pair->first.size(); ++i) {
     double a = 0;
     double b = 0;
-    for (const auto& [pair, weight] : darkness) {
+    for (const auto& [pair, moments, weight] : darkness) {
       a += weight * levels[pair->first[i]].signal_dn;
       b += weight * levels[pair->second[i]].signal_dn;
     }
-    if ((a + b) / 2 > most_dark_dn) continue;
+    if ((a + b) / 2 > most_dn) continue;
     if (lit != nullptr) {
       a -= levels[lit->first[i]].signal_dn;
       b -= levels[lit->second[i]].signal_dn;
@@ -227,13 +241,13 @@ double pattern_variance(const std::vector<WeightedPair>& darkness, const FlatPai
 // nearest in time.
 double pattern(std::span<const FlatPair> pairs, const std::vector<PairMoments>& dark,
                const std::vector<CodeLevel>& levels, double exposure_s, const FlatPair* lit = nullptr,
-               double most_dark_dn = std::numeric_limits<double>::infinity()) {
+               double room_dn = std::numeric_limits<double>::infinity()) {
   const auto variance = [&](const std::vector<WeightedPair>& darkness) {
-    return pattern_variance(darkness, lit, most_dark_dn, levels);
+    return pattern_variance(darkness, lit, room_dn, levels);
   };
   std::vector<WeightedPair> equal;
-  for (const FlatPair& pair : pairs)
-    if (pair.exposure_s == exposure_s) equal.push_back({&pair, 1});
+  for (std::size_t j = 0; j < pairs.size(); ++j)
+    if (pairs[j].exposure_s == exposure_s) equal.push_back({&pairs[j], &dark[j], 1});
   for (WeightedPair& term : equal) term.weight /= static_cast<double>(equal.size());
   if (!equal.empty()) return variance(equal);
 
@@ -241,14 +255,15 @@ double pattern(std::span<const FlatPair> pairs, const std::vector<PairMoments>& 
   std::vector<WeightedPair> line;
   double noise = 0;  // of a frame's sum, and so of the covariance of two times the root of all pixels
   for (std::size_t j = 0; j < pairs.size(); ++j) {
-    line.push_back({&pairs[j], weights[j]});
+    line.push_back({&pairs[j], &dark[j], weights[j]});
     noise += weights[j] * weights[j] * dark[j].temporal;
   }
   noise /= std::sqrt(static_cast<double>(pairs.front().first.size()));
-  const auto nearer = [&](const FlatPair& a, const FlatPair& b) {
-    return std::abs(a.exposure_s - exposure_s) < std::abs(b.exposure_s - exposure_s);
+  const auto nearer = [&](const WeightedPair& a, const WeightedPair& b) {
+    return std::abs(a.pair->exposure_s - exposure_s) < std::abs(b.pair->exposure_s - exposure_s);
   };
-  const double by_nearest = variance({{&*std::min_element(pairs.begin(), pairs.end(), nearer), 1}});
+  const WeightedPair& nearest = *std::min_element(line.begin(), line.end(), nearer);
+  const double by_nearest = variance({{nearest.pair, nearest.moments, 1}});
   return noise > kPatternNoise * by_nearest ? by_nearest : variance(line);
 }
 
@@ -302,15 +317,16 @@ Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair>
   const auto from_half = [&](const PairMoments& m) { return std::abs(signal(m) - kPatternsAt * saturation); };
   const auto half_pair = std::min_element(lit.begin(), lit.end(), by(from_half));
   const FlatPair& half = lit_pairs[static_cast<std::size_t>(half_pair - lit.begin())];
-  // The dark signal up to which a pixel holds the light of that pair.
-  const double most_dark_dn = (full ? brightest.mean : white_dn) - signal(*half_pair);
+  // How much more dark signal than others a pixel may have and still hold the light of that pair; a white
+  // level below it tells nothing of wells.
+  const double above_half = (full ? brightest.mean : white_dn) - half_pair->mean;
+  const double room_dn = above_half > 0 ? above_half : std::numeric_limits<double>::infinity();
   std::vector<TransferPoint> points;
   for (const PairMoments& m : lit) points.push_back({signal(m), m.temporal - dark_variance.at(m.exposure_s)});
   const double read_noise = root(read_variance) * gain;
   return {
       {gain, read_noise, dark_mean.slope * gain,
-       100 * root(pattern(dark_pairs, dark, levels, half.exposure_s, &half, most_dark_dn)) /
-           signal(*half_pair),
+       100 * root(pattern(dark_pairs, dark, levels, half.exposure_s, &half, room_dn)) / signal(*half_pair),
        root(pattern(dark_pairs, dark, levels, 0)) * gain, full_well_e, std::move(points), errors.gain * gain,
        errors.read_noise ? std::optional(*errors.read_noise * read_noise) : std::nullopt, saturation_e},
       full_dn};
@@ -344,30 +360,6 @@ struct KeptPairs {
 };
 
 }  // namespace
-
-// Widths that differ from code to code do no harm: where the noise is wider than they are, the code of
-// a signal y of the converter is y + q, q even on [-1/2, 1/2] and independent of y.
-std::vector<CodeLevel> code_levels(const Readout& readout) {
-  constexpr std::size_t kCodes = 1U << 16U;
-  std::vector<CodeLevel> levels;
-  for (std::size_t code = 0; code < kCodes; ++code) levels.push_back({static_cast<double>(code), 1.0 / 12});
-  const auto signal = [&](double dn) {
-    return readout.offset_dn + electrons_of(readout, dn) / readout.gain_e_per_dn;
-  };
-  const std::vector<std::uint16_t> straight = linear_codes(readout);
-  auto next = straight.begin();
-  while (next != straight.end()) {
-    auto first = next;
-    next = std::upper_bound(first, straight.end(), *first);
-    const auto code = [&](auto at) { return static_cast<double>(at - straight.begin()); };
-    // What lies below the lowest is cut off there.
-    while (first + 1 != next && signal(code(first)) < -0.5) ++first;
-    const double low = signal(code(first) - 0.5);
-    const double width = signal(code(next) - 0.5) - low;
-    levels[*first] = {low + width / 2, width * width / 12};
-  }
-  return levels;
-}
 
 PhotonTransfer photon_transfer(std::span<const FlatPair> dark_pairs, std::span<const FlatPair> lit_pairs,
                                int bits, const std::vector<CodeLevel>& levels, std::uint16_t white_dn) {

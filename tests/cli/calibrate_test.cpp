@@ -93,7 +93,9 @@ TEST(Calibrate, NamesThatAreNoUtf8StandInNoFileAsTheyAre) {
   CalibrateOptions options = nikon();
   options.camera = (scratch() / "caf\xE9.csv").string();
   std::filesystem::copy_file(data_directory() / "camera/Nikon_D5100.csv", options.camera);
-  options.illuminants = "A";
+  const std::filesystem::path light = scratch() / "li\xE9ght.csv";
+  std::ofstream(light) << "wavelength_nm,value\n380,1\n780,2\n";
+  options.illuminants = "A," + light.string();
   options.output = scratch() / "folder";
   json_output(calibrate, options);
   for (const char* name : {"camera_A.clf", "camera_A_to_aces.clf", "config.ocio", "report.html"}) {

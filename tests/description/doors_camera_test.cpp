@@ -64,7 +64,7 @@ TEST_F(PbrtTest, DarkCornersAreTold) {
   EXPECT_TRUE(told_of("\"float fov\" 90", "rgb"));
   EXPECT_TRUE(
       tells("a.pbrt:3:1: warning: a picture darkens towards its corners here, by cos^4 of the angle to the "
-            "axis as behind lenses, and not there: to 0.11 of its middle"))
+            "axis as behind lenses, to 0.11 of its middle: those of perspective cameras there do not"))
       << told_;
   EXPECT_TRUE(told_of("\"float fov\" 90 \"float lensradius\" 0.01 \"float focaldistance\" 5", "rgb"));
   EXPECT_TRUE(tells("to 0.11 of its middle")) << told_;

@@ -218,17 +218,24 @@ Readout with_hot_pixels() {
   return readout;
 }
 
+// Of light that fills such shares of a well of 7500 electrons.
+Bench flats(const Readout& readout, const std::vector<double>& dark_s, double lit_s,
+            const std::vector<double>& lit, std::size_t pixels = 65536) {
+  Bench bench{{readout}, {readout}};
+  bench.dark.pixels = bench.lit.pixels = pixels;
+  bench.lit.frame = 100;
+  for (const double seconds : dark_s) bench.dark.add(0, seconds);
+  for (const double share : lit) bench.lit.add(share * 7500, lit_s);
+  return bench;
+}
+
 // Patterns of hot pixels are those of darkness as long as the lit exposures, and none of short ones. What
 // 65536 pixels let be known: PRNU within 0.8 %, DSNU within 3 %, as standard deviations.
 TEST(PhotonTransfer, HotPixelsAreNoPatternOfLightOrOffsets) {
   const Readout readout = with_hot_pixels();
   for (const std::vector<double>& dark_s : std::vector<std::vector<double>>{
            {0.01, 10}, {1, 10}, {0.01, 1}, {0.1, 0.2, 0.5, 2, 4}, {0.01, 0.01, 1, 1}}) {
-    Bench bench{{readout}, {readout}};
-    bench.dark.pixels = bench.lit.pixels = 65536;
-    bench.lit.frame = 100;
-    for (const double seconds : dark_s) bench.dark.add(0, seconds);
-    for (const double share : {0.05, 0.2, 0.35, 0.5, 0.65, 1.3}) bench.lit.add(share * 7500, 1);
+    const Bench bench = flats(readout, dark_s, 1, {0.05, 0.2, 0.35, 0.5, 0.65, 1.3});
     const PhotonTransfer found = transfer(bench, readout.bits);
     EXPECT_NEAR(found.prnu_percent, readout.prnu_percent, 0.03) << dark_s.front() << " to " << dark_s.back();
     EXPECT_NEAR(found.dsnu_e, readout.dsnu_e, 0.25) << dark_s.front() << " to " << dark_s.back();
@@ -236,8 +243,8 @@ TEST(PhotonTransfer, HotPixelsAreNoPatternOfLightOrOffsets) {
   }
 }
 
-// Where no lit pair fills the well, the code from which it is full tells which pixels hot ones fill in long
-// darkness; where hot pixels fill it in the light alone, the darkness that they have by then.
+// The code from which wells are full tells which pixels hot ones fill in long darkness; those that light has
+// to fill with them, the darkness of that time, from such dark pairs or the line through others.
 TEST(PhotonTransfer, HotPixelsThatFillTheWellUnseenAreNoPattern) {
   struct Series {
     double hot_percent;
@@ -254,19 +261,39 @@ TEST(PhotonTransfer, HotPixelsThatFillTheWellUnseenAreNoPattern) {
     readout.bits = bits;
     readout.hot_pixels_percent = hot_percent;
     for (readout.serial = 1; readout.serial <= (test::nightly() ? 6U : 3U); ++readout.serial) {
-      Bench bench{{readout}, {readout}};
-      bench.dark.pixels = bench.lit.pixels = 65536;
-      bench.lit.frame = 100;
-      for (const double seconds : dark_s) bench.dark.add(0, seconds);
-      for (const double share : lit) bench.lit.add(share * 7500, lit_s);
+      const Bench bench = flats(readout, dark_s, lit_s, lit);
       const auto white_dn = static_cast<std::uint16_t>(white_level(readout));
       const PhotonTransfer found =
           photon_transfer(bench.dark.pairs, bench.lit.pairs, bits, code_levels(readout), white_dn);
-      const std::string at =
-          fmt::format("{} % hot, dark {} s, serial {}", hot_percent, dark_s, readout.serial);
+      const std::string at = fmt::format("{} % hot, {} s, serial {}", hot_percent, dark_s, readout.serial);
       EXPECT_NEAR(found.prnu_percent, readout.prnu_percent, 0.05) << at;
       EXPECT_NEAR(found.dsnu_e, readout.dsnu_e, 0.25) << at;
     }
+  }
+}
+
+// White levels below the light, dark exposures longer than lit ones, darkness from afar; none is hot.
+TEST(PhotonTransfer, NoPixelIsLeftOutForWhatAllHave) {
+  struct Series {
+    double dark_e_per_s;
+    std::vector<double> dark_s;
+    double lit_s;
+    std::vector<double> lit;
+    std::uint16_t white_dn;
+  };
+  for (const auto& [dark_e_per_s, dark_s, lit_s, lit, white_dn] :
+       {Series{5, {0.1, 10}, 1, {0.02, 0.9, 0.94}, 1000}, Series{300, {10, 20}, 0.1, {0.1, 0.65, 0.8}, 4095},
+        Series{800, {5, 8}, 0.1, {0.05, 0.2, 0.5, 0.8}, 4095},
+        Series{100, {10, 20}, 1, {0.02, 0.9, 0.94}, 4095},
+        Series{5, {0.1, 0.2}, 10, {0.02, 0.9, 0.94}, 3800}}) {
+    Readout readout = with_hot_pixels();
+    readout.hot_pixels_percent = 0;
+    readout.dark_e_per_s = dark_e_per_s;
+    const Bench bench = flats(readout, dark_s, lit_s, lit, kPixels);
+    const PhotonTransfer found =
+        photon_transfer(bench.dark.pairs, bench.lit.pairs, readout.bits, code_levels(readout), white_dn);
+    EXPECT_NEAR(found.prnu_percent, readout.prnu_percent, 0.1)
+        << fmt::format("dark {} s, lit {} s", dark_s, lit_s);
   }
 }
 

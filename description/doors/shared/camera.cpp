@@ -50,7 +50,7 @@ void note_dark_corners(const GivenCamera& camera, Door& door) {
   if (share < kAlike)
     door.note(camera.where,
               fmt::format("a picture darkens towards its corners here, by cos^4 of the angle to the axis as "
-                          "behind lenses, and not there: to {:.2g} of its middle",
+                          "behind lenses, to {:.2g} of its middle: those of perspective cameras there do not",
                           share));
 }
 
