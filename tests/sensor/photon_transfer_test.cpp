@@ -282,9 +282,9 @@ TEST(PhotonTransfer, NoPixelIsLeftOutForWhatAllHave) {
     std::uint16_t white_dn;
   };
   for (const auto& [dark_e_per_s, dark_s, lit_s, lit, white_dn] :
-       {Series{5, {0.1, 10}, 1, {0.02, 0.9, 0.94}, 1000}, Series{300, {10, 20}, 0.1, {0.1, 0.65, 0.8}, 4095},
-        Series{800, {5, 8}, 0.1, {0.05, 0.2, 0.5, 0.8}, 4095},
-        Series{100, {10, 20}, 1, {0.02, 0.9, 0.94}, 4095},
+       {Series{5, {0.1, 10}, 1, {0.02, 0.9, 0.94}, 1000}, Series{300, {10, 20}, 0.1, {0.1, 0.65, 0.8}, 3800},
+        Series{800, {5, 8}, 0.1, {0.05, 0.2, 0.5, 0.8}, 3800},
+        Series{100, {10, 20}, 1, {0.02, 0.9, 0.94}, 3800},
         Series{5, {0.1, 0.2}, 10, {0.02, 0.9, 0.94}, 3800}}) {
     Readout readout = with_hot_pixels();
     readout.hot_pixels_percent = 0;
