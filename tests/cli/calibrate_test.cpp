@@ -94,7 +94,7 @@ TEST(Calibrate, NamesThatAreNoUtf8StandInNoFileAsTheyAre) {
   options.camera = (scratch() / "caf\xE9.csv").string();
   std::filesystem::copy_file(data_directory() / "camera/Nikon_D5100.csv", options.camera);
   const std::filesystem::path light = scratch() / "li\xE9ght.csv";
-  std::ofstream(light) << "wavelength_nm,value\n380,1\n780,2\n";
+  std::ofstream(light) << "# unit: relative\nwavelength_nm,value\n380,1\n780,2\n";
   options.illuminants = "A," + light.string();
   options.output = scratch() / "folder";
   json_output(calibrate, options);
