@@ -141,10 +141,9 @@ std::uint64_t photons_of(const Scene& scene, std::span<const Technique> techniqu
              : pixels;
 }
 
-// A meter of some size may stand in several kinds of matter at once.
+// A lens, as a meter of some size, may stand in several kinds of matter at once.
 bool camera_matter_varies(const Scene& scene) {
-  const auto* meter = std::get_if<Probe>(&scene.camera.kind);
-  const bool extended = meter != nullptr && meter->area() > 0;
+  const bool extended = traits(scene.camera).opening.has_value();
   return (scene.needs.motion || extended) &&
          matter_moves(scene, bounds(scene.camera), scene.camera.motion != nullptr || extended);
 }

@@ -44,9 +44,9 @@ struct Plan {
   double nominal_value;               ///< Order of magnitude of a film value.
   /// Per channel, for the pixels of a mosaic; none where lanes of a path fall on several pixels.
   std::vector<WavelengthDistribution> own_wavelengths;
-  MediumStack camera_inside;                  ///< Where camera paths start,
-  std::vector<MediumStack> light_inside;      ///< and photons, likewise.
-  bool camera_matter_varies = false;          ///< Whether that depends on time, or on where on a meter,
+  MediumStack camera_inside;              ///< Where camera paths start,
+  std::vector<MediumStack> light_inside;  ///< and photons, likewise.
+  bool camera_matter_varies = false;      ///< Whether that depends on time, or on where on a lens or meter,
   std::vector<bool> light_matter_moves = {};  ///< and per light on time; none where nothing moves.
   float gather_radius = 0;                    ///< Of the first sample [m].
   /// Those at points that camera paths connect to along matter that scatters.
