@@ -1,6 +1,9 @@
 #include "scene/shapes/shape.h"
 
+#include <algorithm>
+#include <cmath>
 #include <concepts>
+#include <cstdint>
 #include <utility>
 
 #include "io/error.h"
@@ -70,6 +73,24 @@ std::shared_ptr<const Prototype> make_prototype(PlainShape shape) {
 
 Imath::Box3d bounds(const Shape& shape) {
   return std::visit([](const auto& s) { return bounds(s); }, shape);
+}
+
+bool may_meet(const Shape& shape, const Imath::Box3d& box) {
+  if (!bounds(shape).intersects(box)) return false;
+  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
+    Imath::V3d furthest;  // corner from the centre
+    for (int k = 0; k < 3; ++k)
+      furthest[k] =
+          std::max(std::abs(box.min[k] - sphere->center[k]), std::abs(box.max[k] - sphere->center[k]));
+    return furthest.length() >= sphere->radius;
+  }
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  return mesh == nullptr ||
+         std::any_of(mesh->triangles.begin(), mesh->triangles.end(), [&](const auto& corners) {
+           Imath::Box3d around;
+           for (const std::uint32_t corner : corners) around.extendBy(mesh->vertices[corner]);
+           return around.intersects(box);
+         });
 }
 
 double area(const Shape& shape) {

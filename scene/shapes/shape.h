@@ -105,6 +105,9 @@ template <typename T>
 /// A box around the shape; of an instance, that around its prototype's box. Of a shape that moves, it holds
 /// the shape at all times.
 [[nodiscard]] Imath::Box3d bounds(const Shape& shape);
+/// Whether the surface of a shape that stands still may meet the box: no box that it is far from or that lies
+/// wholly within a sphere, or within a mesh and away from its triangles.
+[[nodiscard]] bool may_meet(const Shape& shape, const Imath::Box3d& box);
 /// Area of the outer side of a shape [m^2]. Instances that stand still do not emit and have no use for it:
 /// Error{internal}, here and below.
 [[nodiscard]] double area(const Shape& shape);

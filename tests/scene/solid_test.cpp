@@ -243,5 +243,18 @@ TEST(EnclosedVolume, IsThatOfTheLargestComponentOfWhatIsClosed) {
   EXPECT_EQ(enclosed_volume(Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), 0);
 }
 
+TEST(Shape, MayMeetABoxThatItsSurfaceComesNearTo) {
+  const auto around = [](const Imath::V3d& center, double half) {
+    return Imath::Box3d(center - Imath::V3d(half), center + Imath::V3d(half));
+  };
+  for (const Shape& solid : {Shape(Sphere{{1, 0, 0}, 2}), Shape(test::box({-1, -2, -2}, {3, 2, 2}))}) {
+    EXPECT_FALSE(may_meet(solid, around({1.5, 0, 0}, 0.5))) << "wholly within";
+    EXPECT_FALSE(may_meet(solid, around({4, 0, 0}, 0.9))) << "wholly outside";
+    EXPECT_TRUE(may_meet(solid, around({3, 0, 0}, 0.1)));
+    EXPECT_TRUE(may_meet(solid, around({1, 0, 0}, 5))) << "wholly around it";
+  }
+  EXPECT_TRUE(may_meet(Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, around({0.5, 0.5, 0}, 0.1)));
+}
+
 }  // namespace
 }  // namespace abbe

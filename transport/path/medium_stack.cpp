@@ -138,8 +138,9 @@ std::optional<MediumStack> around_light(const Scene& scene, const Light& light) 
 bool matter_moves(const Scene& scene, const Imath::Box3d& box, bool moves) {
   for (std::uint32_t i = 0; i < scene.shapes.size(); ++i) {
     const Shape& shape = scene.shapes[i].shape;
-    if ((moves || motion_of(shape) != nullptr) && filled(scene, i) && bounds(shape).intersects(box))
-      return true;
+    const bool meets =
+        motion_of(shape) != nullptr ? bounds(shape).intersects(box) : moves && may_meet(shape, box);
+    if (meets && filled(scene, i)) return true;
   }
   return false;
 }
