@@ -82,6 +82,27 @@ TEST_F(PbrtTest, ImportsLeaveWhatHoldsBehindThem) {
                    "a.pbrt:1:1: error: an Import before WorldBegin"}});
 }
 
+TEST_F(PbrtTest, FilesThatAreReadTwiceTakeTheAttributesAroundThem) {
+  put("ball.pbrt", "Material \"diffuse\"\nShape \"sphere\"\n");
+  for (const char* word : {"Include", "Import"}) {
+    const spec::Scene made =
+        scene(fmt::format("AttributeBegin\nAttribute \"material\" \"rgb reflectance\" [.8 .8 .8]\n{0} "
+                          "\"ball.pbrt\"\nAttributeEnd\n"
+                          "AttributeBegin\nAttribute \"material\" \"rgb reflectance\" [.1 .1 .1]\n{0} "
+                          "\"ball.pbrt\"\n{0} \"ball.pbrt\"\n"
+                          "AttributeEnd\n",
+                          word));
+    ASSERT_EQ(made.shapes.size(), 3U);
+    std::vector<std::string> names;
+    for (const auto& shape : made.shapes) names.push_back(std::get<SphereBody>(shape.kind).material.value);
+    EXPECT_EQ(names, (std::vector<std::string>{"diffuse", "diffuse 2", "diffuse 2"})) << word;
+    ASSERT_EQ(made.materials.size(), 2U);
+    for (std::size_t i = 0; i < 2; ++i)
+      EXPECT_EQ(number_of(std::get<spec::Diffuse>(made.materials[i].value.model).reflectance),
+                i == 0 ? 0.8 : 0.1);
+  }
+}
+
 TEST_F(PbrtTest, ImportsGoOnWithoutTheSystemsAroundThem) {
   for (const char* name : {"here", "camera", "world"}) {
     SCOPED_TRACE(name);

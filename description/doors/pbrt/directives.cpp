@@ -206,6 +206,7 @@ bool Reader::setting(const Token& word) {
 
 bool Reader::material(const Token& word) {
   state_.material = {};
+  state_.material.number = ++materials_said_;
   if (!made(word, state_.material.made)) return false;
   state_.material.made.parameters.complete(state_.attributes["material"]);
   return true;
@@ -219,7 +220,7 @@ bool Reader::named_material(const Token& word) {
   std::vector<std::string> name;
   if (!texts(1, 1, word, name)) return false;
   if (const Made* known = find(world_.materials, "material", name[0], word.where, door_))
-    state_.material = {*known, name[0], ""};
+    state_.material = {*known, name[0]};
   return true;
 }
 

@@ -20,7 +20,7 @@ struct State {
   Imath::M44d to_world{};
   bool active = true;  ///< Transforms change what is at the start of the exposure.
   bool reversed = false;
-  MaterialUse material{{"diffuse"}, "", ""};
+  MaterialUse material{{"diffuse"}};
   std::optional<Made> area_light{};
   std::string inside{};
   std::string outside{};
@@ -97,6 +97,7 @@ class Reader {
   std::optional<schema::Named<spec::Object>> object_{};
   std::vector<std::string> empty_objects_{};
   Picture picture_{};
+  std::size_t materials_said_ = 0;
   bool in_world_ = false;
 };
 

@@ -110,11 +110,8 @@ void add_relief(const Made& made, spec::Material& material, World& world) {
 }  // namespace
 
 std::string Materials::name_of(const MaterialUse& use) {
-  // Unnamed materials are told apart by where they stand.
-  const std::string key = use.name.empty()
-                              ? fmt::format("{}@{}", use.made.where.offset,
-                                            use.made.where.source ? use.made.where.source->file : "")
-                              : "=" + use.name;
+  // A line that is included twice may stand under other attributes each time.
+  const std::string key = use.name.empty() ? std::to_string(use.number) : "=" + use.name;
   const auto [known, is_new] = names_.try_emplace(key + "|" + use.inside);
   if (!is_new) return known->second;
   const std::string& type = use.made.type;

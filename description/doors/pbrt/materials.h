@@ -10,8 +10,9 @@ namespace abbe::doors::pbrt {
 /// A material as a shape uses it.
 struct MaterialUse {
   Made made;
-  std::string name;    ///< Of a named material; empty of others.
-  std::string inside;  ///< Name of the medium within; empty without one.
+  std::string name{};      ///< Of a named material; empty of others.
+  std::string inside{};    ///< Name of the medium within; empty without one.
+  std::size_t number = 0;  ///< Of the directive without a name, as they are read; 0 before the first.
 };
 
 /// The materials of shapes, each converted once; those without a name that are equal are one.
