@@ -284,5 +284,21 @@ TEST_F(MitsubaTest, PrefixesOfAFileCrashNothing) {
 <emitter type="constant"><spectrum name="radiance" value="400:1, 500:2"/></emitter>)"));
 }
 
+TEST_F(MitsubaTest, ClipPlanesThatCutOffMoreThanUsualAreTold) {
+  for (const auto& [planes, told] :
+       {std::pair{"", ""},
+        {R"(<float name="near_clip" value="0.01"/>)", ""},
+        {R"(<float name="near_clip" value="4"/>)", "nearer than 4 or farther than 10000"},
+        {R"(<float name="far_clip" value="8"/>)", "nearer than 0.01 or farther than 8"}}) {
+    SCOPED_TRACE(planes);
+    EXPECT_TRUE(convert(
+        "a.xml", R"(<scene version="3.0.0"><sensor type="perspective"><float name="fov" value="40"/>)" +
+                     std::string(planes) + "</sensor></scene>"))
+        << told_;
+    EXPECT_EQ(tells("clip planes have no counterpart here"), *told != 0) << told_;
+    EXPECT_TRUE(tells(told)) << told_;
+  }
+}
+
 }  // namespace
 }  // namespace abbe

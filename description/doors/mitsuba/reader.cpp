@@ -89,6 +89,21 @@ std::array<std::int64_t, 2> read_film(const Object& sensor, const World& world) 
   return resolution;
 }
 
+constexpr double kFarClip = 1e4;
+
+// Planes are noted that cut off more than those that hold where none are said.
+void note_clip_planes(const Object& sensor, const World& world) {
+  constexpr double kNear = 1e-2;
+  const double near = sensor.number("near_clip", kNear);
+  const double far = sensor.number("far_clip", kFarClip);
+  if (near <= kNear && far >= kFarClip) return;
+  world.door.note(
+      sensor.where(),
+      fmt::format("clip planes have no counterpart here: what is nearer than {:g} or farther than "
+                  "{:g} is seen",
+                  near, far));
+}
+
 void read_sensor(const Object& sensor, World& world) {
   Door& door = world.door;
   const std::vector<std::string> types{"batch",       "distant",       "irradiancemeter", "orthographic",
@@ -114,9 +129,10 @@ void read_sensor(const Object& sensor, World& world) {
   camera.fov_deg = 2 * std::atan(half_view(sensor, width, height, world)) / kDegree;
   if (sensor.type() == "thinlens") {
     camera.lens_radius = sensor.number("aperture_radius", 0);
-    camera.focus_distance = sensor.number("focus_distance", sensor.number("far_clip", 1e4));
+    camera.focus_distance = sensor.number("focus_distance", sensor.number("far_clip", kFarClip));
   }
-  sensor.ignore({"near_clip", "far_clip", "shutter_open", "shutter_close"});
+  note_clip_planes(sensor, world);
+  sensor.ignore({"shutter_open", "shutter_close"});
   sensor.note_unused();
   set_camera(camera, door);
 }
