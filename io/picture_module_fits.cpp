@@ -212,12 +212,25 @@ double pedestal_of(fitsfile* fits, const std::string& path) {
 std::vector<std::uint16_t> read_codes(fitsfile* fits, const std::string& path, std::size_t count) {
   std::vector<int> numbers(count);
   int status = 0;
-  fits_read_img(fits, TINT, 1, static_cast<LONGLONG>(count), nullptr, numbers.data(), nullptr, &status);
+  int undefined = -1;
+  int any_undefined = 0;
+  fits_read_img(fits, TINT, 1, static_cast<LONGLONG>(count), &undefined, numbers.data(), &any_undefined,
+                &status);
   if (status != 0) throw Error(ErrorCode::input, path, "truncated or corrupt");
+  if (any_undefined != 0)
+    throw Error(ErrorCode::input, path, "pixels have no value (they hold its BLANK, allowed a code in each)");
   if (const auto least = std::min_element(numbers.begin(), numbers.end()); *least < 0)
     throw Error(ErrorCode::input, path,
                 "a pixel is below 0 (got " + std::to_string(*least) + ", allowed 0 to 65535)");
   return {numbers.begin(), numbers.end()};
+}
+
+// The greatest code of an image of that type, or what its header says it saturates at, where that is less.
+// Some programs write 0 where they do not know it.
+double white_level_of(fitsfile* fits, int type, double black_level_dn) {
+  const double greatest = type == BYTE_IMG ? 255 : type == SHORT_IMG ? 32767 : 65535;
+  const double saturate = number_of(fits, "SATURATE", greatest);
+  return saturate > black_level_dn ? std::min(saturate, greatest) : greatest;
 }
 
 // Opens a file by its very name and goes to its first image that has pixels. The library's other functions
@@ -279,8 +292,7 @@ RawPicture read_fits(const std::string& path) {
   read_history(file.fits, raw);
   read_pattern(file.fits, path, raw);
   raw.black_level_dn = pedestal_of(file.fits, path);
-  const double saturate = number_of(file.fits, "SATURATE", 65535);
-  raw.white_level_dn = saturate > raw.black_level_dn ? saturate : 65535;  // 0 where it is not known
+  raw.white_level_dn = white_level_of(file.fits, type, raw.black_level_dn);
   raw.gain_e_per_dn = number_of(file.fits, "GAIN", 1);
   if (const double seconds = number_of(file.fits, "EXPTIME", 0); seconds > 0) raw.exposure_s = seconds;
   return raw;

@@ -71,6 +71,50 @@ std::string in_blocks(const std::vector<std::string>& cards) {
   return block;
 }
 
+// A file of one row of pixels with these bytes, and cards besides those that it needs.
+std::string row_of(int bits, const std::string& bytes, const std::vector<std::string>& more) {
+  std::vector<std::string> cards{
+      "SIMPLE  =                    T", "BITPIX  = " + std::to_string(bits), "NAXIS   = 2",
+      "NAXIS1  = " + std::to_string(8 * bytes.size() / static_cast<std::size_t>(bits)), "NAXIS2  = 1"};
+  cards.insert(cards.end(), more.begin(), more.end());
+  cards.emplace_back("END");
+  std::string data = bytes;
+  data.resize(2880, '\0');
+  return in_blocks(cards) + data;
+}
+
+TEST(Fits, CodesEndWhereTheirTypeDoes) {
+  const auto path = test_folder() / "a.fits";
+  const auto white = [&](int bits, const std::vector<std::string>& more) {
+    put(path, row_of(bits, {0, 5, 0, 7}, more));
+    return read_raw_picture(path).white_level_dn;
+  };
+  EXPECT_EQ(white(8, {}), 255);
+  EXPECT_EQ(white(16, {}), 32767);
+  EXPECT_EQ(white(16, {"BZERO   = 32768"}), 65535);
+  EXPECT_EQ(white(8, {"SATURATE= 65535"}), 255);
+  EXPECT_EQ(white(8, {"SATURATE= 200"}), 200);
+}
+
+// The standard has pixels without a value in whole numbers: those that hold the number of BLANK.
+TEST(Fits, PixelsWithoutAValueAreRefused) {
+  const auto path = test_folder() / "a.fits";
+  const std::string bytes{char(0x80), 0, char(0x80), 7};
+  const std::vector<std::string> cards{"BZERO   = 32768", "BLANK   = -32768"};
+  put(path, row_of(16, bytes, {cards[0]}));
+  EXPECT_EQ(read_raw_picture(path).codes, (std::vector<std::uint16_t>{0, 7}));
+  put(path, row_of(16, bytes.substr(2), cards));
+  EXPECT_EQ(read_raw_picture(path).codes, std::vector<std::uint16_t>{7}) << "none of which is undefined";
+  put(path, row_of(16, bytes, cards));
+  try {
+    (void)read_raw_picture(path);
+    FAIL() << "a pixel has no value";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.what(),
+              path.string() + ": pixels have no value (they hold its BLANK, allowed a code in each)");
+  }
+}
+
 // Many programs leave the first header empty.
 TEST(Fits, TheFirstImageWithPixelsIsRead) {
   const std::string empty =
