@@ -162,7 +162,7 @@ void set_layout(Tags& tags, const RawPicture& raw) {
   tags.set(TIFFTAG_PLANARCONFIG, PLANARCONFIG_CONTIG);
   tags.set(TIFFTAG_ORIENTATION, ORIENTATION_TOPLEFT);
   tags.set(TIFFTAG_ROWSPERSTRIP, static_cast<std::uint32_t>(raw.height));
-  tags.set(TIFFTAG_PHOTOMETRIC, raw.mosaic_width > 0 ? PHOTOMETRIC_CFA : 34892);  // LinearRaw
+  tags.set(TIFFTAG_PHOTOMETRIC, raw.mosaic_width > 0 ? PHOTOMETRIC_CFA : kLinearRaw);
   if (raw.mosaic_width > 0) {
     const auto width = static_cast<std::uint16_t>(raw.mosaic_width);
     const auto height = static_cast<std::uint16_t>(raw.mosaic.size() / width);

@@ -2,9 +2,13 @@
 
 #include <tiffio.h>
 
+#include <cstdint>
 #include <memory>
 
 namespace abbe::picture_module {
+
+/// The photometric interpretation of planes that are no mosaic [DNG, "LinearRaw"].
+constexpr std::uint16_t kLinearRaw = 34892;
 
 using Tiff = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
 using TiffOptions = std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)>;

@@ -165,6 +165,25 @@ void require_codes(TIFF* tiff) {
                     std::to_string(format) + ", allowed 1)");
 }
 
+// A picture made of the raw one, such as a preview, has colours and tones of its own.
+void require_raw(TIFF* tiff) {
+  std::uint32_t kind = 0;
+  std::uint16_t photometric = 0;
+  std::uint16_t layout = 1;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_SUBFILETYPE, &kind);
+  TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &photometric);
+  TIFFGetField(tiff, TIFFTAG_CFALAYOUT, &layout);
+  if (kind != 0 || (photometric != PHOTOMETRIC_CFA && photometric != kLinearRaw))
+    throw Error(ErrorCode::input, TIFFFileName(tiff),
+                "its first image is no raw one (got NewSubfileType " + std::to_string(kind) +
+                    " and PhotometricInterpretation " + std::to_string(photometric) +
+                    ", allowed 0 and 32803 or 34892); a raw converter can make a DNG of that alone");
+  if (layout != 1)
+    throw Error(
+        ErrorCode::input, TIFFFileName(tiff),
+        "the filters of its mosaic are staggered (got CFALayout " + std::to_string(layout) + ", allowed 1)");
+}
+
 // Strip by strip, or nothing where libtiff cannot undo the compression.
 bool read_codes(TIFF* tiff, RawPicture& raw) {
   const std::uint32_t strips = TIFFNumberOfStrips(tiff);
@@ -196,6 +215,7 @@ RawPicture read_dng(const std::string& path) {
   TIFFGetFieldDefaulted(tiff.get(), TIFFTAG_SAMPLESPERPIXEL, &samples);
   require_image_size(path, width, height, samples);
   require_codes(tiff.get());
+  require_raw(tiff.get());
   RawPicture raw;
   raw.width = width;
   raw.height = height;
