@@ -4,7 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "io/error.h"
 #include "io/image.h"
@@ -141,12 +143,14 @@ void keep_active_area(TIFF* tiff, RawPicture& raw) {
   raw.height = static_cast<decltype(raw.height)>(bottom - top);
 }
 
-// The exposure time, of which the folder of Exif tells; the last to be read, since it leaves the image.
+// The exposure time, of which the folder of Exif tells, beside the first picture; the last to be read, since
+// it leaves the image.
 void read_exposure(TIFF* tiff, RawPicture& raw) {
   toff_t folder = 0;
   float seconds = 0;
-  if (TIFFGetField(tiff, TIFFTAG_EXIFIFD, &folder) == 1 && TIFFReadEXIFDirectory(tiff, folder) == 1 &&
-      TIFFGetField(tiff, EXIFTAG_EXPOSURETIME, &seconds) == 1 && seconds > 0)
+  if (TIFFSetDirectory(tiff, 0) == 1 && TIFFGetField(tiff, TIFFTAG_EXIFIFD, &folder) == 1 &&
+      TIFFReadEXIFDirectory(tiff, folder) == 1 && TIFFGetField(tiff, EXIFTAG_EXPOSURETIME, &seconds) == 1 &&
+      seconds > 0)
     raw.exposure_s = static_cast<double>(seconds);
 }
 
@@ -157,27 +161,52 @@ void require_codes(TIFF* tiff) {
   TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &format);
   if (bits != 16 || TIFFIsTiled(tiff) != 0)
     throw Error(ErrorCode::input, TIFFFileName(tiff),
-                "its first image has no strips of 16-bit numbers (got " + std::to_string(bits) +
+                "its raw picture has no strips of 16-bit numbers (got " +
+                    std::string(TIFFIsTiled(tiff) != 0 ? "tiles" : "strips") + " of " + std::to_string(bits) +
                     " bits); a raw converter can make an uncompressed DNG of it");
   if (format != SAMPLEFORMAT_UINT)
     throw Error(ErrorCode::input, TIFFFileName(tiff),
-                "its first image has no whole numbers without sign (got SampleFormat " +
+                "its raw picture has no whole numbers without sign (got SampleFormat " +
                     std::to_string(format) + ", allowed 1)");
 }
 
-// A picture made of the raw one, such as a preview, has colours and tones of its own.
-void require_raw(TIFF* tiff) {
-  std::uint32_t kind = 0;
+// What a folder of a TIFF says that its picture is.
+struct PictureKind {
+  std::uint32_t subfile = 0;
   std::uint16_t photometric = 0;
+
+  // A picture made of the raw one, such as a preview, has colours and tones of its own.
+  [[nodiscard]] bool is_raw() const {
+    return subfile == 0 && (photometric == PHOTOMETRIC_CFA || photometric == kLinearRaw);
+  }
+};
+
+PictureKind kind_of(TIFF* tiff) {
+  PictureKind kind;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_SUBFILETYPE, &kind.subfile);
+  TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &kind.photometric);
+  return kind;
+}
+
+// Goes to the raw picture: the first of the file or, where that is a preview, of the folders within [DNG,
+// "DNG File Structure"].
+void find_raw(TIFF* tiff) {
+  const PictureKind first = kind_of(tiff);
+  if (first.is_raw()) return;
+  std::uint16_t count = 0;
+  const toff_t* within = nullptr;
+  if (TIFFGetField(tiff, TIFFTAG_SUBIFD, &count, &within) == 1)
+    for (const toff_t folder : std::vector<toff_t>(within, within + count))
+      if (TIFFSetSubDirectory(tiff, folder) == 1 && kind_of(tiff).is_raw()) return;
+  throw Error(ErrorCode::input, TIFFFileName(tiff),
+              "it holds no raw picture (got NewSubfileType " + std::to_string(first.subfile) +
+                  " and PhotometricInterpretation " + std::to_string(first.photometric) +
+                  " first, allowed 0 and 32803 or 34892, or such a picture among its SubIFDs)");
+}
+
+void require_rectangular(TIFF* tiff) {
   std::uint16_t layout = 1;
-  TIFFGetFieldDefaulted(tiff, TIFFTAG_SUBFILETYPE, &kind);
-  TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &photometric);
   TIFFGetField(tiff, TIFFTAG_CFALAYOUT, &layout);
-  if (kind != 0 || (photometric != PHOTOMETRIC_CFA && photometric != kLinearRaw))
-    throw Error(ErrorCode::input, TIFFFileName(tiff),
-                "its first image is no raw one (got NewSubfileType " + std::to_string(kind) +
-                    " and PhotometricInterpretation " + std::to_string(photometric) +
-                    ", allowed 0 and 32803 or 34892); a raw converter can make a DNG of that alone");
   if (layout != 1)
     throw Error(
         ErrorCode::input, TIFFFileName(tiff),
@@ -201,12 +230,23 @@ bool read_codes(TIFF* tiff, RawPicture& raw) {
   return at == raw.codes.size();
 }
 
+std::string why_unreadable(TIFF* tiff) {
+  std::uint16_t compression = COMPRESSION_NONE;
+  TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &compression);
+  if (compression == COMPRESSION_NONE) return "truncated or corrupt";
+  return "its raw picture is damaged, or compressed as is not read here (got Compression " +
+         std::to_string(compression) + "); a raw converter can make an uncompressed DNG of it";
+}
+
 }  // namespace
 
 RawPicture read_dng(const std::string& path) {
   teach_dng_tags();
   const Tiff tiff(TIFFOpenExt(path.c_str(), "r", quiet_tiff().get()), TIFFClose);
   if (!tiff) throw Error(ErrorCode::input, path, "no DNG, or a damaged one");
+  RawPicture raw;
+  read_lines(tiff.get(), raw);
+  find_raw(tiff.get());
   std::uint32_t width = 0;
   std::uint32_t height = 0;
   std::uint16_t samples = 1;
@@ -215,14 +255,12 @@ RawPicture read_dng(const std::string& path) {
   TIFFGetFieldDefaulted(tiff.get(), TIFFTAG_SAMPLESPERPIXEL, &samples);
   require_image_size(path, width, height, samples);
   require_codes(tiff.get());
-  require_raw(tiff.get());
-  RawPicture raw;
+  require_rectangular(tiff.get());
   raw.width = width;
   raw.height = height;
   for (int k = 0; k < samples; ++k) raw.planes.push_back(samples == 1 ? "raw" : std::to_string(k));
   raw.codes.resize(static_cast<std::size_t>(width) * height * samples);
-  if (!read_codes(tiff.get(), raw)) throw Error(ErrorCode::input, path, "truncated or corrupt");
-  read_lines(tiff.get(), raw);
+  if (!read_codes(tiff.get(), raw)) throw Error(ErrorCode::input, path, why_unreadable(tiff.get()));
   read_layout(tiff.get(), raw);
   read_levels(tiff.get(), raw);
   require_even_black(tiff.get());

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace abbe::test {
@@ -30,6 +31,21 @@ struct TiffEntries {
   }
   /// The value of an entry, or where its values are.
   [[nodiscard]] std::uint32_t value_of(std::uint16_t tag) const { return number(entry_of(tag) + 8, 4); }
+  /// Where its first folder is.
+  [[nodiscard]] std::uint32_t first_folder() const { return number(4, 4); }
+  /// Makes a folder the first, of numbers of 32 bits by their tags, which rise; no other follows it.
+  void put_first(const std::vector<std::pair<std::uint16_t, std::uint32_t>>& entries) {
+    constexpr std::uint32_t kLong = 4;
+    bytes.resize(bytes.size() + bytes.size() % 2);
+    const std::size_t at = bytes.size();
+    std::vector<Field> fields{{2, static_cast<std::uint32_t>(entries.size())}};
+    for (const auto& [tag, value] : entries)
+      fields.insert(fields.end(), {{2, tag}, {2, kLong}, {4, 1}, {4, value}});
+    fields.push_back({4, 0});
+    bytes.resize(at + 6 + 12 * entries.size());
+    set(at, fields);
+    set_number(4, static_cast<std::uint32_t>(at));
+  }
   /// Makes the bytes at a place those of a number of 32 bits.
   void set_number(std::size_t at, std::uint32_t value) { set(at, {{4, value}}); }
 
@@ -52,7 +68,7 @@ struct TiffEntries {
   }
   [[nodiscard]] std::size_t entry_of(std::uint16_t tag) const {
     constexpr std::size_t kEntry = 12;
-    const std::size_t folder = number(4, 4);
+    const std::size_t folder = first_folder();
     for (std::size_t i = 0; i < number(folder, 2); ++i)
       if (const std::size_t at = folder + 2 + kEntry * i; number(at, 2) == tag) return at;
     ADD_FAILURE() << "no tag " << tag;
