@@ -154,6 +154,15 @@ TEST(Media, WhatOnlyScattersIsInvisibleInAFurnace) {
               one, 0.03, "fog within haze");
 }
 
+// Light comes out of a thick ball of clear milk after n events with a probability in proportion to n^(-3/2),
+// so that long paths carry a good part of it.
+TEST(Media, ThickMilkIsInvisibleInAFurnaceToo) {
+  expect_near(radiances({.materials = R"("milk": {"dielectric": {"ior": 1.33, "scattering_per_m": 2000}})",
+                         .shapes = ball("milk"),
+                         .samples = 1024}),
+              std::vector<double>(3, 1.0), 0.015, "thick milk");
+}
+
 // A deep layer that scatters evenly and absorbs a tenth of what it meets, under an even sky, looks
 // 1 - H(mu) sqrt(1 - albedo) times as bright as the sky [Chandrasekhar1960, sec. 33]. Its density varies with
 // wavelength, which changes nothing.

@@ -126,7 +126,7 @@ class RandomWalks {
     if (event.transmitted)
       path.around.enter(scene_, vertex.behind(scene_, path.around.inside), path.lambda_nm());
     path.ray = vertex.leave(vertex.frame.to_world(event.wi), path.ray.time);
-    return survives(path, technique.kept(path, vertex, event), u);
+    return survives(path, technique.kept(path, vertex, event), event.delta, u);
   }
 
   // Where a path is refracted by dispersive glass, each of its lanes goes on by itself, along its own
@@ -220,7 +220,7 @@ class RandomWalks {
     technique.connect_within(path, phase, v);
     path.last = {path.ray.origin, std::nullopt};
     path.ray.direction = turn(path, phase, {u[0], u[1]});
-    return survives(path, technique.kept_within(path), u[3]);
+    return survives(path, technique.kept_within(path), false, u[3]);
   }
 
   // A direction drawn within matter, in which the path is connected and polarised as if it went there.
@@ -257,11 +257,11 @@ class RandomWalks {
     return true;
   }
 
-  bool survives(Path& path, float kept, float u) const {
+  bool survives(Path& path, float kept, bool specular, float u) const {
     ++path.events;
     if (path.packet.throughput.is_zero()) return false;
     if (!plays_roulette(scene_.render, path.events)) return true;
-    const float q = survival(kept, path.events);
+    const float q = survival(kept, path.events, specular);
     if (u >= q) return false;
     survive(path.packet, q);
     return true;
