@@ -136,6 +136,18 @@ TEST(Stop, ARequestEndsAfterAPassWithAValidFilm) {
   EXPECT_GT(stopped.film.mean(16 * 32 + 16, 1), 0);
 }
 
+// Of small films a sample has far more photons than camera paths.
+TEST(Stop, PhotonsCountForTheLengthOfAPass) {
+  const Scene scene = test::load("cornell.json", {{"/sensor/resolution", "[2, 2]"},
+                                                  {"/render/integrator", "\"sppm\""},
+                                                  {"/render/photons", R"({"per_sample": 32768})"},
+                                                  {"/render/samples", "32"}});
+  std::atomic<bool> stop{false};
+  const RenderResult stopped =
+      render(scene, {.stop = &stop, .progress = [&stop](const Progress&) { stop = true; }});
+  EXPECT_EQ(stopped.stats.samples_per_pixel, 8U);
+}
+
 TEST(Progress, RateAndTimeLeftAreThoseOfThisRun) {
   const Scene scene =
       test::load("cornell.json", {{"/sensor/resolution", "[64, 64]"}, {"/render/samples", "250"}});

@@ -68,7 +68,7 @@ class Rendering {
         plan_(balanced_plan(scene, options, threads_)),
         wanted_(options.samples.value_or(SampleRange{
             0, open_ended(options) ? kMaxSamples : static_cast<std::uint64_t>(scene.render.samples)})),
-        step_(std::max<std::uint64_t>(1, kPassPaths / camera_paths(plan_))),
+        step_(std::max<std::uint64_t>(1, kPassPaths / std::max(camera_paths(plan_), plan_.photons))),
         result_{Film(scene.camera.width, scene.camera.height, static_cast<int>(scene.film_planes().size()),
                      replicate_count(scene, options), plan_.nominal_value, paths_to_any_pixel(plan_),
                      plan_.path_interval, options.crop),
