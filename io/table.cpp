@@ -59,9 +59,11 @@ bool has_byte_order_mark(const fs::path& path) {
   return file.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == kByteOrderMark;
 }
 
-/// Whether a line has semicolons where commas are expected.
-bool has_semicolons(std::string_view line, const std::vector<Cell>& cells) {
-  return cells.size() == 1 && line.find(';') != std::string_view::npos;
+/// Where a line has the first semicolon or, between what it holds, tab where commas are expected.
+std::optional<std::size_t> wrong_separator(std::string_view line, const std::vector<Cell>& cells) {
+  if (cells.size() != 1) return std::nullopt;
+  const std::size_t at = line.find_first_of(";\t", cells.front().offset);
+  return at <= line.find_last_not_of(" \t") ? std::optional(at) : std::nullopt;
 }
 
 bool is_blank(std::string_view line) {
@@ -99,7 +101,7 @@ class TableReader {
 
   void read_lines() {
     const std::string_view text = source_->text;
-    for (std::size_t offset = 0; offset < text.size() && !semicolons_;) {
+    for (std::size_t offset = 0; offset < text.size() && !wrongly_separated_;) {
       const std::string_view line = line_from(text, offset);
       if (line.starts_with('#'))
         read_key(line, offset);
@@ -107,7 +109,7 @@ class TableReader {
         read_cells(line, offset);
       offset = std::min(text.find('\n', offset), text.size() - 1) + 1;
     }
-    if (table_.rows.empty() && !semicolons_)
+    if (table_.rows.empty() && !wrongly_separated_)
       complain(text.size(), "expected a line of column names and at least one row");
   }
 
@@ -165,9 +167,12 @@ class TableReader {
   void read_cells(std::string_view line, std::size_t offset) {
     auto cells = cells_of(line);
     if (!cells) return complain(offset, "quoted cell without its closing quote");
-    semicolons_ = table_.columns.size() != 1 && has_semicolons(line, *cells);
-    if (semicolons_)
-      return complain(offset + line.find(';'), "cells are separated by semicolons (got ';', allowed ',')");
+    const auto wrong = table_.columns.size() == 1 ? std::nullopt : wrong_separator(line, *cells);
+    wrongly_separated_ = wrong.has_value();
+    if (wrong)
+      return complain(offset + *wrong,
+                      fmt::format("cells are separated by {}, allowed ',')",
+                                  line[*wrong] == ';' ? "semicolons (got ';'" : "tabs (got a tab"));
     if (!table_.columns.empty()) {
       if (cells->size() != table_.columns.size())
         return complain(offset, fmt::format("wrong number of cells (got {}, allowed {})", cells->size(),
@@ -198,14 +203,14 @@ class TableReader {
   Table table_;
   std::map<std::string, std::size_t> key_offsets_;
   bool complained_ = false;
-  bool semicolons_ = false;  ///< Met, after which nothing more is read.
+  bool wrongly_separated_ = false;  ///< By no commas, after which nothing more is read.
 };
 
 /// What the lines above the rows say of a table, without reading the rows.
 struct Heading {
   std::string aliases;
   std::vector<std::string> values;  ///< Column names but for those of wavelengths or, without any, the first.
-  bool semicolons = false;          ///< Between the column names, which hence are not known.
+  bool wrongly_separated = false;   ///< By no commas, so that the column names are not known.
 };
 
 Heading heading_of(const fs::path& path) {
@@ -219,7 +224,7 @@ Heading heading_of(const fs::path& path) {
     } else if (!is_blank(line)) {
       if (line.ends_with('\r')) line.pop_back();
       std::vector<Cell> cells = cells_of(line).value_or(std::vector<Cell>{});
-      heading.semicolons = has_semicolons(line, cells);
+      heading.wrongly_separated = wrong_separator(line, cells).has_value();
       for (Cell& cell : cells)
         if (!cell.text.starts_with("wavelength_")) heading.values.push_back(std::move(cell.text));
       if (!cells.empty() && heading.values.size() == cells.size())
@@ -294,7 +299,7 @@ std::optional<TableColumn> user_column(const std::string& name, const SourcePosi
   const Heading heading = heading_of(path);
   if (end == name.size()) return TableColumn{path, only_value(heading)};
   const std::string column = name.substr(end + 1);
-  if (heading.semicolons) return TableColumn{path, column};  // which `read_table` refuses at its place
+  if (heading.wrongly_separated) return TableColumn{path, column};  // which `read_table` refuses at its place
   if (std::find(heading.values.begin(), heading.values.end(), column) != heading.values.end())
     return TableColumn{path, column};
   diagnostics.error(where, unknown_name("column", column, heading.values), ErrorCode::input);

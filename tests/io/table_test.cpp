@@ -114,9 +114,15 @@ TEST(Table, WhatSpreadsheetsWriteIsNamed) {
             "2:2: error: cells are separated by semicolons (got ';', allowed ',')\n");
   EXPECT_EQ(complaints("# unit: W\nl,a\n1,2\n2;3\n3;4\n", TableOrigin::user),
             "4:2: error: cells are separated by semicolons (got ';', allowed ',')\n");
+  EXPECT_EQ(complaints("# unit: W\nl\ta\n1\t0,5\n2\t0,25\n", TableOrigin::user),
+            "2:2: error: cells are separated by tabs (got a tab, allowed ',')\n");
+  EXPECT_EQ(complaints("# unit: W\nl,a\n1,2\n\t20 \t3\n3\t4\n", TableOrigin::user),
+            "4:5: error: cells are separated by tabs (got a tab, allowed ',')\n");
   Diagnostics diagnostics;
   EXPECT_TRUE(table_of("# unit: W; per nm\nl,\"a;b\"\n1,x;y\n", TableOrigin::user, diagnostics))
       << diagnostics.text();
+  EXPECT_TRUE(table_of("# unit: W\nl\t\n\t1\t\n", TableOrigin::user, diagnostics))
+      << "one column with tabs about it: " << diagnostics.text();
 }
 
 TEST(Table, BadNumbersPointAtTheCell) {
@@ -219,7 +225,8 @@ TEST_F(FindTable, FindsUserFilesByTheirPaths) {
   // What `read_table` will refuse in its own words is found, whatever its columns look like.
   put(folder / "marked.csv", "\xEF\xBB\xBF# unit: W\nl,a,b\n1,2,3\n");
   put(folder / "semicolons.csv", "# unit: W\nl;a;b\n1;2;3\n");
-  for (const char* name : {"marked.csv:b", "semicolons.csv:b"})
+  put(folder / "tabs.csv", "# unit: W\nl\ta\tb\n1\t2\t3\n");
+  for (const char* name : {"marked.csv:b", "semicolons.csv:b", "tabs.csv:b"})
     EXPECT_EQ(find_table("light", (folder / name).string(), {}, diagnostics).value().column, "b") << name;
   ASSERT_EQ(diagnostics.all().size(), 2U);
   EXPECT_EQ(diagnostics.all()[0].message, "unknown column \"c\"; known: a, b");
