@@ -159,7 +159,7 @@ CalibrationCase simulated_calibration(const CalibrationSource& source, const std
 RecoveredResponses recover_responses(const fs::path& series, Inputs& inputs, Diagnostics& diagnostics) {
   const auto photographs = read_series(series, diagnostics, &inputs);
   require_sound(diagnostics);
-  RecoveredResponses recovered{{}, photographs->full_scale_dn};
+  RecoveredResponses recovered{{}, photographs->full_scale};
   for (std::size_t k = 0; k < photographs->channels.size(); ++k)
     recovered.channels.push_back({photographs->channels[k], recover_response(photographs->series[k]), {}});
   return recovered;
@@ -182,7 +182,7 @@ CalibrationCase measured_calibration(const CalibrationSource& source, const std:
     RecoveredResponses recovered = recover_responses(source.series, inputs, diagnostics);
     require_rgb(recovered.channels, &ChannelResponse::channel, "--series");
     camera.responses = in_rgb_order(std::move(recovered.channels), &ChannelResponse::channel);
-    scale_to_codes(*patches, recovered.full_scale_dn, source.measured);
+    scale_to_codes(*patches, recovered.full_scale, source.measured);
     linearise_all(*patches, camera.responses);
   } else if (patches->unit == kCodeValues) {
     warn_of_codes(source.measured, "measure raw files, or give a --series", diagnostics);

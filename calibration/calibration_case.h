@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibration/camera_calibration.h"
+#include "calibration/chart/measured_patches.h"
 #include "io/diagnostics.h"
 #include "io/inputs.h"
 
@@ -57,7 +58,7 @@ struct CalibrationCase {
 /// The curves of a real camera's channels, of a series of photographs.
 struct RecoveredResponses {
   std::vector<ChannelResponse> channels;
-  std::optional<double> full_scale_dn;  ///< Of which they are, where the series tells.
+  FullScale full_scale = {};  ///< Of which they are.
 };
 /// Throws InvalidInput for a series that cannot be read, Error{input} for one that determines no curve.
 [[nodiscard]] RecoveredResponses recover_responses(const std::filesystem::path& series, Inputs& inputs,

@@ -52,7 +52,7 @@ void keep_planes(Image& image) {
 }
 
 LinearImage of_film(const std::filesystem::path& path, Inputs* inputs) {
-  LinearImage read{read_film(path, inputs), {}, {}, {}, "film values"};
+  LinearImage read{read_film(path, inputs), {}, {}, {}, kFilmValues};
   const bool spectral = is_spectral(read.image);
   const std::size_t all = read.image.memory_bytes();
   if (spectral) read.unit = "radiance of the band [W/(m^2 sr)]";

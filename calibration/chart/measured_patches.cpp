@@ -194,6 +194,12 @@ std::optional<ChartTargets> stated_colors(const Table& table, Diagnostics& diagn
   return ChartTargets{*std::move(names), *std::move(xyz), white};
 }
 
+// Of values of that unit; 1 of those that are shares of it.
+double full_scale_of(const std::string& unit, const FullScale& full_scale) {
+  if (unit == kNumbersAboveBlack) return full_scale.dn.value();
+  return unit == kCodeValues || unit == kFilmValues ? full_scale.value : 1;
+}
+
 }  // namespace
 
 std::optional<ChartTargets> load_chart_targets(const std::string& name, const Curve& illuminant,
@@ -236,19 +242,19 @@ std::optional<MeasuredPatches> load_measured_patches(const std::filesystem::path
   return patches;
 }
 
-void scale_to_codes(MeasuredPatches& patches, const std::optional<double>& full_scale_dn,
+void scale_to_codes(MeasuredPatches& patches, const FullScale& full_scale,
                     const std::filesystem::path& file) {
-  const bool is_raw = patches.unit == kNumbersAboveBlack;
-  if (is_raw && !full_scale_dn)
+  if (patches.unit == kNumbersAboveBlack && !full_scale.dn)
     throw Error(
         ErrorCode::input, file.string(),
         fmt::format("its values are {}, of which the series tells no full scale: values from 0 to 1 at "
                     "full scale are needed",
                     kNumbersAboveBlack));
+  const double full = full_scale_of(patches.unit, full_scale);
   for (std::size_t i = 0; i < patches.values.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
-      if (is_raw) patches.values[i][k] /= *full_scale_dn;
-      if (is_raw && !patches.deviations.empty()) patches.deviations[i][k] /= *full_scale_dn;
+      patches.values[i][k] /= full;
+      if (!patches.deviations.empty()) patches.deviations[i][k] /= full;
       if (patches.values[i][k] > 1 && !patches.saturated.contains(patches.names[i]))
         throw Error(ErrorCode::input, file.string(),
                     fmt::format("patch \"{}\" has a value of {} (allowed 0 to 1 at full scale, of which the "

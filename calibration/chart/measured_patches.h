@@ -26,9 +26,10 @@ struct ChartTargets {
                                                              const SourcePosition& where,
                                                              Diagnostics& diagnostics);
 
-/// The units of what `abbe measure` reads out of raw files, and out of any other pictures.
+/// The units of what `abbe measure` reads out of raw files, out of other pictures, and out of EXR files.
 inline constexpr const char* kNumbersAboveBlack = "digital numbers above black";
 inline constexpr const char* kCodeValues = "code values in [0, 1], as the file has them";
+inline constexpr const char* kFilmValues = "film values";
 
 /// Warns that the code values of a picture, out of which `file` is or was measured, are taken for linear, and
 /// tells what to do instead.
@@ -52,10 +53,16 @@ struct MeasuredPatches {
 [[nodiscard]] std::optional<MeasuredPatches> load_measured_patches(const std::filesystem::path& path,
                                                                    Diagnostics& diagnostics);
 
-/// Makes values those of the codes that a recovered response is of, 0 to 1: numbers above black are divided
-/// by `full_scale_dn`, which a series of raw files tells. Throws Error{input} naming `file` where it tells
-/// none, and for a patch with a value beyond 1 that is not left out as saturated.
-void scale_to_codes(MeasuredPatches& patches, const std::optional<double>& full_scale_dn,
-                    const std::filesystem::path& file);
+/// What code 1 of a series of photographs stands for.
+struct FullScale {
+  std::optional<double> dn = {};  ///< Digital numbers above black, where they are raw files.
+  double value = 1;               ///< Of other pictures, as their files have it.
+};
+
+/// Makes values those of the codes that a recovered response is of, 0 to 1: numbers above black, and values
+/// of other pictures, are divided by the full scale of the series; of any other unit they are such codes.
+/// Throws Error{input} naming `file` for numbers above black where the series is of no raw files, and for a
+/// patch with a value beyond 1 that is not left out as saturated.
+void scale_to_codes(MeasuredPatches& patches, const FullScale& full_scale, const std::filesystem::path& file);
 
 }  // namespace abbe

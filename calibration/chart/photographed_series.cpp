@@ -286,7 +286,8 @@ std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
         all.channels.push_back(channel);
         all.series.push_back({{}, none, none});
       }
-      if (told && !listing.full_scale) all.full_scale_dn = white_dn(image, *told) - told->offset_dn;
+      if (told && !listing.full_scale) all.full_scale.dn = white_dn(image, *told) - told->offset_dn;
+      if (!told) all.full_scale.value = listing.full_scale.value_or(1);
       first = image;
     }
     add(image, told, regions, listing, all);

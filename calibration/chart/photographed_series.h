@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "calibration/chart/exposure_series.h"
+#include "calibration/chart/measured_patches.h"
 #include "io/diagnostics.h"
 #include "io/inputs.h"
 
@@ -15,8 +16,7 @@ namespace abbe {
 struct PhotographedSeries {
   std::vector<std::string> channels;
   std::vector<ExposureSeries> series;  ///< One a channel.
-  /// The digital numbers above black that code 1 stands for, where raw files tell.
-  std::optional<double> full_scale_dn = {};
+  FullScale full_scale = {};
 };
 
 /// Reads photographs of one still scene (any picture format, EXR too) listed in a JSON file:

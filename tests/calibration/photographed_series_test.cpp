@@ -89,6 +89,8 @@ TEST_F(Photographs, RegionsOfNoisyFloatImages) {
   const auto all = read(list(".exr", regions() + "\"full_scale\": 4, ", 2e-3, 4));
   ASSERT_TRUE(all) << diagnostics_.text();
   ASSERT_EQ(all->channels, (std::vector<std::string>{"R", "G", "B"}));
+  EXPECT_EQ(all->full_scale.value, 4);
+  EXPECT_FALSE(all->full_scale.dn);
   const PlantedResponse planted("gamma:2.2");
   for (const ExposureSeries& series : all->series) {
     ASSERT_EQ(series.codes.size(), 24U);

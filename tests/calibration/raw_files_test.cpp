@@ -145,7 +145,7 @@ TEST_F(RawFiles, TheWhiteLevelClipsASeries) {
     Diagnostics diagnostics;
     const auto read = read_series(folder_ / "one.json", diagnostics);
     ASSERT_TRUE(read) << diagnostics.text();
-    EXPECT_EQ(read->full_scale_dn, 2010 - 50) << name;
+    EXPECT_EQ(read->full_scale.dn, 2010 - 50) << name;
     ASSERT_EQ(read->series.size(), 3U) << name;
     for (std::size_t k = 0; k < 3; ++k) {
       EXPECT_NEAR(read->series[k].codes[0][0], (1880 + 20 * static_cast<double>(k)) / 1960, 1e-6) << name;

@@ -50,6 +50,28 @@ std::filesystem::path write_series(double gamma = 1) {
   return path;
 }
 
+// Exposures of a wedge in pictures that tell nothing: 16 bits that hold the 12 of a camera of this gamma.
+std::filesystem::path write_picture_series(double gamma) {
+  constexpr int kWidth = 96;
+  std::string listing;
+  for (const double seconds : {0.25, 0.5, 1.0, 2.0}) {
+    Image image{kWidth, 12, {}, {}};
+    for (const char* name : {"R", "G", "B"}) {
+      ImageChannel& plane = image.channels.emplace_back(ImageChannel{name, {}});
+      for (int i = 0; i < kWidth * 12; ++i) {
+        const double light = std::min(1.0, seconds * (i % kWidth + 1) / kWidth * 0.6);
+        plane.values.push_back(static_cast<float>(std::floor(4095 * std::pow(light, 1 / gamma) + 0.5)));
+      }
+    }
+    const std::string name = fmt::format("picture_{}.tif", seconds);
+    write_raw_picture(scratch() / name, image);
+    listing +=
+        fmt::format(R"({}{{"file": "{}", "exposure_s": {}}})", listing.empty() ? "" : ", ", name, seconds);
+  }
+  return scratch().write("pictures.json",
+                         R"({"full_scale": 0.0624857, "bits": 12, "exposures": [)" + listing + "]}");
+}
+
 // Exposures through a mosaic whose channels are told as B, G, R.
 std::filesystem::path write_mosaic_series() {
   constexpr int kEdge = 32;
@@ -101,18 +123,19 @@ TEST(CalibrateRaw, NumbersAboveBlackAreSharesOfWhatTheSeriesTells) {
 }
 
 // The chart in values of this gamma, of which the same noise of light, if it is told, makes more in the dark.
-std::filesystem::path write_chart(double gamma, bool is_noisy) {
+std::filesystem::path write_chart(double gamma, bool is_noisy,
+                                  const std::string& unit = "shares of full scale", double full = 1) {
   Diagnostics diagnostics;
   const auto channels = load_camera("Nikon_D5100", {}, diagnostics);
   const auto chart = load_chart(CalibrateOptions().chart, {}, diagnostics);
   const Curve lamp = load_illuminant("D65", {}, diagnostics)->curve;
-  std::string rows = "# unit: shares of full scale\npatch,R,G,B";
+  std::string rows = "# unit: " + unit + "\npatch,R,G,B";
   rows += is_noisy ? ",R_deviation,G_deviation,B_deviation,R_pixels,G_pixels,B_pixels\n" : "\n";
   for (const Patch& patch : chart->patches) {
     std::string values;
     std::string noise;
     for (const double raw : camera_raw(*channels, lamp, patch.reflectance)) {
-      const double code = std::pow(0.8 * raw, 1 / gamma);
+      const double code = full * std::pow(0.8 * raw, 1 / gamma);
       values += fmt::format(",{}", code);
       noise += fmt::format(",{}", 0.01 * code / (gamma * 0.8 * raw));
     }
@@ -141,6 +164,21 @@ TEST(CalibrateRaw, NoiseIsMadeLinearWithTheValues) {
   options.series = write_series(2.2);
   const std::vector<double> curved = shifts(2.2);
   for (std::size_t i = 0; i < 24; ++i) EXPECT_NEAR(curved[i], linear[i], 0.03) << i;
+}
+
+// The values of such pictures are shares of 65535, or floats as they are, which clip where the listing says.
+TEST(CalibrateRaw, ValuesOfPicturesAreSharesOfTheListedFullScale) {
+  CalibrateOptions options;
+  options.how.bootstrap.replicates = 2;
+  options.measured = write_chart(1, false);
+  const double plain = json_output(calibrate, options)["dE00_mean"];
+  options.series = write_picture_series(2.2);
+  for (const char* unit : {kCodeValues, kFilmValues}) {
+    options.measured = write_chart(2.2, false, unit, 4095.0 / 65535);
+    EXPECT_NEAR(json_output(calibrate, options)["dE00_mean"].get<double>(), plain, 0.05) << unit;
+  }
+  options.measured = write_chart(2.2, false);
+  EXPECT_NEAR(json_output(calibrate, options)["dE00_mean"].get<double>(), plain, 0.05) << "shares already";
 }
 
 TEST(CalibrateRaw, ResponsesAreMatchedWithMeasuredValuesByName) {
@@ -189,11 +227,15 @@ TEST(CalibrateRaw, ScalesThatDoNotFitAreNamed) {
   EXPECT_EQ(fault([&] { scale_to_codes(raw, {}, "m.csv"); }, "m.csv: its values are digital numbers above"),
             ErrorCode::input);
   MeasuredPatches clipped{{"grey"}, {{300, 300, 4003}}, {}, kNumbersAboveBlack, {"grey"}};
-  scale_to_codes(clipped, 4000, "m.csv");  // which is left out, so that nothing hinges on it
+  scale_to_codes(clipped, {4000}, "m.csv");  // which is left out, so that nothing hinges on it
   EXPECT_EQ(clipped.values[0][0], 0.075);
   MeasuredPatches other{{"grey"}, {{0.3, 0.3, 300}}};
+  MeasuredPatches dim{{"grey"}, {{0.01, 0.02, 0.04}}, {{0.001, 0.002, 0.003}}, kCodeValues};
+  scale_to_codes(dim, {{}, 0.0625}, "m.csv");
+  EXPECT_EQ(dim.values[0], (Raw{0.16, 0.32, 0.64}));
+  EXPECT_EQ(dim.deviations[0], (Raw{0.016, 0.032, 0.048}));
   EXPECT_EQ(
-      fault([&] { scale_to_codes(other, 4000, "m.csv"); }, "patch \"grey\" has a value of 300 (allowed"),
+      fault([&] { scale_to_codes(other, {4000}, "m.csv"); }, "patch \"grey\" has a value of 300 (allowed"),
       ErrorCode::input);
 }
 
