@@ -80,6 +80,17 @@ std::vector<PatchOutline> outlines_in(const LinearImage& image, const ChartToMea
   return outlines_between(*measured.found, chart.names, options.columns);
 }
 
+// A curve makes of light divided by light no ratio of their codes.
+void warn_of_flat(const LinearImage& divided, const fs::path& file) {
+  if (divided.unit != kCodeValues) return;
+  Diagnostics diagnostics;
+  warn_unless_linear(
+      divided.image, file,
+      "a --flat divides light, so that it needs raw files, or pictures that say that they are linear",
+      diagnostics);
+  check(diagnostics);
+}
+
 // An image's name stands before what is wrong with it.
 Measurement measure_image(const fs::path& file, const ChartToMeasure& chart,
                           const std::optional<LinearImage>& flat, const MeasureOptions& options,
@@ -88,6 +99,7 @@ Measurement measure_image(const fs::path& file, const ChartToMeasure& chart,
   Measurement measured{file, read.channels, read.unit, {}, {}};
   try {
     const std::vector<PatchOutline> outlines = outlines_in(read, chart, options, measured);
+    if (flat) warn_of_flat(read, file);
     if (flat) inputs.take_memory(file.string(), read.image.memory_bytes());
     const Image exposed = flat ? read.image : Image{};
     if (flat) flat_field(read, *flat, options.flat);
@@ -206,7 +218,10 @@ int measure(const MeasureOptions& options) {
   const ChartToMeasure chart = find_chart(options, inputs);
   require_distinct(std::array{options.output}, inputs.files());
   std::optional<LinearImage> flat;
-  if (!options.flat.empty()) flat = read_linear_image(options.flat, &inputs);
+  if (!options.flat.empty()) {
+    flat = read_linear_image(options.flat, &inputs);
+    warn_of_flat(*flat, options.flat);
+  }
   std::vector<Measurement> all;
   for (const fs::path& image : options.images) {
     all.push_back(measure_image(image, chart, flat, options, inputs));

@@ -18,7 +18,6 @@
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/extension.h"
-#include "io/picture_codec.h"
 #include "sensor/film/defective_pixels.h"
 #include "sensor/film/film_planes.h"
 #include "sensor/film/recorded_mosaic.h"
@@ -53,15 +52,6 @@ const ImageChannel& channel_of(const Image& image, const std::string& asked) {
   return image.channels.front();
 }
 
-// Warns of values that are not linear, or of which the file does not tell it.
-void warn_of_nonlinear(const Image& image, const std::filesystem::path& path) {
-  const auto told = image.metadata.find(kColorSpace);
-  if (told != image.metadata.end() && told->second == kLinear) return;
-  Diagnostics diagnostics;
-  warn_of_codes(path, "measure a film, a raw file, or a picture that says that it is linear", diagnostics);
-  check(diagnostics);
-}
-
 // Warns of values at the end of the codes, where brighter ones are cut off; but for hot pixels, which reach
 // it beside any edge.
 void warn_of_cut_codes(const RawImage& read, std::span<const double> values,
@@ -86,7 +76,10 @@ EdgeResponse measure_edge(const MtfOptions& options, Inputs& inputs) {
   const RawImage read = read_raw_image(options.image, &inputs);
   require_no_mosaic(read, options.image);
   const Image& image = read.image;
-  warn_of_nonlinear(image, options.image);
+  Diagnostics diagnostics;
+  warn_unless_linear(image, options.image,
+                     "measure a film, a raw file, or a picture that says that it is linear", diagnostics);
+  check(diagnostics);
   const Crop crop = asked_pixels(image, options.crop);
   const ImageChannel& channel = channel_of(image, options.channel);
   std::vector<double> values;

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "io/error.h"
+#include "io/picture_codec.h"
 #include "io/table.h"
 #include "io/text.h"
 #include "sensor/film/defective_pixels.h"
@@ -223,6 +224,12 @@ void warn_of_codes(const std::filesystem::path& file, const std::string& instead
                       "its values, the code values of a picture, are taken for linear, which those for "
                       "displays are not: " +
                           instead);
+}
+
+void warn_unless_linear(const Image& picture, const std::filesystem::path& file, const std::string& instead,
+                        Diagnostics& diagnostics) {
+  const auto told = picture.metadata.find(kColorSpace);
+  if (told == picture.metadata.end() || told->second != kLinear) warn_of_codes(file, instead, diagnostics);
 }
 
 std::optional<MeasuredPatches> load_measured_patches(const std::filesystem::path& path,

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calibration/chart/patches.h"
+#include "io/image.h"
 
 namespace abbe {
 
@@ -34,6 +35,9 @@ inline constexpr const char* kFilmValues = "film values";
 /// Warns that the code values of a picture, out of which `file` is or was measured, are taken for linear, and
 /// tells what to do instead.
 void warn_of_codes(const std::filesystem::path& file, const std::string& instead, Diagnostics& diagnostics);
+/// Warns so of a picture, unless its attribute `kColorSpace` says that its values are linear.
+void warn_unless_linear(const Image& picture, const std::filesystem::path& file, const std::string& instead,
+                        Diagnostics& diagnostics);
 
 /// A camera's values of named patches, each named once, from a table with the columns `patch`, `R`, `G`, `B`;
 /// with `R_deviation` (of a pixel), `R_pixels` and those of G and B, as `abbe measure` writes them, it tells

@@ -154,6 +154,35 @@ TEST(Mtf, IsThatOfTheBlur) {
   EXPECT_NEAR(part["mtf50"], half, 0.005);
 }
 
+// The ratio of curved codes is not that of light.
+TEST(MeasureFlat, CodesThatNobodyCallsLinearAreWarnedOf) {
+  Image image{96, 64, {}, {}};
+  for (const char* name : {"R", "G", "B"})
+    image.channels.push_back({name, std::vector<float>(96 * 64, 0.5F)});
+  write_exr(file("even.exr"), image);
+  write_picture(file("shown.png"), image);
+  write_picture(file("shown_flat.png"), image);
+  image.metadata = {{"oiio:ColorSpace", "Linear"}};
+  write_picture(file("even.png"), image);
+  const std::string chart = " --chart colorchecker24_babelcolor_average --corners 0,0,96,0,96,64,0,64";
+  const auto warnings = [&](const std::string& name, const std::string& flat) {
+    const Outcome run = abbe("measure " + file(name) + " --flat " + file(flat) + chart);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.err;
+  };
+  const auto warning = [](const std::string& name) {
+    return file(name) +
+           ": warning: its values, the code values of a picture, are taken for linear, which those for "
+           "displays are not: a --flat divides light, so that it needs raw files, or pictures that say that "
+           "they are linear\n";
+  };
+  EXPECT_EQ(warnings("shown.png", "shown_flat.png"), warning("shown_flat.png") + warning("shown.png"));
+  EXPECT_EQ(warnings("even.png", "shown_flat.png"), warning("shown_flat.png"));
+  EXPECT_EQ(warnings("even.png", "even.png"), "");
+  EXPECT_EQ(warnings("even.exr", "even.exr"), "");
+  EXPECT_EQ(abbe("measure " + file("shown.png") + chart).err, "") << "as values that a series makes linear";
+}
+
 TEST(Mtf, CodesThatNobodyCallsLinearAreWarnedOf) {
   Image image = read_exr(blurred_edge(0.7));
   image.channels.assign(1, *image.find("G"));
