@@ -42,7 +42,7 @@ struct Listing {
   std::optional<int> bits;
 };
 
-// What values are divided into codes by: the file's own scale, unless the listing says another.
+// What values are divided into codes by: the file's own scale, but for what the listing says of it.
 struct Scale {
   double black = 0;
   double full = 1;
@@ -146,14 +146,21 @@ std::vector<std::string> channels_of(const Image& image, const std::optional<Raw
   return names;
 }
 
-Scale scale_of(const Image& image, const Listing& listing, const std::optional<RawScale>& told) {
+// The code of a raw file that counts as clipped, on the straight line that is made of its codes. What the
+// listing says is a code of the file.
+double full_dn(const Image& image, const Listing& listing, const RawScale& codes) {
+  if (!listing.full_scale) return white_dn(image, codes);
+  return codes.linear(code_of(static_cast<float>(*listing.full_scale)));
+}
+
+// `codes`: of a raw file, of which the image holds the codes.
+Scale scale_of(const Image& image, const Listing& listing, const std::optional<RawScale>& codes) {
   constexpr double kSixteenBits = 65535;
-  Scale scale;
-  if (told && !listing.full_scale) {
-    scale = {told->offset_dn / kSixteenBits, white_dn(image, *told) / kSixteenBits};
+  Scale scale{0, listing.full_scale.value_or(1)};
+  if (codes) {
+    scale = {codes->offset_dn / kSixteenBits, full_dn(image, listing, *codes) / kSixteenBits};
     scale.rounding = 1 / (std::sqrt(12.0) * kSixteenBits * (scale.full - scale.black));
   }
-  if (listing.full_scale) scale.full = *listing.full_scale;
   if (listing.bits) scale.rounding = CodeNoise{*listing.bits, 0, 0}.deviation(0);
   return scale;
 }
@@ -223,9 +230,22 @@ std::string objection(const Image& image, const Image& first, const Listing& lis
   return "";
 }
 
+// Why a raw file cannot clip where the listing says; empty where it can.
+std::string full_scale_objection(const Listing& listing, const RawScale& codes) {
+  constexpr double kSixteenBits = 65535;
+  if (!listing.full_scale) return "";
+  const double code = code_of(static_cast<float>(*listing.full_scale));
+  const double highest = std::exp2(codes.bits) - 1;
+  if (code <= highest && codes.linear(code) > codes.offset_dn) return "";
+  return fmt::format(
+      "has codes from {}, its black, to {}, of which \"full_scale\" is none (got {}, which is code {}, "
+      "allowed above {:.6g} to {:.6g}, as 65535 is 1)",
+      codes.offset_dn, highest, *listing.full_scale, code, codes.offset_dn / kSixteenBits,
+      highest / kSixteenBits);
+}
+
 void add(const Image& image, const std::optional<RawScale>& told, const std::vector<Region>& regions,
-         const Listing& listing, PhotographedSeries& all) {
-  const Scale scale = scale_of(image, listing, told);
+         const Scale& scale, PhotographedSeries& all) {
   // Of pixels, which are in single precision; codes of 16 bits are 15 times as far apart.
   constexpr double kRounding = 1e-6;
   MeasuredPlanes planes{planes_of(image), all.channels, mosaic_of(image, told), scale.full * (1 - kRounding)};
@@ -266,8 +286,11 @@ std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
   std::optional<Image> first;
   std::vector<Region> regions = listing.regions;
   for (const Photograph& photograph : listing.photographs) {
-    auto [image, told] = read_raw_image(photograph.file, inputs);
-    const std::string wrong = objection(image, first ? *first : image, listing);
+    const RawImage read = read_raw_image(photograph.file, inputs);
+    const auto& [image, told] = read;
+    const std::optional<RawScale> codes = holds_codes_told_of(read) ? told : std::nullopt;
+    std::string wrong = objection(image, first ? *first : image, listing);
+    if (wrong.empty() && codes) wrong = full_scale_objection(listing, *codes);
     if (!wrong.empty()) {
       diagnostics.error(photograph.where, photograph.file + " " + wrong, ErrorCode::input);
       return std::nullopt;
@@ -286,11 +309,11 @@ std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
         all.channels.push_back(channel);
         all.series.push_back({{}, none, none});
       }
-      if (told && !listing.full_scale) all.full_scale.dn = white_dn(image, *told) - told->offset_dn;
-      if (!told) all.full_scale.value = listing.full_scale.value_or(1);
+      if (codes) all.full_scale.dn = full_dn(image, listing, *codes) - codes->offset_dn;
+      if (!codes) all.full_scale.value = listing.full_scale.value_or(1);
       first = image;
     }
-    add(image, told, regions, listing, all);
+    add(image, told, regions, scale_of(image, listing, codes), all);
     if (inputs) inputs->give_back_memory(image.memory_bytes());
     for (std::size_t k = 0; k < all.series.size(); ++k)
       all.series[k].times_s.push_back(photograph.exposure_s ? *photograph.exposure_s

@@ -29,12 +29,13 @@ struct PhotographedSeries {
 /// region of which more pixels are black or clipped than may be defective (`exceeds_defects`) counts as black
 /// or clipped, and one without spread, as of a single pixel, leaves the noise of its channel unknown. Without
 /// regions, single pixels of a regular grid are the patches, and nothing is known of their noise. Codes are
-/// divided by `full_scale`, the value at which the camera clips. What the listing does not say, raw files
-/// tell themselves, as far as `read_raw_image` has it: exposure time, full scale, which is their white level,
-/// the code of darkness, bits and mosaic, of which each channel is a series; for others `exposure_s` is
-/// needed, and full scale is 1, an integer file's largest. Channels are the planes of the sensor that a file
-/// tells of, else all but alpha and variances. Reports photographs of unequal size or channels, regions
-/// beyond them, and values that are not finite. `inputs` learns of every file.
+/// divided by `full_scale`, the value at which the camera clips, as the file has it. What the listing does
+/// not say, raw files tell themselves, as far as `read_raw_image` has it: exposure time, full scale, which is
+/// their white level, the code of darkness, bits and mosaic, of which each channel is a series; for others
+/// `exposure_s` is needed, and full scale is 1, an integer file's largest. Channels are the planes of the
+/// sensor that a file tells of, else all but alpha and variances. Reports photographs of unequal size or
+/// channels, regions beyond them, values that are not finite, and a `full_scale` that is no code of raw files
+/// above their black. `inputs` learns of every file.
 [[nodiscard]] std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
                                                             Diagnostics& diagnostics,
                                                             Inputs* inputs = nullptr);

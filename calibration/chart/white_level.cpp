@@ -29,7 +29,7 @@ std::optional<double> highest_code(const Image& image) {
 }
 
 // Converters keep what a raw file tells beside planes and codes of their own.
-bool holds_codes_told_of(const RawImage& read, double highest) {
+bool holds_codes_up_to(const RawImage& read, double highest) {
   if (!read.scale) return false;
   if (!raw_scale(read.image)) return true;  // by tags
   return told_white_dn(read.image) && highest <= read.scale->highest() &&
@@ -38,6 +38,11 @@ bool holds_codes_told_of(const RawImage& read, double highest) {
 
 }  // namespace
 
+bool holds_codes_told_of(const RawImage& read) {
+  const std::optional<double> highest = highest_code(read.image);
+  return highest && holds_codes_up_to(read, *highest);
+}
+
 double white_dn(const Image& image, const RawScale& scale) {
   return scale.linear(told_white_dn(image).value_or(scale.highest()));
 }
@@ -45,7 +50,7 @@ double white_dn(const Image& image, const RawScale& scale) {
 std::optional<EndOfCodes> end_of_codes(const RawImage& read) {
   const std::optional<double> highest = highest_code(read.image);
   if (!highest) return std::nullopt;
-  if (holds_codes_told_of(read, *highest)) return EndOfCodes{white_dn(read.image, *read.scale), true};
+  if (holds_codes_up_to(read, *highest)) return EndOfCodes{white_dn(read.image, *read.scale), true};
   if (*highest != kHighestCode) return std::nullopt;
   return EndOfCodes{kHighestCode, false};
 }

@@ -6,6 +6,10 @@
 
 namespace abbe {
 
+/// Whether an image holds the codes that its `scale` tells of. Films, and pictures that are developed or
+/// converted of a raw file, tell of its sensor too, but have values of their own.
+[[nodiscard]] bool holds_codes_told_of(const RawImage& read);
+
 /// The code from which pixels of a raw file count as saturated, on the straight line that `read_raw_image`
 /// makes of its codes: the `white_level_dn` that the files of Abbe tell, or the highest code, which those of
 /// other programs tell as their white level.

@@ -149,6 +149,7 @@ std::map<std::string, std::string> told_by_develop(double exposure_s) {
   return {{"exposure_s", fmt::format("{}", exposure_s)},
           {"mosaic", "R,G/G,B"},
           {"mosaic_channels", "R,G,B"},
+          {"white_level_dn", "4095"},
           {"sensor", R"({"resolution":[8,8],"readout":{"gain_e_per_dn":2,"bits":12,"offset_dn":100}})"}};
 }
 
@@ -187,8 +188,11 @@ TEST_F(Photographs, TheEndsOfAnyScaleAreReached) {
   std::ofstream(folder_ / "ends.json") << R"({"exposures": [{"file": "ends.tif", "exposure_s": 1}],
     "regions": [[0, 0, 1, 1], [1, 0, 2, 1], [2, 0, 3, 1], [3, 0, 4, 1]]})";
   const auto expect_ends = [&](int black, int full, const std::string& levels) {
-    Image raw{
-        4, 1, {{"raw", {}}}, {{"sensor", R"({"readout":{"offset_dn":)" + fmt::format("{}", black) + levels}}};
+    Image raw{4,
+              1,
+              {{"raw", {}}},
+              {{"white_level_dn", fmt::format("{}", full)},
+               {"sensor", R"({"readout":{"offset_dn":)" + fmt::format("{}", black) + levels}}};
     for (const int code : {black, black + 1, full - 1, full})
       raw.channels[0].values.push_back(static_cast<float>(code));
     write_raw_picture(folder_ / "ends.tif", raw);
@@ -204,6 +208,29 @@ TEST_F(Photographs, TheEndsOfAnyScaleAreReached) {
     expect_ends(bits, (1 << bits) - 1, fmt::format(R"(,"bits":{}}}}})", bits));
   for (int saturation = 16000; saturation <= 16383; ++saturation)
     expect_ends(600, saturation, fmt::format(R"(,"bits":14,"saturation_dn":{}}}}})", saturation));
+}
+
+// What `develop` shows of a sensor tells of its read-out too, as do films, and pictures that others convert.
+TEST_F(Photographs, PicturesThatTellOfASensorAreNoCodesOfIt) {
+  std::map<std::string, std::string> told{{"sensor", R"({"readout":{"bits":12,"offset_dn":100}})"}};
+  const Image shown{3, 1, {{"Y", {500, 30000, 65535}}}, told};
+  write_raw_picture(folder_ / "shown.tif", shown);
+  write_exr(folder_ / "film.exr", {3, 1, {{"Y", {500 / 65535.0F, 30000 / 65535.0F, 1}}}, told});
+  told["white_level_dn"] = "4095";
+  write_raw_picture(folder_ / "converted.tif", {3, 1, shown.channels, told});
+  for (const char* name : {"shown.tif", "film.exr", "converted.tif"})
+    for (const char* listed : {"", R"("full_scale": 1, )"}) {
+      std::ofstream(folder_ / "one.json") << "{" << listed << R"("regions": [[0, 0, 1, 1], [1, 0, 2, 1],
+        [2, 0, 3, 1]], "exposures": [{"exposure_s": 1, "file": ")"
+                                          << name << R"("}]})";
+      const auto all = read(folder_ / "one.json");
+      ASSERT_TRUE(all) << diagnostics_.text();
+      EXPECT_NEAR(all->series[0].codes[0][0], 500 / 65535.0, 1e-7) << name << listed;
+      EXPECT_NEAR(all->series[0].codes[1][0], 30000 / 65535.0, 1e-7) << name << listed;
+      EXPECT_EQ(all->series[0].codes[2][0], 1) << name << listed;
+      EXPECT_EQ(all->full_scale.value, 1) << name;
+      EXPECT_FALSE(all->full_scale.dn) << name;
+    }
 }
 
 // "A" is a channel of this sensor; in other files it tells how opaque pixels are.

@@ -47,6 +47,7 @@ class RawFiles : public testing::Test {
           {"exposure_s", fmt::format("{}", exposure_s)},
           {"mosaic", "R,G/G,B"},
           {"mosaic_channels", "R,G,B"},
+          {"white_level_dn", "4000"},
           {"sensor",
            fmt::format(R"({{"name":"{}","readout":{{"bits":12,"offset_dn":50,"saturation_dn":4000}}}})",
                        std::string(97, 'x') + " ends beyond a card")}};
@@ -88,6 +89,16 @@ class RawFiles : public testing::Test {
     return read.value_or(PhotographedSeries{});
   }
 
+  // Of that photograph alone, of which these members of a listing tell.
+  std::optional<PhotographedSeries> listed_series(const std::string& name, std::string members) {
+    if (members.find("regions") == std::string::npos) members += R"(, "regions": [[46, 0, 48, 2]])";
+    std::ofstream(folder_ / "one.json")
+        << R"({"exposures": [{"file": ")" << name << R"("}], )" << members << "}";
+    diagnostics_ = {};
+    return read_series(folder_ / "one.json", diagnostics_);
+  }
+
+  Diagnostics diagnostics_;
   fs::path folder_ = fs::path(testing::TempDir()) / ("abbe_raw_files_" + std::to_string(::getpid()));
 };
 
@@ -131,6 +142,9 @@ TEST_F(RawFiles, AResponseCurveIsUndoneWhereTheyAreRead) {
     const RawImage read = read_raw_image(write(name, raw));
     ASSERT_EQ(read.scale->highest(), 4000) << name;
     EXPECT_EQ(white_dn(read.image, *read.scale), raw.linear_codes[3000]) << name;
+    const auto series = listed_series(name, R"("full_scale": 0.0381475)");
+    ASSERT_TRUE(series) << diagnostics_.text();
+    EXPECT_EQ(series->full_scale.dn, raw.linear_codes[2500] - 50) << name << ": of the file's codes";
     for (std::size_t i = 0; i < raw.codes.size(); i += 7)
       ASSERT_EQ(code_of(read.image.channels[0].values[i]), raw.linear_codes[raw.codes[i]]) << name << i;
   }
@@ -140,16 +154,46 @@ TEST_F(RawFiles, AResponseCurveIsUndoneWhereTheyAreRead) {
 TEST_F(RawFiles, TheWhiteLevelClipsASeries) {
   for (const char* name : kKinds) {
     (void)write_full_well(name);
-    std::ofstream(folder_ / "one.json") << fmt::format(
-        R"({{"exposures": [{{"file": "{}"}}], "regions": [[46, 0, 48, 2], [48, 0, 50, 2]]}})", name);
-    Diagnostics diagnostics;
-    const auto read = read_series(folder_ / "one.json", diagnostics);
-    ASSERT_TRUE(read) << diagnostics.text();
+    const auto read = listed_series(name, R"("regions": [[46, 0, 48, 2], [48, 0, 50, 2]])");
+    ASSERT_TRUE(read) << diagnostics_.text();
     EXPECT_EQ(read->full_scale.dn, 2010 - 50) << name;
     ASSERT_EQ(read->series.size(), 3U) << name;
     for (std::size_t k = 0; k < 3; ++k) {
       EXPECT_NEAR(read->series[k].codes[0][0], (1880 + 20 * static_cast<double>(k)) / 1960, 1e-6) << name;
       EXPECT_EQ(read->series[k].codes[1][0], 1) << name;
+    }
+  }
+}
+
+// What a listing says takes the place of what they tell of the same, and of nothing else.
+TEST_F(RawFiles, BlackIsTheirsWhateverTheListingSays) {
+  for (const char* name : kKinds) {
+    (void)write_full_well(name);
+    for (const auto& [listed, full] :
+         {std::pair{R"("bits": 12)", 2010}, {R"("full_scale": 0.0309758)", 2030}}) {
+      const auto read = listed_series(name, listed);
+      ASSERT_TRUE(read) << diagnostics_.text();
+      EXPECT_EQ(read->full_scale.dn, full - 50) << name << listed;
+      for (std::size_t k = 0; k < 3; ++k)
+        EXPECT_NEAR(read->series[k].codes[0][0], (1880 + 20 * static_cast<double>(k)) / (full - 50), 1e-6)
+            << name << listed;
+    }
+  }
+}
+
+// The code at which the camera clips is one of the file, above its black.
+TEST_F(RawFiles, AFullScaleThatTheyCannotReachIsNamed) {
+  for (const char* name : {"own.tif", "own.dng"}) {
+    (void)write_full_well(name);
+    for (const auto& [listed, fault] : {std::pair{R"("full_scale": 1)", "(got 1, which is code 65535"},
+                                        {R"("full_scale": 0.0007)", "(got 0.0007, which is code 46"}}) {
+      EXPECT_FALSE(listed_series(name, listed)) << name << listed;
+      EXPECT_NE(diagnostics_.text().find(fmt::format("{} has codes from 50, its black, to 4095, of which "
+                                                     "\"full_scale\" is none {}",
+                                                     name, fault)),
+                std::string::npos)
+          << diagnostics_.text();
+      EXPECT_EQ(diagnostics_.code(), ErrorCode::input);
     }
   }
 }

@@ -40,6 +40,7 @@ std::filesystem::path write_series(double gamma = 1) {
       }
     }
     image.metadata = {{"exposure_s", fmt::format("{}", seconds)},
+                      {"white_level_dn", "4095"},
                       {"sensor", fmt::format(R"({{"readout":{{"bits":12,"offset_dn":{}}}}})", kBlack)}};
     const std::string name = fmt::format("exposed_{}.tif", seconds);
     write_raw_picture(scratch() / name, image);
@@ -85,6 +86,7 @@ std::filesystem::path write_mosaic_series() {
     image.metadata = {{"exposure_s", fmt::format("{}", seconds)},
                       {"mosaic", "B,G/G,R"},
                       {"mosaic_channels", "B,G,R"},
+                      {"white_level_dn", "4095"},
                       {"sensor", fmt::format(R"({{"readout":{{"bits":12,"offset_dn":{}}}}})", kBlack)}};
     const std::string name = fmt::format("mosaic_{}.tif", seconds);
     write_raw_picture(scratch() / name, image);
