@@ -141,7 +141,7 @@ TEST(Features, WhatIsHalfCoveredIsToldByItsCover) {
 TEST(Features, AlbedoIsWhatLeavesByAnyWay) {
   const std::string matter =
       R"("glass": {"dielectric": {"ior": "hikari/F2"}}, "silver": {"mirror": {"reflectance": 0.75}},
-    "fog": {"medium": {"scattering_per_m": 0.1}}, "grey": {"diffuse": {"reflectance": 0.25}},
+    "fog": {"medium": {"scattering_per_m": 0.1}}, "air": {"dielectric": {"ior": 1}}, "grey": {"diffuse": {"reflectance": 0.25}},
     "half": {"mixture": [{"material": "silver", "weight": 0.5}, {"material": "grey", "weight": 0.5}]})";
   const auto middle = [&](const std::string& shapes) {
     const Image image = seen(test::load_text(scene_of(shapes, matter)));
@@ -151,7 +151,12 @@ TEST(Features, AlbedoIsWhatLeavesByAnyWay) {
   };
   const std::string silver = ball("back", "silver", {0, 200, 0}, 40);
   EXPECT_EQ(middle(silver), std::pair(0.75, 1.0));
-  EXPECT_EQ(middle(silver + ", " + ball("front", "fog", {0, 0, 0}, 60)), std::pair(0.75, 1.0));
+  for (const char* unseen : {"fog", "air"})
+    EXPECT_EQ(middle(silver + ", " + ball("front", unseen, {0, 0, 0}, 60)), std::pair(0.75, 1.0)) << unseen;
+  EXPECT_EQ(middle(silver + ", " + ball("out", "glass", {0, 0, 0}, 900) + ", " +
+                   ball("in", "glass", {0, 0, 0}, 60)),
+            std::pair(0.75, 1.0))
+      << "glass in glass, around the camera";
   const auto [glass, id] = middle(silver + ", " + ball("front", "glass", {0, 0, 0}, 60));
   EXPECT_NEAR(glass, 1, 1e-6);
   EXPECT_EQ(id, 2);

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <variant>
 
+#include "materials/bsdf/bsdf.h"
 #include "sampling/discrete.h"
 #include "sensor/response/stokes_channels.h"
 #include "transport/path/dimensions.h"
@@ -103,9 +105,11 @@ bool FeatureTracer::pass_boundary(Walk& walk, SurfaceHit& hit, std::optional<Int
     met = interface_at(scene_, walk.ray, hit, walk.around.inside);
     hit = met->hit;
   }
-  const bool passes = met && met->passes;
-  if (!passes && !is_boundary(scene_.materials[scene_.shapes[hit.shape].material])) return false;
   const SurfaceVertex vertex(scene_, hit, met, walk);
+  const auto* interface = std::get_if<DielectricBsdf>(&vertex.bsdf);
+  const bool same_index = interface != nullptr && interface->n[walk.packet.hero] == 1;
+  const bool passes = same_index || (met && met->passes);
+  if (!passes && !is_boundary(scene_.materials[scene_.shapes[hit.shape].material])) return false;
   walk.around.enter(scene_, vertex.behind(scene_, walk.around.inside), walk.lambda_nm());
   walk.ray = spawn(hit, walk.ray.direction, walk.ray.time);
   return true;
