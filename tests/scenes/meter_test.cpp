@@ -326,5 +326,24 @@ TEST(Meter, MayStandInSeveralKindsOfMatter) {
   expect_equal(from_to(-1, 1), (inside.mean + outside.mean) / 2);
 }
 
+// A pane close to a spot passes (1 - R)/(1 + R) = 2n/(n^2 + 1) of it along the normal, whichever way it
+// shines.
+TEST(Meter, TakesAllOfANarrowBeamThroughAPane) {
+  for (const auto& [at, direction, disc] :
+       {std::array{"[0.13, 0.07, 5]", "[0, 0, -1]", R"("center": [0, 0, -3], "normal": [0, 0, 1])"},
+        std::array{"[0.13, 0.07, -5]", "[0, 0, 1]", R"("center": [0, 0, 3], "normal": [0, 0, -1])"}}) {
+    const std::string rest =
+        R"("materials": {"pane": {"thin_glass": {"ior": 1.5}}}, "shapes": [{"quad": {"corner": [-10, -10, 0],
+      "edge_u": [20, 0, 0], "edge_v": [0, 20, 0]}, "material": "pane"}], "lights": [{"spot": {"at": )" +
+        std::string(at) + R"(, "direction": )" + direction +
+        R"(, "half_angle_deg": 0.1}, "emission": {"illuminant": "E", "radiant_flux_W": 1}}])";
+    SCOPED_TRACE(direction);
+    expect_equal(read(scene_of(R"({"measures": "flux", "disc": {)" + std::string(disc) + R"(, "radius": 1}})",
+                               rest, "auto", 2048))
+                     .whole.radiant,
+                 3.0 / 3.25);
+  }
+}
+
 }  // namespace
 }  // namespace abbe

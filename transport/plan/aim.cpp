@@ -128,11 +128,18 @@ int reach_for(std::size_t rays) {
 }  // namespace
 
 Aim::Aim(const Imath::V3f& light_center, float light_radius, const Imath::V3f& target_center,
-         float target_radius) {
+         float target_radius, const std::optional<Imath::V3f>& beam) {
   const Imath::V3f to_target = target_center - light_center;
   const float distance = to_target.length();
   if (!(target_radius > 0)) return;
   around_ = !(distance > 1.2F * target_radius);
+  if (around_ && beam) {
+    // Near the poles single precision tells few directions apart: the beam is at the equator.
+    const Basis<float> frame(*beam);
+    axis_ = frame.x;
+    side_ = frame.y;
+    top_ = *beam;
+  }
   if (around_) return;
   // The cone that touches the sphere cuts the plane through its centre in a circle of this radius.
   face(to_target / distance, target_center,

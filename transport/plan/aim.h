@@ -40,9 +40,10 @@ class Aim {
   /// Emission alone, where there is no target.
   Aim() = default;
   /// Aims at the bounding sphere of the targets, seen from a light of that radius; at all parts of it alike.
-  /// Of a light close to it nothing is aimed yet.
+  /// Of a light close to it nothing is aimed yet. A `beam` is the unit direction of one that shines within a
+  /// narrow cone.
   Aim(const Imath::V3f& light_center, float light_radius, const Imath::V3f& target_center,
-      float target_radius);
+      float target_radius, const std::optional<Imath::V3f>& beam = std::nullopt);
   /// Makes the aim of a light so far that its rays all run within an angle of cosine `least_cosine` to the
   /// unit direction `axis`: `point` covers the whole sphere for each of them, evenly until `guide` lets it
   /// learn.

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -131,8 +133,10 @@ std::vector<Aim> make_aims(const Scene& scene, const std::vector<double>& traced
         continue;
       }
       const Imath::Box3d lamp = bounds_of(scene.lights[i], scene);
+      const auto* spot = std::get_if<SpotLight>(&scene.lights[i].kind);
       aims[i] = Aim(Imath::V3f(lamp.center()), static_cast<float>(lamp.size().length() / 2),
-                    Imath::V3f(box.center()), static_cast<float>(box.size().length() / 2));
+                    Imath::V3f(box.center()), static_cast<float>(box.size().length() / 2),
+                    spot != nullptr ? std::optional(spot->axis) : std::nullopt);
     }
   return aims;
 }
