@@ -330,7 +330,7 @@ class Rendering {
     result_.stats.interrupted = samples() > 0 && stop_asked();
     if (result_.stats.interrupted) return true;
     if (options_.time_limit_s && samples() > 0 && elapsed() >= *options_.time_limit_s) return true;
-    const bool unlit = lit_ && lit_->empty();  // there is no error to wait for
+    const bool unlit = !options_.time_limit_s && lit_ && lit_->empty();  // there is no error to wait for
     return options_.target_error && (unlit || targeted() <= *options_.target_error);
   }
 
