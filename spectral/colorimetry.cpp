@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <string>
+#include <utility>
 
 #include "io/error.h"
 #include "spectral/library.h"
@@ -29,23 +30,30 @@ bool is_told_by_nanometres(const Curve& curve) {
   });
 }
 
-// Over the nanometres that a sum counts.
-double integral(const Curve& curve, SumRange range) {
-  return curve.integral(range.low_nm - 0.5, range.high_nm + 0.5);
-}
+// Half of its first and last nanometre lies beyond the ends of a sum.
+constexpr double kBeyondNm = 0.5;
 
-// What light gives to that nanometre of a quantity that is told by its values at whole ones.
-double share_of_nanometre(const Curve& light, int nm) {
-  const Curve share({{nm - 1.0, 0}, {nm + 0.0, 1}, {nm + 1.0, 0}});
-  return integral_of_product(light, share);
+// A curve as its values at whole nanometres of the range tell it: one that bends between them by its means
+// under the triangles from the nanometre before to the one after.
+Curve by_nanometres(const Curve& curve, SumRange range) {
+  if (is_told_by_nanometres(curve)) return curve;
+  std::vector<Knot> means;
+  for (int nm = range.low_nm; nm <= range.high_nm; ++nm) {
+    const Curve triangle({{nm - 1.0, 0}, {nm + 0.0, 1}, {nm + 1.0, 0}});
+    means.push_back({static_cast<double>(nm), integral_of_product(curve, triangle, nm - 1, nm + 1)});
+  }
+  return Curve(std::move(means));
 }
 
 // X = k times the integral of S R xbar, and so on, k being 100 over that of S ybar [CIE15, sec. 7.1].
 XYZ integrated_tristimulus(const Curve& illuminant, const Curve& reflectance, const ColorMatching& cmf,
                            SumRange range) {
-  const double k = 100 / integral(product(illuminant, cmf.y), range);
-  const Curve reflected = product(illuminant, reflectance);
-  const auto seen = [&](const Curve& by) { return k * integral(product(reflected, by), range); };
+  const double low_nm = range.low_nm - kBeyondNm;
+  const double high_nm = range.high_nm + kBeyondNm;
+  const double k = 100 / integral_of_product(illuminant, cmf.y, low_nm, high_nm);
+  const auto seen = [&](const Curve& by) {
+    return k * integral_of_product(illuminant, reflectance, by, low_nm, high_nm);
+  };
   return {seen(cmf.x), seen(cmf.y), seen(cmf.z)};
 }
 
@@ -61,39 +69,42 @@ const ColorMatching& color_matching(Observer observer) {
 }
 
 double sum_product(const Curve& a, const Curve& b, SumRange range) {
-  if (!is_told_by_nanometres(a) || !is_told_by_nanometres(b)) return integral(product(a, b), range);
+  if (!is_told_by_nanometres(a) || !is_told_by_nanometres(b))
+    return integral_of_product(a, b, range.low_nm - kBeyondNm, range.high_nm + kBeyondNm);
   double total = 0;
   for (int nm = range.low_nm; nm <= range.high_nm; ++nm) total += a(nm) * b(nm);
   return total;
 }
 
 double sum_product(const Curve& a, const Curve& b, const Curve& c, SumRange range) {
-  if (!is_told_by_nanometres(a) || !is_told_by_nanometres(b) || !is_told_by_nanometres(c))
-    return integral(product(product(a, b), c), range);
+  if (!is_told_by_nanometres(a) || !is_told_by_nanometres(b))
+    return integral_of_product(a, b, c, range.low_nm - kBeyondNm, range.high_nm + kBeyondNm);
+  const Curve told = by_nanometres(c, range);
   double total = 0;
-  for (int nm = range.low_nm; nm <= range.high_nm; ++nm) total += a(nm) * b(nm) * c(nm);
+  for (int nm = range.low_nm; nm <= range.high_nm; ++nm) total += a(nm) * b(nm) * told(nm);
   return total;
 }
 
 std::vector<XYZ> tristimulus_weights(const Curve& illuminant, Observer observer, SumRange range) {
   const ColorMatching& cmf = color_matching(observer);
-  const double k = 100 / sum_product(illuminant, cmf.y, range);
-  const bool told = is_told_by_nanometres(illuminant);
+  const Curve told = by_nanometres(illuminant, range);
+  const double k = 100 / sum_product(told, cmf.y, range);
   std::vector<XYZ> weights;
   for (int nm = range.low_nm; nm <= range.high_nm; ++nm) {
-    const double power = k * (told ? illuminant(nm) : share_of_nanometre(illuminant, nm));
+    const double power = k * told(nm);
     weights.push_back({power * cmf.x(nm), power * cmf.y(nm), power * cmf.z(nm)});
   }
   return weights;
 }
 
 XYZ tristimulus(const Curve& illuminant, const Curve& reflectance, Observer observer, SumRange range) {
-  if (!is_told_by_nanometres(reflectance))
+  if (!is_told_by_nanometres(illuminant))
     return integrated_tristimulus(illuminant, reflectance, color_matching(observer), range);
+  const Curve told = by_nanometres(reflectance, range);
   XYZ sum{};
   int nm = range.low_nm;
   for (const XYZ& weight : tristimulus_weights(illuminant, observer, range)) {
-    const double share = reflectance(nm++);
+    const double share = told(nm++);
     for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight[k] * share;
   }
   return sum;

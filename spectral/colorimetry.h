@@ -32,7 +32,8 @@ struct SumRange {
   int high_nm = 780;
 };
 
-/// 1 nm sum of the products of two and three curves; the integral if any bends between whole nanometres.
+/// 1 nm sums of the products of two and three curves, or the exact integral where `a` or `b` bends between
+/// whole nanometres. A `c` that does counts in the sum by its mean around each.
 [[nodiscard]] double sum_product(const Curve& a, const Curve& b, SumRange range = {});
 [[nodiscard]] double sum_product(const Curve& a, const Curve& b, const Curve& c, SumRange range = {});
 
@@ -43,7 +44,8 @@ struct SumRange {
                                                    SumRange range = {});
 
 /// Tristimulus values of a reflectance under an illuminant, Y = 100 for the perfect diffuser: the sum of
-/// `tristimulus_weights` times the reflectance; the integral if that bends between whole nanometres.
+/// `tristimulus_weights` times the reflectance, its mean around each nanometre if it bends between them; the
+/// exact integral if the illuminant does.
 [[nodiscard]] XYZ tristimulus(const Curve& illuminant, const Curve& reflectance, Observer observer,
                               SumRange range = {});
 

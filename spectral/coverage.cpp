@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "spectral/straight_piece.h"
+
 namespace abbe {
 namespace {
 
@@ -41,29 +43,6 @@ NeededRange support_range(const Curve& curve) {
   return {(first == knots.begin() ? first : std::prev(first))->wavelength_nm,
           (after == knots.end() ? std::prev(after) : after)->wavelength_nm};
 }
-
-/// The straight piece of a curve that holds from a wavelength on.
-class StraightPiece {
- public:
-  StraightPiece(const Curve& curve, double from_nm) : knots_(curve.knots()) { go_to(from_nm); }
-
-  [[nodiscard]] double end_nm() const { return knots_[at_ + 1].wavelength_nm; }
-  [[nodiscard]] double operator()(double nm) const {
-    const Knot& a = knots_[at_];
-    const Knot& b = knots_[at_ + 1];
-    return a.value + (b.value - a.value) * ((nm - a.wavelength_nm) / (b.wavelength_nm - a.wavelength_nm));
-  }
-  /// Goes up to the piece that holds from `nm` on.
-  void go_to(double nm) {
-    const auto after = std::upper_bound(knots_.begin() + static_cast<std::ptrdiff_t>(at_), knots_.end(), nm,
-                                        [](double x, const Knot& knot) { return x < knot.wavelength_nm; });
-    at_ = static_cast<std::size_t>(after - knots_.begin()) - 1;
-  }
-
- private:
-  std::span<const Knot> knots_;
-  std::size_t at_ = 0;
-};
 
 struct Integral {
   double value = 0;

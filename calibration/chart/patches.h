@@ -15,13 +15,13 @@ namespace abbe {
 /// CIE 1931 tristimulus values, Y = 1 for the perfect diffuser.
 [[nodiscard]] XYZ unit_tristimulus(const Curve& illuminant, const Curve& reflectance);
 
-/// Raw values of a reflectance under an illuminant in channel order: 1 nm sums over 380-780 nm, divided by
-/// the value of the perfect diffuser in the channel named G, else Y, else the first. Throws Error{input} when
-/// that channel does not see the illuminant.
+/// Raw values of a reflectance under an illuminant in channel order, divided by the value of the perfect
+/// diffuser in the channel named G, else Y, else the first: `sum_product` from 300 to 1100 nm, of the
+/// observer from 380 to 780 nm. Throws Error{input} when that channel does not see the illuminant.
 [[nodiscard]] std::vector<double> camera_raw(std::span<const Channel> channels, const Curve& illuminant,
                                              const Curve& reflectance);
 
-/// The 1 nm sums over 380-780 nm of illuminant and channel, in channel order: what the film holds of the
+/// `sum_product` of illuminant and channel over the same range, in channel order: what the film holds of the
 /// perfect diffuser. Throws Error{input} naming a channel that does not see the illuminant.
 [[nodiscard]] std::vector<double> diffuser_values(std::span<const Channel> channels, const Curve& illuminant);
 

@@ -41,6 +41,17 @@ TEST(InterferenceFilter, MovesTheBandOfAChannel) {
   EXPECT_EQ(weight_at(channel, at(655 * shift + 0.01), cos_film)[0], 0);
 }
 
+// Filters whose edges are as wide as a nanometre, stacked: 1/3 nm of each edge is left of two.
+TEST(FilterStack, StackedEdgesLetThroughTheAreaOfTheirProduct) {
+  const Curve line({{540, 0}, {541, 1}, {549, 1}, {550, 0}});
+  const Channel bare = energy_channel("line", line);
+  EXPECT_NEAR(behind(bare, {line, {}}).weight.integral(), 8 + 2.0 / 3, 1e-12);
+  EXPECT_NEAR(behind(bare, {Curve(1), {{line, 2.0}}}).weight.integral(), 8 + 2.0 / 3, 1e-12);
+  const Curve triangle({{545, 0}, {546, 1}, {547, 0}});
+  const Channel counted = behind(quantum_channel("line", triangle), {triangle, {}});
+  EXPECT_NEAR(counted.weight.integral() * photon_energy(546), 2.0 / 3, 2e-4 * 2 / 3);
+}
+
 // A stack over another filter that shifts too, an exposure of its own, seen up to 40 degrees.
 Channel stacked() {
   Channel channel = behind(quantum_channel("a", Curve({{400, 0.2}, {700, 0.7}})),

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <vector>
+
+#include "spectral/color_temperature.h"
 #include "spectral/sources.h"
 #include "tests/spectral/illuminant.h"
 
@@ -66,6 +69,68 @@ TEST(Colorimetry, integral_and_sum_of_a_smooth_reflectance_agree) {
   const XYZ integrated =
       tristimulus(light, Curve({{380, 0.2}, {480.5, 0.35075}, {780, 0.8}}), Observer::cie1931);
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(integrated[k] / summed[k], 1, 2e-6) << k;
+}
+
+// What is told by whole nanometres is summed as the CIE has it.
+TEST(Colorimetry, tables_of_whole_nanometres_are_summed) {
+  const Curve light = illuminant("FL11");
+  const Curve line({{540, 0}, {541, 1}, {542, 0}});
+  const ColorMatching& seen = color_matching(Observer::cie1931);
+  double lit = 0;
+  double lined = 0;
+  for (int nm = 380; nm <= 780; ++nm) {
+    lit += light(nm) * seen.y(nm);
+    lined += light(nm) * seen.y(nm) * line(nm);
+  }
+  EXPECT_DOUBLE_EQ(sum_product(light, seen.y), lit);
+  EXPECT_DOUBLE_EQ(sum_product(light, seen.y, line), lined);
+  EXPECT_DOUBLE_EQ(tristimulus(light, line, Observer::cie1931)[1], 100 / lit * light(541) * seen.y(541));
+}
+
+// Rises over 0.9 nm between whole nanometres and then falls at once.
+Curve sawtooth() {
+  std::vector<Knot> knots;
+  for (const double nm : {410, 540, 612})
+    knots.insert(knots.end(), {{nm + 0.05, 0}, {nm + 0.95, 5}, {nm + 0.96, 0}});
+  return Curve(knots);
+}
+
+// The integral of three curves by the midpoints of 1/4000 nm, which miss no bend of them.
+double by_midpoints(const Curve& a, const Curve& b, const Curve& c) {
+  constexpr int kParts = 4000;
+  double total = 0;
+  for (int i = 0; i < 400 * kParts; ++i) {
+    const double nm = 380 + (i + 0.5) / kParts;
+    if (const double value = a(nm); value != 0) total += value * b(nm) * c(nm) / kParts;
+  }
+  return total;
+}
+
+TEST(Colorimetry, lamps_that_bend_between_nanometres_are_integrated) {
+  const Curve lamp = sawtooth();
+  const ColorMatching& seen = color_matching(Observer::cie1931);
+  const double k = 100 / by_midpoints(lamp, seen.y, Curve(1));
+  const Curve steep({{400, 0.2}, {410, 0.1}, {411, 0.9}, {540, 0.9}, {541, 0}, {600, 1}});
+  for (const Curve& surface : {Curve(1), steep}) {
+    const XYZ xyz = tristimulus(lamp, surface, Observer::cie1931);
+    EXPECT_NEAR(xyz[0], k * by_midpoints(lamp, seen.x, surface), 1e-4);
+    EXPECT_NEAR(xyz[1], k * by_midpoints(lamp, seen.y, surface), 1e-4);
+    EXPECT_NEAR(xyz[2], k * by_midpoints(lamp, seen.z, surface), 1e-4);
+  }
+  const double efficacy = kLuminousEfficacy * by_midpoints(lamp, seen.y, Curve(1)) / (3 * 5 * 0.91 / 2);
+  EXPECT_NEAR(luminous_efficacy(lamp), efficacy, 1e-6 * efficacy);
+}
+
+TEST(Colorimetry, the_perfect_diffuser_has_a_Y_of_100) {
+  const Curve bent({{380, 1}, {480.5, 1 + 1e-13}, {780, 1}});
+  const std::vector<SpectralLine> at_the_end = {{380.2, 0.1, 1}, {600, 0.1, 1}};
+  for (const Curve& lamp : {sawtooth(), lines(at_the_end), planck(2000), illuminant("FL11")}) {
+    double sum = 0;
+    for (const XYZ& weight : tristimulus_weights(lamp, Observer::cie1931)) sum += weight[1];
+    EXPECT_NEAR(sum, 100, 1e-9);
+    EXPECT_NEAR(tristimulus(lamp, Curve(1), Observer::cie1931)[1], 100, 1e-9);
+    EXPECT_NEAR(tristimulus(lamp, bent, Observer::cie1931)[1], 100, 1e-9);
+  }
 }
 
 TEST(Photometry, integral_is_exact) {

@@ -165,6 +165,57 @@ TEST(Curve, product_with_a_constant_scales) {
   EXPECT_TRUE(product(curve, Curve()).is_constant());
 }
 
+/// The edges and the flat top of a narrow filter.
+Curve trapezium() {
+  return Curve(std::vector<Knot>{{540, 0}, {541, 1}, {549, 1}, {550, 0}});
+}
+
+TEST(Curve, steep_factors_have_the_area_of_their_product) {
+  const Curve edges = trapezium();
+  EXPECT_NEAR(product(edges, edges).integral(), 8 + 2.0 / 3, 1e-12);
+  EXPECT_NEAR(product(product(edges, edges), edges).integral(), 8.5, 2e-4);
+  const Curve triangle(std::vector<Knot>{{545, 0}, {546, 1}, {547, 0}});
+  EXPECT_NEAR(product(triangle, triangle).integral(), 2.0 / 3, 1e-12);
+  // One falls where the other rises: the product is 0 at both ends of the nanometre.
+  const Curve falling(std::vector<Knot>{{540, 1}, {541, 0}});
+  const Curve rising(std::vector<Knot>{{540, 0}, {541, 1}});
+  EXPECT_NEAR(product(falling, rising).integral(), 1.0 / 6, 1e-12);
+  EXPECT_NEAR(product(falling, scaled(rising, -3)).integral(), -3.0 / 6, 1e-12);
+}
+
+TEST(Curve, product_follows_its_factors_everywhere) {
+  std::mt19937 random(13);
+  std::uniform_real_distribution<double> place(300, 1100);
+  const Curve a(random_knots(random, 60));
+  const Curve b(random_knots(random, 40));
+  const Curve ab = product(a, b);
+  const double greatest = std::max(ab.max(), -ab.min());
+  for (int i = 0; i < 20000; ++i) {
+    const double nm = place(random);
+    ASSERT_NEAR(ab(nm), a(nm) * b(nm), 2e-4 * greatest) << nm;
+  }
+  const Curve squared = product(trapezium(), trapezium());
+  EXPECT_GE(squared.min(), 0);
+  EXPECT_LE(squared.max(), 1);
+}
+
+TEST(Curve, product_of_smooth_curves_takes_no_further_knots) {
+  std::vector<Knot> bell;
+  for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm)
+    bell.push_back({static_cast<double>(nm), std::exp(-std::pow((nm - 550) / 60.0, 2))});
+  EXPECT_EQ(product(Curve(bell), planck(2856)).knots().size(), bell.size());
+}
+
+TEST(Curve, product_of_tables_that_end_together_holds_at_their_last_row) {
+  const std::vector<double> nm{500, 510.25};
+  const std::vector<double> values{0.5, 0.6};
+  const Curve table = table_curve(nm, values, Outside::zero);
+  const Curve squared = product(table, table);
+  EXPECT_EQ(squared(510.25), 0.6 * 0.6);
+  EXPECT_EQ(squared(510.2500001), 0);
+  EXPECT_EQ(squared.knots().size(), 804U);
+}
+
 TEST(Curve, integral_of_product_is_exact_where_the_product_curve_is_not) {
   const Curve up(std::vector<Knot>{{300, 0}, {1100, 800}});
   const Curve down(std::vector<Knot>{{300, 800}, {1100, 0}});
