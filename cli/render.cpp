@@ -361,6 +361,7 @@ int render(const RenderOptions& options) {
   warn_of_hidden_sheet(scene, options.strict);
   warn_of_hidden_lamp(scene, options.strict);
   warn_of_lost_light(scene, options.strict && !leaves_integrator);
+  warn_of_rare_photons(choice.guides.get());
   warn_of_unused_settings(scene);
 
   inputs.take_memory("the film", film_bytes(scene, how_to_render(options, scene)));

@@ -59,6 +59,10 @@ void warn_of_hidden_lamp(const Scene& scene, bool strict) {
   if (const auto hidden = hidden_lamp(scene)) warn(*hidden, strict);
 }
 
+void warn_of_rare_photons(const Guides* guides) {
+  if (const auto rare = rare_photons(guides)) warn(*rare, false);
+}
+
 void warn_of_unused_settings(const Scene& scene) {
   if (const auto unused = unused_settings(scene)) warn(*unused, false);
 }

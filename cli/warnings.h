@@ -5,6 +5,7 @@
 
 #include "scene/scene.h"
 #include "transport/path/ray_trace.h"
+#include "transport/plan/plan.h"
 
 namespace abbe::cli {
 
@@ -29,6 +30,9 @@ void warn_of_hidden_sheet(const Scene& scene, bool strict);
 
 /// Warns of a lamp that light is lost of where it touches something opaque: Error{scene} when `strict`.
 void warn_of_hidden_lamp(const Scene& scene, bool strict);
+
+/// Warns of photons that pilots found too few of to aim by, if pilots have taught guides at all.
+void warn_of_rare_photons(const Guides* guides);
 
 /// Warns of settings that the scene's integrator makes no use of.
 void warn_of_unused_settings(const Scene& scene);

@@ -54,6 +54,7 @@ MeterMeasurement measure_meter(Scene scene, const Meter& meter, RenderOptions ho
   how.guides = choice.guides;
   tell_shortcoming(caller, meter, dark_camera(scene), caller.strict);
   tell_shortcoming(caller, meter, lost_light(scene), caller.strict && !chooses);
+  tell_shortcoming(caller, meter, rare_photons(choice.guides.get()), false);
   tell_shortcoming(caller, meter, unused_settings(scene), false);
   inputs.take_memory("the film", film_bytes(scene, how));
   inputs.take_memory("the paths from lights of a sample", bytes_of_light_paths(scene));

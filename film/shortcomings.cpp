@@ -81,6 +81,12 @@ std::optional<std::string> unpolarised_measurement(const Scene& scene) {
          "as unpolarised";
 }
 
+std::optional<std::string> rare_photons(const Guides* guides) {
+  if (guides == nullptr || !guides->photons_are_rare) return std::nullopt;
+  return "too few photons find a way there to aim others by: what lamps send through mirrors and glass is "
+         "noisy, and its error uncertain";
+}
+
 std::optional<std::string> unused_settings(const Scene& scene) {
   std::vector<std::string> keys;
   for (const std::string_view key : unused_photon_settings(scene))

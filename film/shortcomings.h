@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "scene/scene.h"
+#include "transport/plan/plan.h"
 #include "transport/render/render.h"
 
 namespace abbe {
@@ -25,6 +26,10 @@ namespace abbe {
 /// That the sensor measures how light is polarised in a scene that leaves polarisation out, as a sentence;
 /// nothing when it does not.
 [[nodiscard]] std::optional<std::string> unpolarised_measurement(const Scene& scene);
+
+/// That pilots found too few photons to aim by, as a sentence; nothing where they found enough, or no pilots
+/// were run.
+[[nodiscard]] std::optional<std::string> rare_photons(const Guides* guides);
 
 /// Which settings of the scene its integrator makes no use of, as a sentence; nothing when it uses all.
 [[nodiscard]] std::optional<std::string> unused_settings(const Scene& scene);

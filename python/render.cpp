@@ -59,8 +59,9 @@ FilmHandle render_scene(SceneHandle& handle, const Request& request, const py::o
   inputs.take_memory("the film", film_bytes(scene, how));
   inputs.take_memory("the paths from lights of a sample", bytes_of_light_paths(scene));
   FilmIdentity identity = identity_of(scene, handle.name(), how);
-  for (const auto& shortcoming : {unpolarised_measurement(scene), dark_camera(scene), hidden_sheet(scene),
-                                  hidden_lamp(scene), lost_light(scene), unused_settings(scene)})
+  for (const auto& shortcoming :
+       {unpolarised_measurement(scene), dark_camera(scene), hidden_sheet(scene), hidden_lamp(scene),
+        lost_light(scene), rare_photons(how.guides.get()), unused_settings(scene)})
     if (shortcoming) warn(*shortcoming);
   RenderResult result = render_listening(scene, how, progress);
   if (how.target_error && !how.time_limit_s && !std::isfinite(result.stats.error.median))

@@ -32,5 +32,29 @@ TEST(AimedPhotons, MostComeThroughASlit) {
   }
 }
 
+// A white floor that a lamp lights through a pane, of which a camera below the pane sees that much.
+Scene floor_below_pane(double fov_deg) {
+  return test::load_text(R"({"abbe": 1, "sensor": {"resolution": [4, 4], "observer": "1931"},
+    "camera": {"pinhole": {"fov_deg": )" +
+                         std::to_string(fov_deg) +
+                         R"(}, "from": [0.2, 0.1, 0.9], "to": [0.2, 0.1, 0], "up": [0, 1, 0]},
+    "materials": {"pane": {"thin_glass": {"ior": 1.5}}, "white": {"diffuse": {"reflectance": 1}}},
+    "shapes": [{"quad": {"corner": [-1, -1, 1], "edge_u": [2, 0, 0], "edge_v": [0, 2, 0]}, "material": "pane"},
+               {"quad": {"corner": [-2, -2, 0], "edge_u": [4, 0, 0], "edge_v": [0, 4, 0]}, "material": "white"}],
+    "lights": [{"point": {"at": [0, 0, 4]}, "emission": {"illuminant": "E", "intensity": 1}}]})");
+}
+
+// Of the first pilots some 20 come to a view of 3 degrees, and 2 to one of 1 degree.
+TEST(AimedPhotons, AreAimedByNoFewOthers) {
+  const Scene narrow = floor_below_pane(3);
+  const Plan learnt = make_learnt_plan(narrow, 2);
+  EXPECT_FALSE(learnt.guides.photons_are_rare);
+  EXPECT_GT(share_landed(learnt), 0.3);
+  const Scene narrowest = floor_below_pane(1);
+  const Plan even = make_learnt_plan(narrowest, 2);
+  EXPECT_TRUE(even.guides.photons_are_rare);
+  EXPECT_LT(share_landed(even), 1e-3);
+}
+
 }  // namespace
 }  // namespace abbe

@@ -3,39 +3,16 @@
 #include <ostream>
 #include <string>
 
-#include "film/meter_reading.h"
 #include "tests/angles.h"
-#include "tests/scenes/scene_fixture.h"
-#include "validation/statistics/equivalence.h"
+#include "tests/scenes/meter_fixture.h"
 
 // What meters read, against what can be told by hand, by every integrator.
 
 namespace abbe {
 namespace {
 
-// The scene's only meter, read.
-MeterReading read(const std::string& scene, const std::vector<Override>& settings = {}) {
-  const auto path =
-      std::filesystem::temp_directory_path() / ("abbe_meter_" + std::to_string(::getpid()) + ".json");
-  std::ofstream(path) << scene;
-  Diagnostics diagnostics;
-  const auto metered = load_meters(path, settings, diagnostics);
-  std::filesystem::remove(path);
-  if (!metered) throw Error(ErrorCode::internal, "meters", diagnostics.text());
-  const Meter& meter = metered->meters.front();
-  const auto built = scene_of(*metered, meter, diagnostics);
-  if (!built) throw Error(ErrorCode::internal, meter.name, diagnostics.text());
-  return read_meter(meter, render(*built, {}).film, built->exposure_s);
-}
-
-// By equivalence, and where hardly anything is left to chance, to what sums by hand are good for.
-void expect_equal(const Film::Average& value, double expected, double margin = 0.01) {
-  if (value.standard_error < 1e-5 * expected)
-    EXPECT_NEAR(value.mean / expected, 1, 1e-4);
-  else
-    EXPECT_EQ(equivalence({value.mean, value.standard_error}, expected, margin), Verdict::pass)
-        << value.mean << " +- " << value.standard_error << " for " << expected;
-}
+using test::expect_equal;
+using test::read;
 
 // A scene of one meter and what else there is.
 std::string scene_of(const std::string& meter, const std::string& rest,

@@ -123,7 +123,7 @@ TEST(Colorimetry, lamps_that_bend_between_nanometres_are_integrated) {
 
 TEST(Colorimetry, the_perfect_diffuser_has_a_Y_of_100) {
   const Curve bent({{380, 1}, {480.5, 1 + 1e-13}, {780, 1}});
-  const std::vector<SpectralLine> at_the_end = {{380.2, 0.1, 1}, {600, 0.1, 1}};
+  const std::vector<SpectralLine> at_the_end = {{379.8, 0.1, 1}, {600, 0.1, 1}};
   for (const Curve& lamp : {sawtooth(), lines(at_the_end), planck(2000), illuminant("FL11")}) {
     double sum = 0;
     for (const XYZ& weight : tristimulus_weights(lamp, Observer::cie1931)) sum += weight[1];

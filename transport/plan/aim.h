@@ -56,6 +56,8 @@ class Aim {
   /// the same part only of a target that stands where it does, as a slit before a prism. A grid of densities
   /// covers that part, smoothed over as many of its cells as few rays need.
   void learn(std::span<const ShownRay> shown);
+  /// Whether that changes anything: whether there is a target.
+  [[nodiscard]] bool learns() const { return guided_ || around_; }
 
   /// Whether some directions are not drawn from the light's emission.
   [[nodiscard]] bool guided() const { return guided_; }
@@ -100,7 +102,6 @@ class Aim {
     std::vector<float> column_cdf;  // kCells per row
   };
 
-  [[nodiscard]] bool learns() const { return guided_ || around_; }
   void face(const Imath::V3f& axis, const Imath::V3f& target_center, float half_size);
   void stand(float nearer);
   [[nodiscard]] float extent_of(const Window& window, float nearer) const;

@@ -27,6 +27,8 @@ struct Guides {
   CausticGuide caustics_of_paths = {};
   /// and of all lights that they can meet, once they have come through specular matter from the camera.
   CausticGuide caustics_seen_through = {};
+  /// Whether a tenth of what photons of pilots bring the film, or more, is brought by too few to aim by.
+  bool photons_are_rare = false;
 };
 
 /// What a render works out once from the scene: which technique owns which light's caustics, where

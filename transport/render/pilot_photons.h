@@ -17,7 +17,7 @@
 namespace abbe {
 
 /// What photons of pilots are for, each with random numbers of its own.
-enum class PilotStage : std::uint32_t { first_aims, aims, wavelengths, caustic_aims, caustics };
+enum class PilotStage : std::uint32_t { first_aims, aims, wavelengths, caustic_aims, caustics, meter_aims };
 
 inline constexpr std::uint32_t kPilotPhotonBatch = 1U << 9;
 

@@ -14,15 +14,30 @@ std::optional<Opening> opening_of_meter(const Camera& camera) {
   return is_meter(camera) ? traits(camera).opening : std::nullopt;
 }
 
+std::optional<Sphere> ball_around(const Camera& meter, std::optional<double> radius) {
+  return radius ? std::optional(Sphere{middle(meter), *radius}) : std::nullopt;
+}
+
+// Where a ray comes into a ball around a meter, or starts within it, whatever its direction.
+std::optional<CameraConnection> connection_into(const Sphere& ball, const Camera& meter, const Ray& light) {
+  const Ray seen = seen_at_rest(meter, light);
+  const bool within = (Imath::V3d(seen.origin) - ball.center).length() <= ball.radius;
+  const std::optional<double> distance = within ? 0 : crossing(SphereSide{ball}, seen);
+  if (!distance) return std::nullopt;
+  const Imath::V3f point(Imath::V3d(light.origin) + Imath::V3d(light.direction) * *distance);
+  return CameraConnection{{0, 0}, point, 1, SampledSpectrum(1.0F), 1};
+}
+
 }  // namespace
 
-LightTracer::LightTracer(const Plan& plan, RayCaster& caster, double share)
+LightTracer::LightTracer(const Plan& plan, RayCaster& caster, double share, std::optional<double> ball_radius)
     : plan_(plan),
       scene_(plan.scene),
       caster_(caster),
       scale_(static_cast<float>(share * plan.scene.exposure_s)),
       alone_(!uses(plan.techniques, Technique::path)),
       meter_(opening_of_meter(plan.scene.camera)),
+      ball_(ball_around(plan.scene.camera, ball_radius)),
       response_(film_response_of(plan.scene)),
       measures_polarisation_(measures_polarisation(plan.scene)),
       walks_(plan.scene, caster) {}
@@ -87,8 +102,13 @@ StokesSpectrum LightTracer::arriving(const LightPath& path, const std::optional<
   return polarisation_of_film(scene_, towards, path.ray.time, images_of(lens)).of(light, towards);
 }
 
+std::optional<CameraConnection> LightTracer::into_meter(const LightPath& path) const {
+  return ball_ ? connection_into(*ball_, scene_.camera, path.ray)
+               : connection_through(scene_.camera, *meter_, path.ray, path.lambda_nm());
+}
+
 void LightTracer::run_into_meter(const LightPath& path, int events) {
-  const auto lens = connection_through(scene_.camera, *meter_, path.ray, path.lambda_nm());
+  const auto lens = into_meter(path);
   if (!lens) return;
   connect_to(path, events, *lens, SampledSpectrum(1.0F), path.ray, path.around,
              seen_on_film(scene_, path.packet, path.ray.direction, path.ray.time, images_of(*lens)));

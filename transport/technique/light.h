@@ -33,8 +33,10 @@ class LightTracer {
   static constexpr TransportMode kMode = TransportMode::power;
 
   /// `share` is the part of a sample per pixel one photon stands for: 1/pixels when a sample per pixel is as
-  /// many photons as pixels.
-  LightTracer(const Plan& plan, RayCaster& caster, double share);
+  /// many photons as pixels. With a `ball_radius` [m] a meter's first pixel is exposed by whatever comes
+  /// into, or starts within, the ball of that radius around its middle, which tells what passes near the
+  /// meter.
+  LightTracer(const Plan& plan, RayCaster& caster, double share, std::optional<double> ball_radius = {});
 
   /// Lets the tracer, from now on, also tell by which way the light of each deposit came.
   void tell_apart(ContributionDeposit deposit) { apart_ = std::move(deposit); }
@@ -87,6 +89,7 @@ class LightTracer {
   [[nodiscard]] bool owns_scattered(const LightPath& path) const {
     return alone_ || scene_.lights[starts_[path.path].light].is_delta();
   }
+  [[nodiscard]] std::optional<CameraConnection> into_meter(const LightPath& path) const;
   // By the ray that the path goes on along after so many events.
   void run_into_meter(const LightPath& path, int events);
   void connect_to(const LightPath& path, int events, const CameraConnection& lens,
@@ -103,6 +106,7 @@ class LightTracer {
   float scale_;
   bool alone_;  // owns all that photons bring
   std::optional<Opening> meter_;
+  std::optional<Sphere> ball_;
   FilmResponse response_;
   bool measures_polarisation_;
   RandomWalks<LightTracer> walks_;
