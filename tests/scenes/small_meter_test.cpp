@@ -9,6 +9,7 @@
 #include <ImathVec.h>
 
 #include "tests/scenes/meter_fixture.h"
+#include "tests/tier.h"
 #include "transport/render/learnt_plan.h"
 
 namespace abbe {
@@ -20,7 +21,7 @@ void expect_irradiance(const std::string& scene, double expected, int samples = 
   const test::OnlyMeter only = test::only_meter(scene, {{"/render/samples", std::to_string(samples)}});
   RenderOptions how;
   how.guides = std::make_shared<const Guides>(make_learnt_plan(only.scene, 1).guides);
-  for (std::uint64_t seed = 0; seed < 4; ++seed) {
+  for (std::uint64_t seed = 0; seed < (test::nightly() ? 4 : 2); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Scene seeded = only.scene;
     seeded.render.seed = seed;
