@@ -44,16 +44,19 @@ Scene floor_below_pane(double fov_deg) {
     "lights": [{"point": {"at": [0, 0, 4]}, "emission": {"illuminant": "E", "intensity": 1}}]})");
 }
 
-// Of the first pilots some 20 come to a view of 3 degrees, and 2 to one of 1 degree.
-TEST(AimedPhotons, AreAimedByNoFewOthers) {
-  const Scene narrow = floor_below_pane(3);
+// Of the first pilots some come to a view of 4 degrees, about one to one of 1 degree: the others of that are
+// aimed around where these have gone, but for half of them, which go anywhere.
+TEST(AimedPhotons, AreAimedForCertainByNoFewOthers) {
+  const Scene narrow = floor_below_pane(4);
   const Plan learnt = make_learnt_plan(narrow, 2);
   EXPECT_FALSE(learnt.guides.photons_are_rare);
   EXPECT_GT(share_landed(learnt), 0.3);
   const Scene narrowest = floor_below_pane(1);
-  const Plan even = make_learnt_plan(narrowest, 2);
-  EXPECT_TRUE(even.guides.photons_are_rare);
-  EXPECT_LT(share_landed(even), 1e-3);
+  const Plan guessed = make_learnt_plan(narrowest, 2);
+  EXPECT_TRUE(guessed.guides.photons_are_rare);
+  const double share = share_landed(guessed);
+  EXPECT_GT(share, 1e-3);
+  EXPECT_LT(share, 0.5);
 }
 
 }  // namespace

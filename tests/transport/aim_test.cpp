@@ -87,6 +87,29 @@ TEST(Aim, WhereFewGoIsAimedAtToo) {
   EXPECT_NEAR(integral(aim, towards_target), cap, cap * 0.05);
 }
 
+// Two rays that come close to each other do not tell how far around others go: at each distance some do, and
+// half of them anywhere.
+TEST(Aim, GuessesAroundFewAtAllDistances) {
+  Aim aim({0, 0, 0}, 0, {5, 0, 0}, 1);
+  const double even = share_through(aim, {0, 0, 0}, {5, -0.6F, -0.4F}, 0.1F);
+  const Imath::V3f few(5, 0.3F, 0.2F);
+  std::vector<ShownRay> rays = rays_through(few, {{0, 0, 0}}, 1);
+  rays.push_back(rays_through({5, 0.301F, 0.2F}, {{0, 0, 0}}, 1).front());
+  aim.guess(rays);
+  double within = 0;
+  for (const float distance : {0.05F, 0.1F, 0.2F, 0.4F}) {
+    const double share = share_through(aim, {0, 0, 0}, few, distance);
+    EXPECT_GT(share, within + 0.03) << distance;
+    within = share;
+  }
+  EXPECT_GT(share_through(aim, {0, 0, 0}, {5, -0.6F, -0.4F}, 0.1F), 0.45 * even);
+  aim.learn(rays_through(few, {{0, 0, 0}}, 4096));
+  EXPECT_GT(share_through(aim, {0, 0, 0}, few, 0.01F), 0.95 * 0.5 * 0.85);
+  EXPECT_GT(share_through(aim, {0, 0, 0}, {5, -0.6F, -0.4F}, 0.1F), 0.45 * even);
+  const double cap = 2 * std::numbers::pi * 0.01;
+  EXPECT_NEAR(integral(aim, towards_target), cap, cap * 0.05);
+}
+
 double density(const Aim& aim, const Imath::V2f& u) {
   return static_cast<double>(aim.point(u).pdf) * 4 * std::pow(static_cast<double>(aim.half_size()), 2);
 }

@@ -19,9 +19,10 @@ namespace {
 constexpr std::size_t kCells = 128;  // along each side of the grid
 constexpr std::size_t kGrid = kCells * kCells;
 constexpr float kEmissionShare = 0.05F;
-// Of those that are aimed, once an aim has learnt: anywhere, and, at most, where few others have gone.
-constexpr float kAnywhere = 0.1F;
+// Of those that are aimed, once an aim has learnt, at most where few others have gone, and once it has
+// guessed, anywhere.
 constexpr float kApart = 0.1F;
+constexpr float kAnywhereByGuess = 0.5F;
 constexpr double kEvenShare = 0.1;  // of those within a grid
 constexpr float kInverseTurn = std::numbers::inv_pi_v<float> / 2;
 constexpr float kAnyRadius = 1;  // of the scene, which only light from infinity asks for
@@ -191,10 +192,40 @@ void Aim::learn(std::span<const ShownRay> shown) {
   most.erase(apart, most.end());
   guided_ = true;
   grids_.clear();
-  grids_.emplace_back(window, most).share = 1 - kAnywhere;
+  grids_.emplace_back(window, most).share = 1 - anywhere_;
   if (others.empty()) return;
   grids_.front().share -= kApart;
   grids_.emplace_back(Window(), others).share = kApart;
+}
+
+void Aim::guess(std::span<const ShownRay> shown) {
+  if (!learns() || shown.empty()) return;
+  if (!around_) stand(0);
+  const std::vector<WeighedPlace> places = spread_over_scales(places_of(shown));
+  if (places.empty()) return;
+  guided_ = true;
+  anywhere_ = kAnywhereByGuess;
+  grids_.clear();
+  grids_.emplace_back(Window(), places).share = 1 - anywhere_;
+}
+
+// Many places around the given ones, as many at distances from one to twice any, down to half a cell of the
+// grid: in turn about each, in directions a golden angle apart.
+std::vector<Aim::WeighedPlace> Aim::spread_over_scales(const std::vector<WeighedPlace>& places) {
+  constexpr std::size_t kPlaces = kGrid;
+  constexpr double kLeast = 0.5 / kCells;
+  constexpr double kMost = 0.5;
+  constexpr double kGoldenAngle = 2 * std::numbers::pi / (std::numbers::phi * std::numbers::phi);
+  std::vector<WeighedPlace> spread;
+  for (std::size_t i = 0; !places.empty() && i < kPlaces; ++i) {
+    const double share = (static_cast<double>(i) + 0.5) / kPlaces;
+    const auto distance = static_cast<float>(kLeast * std::pow(kMost / kLeast, share));
+    const auto angle = static_cast<float>(kGoldenAngle * static_cast<double>(i));
+    const Imath::V2f at =
+        places[i % places.size()].at + Imath::V2f(std::cos(angle), std::sin(angle)) * distance;
+    if (Window().holds(at)) spread.push_back({at, 1});
+  }
+  return spread;
 }
 
 void Aim::stand_where_fewest_pass(std::span<const ShownRay> shown) {
@@ -302,7 +333,7 @@ std::optional<Imath::V2f> Aim::place_of(const Imath::V3f& from, const Imath::V3f
 
 float Aim::pdf_at(const Imath::V2f& at) const {
   if (grids_.empty()) return 1;
-  float pdf = kAnywhere;
+  float pdf = anywhere_;
   for (const Grid& grid : grids_) pdf += grid.share * grid.pdf(at);
   return pdf;
 }
@@ -312,14 +343,14 @@ Aim::Place Aim::draw(Imath::V2f u) const {
   for (const Grid& grid : grids_) {
     if (u.x < grid.share) {
       const Place drawn = grid.draw({u.x / grid.share, u.y});
-      float pdf = kAnywhere + grid.share * drawn.pdf;
+      float pdf = anywhere_ + grid.share * drawn.pdf;
       for (const Grid& other : grids_)
         if (&other != &grid) pdf += other.share * other.pdf(drawn.at);
       return {drawn.at, pdf};
     }
     u.x -= grid.share;
   }
-  const Imath::V2f at(std::min(u.x / kAnywhere, 1.0F), u.y);
+  const Imath::V2f at(std::min(u.x / anywhere_, 1.0F), u.y);
   return {at, pdf_at(at)};
 }
 

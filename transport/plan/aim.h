@@ -51,12 +51,16 @@ class Aim {
                                      const Imath::V3f& target_center, double target_radius);
   void guide() { guided_ = true; }
 
-  /// Aims where others have gone, but for a tenth that goes anywhere. The target is put at the distance where
-  /// they come through the smallest part of it: seen from all of a lamp, what lets its light through fills
-  /// the same part only of a target that stands where it does, as a slit before a prism. A grid of densities
-  /// covers that part, smoothed over as many of its cells as few rays need.
+  /// Aims where others have gone, but for a tenth that goes anywhere, or half of them after `guess`. The
+  /// target is put at the distance where they come through the smallest part of it: seen from all of a lamp,
+  /// what lets its light through fills the same part only of a target that stands where it does, as a slit
+  /// before a prism. A grid of densities covers that part, smoothed over as many of its cells as few rays
+  /// need.
   void learn(std::span<const ShownRay> shown);
-  /// Whether that changes anything: whether there is a target.
+  /// Aims half of the photons around where few others have gone, which do not tell how far around: at all
+  /// scales alike. The other half goes anywhere, from then on.
+  void guess(std::span<const ShownRay> shown);
+  /// Whether these change anything: whether there is a target.
   [[nodiscard]] bool learns() const { return guided_ || around_; }
 
   /// Whether some directions are not drawn from the light's emission.
@@ -108,6 +112,7 @@ class Aim {
   void stand_where_fewest_pass(std::span<const ShownRay> shown);
   [[nodiscard]] std::optional<Imath::V2f> place_of(const Imath::V3f& from, const Imath::V3f& direction) const;
   [[nodiscard]] std::vector<WeighedPlace> places_of(std::span<const ShownRay> shown) const;
+  [[nodiscard]] static std::vector<WeighedPlace> spread_over_scales(const std::vector<WeighedPlace>& places);
   [[nodiscard]] static Window window_of(const std::vector<WeighedPlace>& places);
   [[nodiscard]] Place draw(Imath::V2f u) const;
   [[nodiscard]] float pdf_at(const Imath::V2f& at) const;
@@ -128,7 +133,8 @@ class Aim {
   float growth_ = 0;            // by how much its half size grows for each such metre,
   Imath::V3f center_{0, 0, 0};  // and where it stands
   float half_size_ = 0;
-  std::vector<Grid> grids_;  // once it has learnt
+  std::vector<Grid> grids_;  // once it has learnt,
+  float anywhere_ = 0.1F;    // and the share that then goes anywhere
 };
 
 }  // namespace abbe

@@ -7,7 +7,6 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include "scene/extent.h"
@@ -87,10 +86,21 @@ Shown show(const Plan& plan, const PilotPhotons& photons, int threads,
   return shown;
 }
 
-// The others keep the aims that they have.
-void aim_lights_shown_enough(Shown shown, Plan& plan) {
-  std::erase_if(shown.starts, [&](const ShownStart& one) { return shown.counts[one.start.light] < kEnough; });
-  aim_where(shown.starts, plan);
+std::vector<std::vector<ShownRay>> rays_of_lights(std::span<const ShownStart> shown, const Plan& plan) {
+  std::vector<std::vector<ShownRay>> rays(plan.guides.aims.size());
+  for (const auto& [start, worth] : shown) rays[start.light].push_back({start.from, start.direction, worth});
+  return rays;
+}
+
+// Lights shown by too few keep the aims that they have at a meter, which is closed in on: nothing like that
+// is known for other cameras, so that theirs are guessed.
+void aim_by(const Shown& shown, Plan& plan) {
+  const std::vector<std::vector<ShownRay>> rays = rays_of_lights(shown.starts, plan);
+  for (std::size_t light = 0; light < rays.size(); ++light)
+    if (shown.counts[light] >= kEnough)
+      plan.guides.aims[light].learn(rays[light]);
+    else if (!is_meter(plan.scene.camera))
+      plan.guides.aims[light].guess(rays[light]);
 }
 
 // By how many photons the light is shown that is shown by fewest of those that can be aimed and of which at
@@ -122,19 +132,7 @@ void close_in_on_meter(Plan& plan, double ball_radius, int threads) {
   constexpr double kStep = 4;
   if (kStep * ball_radius < scene_radius(plan.scene.bounds))
     close_in_on_meter(plan, kStep * ball_radius, threads);
-  aim_lights_shown_enough(show_enough(plan, PilotStage::meter_aims, threads, ball_radius), plan);
-}
-
-// Where light passes at all.
-void aim_roughly(Plan& plan, int threads) {
-  const Camera& camera = plan.scene.camera;
-  const std::optional<Opening> meter = is_meter(camera) ? traits(camera).opening : std::nullopt;
-  if (!meter) return aim_lights_shown_enough(show_enough(plan, PilotStage::first_aims, threads), plan);
-  Shown shown = show(plan, {PilotStage::first_aims, kPilotsOfAims}, threads);
-  if (fewest(shown, plan, 0) < kEnough)
-    close_in_on_meter(plan, extent(*meter), threads);
-  else
-    aim_lights_shown_enough(std::move(shown), plan);
+  aim_by(show_enough(plan, PilotStage::meter_aims, threads, ball_radius), plan);
 }
 
 // Whether a good part of what is shown is of lights that few photons show.
@@ -149,20 +147,32 @@ bool few_show_much(const Shown& shown) {
   return by_few > kMuch * all;
 }
 
+// Where light passes at all, from aims that are even.
+void aim_roughly(Plan& plan, int threads) {
+  const Camera& camera = plan.scene.camera;
+  if (const std::optional<Opening> opening = traits(camera).opening; is_meter(camera) && opening) {
+    const Shown shown = show(plan, {PilotStage::first_aims, kPilotsOfAims}, threads);
+    if (fewest(shown, plan, 0) < kEnough) return close_in_on_meter(plan, extent(*opening), threads);
+    return aim_by(shown, plan);
+  }
+  const Shown shown = show_enough(plan, PilotStage::first_aims, threads);
+  plan.guides.photons_are_rare = few_show_much(shown);
+  aim_by(shown, plan);
+}
+
 }  // namespace
 
 // First where light passes at all, then, from photons aimed there, how much of it.
 void learn_aims(Plan& plan, int threads) {
   if (plan.traced_lights.empty()) return;
   aim_roughly(plan, threads);
-  Shown shown = show_enough(plan, PilotStage::aims, threads);
-  plan.guides.photons_are_rare = few_show_much(shown);
-  aim_lights_shown_enough(std::move(shown), plan);
+  const Shown shown = show_enough(plan, PilotStage::aims, threads);
+  plan.guides.photons_are_rare = plan.guides.photons_are_rare || few_show_much(shown);
+  aim_by(shown, plan);
 }
 
 void aim_where(std::span<const ShownStart> shown, Plan& plan) {
-  std::vector<std::vector<ShownRay>> rays(plan.guides.aims.size());
-  for (const auto& [start, worth] : shown) rays[start.light].push_back({start.from, start.direction, worth});
+  const std::vector<std::vector<ShownRay>> rays = rays_of_lights(shown, plan);
   for (std::size_t light = 0; light < rays.size(); ++light) plan.guides.aims[light].learn(rays[light]);
 }
 
