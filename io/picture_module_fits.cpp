@@ -225,10 +225,20 @@ std::vector<std::uint16_t> read_codes(fitsfile* fits, const std::string& path, s
   return {numbers.begin(), numbers.end()};
 }
 
-// The greatest code of an image of that type, or what its header says it saturates at, where that is less.
-// Some programs write 0 where they do not know it.
+// The greatest code of an image whose numbers are of that type once scaled.
+double greatest_code(fitsfile* fits, int type) {
+  const double of_type = type == BYTE_IMG ? 255 : type == SHORT_IMG ? 32767 : 65535;
+  int stored = 0;
+  int status = 0;
+  if (fits_get_img_type(fits, &stored, &status) != 0 || stored != BYTE_IMG) return of_type;
+  const double zero = number_of(fits, "BZERO", 0);
+  return std::min(of_type, std::max(zero, zero + 255 * number_of(fits, "BSCALE", 1)));
+}
+
+// The greatest code that an image can hold, or what its header says it saturates at, where that is less. Some
+// programs write 0 where they do not know it.
 double white_level_of(fitsfile* fits, int type, double black_level_dn) {
-  const double greatest = type == BYTE_IMG ? 255 : type == SHORT_IMG ? 32767 : 65535;
+  const double greatest = greatest_code(fits, type);
   const double saturate = number_of(fits, "SATURATE", greatest);
   return saturate > black_level_dn ? std::min(saturate, greatest) : greatest;
 }

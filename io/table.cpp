@@ -20,6 +20,13 @@ struct Cell {
   std::size_t offset;  ///< In the line.
 };
 
+/// Where the quote is closed that opens at `at`, which two within it do not; the line's end if nowhere.
+std::size_t closing_quote(std::string_view line, std::size_t at) {
+  for (++at; at < line.size() && (line[at] != '"' || line.substr(at, 2) == "\"\""); ++at)
+    if (line[at] == '"') ++at;
+  return std::min(at, line.size());
+}
+
 /// The cells of one line; nothing if a quoted cell is not closed by a quote followed by a comma or the end.
 std::optional<std::vector<Cell>> cells_of(std::string_view line) {
   std::vector<Cell> cells;
@@ -27,11 +34,12 @@ std::optional<std::vector<Cell>> cells_of(std::string_view line) {
     at = std::min(line.find_first_not_of(" \t", at), line.size());
     Cell cell{"", at};
     if (at < line.size() && line[at] == '"') {
-      for (++at; at < line.size() && (line[at] != '"' || line.substr(at, 2) == "\"\""); ++at) {
+      const std::size_t end = closing_quote(line, at);
+      if (end == line.size()) return std::nullopt;
+      for (++at; at < end; ++at) {
         if (line[at] == '"') ++at;
         cell.text += line[at];
       }
-      if (at == line.size()) return std::nullopt;
       at = std::min(line.find_first_not_of(" \t", at + 1), line.size());
       if (at < line.size() && line[at] != ',') return std::nullopt;
     } else {
@@ -59,10 +67,14 @@ bool has_byte_order_mark(const fs::path& path) {
   return file.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == kByteOrderMark;
 }
 
-/// Where a line has the first semicolon or, between what it holds, tab where commas are expected.
-std::optional<std::size_t> wrong_separator(std::string_view line, const std::vector<Cell>& cells) {
-  if (cells.size() != 1) return std::nullopt;
-  const std::size_t at = line.find_first_of(";\t", cells.front().offset);
+/// Where a line of these cells has the first semicolon or, between what it holds, tab where commas are
+/// expected. Behind a quoted cell they leave none.
+std::optional<std::size_t> wrong_separator(std::string_view line,
+                                           const std::optional<std::vector<Cell>>& cells) {
+  if (cells && cells->size() != 1) return std::nullopt;
+  const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
+  const bool is_quoted = line.substr(begin).starts_with('"');
+  const std::size_t at = line.find_first_of(";\t", is_quoted ? closing_quote(line, begin) : begin);
   return at <= line.find_last_not_of(" \t") ? std::optional(at) : std::nullopt;
 }
 
@@ -166,13 +178,13 @@ class TableReader {
 
   void read_cells(std::string_view line, std::size_t offset) {
     auto cells = cells_of(line);
-    if (!cells) return complain(offset, "quoted cell without its closing quote");
-    const auto wrong = table_.columns.size() == 1 ? std::nullopt : wrong_separator(line, *cells);
+    const auto wrong = table_.columns.size() == 1 ? std::nullopt : wrong_separator(line, cells);
     wrongly_separated_ = wrong.has_value();
     if (wrong)
       return complain(offset + *wrong,
                       fmt::format("cells are separated by {}, allowed ',')",
                                   line[*wrong] == ';' ? "semicolons (got ';'" : "tabs (got a tab"));
+    if (!cells) return complain(offset, "quoted cell without its closing quote");
     if (!table_.columns.empty()) {
       if (cells->size() != table_.columns.size())
         return complain(offset, fmt::format("wrong number of cells (got {}, allowed {})", cells->size(),
@@ -223,8 +235,9 @@ Heading heading_of(const fs::path& path) {
       if (key && key->first == "aliases") heading.aliases = key->second;
     } else if (!is_blank(line)) {
       if (line.ends_with('\r')) line.pop_back();
-      std::vector<Cell> cells = cells_of(line).value_or(std::vector<Cell>{});
-      heading.wrongly_separated = wrong_separator(line, cells).has_value();
+      const auto read = cells_of(line);
+      heading.wrongly_separated = wrong_separator(line, read).has_value();
+      std::vector<Cell> cells = read.value_or(std::vector<Cell>{});
       for (Cell& cell : cells)
         if (!cell.text.starts_with("wavelength_")) heading.values.push_back(std::move(cell.text));
       if (!cells.empty() && heading.values.size() == cells.size())

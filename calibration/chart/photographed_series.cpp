@@ -147,7 +147,7 @@ std::vector<std::string> channels_of(const Image& image, const std::optional<Raw
 }
 
 // The code of a raw file that counts as clipped, on the straight line that is made of its codes. What the
-// listing says is a code of the file.
+// listing says is a code of the file, of other programs' DNGs one that their table makes.
 double full_dn(const Image& image, const Listing& listing, const RawScale& codes) {
   if (!listing.full_scale) return white_dn(image, codes);
   return codes.linear(code_of(static_cast<float>(*listing.full_scale)));
@@ -231,11 +231,12 @@ std::string objection(const Image& image, const Image& first, const Listing& lis
 }
 
 // Why a raw file cannot clip where the listing says; empty where it can.
-std::string full_scale_objection(const Listing& listing, const RawScale& codes) {
+std::string full_scale_objection(const Image& image, const Listing& listing, const RawScale& codes) {
   constexpr double kSixteenBits = 65535;
   if (!listing.full_scale) return "";
   const double code = code_of(static_cast<float>(*listing.full_scale));
-  const double highest = std::exp2(codes.bits) - 1;
+  const bool is_own = raw_scale(image).has_value();  // others tell where codes clip, but not where they end
+  const double highest = is_own ? std::exp2(codes.bits) - 1 : kSixteenBits;
   if (code <= highest && codes.linear(code) > codes.offset_dn) return "";
   return fmt::format(
       "has codes from {}, its black, to {}, of which \"full_scale\" is none (got {}, which is code {}, "
@@ -290,7 +291,10 @@ std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
     const auto& [image, told] = read;
     const std::optional<RawScale> codes = holds_codes_told_of(read) ? told : std::nullopt;
     std::string wrong = objection(image, first ? *first : image, listing);
-    if (wrong.empty() && codes) wrong = full_scale_objection(listing, *codes);
+    if (wrong.empty() && first && codes.has_value() != all.full_scale.dn.has_value())
+      wrong = codes ? "has codes of the sensor that it tells of, the first other values: was one converted?"
+                    : "has no codes of a sensor, as the first has: was it converted?";
+    if (wrong.empty() && codes) wrong = full_scale_objection(image, listing, *codes);
     if (!wrong.empty()) {
       diagnostics.error(photograph.where, photograph.file + " " + wrong, ErrorCode::input);
       return std::nullopt;

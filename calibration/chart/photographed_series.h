@@ -34,8 +34,8 @@ struct PhotographedSeries {
 /// their white level, the code of darkness, bits and mosaic, of which each channel is a series; for others
 /// `exposure_s` is needed, and full scale is 1, an integer file's largest. Channels are the planes of the
 /// sensor that a file tells of, else all but alpha and variances. Reports photographs of unequal size or
-/// channels, regions beyond them, values that are not finite, and a `full_scale` that is no code of raw files
-/// above their black. `inputs` learns of every file.
+/// channels, regions beyond them, values that are not finite, raw files among others, and a `full_scale` that
+/// is no code of raw files above their black. `inputs` learns of every file.
 [[nodiscard]] std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
                                                             Diagnostics& diagnostics,
                                                             Inputs* inputs = nullptr);

@@ -76,7 +76,10 @@ class Photographs : public testing::Test {
   }
   void expect_complaint(const std::string& json, const std::string& text) {
     std::ofstream(folder_ / "bad.json") << json;
-    EXPECT_FALSE(read(folder_ / "bad.json"));
+    expect_complaint_of(folder_ / "bad.json", text);
+  }
+  void expect_complaint_of(const fs::path& listing, const std::string& text) {
+    EXPECT_FALSE(read(listing));
     EXPECT_NE(diagnostics_.text().find(text), std::string::npos) << diagnostics_.text();
     EXPECT_EQ(diagnostics_.code(), ErrorCode::input);
   }
@@ -231,6 +234,24 @@ TEST_F(Photographs, PicturesThatTellOfASensorAreNoCodesOfIt) {
       EXPECT_EQ(all->full_scale.value, 1) << name;
       EXPECT_FALSE(all->full_scale.dn) << name;
     }
+}
+
+// Values beyond the codes of the sensor show that a photograph was converted, those within them nothing.
+TEST_F(Photographs, RawFilesAmongConvertedOnesAreReported) {
+  const std::map<std::string, std::string> told{{"white_level_dn", "4095"},
+                                                {"sensor", R"({"readout":{"bits":12,"offset_dn":100}})"}};
+  write_raw_picture(folder_ / "dark.tif", {2, 1, {{"Y", {500, 3000}}}, told});
+  write_raw_picture(folder_ / "bright.tif", {2, 1, {{"Y", {8000, 48000}}}, told});
+  const auto series = [&](const std::string& first, const std::string& second) {
+    std::ofstream(folder_ / "two.json")
+        << R"({"exposures": [{"exposure_s": 1, "file": ")" << first
+        << R"(.tif"}, {"exposure_s": 2, "file": ")" << second << R"(.tif"}]})";
+    return folder_ / "two.json";
+  };
+  expect_complaint_of(series("dark", "bright"), "bright.tif has no codes of a sensor, as the first has");
+  expect_complaint_of(series("bright", "dark"),
+                      "dark.tif has codes of the sensor that it tells of, the first other");
+  EXPECT_TRUE(read(series("bright", "bright"))) << diagnostics_.text();
 }
 
 // "A" is a channel of this sensor; in other files it tells how opaque pixels are.

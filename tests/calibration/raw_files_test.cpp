@@ -198,6 +198,16 @@ TEST_F(RawFiles, AFullScaleThatTheyCannotReachIsNamed) {
   }
 }
 
+// Other programs tell where codes clip, as of a limit of straightness, but not where they end.
+TEST_F(RawFiles, AnyCodeMayBeTheFullScaleOfOtherPrograms) {
+  for (const char* name : {"plain.dng", "plain.fits"}) {
+    (void)write(name, wedge(0.5, false));
+    const auto read = listed_series(name, R"("full_scale": 0.0762951)");
+    ASSERT_TRUE(read) << diagnostics_.text();
+    EXPECT_EQ(read->full_scale.dn, 5000 - 50) << name;
+  }
+}
+
 TEST_F(RawFiles, CodesEndAtTheWhiteLevelThatIsTold) {
   for (const char* name : kKinds) {
     const auto end = end_of_codes(read_raw_image(write_full_well(name)));

@@ -93,6 +93,9 @@ TEST(Fits, CodesEndWhereTheirTypeDoes) {
   EXPECT_EQ(white(16, {}), 32767);
   EXPECT_EQ(white(16, {"BZERO   = 32768"}), 65535);
   EXPECT_EQ(white(8, {"SATURATE= 65535"}), 255);
+  EXPECT_EQ(white(8, {"BSCALE  = 2"}), 510);
+  EXPECT_EQ(white(8, {"BZERO   = 1"}), 256);
+  EXPECT_EQ(white(8, {"BSCALE  = -1", "BZERO   = 255"}), 255);
   EXPECT_EQ(white(8, {"SATURATE= 200"}), 200);
 }
 

@@ -118,7 +118,14 @@ TEST(Table, WhatSpreadsheetsWriteIsNamed) {
             "2:2: error: cells are separated by tabs (got a tab, allowed ',')\n");
   EXPECT_EQ(complaints("# unit: W\nl,a\n1,2\n\t20 \t3\n3\t4\n", TableOrigin::user),
             "4:5: error: cells are separated by tabs (got a tab, allowed ',')\n");
+  EXPECT_EQ(complaints("# unit: W\n\"l\"\t\"a\"\n\"1\"\t\"2\"\n", TableOrigin::user),
+            "2:4: error: cells are separated by tabs (got a tab, allowed ',')\n");
+  EXPECT_EQ(complaints("# unit: W\nl,a\n\"1;\";2\n", TableOrigin::user),
+            "3:5: error: cells are separated by semicolons (got ';', allowed ',')\n");
+  EXPECT_EQ(complaints("# unit: W\nl,a\n1,2\n\"1;2\n", TableOrigin::user),
+            "4:1: error: quoted cell without its closing quote\n");
   Diagnostics diagnostics;
+  EXPECT_TRUE(table_of("# unit: W\n\"l;\t\"\n1\n", TableOrigin::user, diagnostics)) << diagnostics.text();
   EXPECT_TRUE(table_of("# unit: W; per nm\nl,\"a;b\"\n1,x;y\n", TableOrigin::user, diagnostics))
       << diagnostics.text();
   EXPECT_TRUE(table_of("# unit: W\nl\t\n\t1\t\n", TableOrigin::user, diagnostics))
@@ -226,7 +233,8 @@ TEST_F(FindTable, FindsUserFilesByTheirPaths) {
   put(folder / "marked.csv", "\xEF\xBB\xBF# unit: W\nl,a,b\n1,2,3\n");
   put(folder / "semicolons.csv", "# unit: W\nl;a;b\n1;2;3\n");
   put(folder / "tabs.csv", "# unit: W\nl\ta\tb\n1\t2\t3\n");
-  for (const char* name : {"marked.csv:b", "semicolons.csv:b", "tabs.csv:b"})
+  put(folder / "quoted.csv", "# unit: W\n\"l\"\t\"a\"\t\"b\"\n1\t2\t3\n");
+  for (const char* name : {"marked.csv:b", "semicolons.csv:b", "tabs.csv:b", "quoted.csv:b"})
     EXPECT_EQ(find_table("light", (folder / name).string(), {}, diagnostics).value().column, "b") << name;
   ASSERT_EQ(diagnostics.all().size(), 2U);
   EXPECT_EQ(diagnostics.all()[0].message, "unknown column \"c\"; known: a, b");
