@@ -243,6 +243,7 @@ TEST(BruteForce, PhotonsAndTheirAdjointsAgree) {
   const Film path = film_of({"path", 8192, wide}, scene);
   expect_alike(path, film_of({"adjoint-brute", 1048576, wide}, scene), 0.01, 0.03);
   expect_alike(path, film_of({"photon-brute", 64, wide}, scene), 0.05, 0.15);
+  if (!test::nightly()) return;
   std::vector<Override> bladed = wide;
   bladed.push_back({"/camera/thin_lens/blades", "4"});
   expect_alike(film_of({"path", 8192, bladed}, scene), film_of({"photon-brute", 64, bladed}, scene), 0.05,
