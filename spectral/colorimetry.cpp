@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 
@@ -22,10 +23,13 @@ ColorMatching load_color_matching(const std::string& table, const std::string& s
 }
 
 // Whether its values at whole nanometres tell a curve: narrow lines lie between them, or on one, and a sum
-// would miss them or count them several times. A table may end in a jump just beyond its last row.
+// would miss them or count them several times; of a jump at one, as of a band, it would take one side alone.
+// A table may end in a jump just beyond its last row.
 bool is_told_by_nanometres(const Curve& curve) {
   constexpr double kBeyond = 1e-9;
-  return std::ranges::all_of(curve.knots(), [](const Knot& knot) {
+  const std::span<const Knot> knots = curve.knots();
+  const bool jumps = std::ranges::adjacent_find(knots, {}, &Knot::wavelength_nm) != knots.end();
+  return !jumps && std::ranges::all_of(knots, [](const Knot& knot) {
     return std::abs(knot.wavelength_nm - std::round(knot.wavelength_nm)) < kBeyond;
   });
 }

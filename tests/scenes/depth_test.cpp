@@ -156,15 +156,15 @@ TEST(Depth, SurvivalIsTheThroughputAndNeverSureInLongPaths) {
   RenderSettings settings;
   EXPECT_FALSE(plays_roulette(settings, 3));
   EXPECT_TRUE(plays_roulette(settings, 4));
-  for (const bool specular : {false, true}) {
-    EXPECT_EQ(survival(0.7F, 4, specular), 0.7F);
-    EXPECT_EQ(survival(0.01F, 4, specular), 0.1F);
-    EXPECT_EQ(survival(3, 64, specular), 1);
-    EXPECT_EQ(survival(0.7F, 65, specular), 0.7F);
+  for (const float a : {kEndingOfPaths, kEndingOfSpecularPaths, kEndingOfJoinedPaths}) {
+    EXPECT_EQ(survival(0.7F, 4, a), 0.7F);
+    EXPECT_EQ(survival(0.01F, 4, a), 0.1F);
+    EXPECT_EQ(survival(3, 64, a), 1);
+    EXPECT_EQ(survival(0.7F, 65, a), 0.7F);
   }
-  EXPECT_FLOAT_EQ(survival(3, 100, false), 0.995F);
-  EXPECT_FLOAT_EQ(survival(3, 100, true), 0.99F);
-  EXPECT_FLOAT_EQ(survival(3, 1000, true), 0.999F);
+  EXPECT_FLOAT_EQ(survival(3, 100, 0.5F), 0.995F);
+  EXPECT_FLOAT_EQ(survival(3, 100, 2), 0.98F);
+  EXPECT_FLOAT_EQ(survival(3, 1000, 1), 0.999F);
   EXPECT_EQ(most_events(settings), 100000);
   settings.max_depth = 12;
   settings.roulette_depth = -1;

@@ -121,6 +121,21 @@ TEST(Colorimetry, lamps_that_bend_between_nanometres_are_integrated) {
   EXPECT_NEAR(luminous_efficacy(lamp), efficacy, 1e-6 * efficacy);
 }
 
+// A band counts all of the light between its edges, whichever side of a jump is the curve's value there.
+TEST(Colorimetry, lamps_and_channels_that_jump_at_nanometres_are_integrated) {
+  const Curve lamp = band(500, 600, 2);
+  const ColorMatching& seen = color_matching(Observer::cie1931);
+  const double k = 100 / by_midpoints(lamp, seen.y, Curve(1));
+  for (const Curve& surface : {Curve(1), band(520, 540, 0.5)}) {
+    const XYZ xyz = tristimulus(lamp, surface, Observer::cie1931);
+    EXPECT_NEAR(xyz[0], k * by_midpoints(lamp, seen.x, surface), 1e-6);
+    EXPECT_NEAR(xyz[1], k * by_midpoints(lamp, seen.y, surface), 1e-6);
+    EXPECT_NEAR(xyz[2], k * by_midpoints(lamp, seen.z, surface), 1e-6);
+  }
+  const Curve fluorescent = illuminant("FL11");
+  EXPECT_NEAR(sum_product(fluorescent, lamp), by_midpoints(lamp, fluorescent, Curve(1)), 1e-6);
+}
+
 TEST(Colorimetry, the_perfect_diffuser_has_a_Y_of_100) {
   const Curve bent({{380, 1}, {480.5, 1 + 1e-13}, {780, 1}});
   const std::vector<SpectralLine> at_the_end = {{379.8, 0.1, 1}, {600, 0.1, 1}};

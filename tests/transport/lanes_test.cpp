@@ -92,10 +92,10 @@ TEST(Lanes, SurvivalIsTheSameWhicheverLaneIsTheHero) {
   PathPacket packet;
   packet.throughput = SampledSpectrum(0.3F) + SampledSpectrum::only(2, 0.2F);
   packet.lane_pdf = SampledSpectrum(0.8F);
-  const float q = survival(packet.carried(), 1, false);
+  const float q = survival(packet.carried(), 1, kEndingOfPaths);
   packet.throughput *= 1.7F;
   packet.lane_pdf *= 1.7F;
-  EXPECT_FLOAT_EQ(survival(packet.carried(), 1, false), q);
+  EXPECT_FLOAT_EQ(survival(packet.carried(), 1, kEndingOfPaths), q);
   EXPECT_FLOAT_EQ(q, 0.5F / 0.8F);
 }
 

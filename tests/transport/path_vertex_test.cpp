@@ -136,6 +136,28 @@ TEST(PathRecorder, TellsWhatFogLeavesOfLightFromInfinity) {
   EXPECT_LT(through, 54);
 }
 
+// Within a white sphere, each vertex at the cost of all of another path: of n > 64 events a share (64/n)^2 of
+// paths has more, so that they have 128 on an average.
+TEST(PathRecorder, EndsLongPathsSoon) {
+  Scene scene = test::lit_by(PointLight{{0, 0, 0.5F}});
+  scene.materials = {{"white", DiffuseMaterial{Curve(0.999)}}};
+  scene.shapes = {{"wall", Sphere{{0, 0, 0}, 1}, 0}};
+  scene.commit();
+  RayCaster caster(scene);
+  PathRecorder<TransportMode::power> recorder(scene, caster);
+  constexpr std::uint32_t kPaths = 1000;
+  for (std::uint32_t i = 0; i < kPaths; ++i) {
+    RecordedPath& path = recorder.paths().emplace_back(Sampler(1, Purpose::light, 0, 0, i), i);
+    path.packet = packet();
+    path.ray = ray_at({0, 0, 0.5F}, {0, 0, 1}, 0);
+    path.vertices = {{.at = LightVertex{0, {0, 0, 0.5F}}, .packet = path.packet}};
+  }
+  recorder.run();
+  double events = 0;
+  for (const RecordedPath& path : recorder.paths()) events += path.events;
+  EXPECT_NEAR(events / kPaths, 128, 20);
+}
+
 // f of both ends, G and what fog leaves: the same both ways between what is reciprocal.
 TEST(Connect, IsSymmetric) {
   const Scene scene = test::lit_by(PointLight{{0, 0, 9}});

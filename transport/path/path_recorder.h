@@ -186,4 +186,7 @@ class PathRecorder {
 template <TransportMode mode>
 inline constexpr bool kDrawsPolarised<PathRecorder<mode>> = false;
 
+template <TransportMode mode>
+inline constexpr float kEnding<PathRecorder<mode>> = kEndingOfJoinedPaths;
+
 }  // namespace abbe

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstdint>
@@ -63,6 +64,10 @@ concept WalkingTechnique = std::derived_from<typename T::Path, Walk> &&
 /// light has them; the others work out for themselves with which density each event of a path was drawn.
 template <typename Technique>
 inline constexpr bool kDrawsPolarised = true;
+
+/// How soon long paths of a technique end, the `a` of `survival`.
+template <typename Technique>
+inline constexpr float kEnding = kEndingOfPaths;
 
 /// Whether a smooth dispersive model refracts each lane its own way, and never reflects one that draws the
 /// number `kRefracted` unless all of its light is reflected.
@@ -261,7 +266,8 @@ class RandomWalks {
     ++path.events;
     if (path.packet.throughput.is_zero()) return false;
     if (!plays_roulette(scene_.render, path.events)) return true;
-    const float q = survival(kept, path.events, specular);
+    const float a = specular ? std::max(kEnding<Technique>, kEndingOfSpecularPaths) : kEnding<Technique>;
+    const float q = survival(kept, path.events, a);
     if (u >= q) return false;
     survive(path.packet, q);
     return true;

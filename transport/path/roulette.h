@@ -23,16 +23,22 @@ inline constexpr int kMostEvents = 100000;
   return render.roulette_depth >= 0 && events >= render.roulette_depth;
 }
 
+/// The `a` of `survival`: of paths whose cost is in proportion to their events, of those whose last event was
+/// specular, and of those of which all vertices are joined to all of another, at a cost of the third power.
+inline constexpr float kEndingOfPaths = 0.5F;
+inline constexpr float kEndingOfSpecularPaths = 1;
+inline constexpr float kEndingOfJoinedPaths = 2;
+
 /// Probability that a path goes on after so many events when it carries `throughput`: that, within [0.1, 1]
 /// [Marschner2021, sec. 14.4], and beyond 64 events no more than 1 - a/events, so that paths end where
 /// nothing is absorbed. What goes on is divided by it, so the mean stays what it is, and the weight of a path
 /// of n events grows as n^a. Light comes out of a thick white cloud after n events with a probability in
 /// proportion to n^(-3/2), so that the second moment of what it carries, the sum of n^(a - 3/2), is finite
 /// for a < 1/2, while the events of a path are in proportion to the sum of n^(-1/2 - a). Their product is
-/// least for a = 1/2 up to the most events there are. Where the last event was `specular`, as those of light
-/// that total reflection holds in clear glass for ever, a = 1, which ends such paths ten times sooner.
-[[nodiscard]] inline float survival(float throughput, int events, bool specular) {
-  const float a = specular ? 1 : 0.5F;
+/// least for a = 1/2 up to the most events there are. Light that total reflection holds in clear glass for
+/// ever ends ten times sooner by a = 1. The third power of a path's events is in proportion to the sum of
+/// n^(2 - a), which leaves little for a = 2 of what it is for 1/2.
+[[nodiscard]] inline float survival(float throughput, int events, float a) {
   const float most = events > kLongPath ? 1 - a / static_cast<float>(events) : 1;
   return std::min(most, std::max(0.1F, throughput));
 }

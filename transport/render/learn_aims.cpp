@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <numeric>
 #include <optional>
 #include <vector>
 
@@ -34,9 +32,9 @@ Pilots trace_batch(LightTracer& tracer, std::span<const Sampler> photons, const 
   return pilots;
 }
 
-Pilots trace_pilots(const Plan& plan, const RelativePlaces& places, const PilotPhotons& photons, int threads,
-                    std::optional<double> ball_radius) {
-  Pilots all;
+// Adds photons to those there are.
+void trace_pilots(const Plan& plan, const RelativePlaces& places, const PilotPhotons& photons, int threads,
+                  std::optional<double> ball_radius, Pilots& all) {
   for (const auto& [starts, splats] : trace_pilot_photons(
            plan.scene, photons, threads,
            [&](RayCaster&caster) { return LightTracer(plan, caster, 1, ball_radius); },
@@ -47,7 +45,6 @@ Pilots trace_pilots(const Plan& plan, const RelativePlaces& places, const PilotP
       all.splats.push_back({all.starts.size() + splat.of, splat.place, splat.value});
     all.starts.insert(all.starts.end(), starts.begin(), starts.end());
   }
-  return all;
 }
 
 constexpr std::uint32_t kPilotsOfAims = 1U << 17;
@@ -56,33 +53,34 @@ constexpr std::uint32_t kPilotsOfAims = 1U << 17;
 // which much of its light comes, which only those that go anywhere would be left for, each of great power.
 constexpr double kEnough = 50;
 
-// What pilots have shown, and of each light how much that counts, and by how many photons: such of one worth
-// w as have the same mean and spread, (sum w)^2 / sum w^2.
+// By how many photons light is shown: such of one worth w as have the same mean and spread,
+// (sum w)^2 / sum w^2.
+struct Count {
+  double worth = 0;
+  double squares = 0;
+  [[nodiscard]] double photons() const { return worth > 0 ? worth * worth / squares : 0; }
+  void add(const Count& other) {
+    worth += other.worth;
+    squares += other.squares;
+  }
+};
+
+// What pilots have shown, and by how many of them each light is shown.
 struct Shown {
   std::vector<ShownStart> starts;
-  std::vector<double> worths;
-  std::vector<double> counts;
+  std::vector<Count> lights;
 };
 
 // Of photons that come to the film with relative mean square s, drawn by p0, as many are best drawn as p0
 // sqrt(s) says; those drawn show p0.
-Shown show(const Plan& plan, const PilotPhotons& photons, int threads,
-           std::optional<double> ball_radius = {}) {
-  const RelativePlaces places(plan.scene);
-  const Pilots pilots = trace_pilots(plan, places, photons, threads, ball_radius);
+Shown show(const Plan& plan, const RelativePlaces& places, const Pilots& pilots) {
   const std::vector<double> squares = relative_squares(pilots.splats, places, pilots.starts.size());
-  const std::size_t lights = plan.guides.aims.size();
-  Shown shown{{}, std::vector<double>(lights), std::vector<double>(lights)};
-  std::vector<double> sums_of_squares(lights);
+  Shown shown{{}, std::vector<Count>(plan.guides.aims.size())};
   for (std::size_t i = 0; i < squares.size(); ++i)
     if (squares[i] > 0 && std::isfinite(squares[i])) {
       shown.starts.push_back({pilots.starts[i], std::sqrt(squares[i])});
-      shown.worths[pilots.starts[i].light] += std::sqrt(squares[i]);
-      sums_of_squares[pilots.starts[i].light] += squares[i];
+      shown.lights[pilots.starts[i].light].add({std::sqrt(squares[i]), squares[i]});
     }
-  for (std::size_t light = 0; light < lights; ++light)
-    if (const double worth = shown.worths[light]; worth > 0)
-      shown.counts[light] = worth * worth / sums_of_squares[light];
   return shown;
 }
 
@@ -92,37 +90,60 @@ std::vector<std::vector<ShownRay>> rays_of_lights(std::span<const ShownStart> sh
   return rays;
 }
 
-// Lights shown by too few keep the aims that they have at a meter, which is closed in on: nothing like that
-// is known for other cameras, so that theirs are guessed.
+bool is_shown_enough(const Count& light) {
+  return light.photons() >= kEnough;
+}
+
+// Lights that are shown by too few keep the aims that they have.
 void aim_by(const Shown& shown, Plan& plan) {
   const std::vector<std::vector<ShownRay>> rays = rays_of_lights(shown.starts, plan);
   for (std::size_t light = 0; light < rays.size(); ++light)
-    if (shown.counts[light] >= kEnough)
-      plan.guides.aims[light].learn(rays[light]);
-    else if (!is_meter(plan.scene.camera))
-      plan.guides.aims[light].guess(rays[light]);
+    if (is_shown_enough(shown.lights[light])) plan.guides.aims[light].learn(rays[light]);
 }
 
-// By how many photons the light is shown that is shown by fewest of those that can be aimed and of which at
-// least such a share of all is that is shown.
-double fewest(const Shown& shown, const Plan& plan, double share) {
-  const double all = std::accumulate(shown.worths.begin(), shown.worths.end(), 0.0);
-  double fewest = std::numeric_limits<double>::infinity();
-  for (std::size_t light = 0; light < shown.counts.size(); ++light)
-    if (plan.guides.aims[light].learns() && shown.worths[light] >= share * all)
-      fewest = std::min(fewest, shown.counts[light]);
-  return fewest;
+// Lights that are shown by too few are aimed around these few.
+void guess_by(const Shown& shown, Plan& plan) {
+  const std::vector<std::vector<ShownRay>> rays = rays_of_lights(shown.starts, plan);
+  for (std::size_t light = 0; light < rays.size(); ++light)
+    if (!is_shown_enough(shown.lights[light])) plan.guides.aims[light].guess(rays[light]);
 }
 
-// What few photons show is asked of as many as would show enough.
+// By how many photons the lights are shown, taken together, that can be aimed and are shown by too few each;
+// nothing where they bring no more than such a share of all that is shown.
+std::optional<double> photons_of_few(const Shown& shown, const Plan& plan, double share) {
+  Count all;
+  Count few;
+  for (std::size_t light = 0; light < shown.lights.size(); ++light) {
+    all.add(shown.lights[light]);
+    if (plan.guides.aims[light].learns() && !is_shown_enough(shown.lights[light]))
+      few.add(shown.lights[light]);
+  }
+  return few.worth > share * all.worth ? std::optional(few.photons()) : std::nullopt;
+}
+
+Shown show(const Plan& plan, PilotStage stage, int threads) {
+  const RelativePlaces places(plan.scene);
+  Pilots pilots;
+  trace_pilots(plan, places, {stage, kPilotsOfAims}, threads, {}, pilots);
+  return show(plan, places, pilots);
+}
+
+// What few photons show is asked of as many as would show enough, unless those before were too long on their
+// ways.
 Shown show_enough(const Plan& plan, PilotStage stage, int threads, std::optional<double> ball_radius = {}) {
   constexpr double kShare = 0.01;
   constexpr double kMostTimes = 8;
-  Shown shown = show(plan, {stage, kPilotsOfAims}, threads, ball_radius);
-  const double few = fewest(shown, plan, kShare);
-  if (few >= kEnough || shown.starts.empty()) return shown;
-  const auto times = static_cast<std::uint32_t>(std::min(std::ceil(2 * kEnough / few), kMostTimes));
-  return show(plan, {stage, times * kPilotsOfAims}, threads, ball_radius);
+  const RelativePlaces places(plan.scene);
+  Pilots pilots;
+  trace_pilots(plan, places, {stage, kPilotsOfAims}, threads, ball_radius, pilots);
+  Shown shown = show(plan, places, pilots);
+  const auto few = photons_of_few(shown, plan, kShare);
+  if (!few || *few >= kEnough || pilots.starts.size() < kPilotsOfAims) return shown;
+  const auto times = static_cast<std::uint32_t>(std::min(std::ceil(2 * kEnough / *few), kMostTimes));
+  PilotPhotons more{stage, (times - 1) * kPilotsOfAims};
+  more.first = kPilotsOfAims;
+  trace_pilots(plan, places, more, threads, ball_radius, pilots);
+  return show(plan, places, pilots);
 }
 
 // What comes to a small meter comes into each ball around it. So photons are aimed at a large one first,
@@ -135,29 +156,32 @@ void close_in_on_meter(Plan& plan, double ball_radius, int threads) {
   aim_by(show_enough(plan, PilotStage::meter_aims, threads, ball_radius), plan);
 }
 
-// Whether a good part of what is shown is of lights that few photons show.
-bool few_show_much(const Shown& shown) {
-  constexpr double kMuch = 0.1;
-  double all = 0;
-  double by_few = 0;
-  for (std::size_t light = 0; light < shown.counts.size(); ++light) {
-    all += shown.worths[light];
-    if (shown.counts[light] < kEnough) by_few += shown.worths[light];
-  }
-  return by_few > kMuch * all;
+bool all_are_shown_enough(const Shown& shown, const Plan& plan) {
+  for (std::size_t light = 0; light < shown.lights.size(); ++light)
+    if (plan.guides.aims[light].learns() && !is_shown_enough(shown.lights[light])) return false;
+  return true;
 }
 
-// Where light passes at all, from aims that are even.
+// Whether a good part of what is shown is of lights that few photons show.
+bool few_show_much(const Shown& shown, const Plan& plan) {
+  constexpr double kMuch = 0.1;
+  return photons_of_few(shown, plan, kMuch).value_or(kEnough) < kEnough;
+}
+
+// Where light passes at all, from aims that are even. A meter that few come to is closed in on; nothing like
+// that is known for other cameras, so that aims are guessed.
 void aim_roughly(Plan& plan, int threads) {
   const Camera& camera = plan.scene.camera;
-  if (const std::optional<Opening> opening = traits(camera).opening; is_meter(camera) && opening) {
-    const Shown shown = show(plan, {PilotStage::first_aims, kPilotsOfAims}, threads);
-    if (fewest(shown, plan, 0) < kEnough) return close_in_on_meter(plan, extent(*opening), threads);
+  const std::optional<Opening> meter = is_meter(camera) ? traits(camera).opening : std::nullopt;
+  if (!meter) {
+    const Shown shown = show_enough(plan, PilotStage::first_aims, threads);
+    plan.guides.photons_are_rare = few_show_much(shown, plan);
+    if (!is_meter(camera)) guess_by(shown, plan);
     return aim_by(shown, plan);
   }
-  const Shown shown = show_enough(plan, PilotStage::first_aims, threads);
-  plan.guides.photons_are_rare = few_show_much(shown);
-  aim_by(shown, plan);
+  const Shown shown = show(plan, PilotStage::first_aims, threads);
+  if (all_are_shown_enough(shown, plan)) return aim_by(shown, plan);
+  close_in_on_meter(plan, extent(*meter), threads);
 }
 
 }  // namespace
@@ -167,7 +191,7 @@ void learn_aims(Plan& plan, int threads) {
   if (plan.traced_lights.empty()) return;
   aim_roughly(plan, threads);
   const Shown shown = show_enough(plan, PilotStage::aims, threads);
-  plan.guides.photons_are_rare = plan.guides.photons_are_rare || few_show_much(shown);
+  plan.guides.photons_are_rare = plan.guides.photons_are_rare || few_show_much(shown, plan);
   aim_by(shown, plan);
 }
 
