@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "io/error.h"
 #include "spectral/library.h"
+#include "spectral/straight_piece.h"
 
 namespace abbe {
 namespace {
@@ -37,16 +40,38 @@ bool is_told_by_nanometres(const Curve& curve) {
 // Half of its first and last nanometre lies beyond the ends of a sum.
 constexpr double kBeyondNm = 0.5;
 
-// A curve as its values at whole nanometres of the range tell it: one that bends between them by its means
-// under the triangles from the nanometre before to the one after.
-Curve by_nanometres(const Curve& curve, SumRange range) {
-  if (is_told_by_nanometres(curve)) return curve;
+// The integral of the product of two lines over a width, by what each is at both ends.
+double integral_of_lines(double width_nm, double a0, double a1, double b0, double b1) {
+  return width_nm / 6 * (a0 * (2 * b0 + b1) + a1 * (b0 + 2 * b1));
+}
+
+// The means of a curve under the triangles from the nanometre before to the one after: each straight piece
+// within a nanometre lies under the falling side of one triangle and the rising side of the next.
+std::vector<Knot> means_by_nanometres(const Curve& curve) {
   std::vector<Knot> means;
-  for (int nm = range.low_nm; nm <= range.high_nm; ++nm) {
-    const Curve triangle({{nm - 1.0, 0}, {nm + 0.0, 1}, {nm + 1.0, 0}});
-    means.push_back({static_cast<double>(nm), integral_of_product(curve, triangle, nm - 1, nm + 1)});
+  for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm) means.push_back({static_cast<double>(nm), 0});
+  StraightPiece piece(curve, kMinWavelengthNm);
+  for (double from = kMinWavelengthNm; from < kMaxWavelengthNm;) {
+    const double nm = std::floor(from);
+    const double to = std::min(piece.end_nm(), nm + 1);
+    const auto under = [&](double side_from, double side_to) {
+      return integral_of_lines(to - from, piece(from), piece(to), side_from, side_to);
+    };
+    const auto at = static_cast<std::size_t>(nm) - kMinWavelengthNm;
+    means[at].value += under(nm + 1 - from, nm + 1 - to);
+    means[at + 1].value += under(from - nm, to - nm);
+    piece.go_to(to);
+    from = to;
   }
-  return Curve(std::move(means));
+  // Curves end in the middle of these two triangles, so that half of their area is left.
+  means.front().value *= 2;
+  means.back().value *= 2;
+  return means;
+}
+
+// A curve as its values at whole nanometres tell it, or its means around them where it bends between.
+Curve by_nanometres(const Curve& curve) {
+  return is_told_by_nanometres(curve) ? curve : Curve(means_by_nanometres(curve));
 }
 
 // X = k times the integral of S R xbar, and so on, k being 100 over that of S ybar [CIE15, sec. 7.1].
@@ -83,7 +108,7 @@ double sum_product(const Curve& a, const Curve& b, SumRange range) {
 double sum_product(const Curve& a, const Curve& b, const Curve& c, SumRange range) {
   if (!is_told_by_nanometres(a) || !is_told_by_nanometres(b))
     return integral_of_product(a, b, c, range.low_nm - kBeyondNm, range.high_nm + kBeyondNm);
-  const Curve told = by_nanometres(c, range);
+  const Curve told = by_nanometres(c);
   double total = 0;
   for (int nm = range.low_nm; nm <= range.high_nm; ++nm) total += a(nm) * b(nm) * told(nm);
   return total;
@@ -91,7 +116,7 @@ double sum_product(const Curve& a, const Curve& b, const Curve& c, SumRange rang
 
 std::vector<XYZ> tristimulus_weights(const Curve& illuminant, Observer observer, SumRange range) {
   const ColorMatching& cmf = color_matching(observer);
-  const Curve told = by_nanometres(illuminant, range);
+  const Curve told = by_nanometres(illuminant);
   const double k = 100 / sum_product(told, cmf.y, range);
   std::vector<XYZ> weights;
   for (int nm = range.low_nm; nm <= range.high_nm; ++nm) {
@@ -104,7 +129,7 @@ std::vector<XYZ> tristimulus_weights(const Curve& illuminant, Observer observer,
 XYZ tristimulus(const Curve& illuminant, const Curve& reflectance, Observer observer, SumRange range) {
   if (!is_told_by_nanometres(illuminant))
     return integrated_tristimulus(illuminant, reflectance, color_matching(observer), range);
-  const Curve told = by_nanometres(reflectance, range);
+  const Curve told = by_nanometres(reflectance);
   XYZ sum{};
   int nm = range.low_nm;
   for (const XYZ& weight : tristimulus_weights(illuminant, observer, range)) {

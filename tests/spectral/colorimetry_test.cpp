@@ -62,6 +62,41 @@ TEST(Colorimetry, narrow_bands_of_a_reflectance_count_by_their_widths) {
     }
 }
 
+// What a nanometre of a sum takes a curve for.
+double told(const Curve& curve, int nm) {
+  return sum_product(Curve(1), Curve(1), curve, {nm, nm});
+}
+
+// Narrow triangles are shared by the distances of their middles, a jump by the areas under two sides.
+TEST(Colorimetry, what_lies_between_nanometres_is_shared_among_the_two_around_it) {
+  const auto triangle = [](double nm) { return Curve({{nm - 0.125, 0}, {nm, 8}, {nm + 0.125, 0}}); };
+  EXPECT_NEAR(told(triangle(700.5), 700), 0.5, 1e-12);
+  EXPECT_NEAR(told(triangle(700.5), 701), 0.5, 1e-12);
+  EXPECT_NEAR(told(triangle(700.25), 700), 0.75, 1e-12);
+  EXPECT_NEAR(told(triangle(700.25), 701), 0.25, 1e-12);
+  EXPECT_EQ(told(triangle(700.5), 699), 0);
+  EXPECT_EQ(told(triangle(700.5), 702), 0);
+  const Curve jump({{540.5, 0}, {540.5, 1}});
+  EXPECT_EQ(told(jump, 539), 0);
+  EXPECT_NEAR(told(jump, 540), 1.0 / 8, 1e-12);
+  EXPECT_NEAR(told(jump, 541), 7.0 / 8, 1e-12);
+  EXPECT_NEAR(told(jump, 542), 1, 1e-12);
+}
+
+// At the ends of all curves half a triangle is left to take a mean of.
+TEST(Colorimetry, nanometres_at_the_ends_of_curves_count_by_their_means_too) {
+  const SumRange whole{kMinWavelengthNm, kMaxWavelengthNm};
+  const Curve one({{300, 1}, {300.25, 1}, {480.5, 1}, {1099.7, 1}, {1100, 1}});
+  EXPECT_NEAR(sum_product(Curve(1), Curve(1), one, whole), 801, 801e-12);
+  EXPECT_NEAR(sum_product(Curve(1), Curve(1), one), 401, 401e-12);
+  const Curve rise({{300, 0}, {480.5, 180.5}, {1100, 800}});
+  EXPECT_NEAR(told(rise, 300), 1.0 / 3, 1e-12);
+  EXPECT_NEAR(told(rise, 301), 1, 1e-12);
+  EXPECT_NEAR(told(rise, 480), 180, 180e-12);
+  EXPECT_NEAR(told(rise, 1099), 799, 799e-12);
+  EXPECT_NEAR(told(rise, 1100), 800 - 1.0 / 3, 800e-12);
+}
+
 // A bend off the nanometres changes nothing else.
 TEST(Colorimetry, integral_and_sum_of_a_smooth_reflectance_agree) {
   const Curve light = illuminant("D65");
