@@ -11,6 +11,7 @@
 #include "python/develop.h"
 #include "python/errors.h"
 #include "python/lock.h"
+#include "python/numbers.h"
 #include "python/query.h"
 
 namespace abbe::python {
@@ -82,7 +83,7 @@ void require_effect(const CalibrationSource& source, bool is_measured, bool has_
 }
 
 py::dict calibrate(const std::string& camera, const std::string& illuminant, const std::string& chart,
-                   const std::string& response, std::optional<int> bits,
+                   const std::string& response, std::optional<Whole<int>> bits,
                    const std::optional<fs::path>& measured, const std::optional<fs::path>& series,
                    const std::string& training, const std::string& correction,
                    const std::string& camera_response) {
@@ -93,7 +94,7 @@ py::dict calibrate(const std::string& camera, const std::string& illuminant, con
   source.chart = chart;
   source.training = training;
   source.planted_response = response;
-  source.bits = bits.value_or(source.bits);
+  source.bits = bits ? *bits : source.bits;
   source.camera_response = response_of("camera_response", camera_response);
   require_effect(source, measured.has_value(), bits.has_value());
   if (!choose_correction(source.how, correction))

@@ -14,6 +14,7 @@
 #include "python/film.h"
 #include "python/json.h"
 #include "python/lock.h"
+#include "python/numbers.h"
 #include "python/picture.h"
 #include "python/request.h"
 #include "python/scene.h"
@@ -90,7 +91,7 @@ ExposedFilm exposed(const FilmHandle& film, SceneHandle* looker, const py::objec
 }
 
 Developed develop_film(const FilmHandle& film, const py::object& readout, const py::object& white,
-                       std::optional<std::int64_t> seed, SceneHandle* scene) {
+                       std::optional<Whole<std::int64_t>> seed, SceneHandle* scene) {
   require_seed(seed);
   const auto asked = white.is_none() ? std::nullopt : std::optional(to_text(to_json(white, kWhitePointer)));
   ExposedFilm source = exposed(film, scene, readout, asked);

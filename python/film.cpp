@@ -17,6 +17,7 @@
 #include "python/arrays.h"
 #include "python/errors.h"
 #include "python/lock.h"
+#include "python/numbers.h"
 #include "python/picture.h"
 #include "python/text.h"
 #include "sensor/film/film_planes.h"
@@ -47,7 +48,9 @@ py::object wavelengths(const FilmHandle& film) {
   return py::array_t<double>(static_cast<py::ssize_t>(centers_nm.size()), centers_nm.data());
 }
 
-py::object spectrum(const FilmHandle& film, int x, int y) {
+py::object spectrum(const FilmHandle& film, Whole<int> column, Whole<int> row) {
+  const int x = column;
+  const int y = row;
   const Image& image = film.image();
   if (!is_spectral(image))
     throw Error(ErrorCode::usage, "spectrum",

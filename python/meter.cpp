@@ -178,8 +178,8 @@ py::dict meter(const py::object& scene, const py::object& only, const Request& r
 void add_meter(py::module_& module) {
   module.def(
       "meter",
-      [](const py::object& scene, const py::object& only, std::optional<std::int64_t> spp,
-         std::optional<std::int64_t> seed, std::int64_t threads, std::optional<Real> error,
+      [](const py::object& scene, const py::object& only, std::optional<Whole<std::int64_t>> spp,
+         std::optional<Whole<std::int64_t>> seed, Whole<std::int64_t> threads, std::optional<Real> error,
          std::optional<Real> time, const py::object& integrator, const py::object& progress) {
         return meter(scene, only, {spp, seed, threads, error, time}, integrator, progress);
       },

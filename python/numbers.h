@@ -41,6 +41,16 @@ struct Real {
   operator double() const { return value; }
 };
 
+/// What functions take for a whole number, a T: what Python takes for an index, such as numpy's whole
+/// numbers. Others, of which pybind11 would cut off the fraction unless they are floats of Python, are a
+/// TypeError.
+template <typename T>
+struct Whole {
+  T value = 0;
+
+  operator T() const { return value; }
+};
+
 /// The letter by which numpy tells the kind of what an object holds, such as 'm' of spans of time; 0 of
 /// objects that are not numpy's.
 [[nodiscard]] inline char numpy_kind(const pybind11::handle& object) {
@@ -99,6 +109,20 @@ struct pyobject_caster<abbe::python::Numbers> {
   }
 
   PYBIND11_TYPE_CASTER(abbe::python::Numbers, handle_type_name<abbe::python::Numbers>::name);
+};
+
+template <typename T>
+struct type_caster<abbe::python::Whole<T>> {
+  bool load(const handle& object, bool convert) {
+    const auto whole = reinterpret_steal<pybind11::object>(PyNumber_Index(object.ptr()));
+    if (!whole) PyErr_Clear();
+    make_caster<T> number;
+    if (!whole || !number.load(whole, convert)) return false;
+    value = {cast_op<T>(number)};
+    return true;
+  }
+
+  PYBIND11_TYPE_CASTER(abbe::python::Whole<T>, make_caster<T>::name);
 };
 
 /// Takes an argument for a Real, as pybind11 does for a double.

@@ -92,8 +92,8 @@ void add_render(py::module_& module) {
                     "Of how many samples of each pixel `error` is.");
   module.def(
       "render",
-      [](SceneHandle& scene, std::optional<std::int64_t> spp, std::optional<std::int64_t> seed,
-         std::int64_t threads, std::optional<Real> error, std::optional<Real> time,
+      [](SceneHandle& scene, std::optional<Whole<std::int64_t>> spp, std::optional<Whole<std::int64_t>> seed,
+         Whole<std::int64_t> threads, std::optional<Real> error, std::optional<Real> time,
          const py::object& progress, std::optional<SampleRange> samples) {
         return render_scene(scene, {spp, seed, threads, error, time, samples}, progress);
       },

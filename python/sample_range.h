@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 #include <pybind11/pybind11.h>
 
+#include "python/numbers.h"
 #include "transport/render/sample_ranges.h"
 
 namespace pybind11::detail {
@@ -16,14 +17,15 @@ namespace pybind11::detail {
 template <>
 struct type_caster<abbe::SampleRange> {
   bool load(const handle& object, bool convert) {
-    make_caster<std::pair<std::uint64_t, std::uint64_t>> pair;
+    using End = abbe::python::Whole<std::uint64_t>;
+    make_caster<std::pair<End, End>> pair;
     const bool is_bytes =
         isinstance<bytes>(object) || isinstance<bytearray>(object) || isinstance<memoryview>(object);
     if (is_bytes || !pair.load(ends_of(object), convert))
       throw type_error(fmt::format(
           "sample_range: expected (first, last), whole numbers from 0 on, or a range of step 1 (got {})",
           std::string(repr(object))));
-    const auto [first, last] = cast_op<std::pair<std::uint64_t, std::uint64_t>>(pair);
+    const auto [first, last] = cast_op<std::pair<End, End>>(pair);
     value = {first, last};
     return true;
   }

@@ -1,5 +1,6 @@
 #include "python/scene.h"
 
+#include <system_error>
 #include <variant>
 
 #include <fmt/format.h>
@@ -90,6 +91,7 @@ SceneSource source_of(const py::object& source, const py::object& folder, const 
 
 SceneHandle::SceneHandle(const py::object& source, const py::object& folder, const py::dict& keywords) {
   source_ = source_of(source, folder, keywords);
+  name_ = source_.name;
   Diagnostics diagnostics;
   std::optional<abbe::Scene> scene;
   {
@@ -99,6 +101,9 @@ SceneHandle::SceneHandle(const py::object& source, const py::object& folder, con
                 : load_scene(source_.name, source_.overrides, diagnostics, &inputs_, &said_);
   }
   scene_ = accepted(std::move(scene), diagnostics);
+  std::error_code gone;
+  fs::path& place = source_.text ? source_.folder : source_.name;
+  place = fs::current_path(gone) / place;
 }
 
 const abbe::Scene& SceneHandle::with_white(int threads) {

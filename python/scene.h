@@ -42,12 +42,14 @@ class SceneHandle {
 
   [[nodiscard]] const spec::Scene& said() const { return said_; }
   /// What films call their scene after, and messages its text.
-  [[nodiscard]] const std::filesystem::path& name() const { return source_.name; }
+  [[nodiscard]] const std::filesystem::path& name() const { return name_; }
+  /// From where it can be read once more, whatever directory has become the current one.
   [[nodiscard]] const SceneSource& source() const { return source_; }
   /// What was read, with the memory it took.
   [[nodiscard]] const Inputs& inputs() const { return inputs_; }
 
  private:
+  std::filesystem::path name_;
   SceneSource source_;
   Inputs inputs_;
   spec::Scene said_;

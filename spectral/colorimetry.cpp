@@ -27,7 +27,7 @@ ColorMatching load_color_matching(const std::string& table, const std::string& s
 
 // Whether its values at whole nanometres tell a curve: narrow lines lie between them, or on one, and a sum
 // would miss them or count them several times; of a jump at one, as of a band, it would take one side alone.
-// A table may end in a jump just beyond its last row.
+// A table may jump just beyond its first and last row.
 bool is_told_by_nanometres(const Curve& curve) {
   constexpr double kBeyond = 1e-9;
   const std::span<const Knot> knots = curve.knots();

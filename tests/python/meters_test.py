@@ -1,6 +1,7 @@
 """Meters of scenes, against what the command reads of them."""
 import json
 import math
+import os
 import unittest
 import warnings
 
@@ -69,6 +70,21 @@ class Meters(Test):
         without = {key: value for key, value in scene.items() if key not in ("camera", "sensor")}
         for found, beside in zip(abbe.meter(without).values(), abbe.meter(scene).values()):
             self.assertEqual(found["radiant"], beside["radiant"])
+
+    def test_a_scene_is_read_from_where_it_was_whatever_the_current_folder(self):
+        self.addCleanup(os.chdir, os.getcwd())
+        for name, reflectance in (("a", 0.2), ("b", 0.8)):
+            (self.scratch / name).mkdir()
+            (self.scratch / name / "r.csv").write_text(f"# unit: 1\nwavelength_nm,r\n300,{reflectance}\n1100,{reflectance}\n")
+            scene = {"abbe": 1, **box(meters={"up": {"at": [0, 0, 1], "normal": [0, 0, -1]}}),
+                     "materials": {"grey": {"diffuse": {"reflectance": "r.csv:r"}}}}
+            (self.scratch / name / "scene.json").write_text(json.dumps(scene))
+        os.chdir(self.scratch / "a")
+        scenes = [abbe.Scene("scene.json"), abbe.Scene(scene), abbe.Scene(scene, folder=".")]
+        here = [abbe.meter(one, spp=16)["up"]["radiant"] for one in scenes]
+        os.chdir(self.scratch / "b")
+        self.assertEqual([abbe.meter(one, spp=16)["up"]["radiant"] for one in scenes], here)
+        self.assertEqual(repr(scenes[0]).split(":")[0], "<abbe.Scene scene.json")
 
     def test_what_is_wrong_is_told(self):
         scene = self.scene()

@@ -99,6 +99,19 @@ class Renders(Test):
             with self.subTest(wrong=wrong), self.assertRaises(abbe.UsageError):
                 abbe.render(scene, **wrong)
 
+    def test_whole_numbers_are_those_that_are_whole(self):
+        scene = abbe.Scene(box())
+        for whole in (numpy.int64(3), numpy.uint8(3), numpy.array(3)):
+            self.assertEqual(abbe.render(scene, spp=whole, seed=whole, threads=whole).metadata["seed"], "3")
+        for fraction in (2.5, 2.0, numpy.float32(2.5), numpy.float16(2), numpy.array(2.5), numpy.timedelta64(2, "ns"), "2"):
+            for wrong in ({"spp": fraction}, {"seed": fraction}, {"threads": fraction}, {"sample_range": (0, fraction)}):
+                with self.subTest(wrong=wrong), self.assertRaises(TypeError):
+                    abbe.render(scene, **wrong)
+            with self.subTest(fraction=fraction), self.assertRaises(TypeError):
+                abbe.meter(scene, spp=fraction)
+            with self.subTest(fraction=fraction), self.assertRaises(TypeError):
+                abbe.calibrate("Nikon_D5100", "A", bits=fraction)
+
     def test_renders_are_bounded_as_those_of_the_command(self):
         scene = abbe.Scene(box())
         for option, argument, last in (("--spp", "spp", 2 ** 24), ("--seed", "seed", 2 ** 53 - 1), ("--threads", "threads", 1024)):
