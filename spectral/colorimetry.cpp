@@ -1,6 +1,7 @@
 #include "spectral/colorimetry.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
@@ -25,16 +26,55 @@ ColorMatching load_color_matching(const std::string& table, const std::string& s
   return {load("xbar" + suffix), load("ybar" + suffix), load("zbar" + suffix)};
 }
 
-// Whether its values at whole nanometres tell a curve: narrow lines lie between them, or on one, and a sum
-// would miss them or count them several times; of a jump at one, as of a band, it would take one side alone.
-// A table may jump just beyond its first and last row.
-bool is_told_by_nanometres(const Curve& curve) {
-  constexpr double kBeyond = 1e-9;
+// How far a bend at a nanometre may be from it, and both ends of a jump from each other.
+constexpr double kRoundingNm = 1e-9;
+
+// The largest jump of a curve between the ends of a sum, as it counts by another; ends of tables are jumps.
+double largest_jump(const Curve& curve, const Curve& by, SumRange range) {
+  double largest = 0;
   const std::span<const Knot> knots = curve.knots();
-  const bool jumps = std::ranges::adjacent_find(knots, {}, &Knot::wavelength_nm) != knots.end();
-  return !jumps && std::ranges::all_of(knots, [](const Knot& knot) {
-    return std::abs(knot.wavelength_nm - std::round(knot.wavelength_nm)) < kBeyond;
-  });
+  for (std::size_t i = 1; i < knots.size(); ++i) {
+    const double nm = knots[i].wavelength_nm;
+    if (nm - knots[i - 1].wavelength_nm > kRoundingNm || nm < range.low_nm + kRoundingNm ||
+        nm > range.high_nm - kRoundingNm)
+      continue;
+    const double seen = std::max(std::abs(by(nm - kRoundingNm)), std::abs(by(nm + kRoundingNm)));
+    largest = std::max(largest, std::abs(knots[i].value - knots[i - 1].value) * seen);
+  }
+  return largest;
+}
+
+// Whether its values at the whole nanometres of a sum tell a curve, as it counts by another: narrow lines lie
+// between them, or on one, and a sum would miss them or count them several times; of a jump, as of a band, it
+// would take one side alone, which is enough of jumps of a thousandth.
+bool is_told_by_nanometres(const Curve& curve, const Curve& by, SumRange range) {
+  constexpr double kSmall = 1e-3;
+  if (!std::ranges::all_of(curve.knots(), [](const Knot& knot) {
+        return std::abs(knot.wavelength_nm - std::round(knot.wavelength_nm)) < kRoundingNm;
+      }))
+    return false;
+  const double jump = largest_jump(curve, by, range);
+  if (jump == 0) return true;
+  for (int nm = range.low_nm; nm <= range.high_nm; ++nm)
+    if (std::abs(curve(nm) * by(nm)) >= jump / kSmall) return true;
+  return false;
+}
+
+bool are_told_by_nanometres(const Curve& a, const Curve& b, SumRange range) {
+  return is_told_by_nanometres(a, b, range) && is_told_by_nanometres(b, a, range);
+}
+
+// What the three functions of an observer see of a light together.
+const Curve& whole_of(Observer observer) {
+  static const auto add = [](const ColorMatching& cmf) { return sum(cmf.x, sum(cmf.y, cmf.z)); };
+  static const std::array<Curve, 2> both{add(color_matching(Observer::cie1931)),
+                                         add(color_matching(Observer::cie1964))};
+  return both[observer == Observer::cie1931 ? 0 : 1];
+}
+
+const Curve& even_light() {
+  static const Curve even(1.0);
+  return even;
 }
 
 // Half of its first and last nanometre lies beyond the ends of a sum.
@@ -69,9 +109,9 @@ std::vector<Knot> means_by_nanometres(const Curve& curve) {
   return means;
 }
 
-// A curve as its values at whole nanometres tell it, or its means around them where it bends between.
-Curve by_nanometres(const Curve& curve) {
-  return is_told_by_nanometres(curve) ? curve : Curve(means_by_nanometres(curve));
+// A curve as its values at whole nanometres tell it, as it counts by another, or its means around them.
+Curve by_nanometres(const Curve& curve, const Curve& by, SumRange range) {
+  return is_told_by_nanometres(curve, by, range) ? curve : Curve(means_by_nanometres(curve));
 }
 
 // X = k times the integral of S R xbar, and so on, k being 100 over that of S ybar [CIE15, sec. 7.1].
@@ -98,7 +138,7 @@ const ColorMatching& color_matching(Observer observer) {
 }
 
 double sum_product(const Curve& a, const Curve& b, SumRange range) {
-  if (!is_told_by_nanometres(a) || !is_told_by_nanometres(b))
+  if (!are_told_by_nanometres(a, b, range))
     return integral_of_product(a, b, range.low_nm - kBeyondNm, range.high_nm + kBeyondNm);
   double total = 0;
   for (int nm = range.low_nm; nm <= range.high_nm; ++nm) total += a(nm) * b(nm);
@@ -106,9 +146,9 @@ double sum_product(const Curve& a, const Curve& b, SumRange range) {
 }
 
 double sum_product(const Curve& a, const Curve& b, const Curve& c, SumRange range) {
-  if (!is_told_by_nanometres(a) || !is_told_by_nanometres(b))
+  if (!are_told_by_nanometres(a, b, range))
     return integral_of_product(a, b, c, range.low_nm - kBeyondNm, range.high_nm + kBeyondNm);
-  const Curve told = by_nanometres(c);
+  const Curve told = by_nanometres(c, even_light(), range);
   double total = 0;
   for (int nm = range.low_nm; nm <= range.high_nm; ++nm) total += a(nm) * b(nm) * told(nm);
   return total;
@@ -116,7 +156,7 @@ double sum_product(const Curve& a, const Curve& b, const Curve& c, SumRange rang
 
 std::vector<XYZ> tristimulus_weights(const Curve& illuminant, Observer observer, SumRange range) {
   const ColorMatching& cmf = color_matching(observer);
-  const Curve told = by_nanometres(illuminant);
+  const Curve told = by_nanometres(illuminant, whole_of(observer), range);
   const double k = 100 / sum_product(told, cmf.y, range);
   std::vector<XYZ> weights;
   for (int nm = range.low_nm; nm <= range.high_nm; ++nm) {
@@ -127,9 +167,9 @@ std::vector<XYZ> tristimulus_weights(const Curve& illuminant, Observer observer,
 }
 
 XYZ tristimulus(const Curve& illuminant, const Curve& reflectance, Observer observer, SumRange range) {
-  if (!is_told_by_nanometres(illuminant))
+  if (!is_told_by_nanometres(illuminant, whole_of(observer), range))
     return integrated_tristimulus(illuminant, reflectance, color_matching(observer), range);
-  const Curve told = by_nanometres(reflectance);
+  const Curve told = by_nanometres(reflectance, even_light(), range);
   XYZ sum{};
   int nm = range.low_nm;
   for (const XYZ& weight : tristimulus_weights(illuminant, observer, range)) {

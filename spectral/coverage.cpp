@@ -90,8 +90,11 @@ NeededRange main_range(const Curve& curve) {
 
 Curve held_beyond(const NamedCurve& table) {
   std::vector<Knot> knots;
-  for (const Knot& knot : table.curve.knots())
-    if (knot.wavelength_nm >= table.low_nm && knot.wavelength_nm <= table.high_nm) knots.push_back(knot);
+  for (const Knot& knot : table.curve.knots()) {
+    if (knot.wavelength_nm < table.low_nm || knot.wavelength_nm > table.high_nm) continue;
+    if (knot.wavelength_nm == table.low_nm) knots.clear();  // of a rise from 0 the upper end is the first row
+    knots.push_back(knot);
+  }
   return Curve(std::move(knots));
 }
 

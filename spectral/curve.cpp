@@ -278,12 +278,13 @@ Curve table_curve(std::span<const double> wavelengths_nm, std::span<const double
   }
   std::vector<Knot> knots;
   knots.reserve(values.size() + 2);
-  constexpr double kFar = std::numeric_limits<double>::max();
-  // The rows at both ends still hold at their own wavelengths, so that the curve jumps from and to zero at
-  // the numbers next to them.
-  if (outside == Outside::zero) knots.push_back({std::nextafter(wavelengths_nm.front(), -kFar), 0});
+  if (outside == Outside::zero) knots.push_back({wavelengths_nm.front(), 0});
   for (std::size_t i = 0; i < values.size(); ++i) knots.push_back({wavelengths_nm[i], values[i]});
-  if (outside == Outside::zero) knots.push_back({std::nextafter(wavelengths_nm.back(), kFar), 0});
+  if (outside == Outside::zero) {
+    // The last row still holds at its own wavelength, so the fall to zero comes at the next representable
+    // number.
+    knots.push_back({std::nextafter(wavelengths_nm.back(), std::numeric_limits<double>::max()), 0});
+  }
   return Curve(std::move(knots));
 }
 

@@ -1,5 +1,6 @@
 // Where pilots aim photons: at what lets light through to the film.
 #include <algorithm>
+#include <string>
 
 #include "tests/scenes/scene_fixture.h"
 #include "transport/render/learnt_plan.h"
@@ -32,8 +33,10 @@ TEST(AimedPhotons, MostComeThroughASlit) {
   }
 }
 
-// A white floor that a lamp lights through a pane, of which a camera below the pane sees that much.
-Scene floor_below_pane(double fov_deg) {
+// A white floor that so many lamps light through a pane, of which a camera below the pane sees that much.
+Scene floor_below_pane(double fov_deg, int count = 1) {
+  std::string lamps = R"({"point": {"at": [0, 0, 4]}, "emission": {"illuminant": "E", "intensity": 1}})";
+  for (const std::string lamp = lamps; count > 1; --count) lamps += ", " + lamp;
   return test::load_text(R"({"abbe": 1, "sensor": {"resolution": [4, 4], "observer": "1931"},
     "camera": {"pinhole": {"fov_deg": )" +
                          std::to_string(fov_deg) +
@@ -41,7 +44,8 @@ Scene floor_below_pane(double fov_deg) {
     "materials": {"pane": {"thin_glass": {"ior": 1.5}}, "white": {"diffuse": {"reflectance": 1}}},
     "shapes": [{"quad": {"corner": [-1, -1, 1], "edge_u": [2, 0, 0], "edge_v": [0, 2, 0]}, "material": "pane"},
                {"quad": {"corner": [-2, -2, 0], "edge_u": [4, 0, 0], "edge_v": [0, 4, 0]}, "material": "white"}],
-    "lights": [{"point": {"at": [0, 0, 4]}, "emission": {"illuminant": "E", "intensity": 1}}]})");
+    "lights": [)" + lamps +
+                         "]}");
 }
 
 // Of the first pilots some come to a view of 4 degrees, about one to one of 1 degree: the others of that are
@@ -57,6 +61,12 @@ TEST(AimedPhotons, AreAimedForCertainByNoFewOthers) {
   const double share = share_landed(guessed);
   EXPECT_GT(share, 1e-3);
   EXPECT_LT(share, 0.5);
+}
+
+// What each of many lamps is shown by too few photons to aim its others by, all are by many together.
+TEST(AimedPhotons, AreNotRareWhereManyLampsAreShownByFewEach) {
+  EXPECT_FALSE(make_learnt_plan(floor_below_pane(8, 64), 2).guides.photons_are_rare);
+  EXPECT_TRUE(make_learnt_plan(floor_below_pane(0.5, 4), 2).guides.photons_are_rare);
 }
 
 }  // namespace

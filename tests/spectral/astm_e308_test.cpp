@@ -75,7 +75,7 @@ TEST(AstmE308, AgreesWithTheCubicCurveWhereTheObserverIsBlindAtTheEnds) {
     samples.values.push_back(0.5 + 0.4 * std::sin(nm / 17.0));
   }
   const Samples fine = every_nanometre(samples, Interpolation::cubic, 0, 1);
-  std::vector<Knot> dark{{300, 0}, {369, 0}, {370, 1}, {770, 1}, {771, 0}, {1100, 0}};
+  std::vector<Knot> dark{{300, 0}, {370, 0}, {370, 1}, {770, 1}, {770, 0}, {1100, 0}};
   const Curve light = product(illuminant("D65"), Curve(dark));
   expect_near(astm_tristimulus(astm_weights(light, Observer::cie1931, 10), samples),
               tristimulus(light, table_curve(fine.wavelengths_nm, fine.values, Outside::clamp),

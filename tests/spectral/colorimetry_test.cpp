@@ -156,19 +156,32 @@ TEST(Colorimetry, lamps_that_bend_between_nanometres_are_integrated) {
   EXPECT_NEAR(luminous_efficacy(lamp), efficacy, 1e-6 * efficacy);
 }
 
-// A band counts all of the light between its edges, whichever side of a jump is the curve's value there.
+// A band or a table counts all of the light between its edges, whichever side of a jump is its value there.
 TEST(Colorimetry, lamps_and_channels_that_jump_at_nanometres_are_integrated) {
-  const Curve lamp = band(500, 600, 2);
+  const std::vector<double> ends{500, 600};
+  const std::vector<double> values{2, 2};
   const ColorMatching& seen = color_matching(Observer::cie1931);
-  const double k = 100 / by_midpoints(lamp, seen.y, Curve(1));
-  for (const Curve& surface : {Curve(1), band(520, 540, 0.5)}) {
-    const XYZ xyz = tristimulus(lamp, surface, Observer::cie1931);
-    EXPECT_NEAR(xyz[0], k * by_midpoints(lamp, seen.x, surface), 1e-6);
-    EXPECT_NEAR(xyz[1], k * by_midpoints(lamp, seen.y, surface), 1e-6);
-    EXPECT_NEAR(xyz[2], k * by_midpoints(lamp, seen.z, surface), 1e-6);
+  for (const Curve& lamp : {band(500, 600, 2), table_curve(ends, values, Outside::zero)}) {
+    const double k = 100 / by_midpoints(lamp, seen.y, Curve(1));
+    for (const Curve& surface : {Curve(1), band(520, 540, 0.5)}) {
+      const XYZ xyz = tristimulus(lamp, surface, Observer::cie1931);
+      EXPECT_NEAR(xyz[0], k * by_midpoints(lamp, seen.x, surface), 1e-6);
+      EXPECT_NEAR(xyz[1], k * by_midpoints(lamp, seen.y, surface), 1e-6);
+      EXPECT_NEAR(xyz[2], k * by_midpoints(lamp, seen.z, surface), 1e-6);
+    }
+    const Curve fluorescent = illuminant("FL11");
+    EXPECT_NEAR(sum_product(fluorescent, lamp), by_midpoints(lamp, fluorescent, Curve(1)), 1e-6);
   }
-  const Curve fluorescent = illuminant("FL11");
-  EXPECT_NEAR(sum_product(fluorescent, lamp), by_midpoints(lamp, fluorescent, Curve(1)), 1e-6);
+}
+
+// That a table of a lamp ends where nothing is seen of it leaves the sums of the CIE what they are.
+TEST(Colorimetry, tables_that_end_where_little_is_seen_are_summed) {
+  const Curve lamp = illuminant("FL11");
+  const ColorMatching& seen = color_matching(Observer::cie1931);
+  double lit = 0;
+  for (int nm = 360; nm <= 780; ++nm) lit += lamp(nm) * seen.y(nm);
+  EXPECT_DOUBLE_EQ(sum_product(lamp, seen.y, {360, 780}), lit);
+  EXPECT_DOUBLE_EQ(tristimulus(lamp, Curve(1), Observer::cie1931, {360, 780})[1], 100);
 }
 
 TEST(Colorimetry, the_perfect_diffuser_has_a_Y_of_100) {

@@ -106,6 +106,9 @@ TEST(Aim, GuessesAroundFewAtAllDistances) {
   aim.learn(rays_through(few, {{0, 0, 0}}, 4096));
   EXPECT_GT(share_through(aim, {0, 0, 0}, few, 0.01F), 0.95 * 0.5 * 0.85);
   EXPECT_GT(share_through(aim, {0, 0, 0}, {5, -0.6F, -0.4F}, 0.1F), 0.45 * even);
+  const double learned = share_through(aim, {0, 0, 0}, few, 0.01F);
+  aim.guess(rays);
+  EXPECT_EQ(share_through(aim, {0, 0, 0}, few, 0.01F), learned) << "which is no longer guessed";
   const double cap = 2 * std::numbers::pi * 0.01;
   EXPECT_NEAR(integral(aim, towards_target), cap, cap * 0.05);
 }

@@ -190,7 +190,7 @@ void Aim::learn(std::span<const ShownRay> shown) {
                                            [&](const WeighedPlace& one) { return window.holds(one.at); });
   const std::vector<WeighedPlace> others(apart, most.end());
   most.erase(apart, most.end());
-  guided_ = true;
+  guided_ = has_learned_ = true;
   grids_.clear();
   grids_.emplace_back(window, most).share = 1 - anywhere_;
   if (others.empty()) return;
@@ -199,7 +199,7 @@ void Aim::learn(std::span<const ShownRay> shown) {
 }
 
 void Aim::guess(std::span<const ShownRay> shown) {
-  if (!learns() || shown.empty()) return;
+  if (!learns() || has_learned_ || shown.empty()) return;
   if (!around_) stand(0);
   const std::vector<WeighedPlace> places = spread_over_scales(places_of(shown));
   if (places.empty()) return;

@@ -58,7 +58,8 @@ class Aim {
   /// need.
   void learn(std::span<const ShownRay> shown);
   /// Aims half of the photons around where few others have gone, which do not tell how far around: at all
-  /// scales alike. The other half goes anywhere, from then on.
+  /// scales alike. The other half goes anywhere, from then on. Changes nothing once others were enough to
+  /// learn from.
   void guess(std::span<const ShownRay> shown);
   /// Whether these change anything: whether there is a target.
   [[nodiscard]] bool learns() const { return guided_ || around_; }
@@ -133,8 +134,9 @@ class Aim {
   float growth_ = 0;            // by how much its half size grows for each such metre,
   Imath::V3f center_{0, 0, 0};  // and where it stands
   float half_size_ = 0;
-  std::vector<Grid> grids_;  // once it has learnt,
-  float anywhere_ = 0.1F;    // and the share that then goes anywhere
+  std::vector<Grid> grids_;   // once it has learnt or guessed,
+  bool has_learned_ = false;  // which of them,
+  float anywhere_ = 0.1F;     // and the share that then goes anywhere
 };
 
 }  // namespace abbe

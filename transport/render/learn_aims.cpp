@@ -94,18 +94,15 @@ bool is_shown_enough(const Count& light) {
   return light.photons() >= kEnough;
 }
 
-// Lights that are shown by too few keep the aims that they have.
+// Lights that are shown by too few keep the aims that they have at a meter, which is closed in on: nothing
+// like that is known for other cameras, so that theirs are guessed.
 void aim_by(const Shown& shown, Plan& plan) {
   const std::vector<std::vector<ShownRay>> rays = rays_of_lights(shown.starts, plan);
   for (std::size_t light = 0; light < rays.size(); ++light)
-    if (is_shown_enough(shown.lights[light])) plan.guides.aims[light].learn(rays[light]);
-}
-
-// Lights that are shown by too few are aimed around these few.
-void guess_by(const Shown& shown, Plan& plan) {
-  const std::vector<std::vector<ShownRay>> rays = rays_of_lights(shown.starts, plan);
-  for (std::size_t light = 0; light < rays.size(); ++light)
-    if (!is_shown_enough(shown.lights[light])) plan.guides.aims[light].guess(rays[light]);
+    if (is_shown_enough(shown.lights[light]))
+      plan.guides.aims[light].learn(rays[light]);
+    else if (!is_meter(plan.scene.camera))
+      plan.guides.aims[light].guess(rays[light]);
 }
 
 // By how many photons the lights are shown, taken together, that can be aimed and are shown by too few each;
@@ -168,20 +165,17 @@ bool few_show_much(const Shown& shown, const Plan& plan) {
   return photons_of_few(shown, plan, kMuch).value_or(kEnough) < kEnough;
 }
 
-// Where light passes at all, from aims that are even. A meter that few come to is closed in on; nothing like
-// that is known for other cameras, so that aims are guessed.
+// Where light passes at all, from aims that are even.
 void aim_roughly(Plan& plan, int threads) {
   const Camera& camera = plan.scene.camera;
-  const std::optional<Opening> meter = is_meter(camera) ? traits(camera).opening : std::nullopt;
-  if (!meter) {
-    const Shown shown = show_enough(plan, PilotStage::first_aims, threads);
-    plan.guides.photons_are_rare = few_show_much(shown, plan);
-    if (!is_meter(camera)) guess_by(shown, plan);
+  if (const std::optional<Opening> opening = traits(camera).opening; is_meter(camera) && opening) {
+    const Shown shown = show(plan, PilotStage::first_aims, threads);
+    if (!all_are_shown_enough(shown, plan)) return close_in_on_meter(plan, extent(*opening), threads);
     return aim_by(shown, plan);
   }
-  const Shown shown = show(plan, PilotStage::first_aims, threads);
-  if (all_are_shown_enough(shown, plan)) return aim_by(shown, plan);
-  close_in_on_meter(plan, extent(*meter), threads);
+  const Shown shown = show_enough(plan, PilotStage::first_aims, threads);
+  plan.guides.photons_are_rare = few_show_much(shown, plan);
+  aim_by(shown, plan);
 }
 
 }  // namespace
