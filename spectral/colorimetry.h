@@ -33,8 +33,8 @@ struct SumRange {
 };
 
 /// 1 nm sums of the products of two and three curves, or the exact integral where `a` or `b` bends between
-/// whole nanometres, or jumps there by more than a thousandth of what the other shows at most. A `c` that does
-/// counts in the sum by its mean around each.
+/// whole nanometres, or jumps there by more than a thousandth of what the other shows at most. A `c` that
+/// does counts in the sum by its mean around each.
 [[nodiscard]] double sum_product(const Curve& a, const Curve& b, SumRange range = {});
 [[nodiscard]] double sum_product(const Curve& a, const Curve& b, const Curve& c, SumRange range = {});
 
