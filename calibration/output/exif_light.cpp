@@ -6,7 +6,9 @@
 #include <utility>
 
 #include "calibration/output/color_spaces.h"
+#include "io/table.h"
 #include "spectral/color_temperature.h"
+#include "spectral/curve_use.h"
 #include "spectral/library.h"
 #include "spectral/rgb.h"
 
@@ -14,6 +16,7 @@ namespace abbe {
 namespace {
 
 constexpr int kOther = 255;
+constexpr const char* kCie = "cie_";  // what the names of the CIE's tables begin with
 constexpr std::array<std::pair<std::string_view, int>, 7> kStandard{
     {{"A", 17}, {"B", 18}, {"C", 19}, {"D55", 20}, {"D65", 21}, {"D75", 22}, {"D50", 23}}};
 
@@ -42,9 +45,13 @@ int fluorescent_kind(const Chromaticity& white) {
 }  // namespace
 
 int exif_light_source(const std::string& name) {
+  if (user_table_end(name) != std::string::npos) return kOther;
+  Diagnostics unheard;
+  const auto found = find_table(kIlluminantUse.folder, name, {}, unheard);
+  const std::string table = found ? found->path.stem().string() : "";
   for (const auto& [standard, number] : kStandard)
-    if (standard == name) return number;
-  const auto white = name.starts_with("FL") ? chromaticity_of(name) : std::nullopt;
+    if (table == kCie + std::string(standard)) return number;
+  const auto white = table.starts_with(kCie + std::string("FL")) ? chromaticity_of(name) : std::nullopt;
   return white ? fluorescent_kind(*white) : kOther;
 }
 

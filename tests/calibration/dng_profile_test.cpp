@@ -75,6 +75,34 @@ TEST(ExifLight, NumbersStandardLightsAndKindsOfFluorescentLamps) {
     EXPECT_EQ(exif_light_source(chromaticity(test::illuminant(name))), number) << name;
 }
 
+// However the data folder calls them.
+TEST(ExifLight, KnowsLightsByTheirOtherNames) {
+  for (const auto& [name, number] : {std::pair{"F11", 14},
+                                     {"F1", 12},
+                                     {"cie_FL1-12:FL4", 16},
+                                     {"cie_A", 17},
+                                     {"cie_D65", 21},
+                                     {"cie_D65:D65", 21},
+                                     {"HP1", 255},
+                                     {"daylight:6500", 255}})
+    EXPECT_EQ(exif_light_source(std::string(name)), number) << name;
+}
+
+// Whose light is near the temperature of day white fluorescent lamps, 13.
+TEST(ExifLight, TakesNoTableOfAUserForAStandardLight) {
+  const std::filesystem::path before = std::filesystem::current_path();
+  const auto folder =
+      std::filesystem::temp_directory_path() / ("abbe_exif_light_" + std::to_string(getpid()));
+  std::filesystem::create_directory(folder);
+  std::filesystem::current_path(folder);
+  for (const char* name : {"FLOOD.csv", "cie_D65.csv"})
+    std::ofstream(name) << "# unit: 1\n# outside: clamp\nwavelength_nm,FL1,D65\n300,1,1\n830,1,1\n";
+  for (const char* name : {"FLOOD.csv:FL1", "FLOOD.csv:D65", "cie_D65.csv:D65"})
+    EXPECT_EQ(exif_light_source(std::string(name)), 255) << name;
+  std::filesystem::current_path(before);
+  std::filesystem::remove_all(folder);
+}
+
 TEST(DngProfile, MixesByReciprocalTemperature) {
   const CameraCalibration a = calibration("A");
   const CameraCalibration d65 = calibration("D65");
