@@ -18,6 +18,7 @@
 #include "develop/polarisation.h"
 #include "develop/polarisation_camera.h"
 #include "develop/radiance.h"
+#include "film/relit_white.h"
 #include "film/spectral.h"
 #include "film/white.h"
 #include "io/atomic_file.h"
@@ -188,15 +189,28 @@ void write_polarisation(const Image& film, const DevelopOptions& options) {
   write_all(writers);
 }
 
+// Lets the lights of a film count as the options ask: the white that it then has of its lights, where that
+// is another and none is asked for.
+std::optional<White> relight_as_asked(Image& film, const DevelopOptions& options) {
+  if (options.lights.empty()) return std::nullopt;
+  const RelitWhite relit = asked(options).white ? RelitWhite{} : relit_white(film, options.lights);
+  if (!relit.shortcoming.empty()) say("warning: --light: " + relit.shortcoming);
+  relight(film, options.lights);
+  return relit.white;
+}
+
 ExposedFilm load(const DevelopOptions& options, Inputs& inputs) {
   Image film = read_film(options.film, &inputs);
-  if (!options.lights.empty()) relight(film, options.lights);
+  const std::optional<White> relit = relight_as_asked(film, options);
   if (!options.polarisation.empty()) write_polarisation(film, options);
-  if (is_spectral(film)) return expose_spectral(std::move(film), options, inputs);
+  if (is_spectral(film)) {
+    if (relit) record_white(relit->name, relit->xy, film.metadata);
+    return expose_spectral(std::move(film), options, inputs);
+  }
   if (!options.scene.empty())
     throw Error(ErrorCode::usage, "--scene", "only a spectral film takes a sensor: this one has its own");
   const auto [white, others] = asked(options);
-  const auto chosen = white ? std::optional(asked_white(*white, film, white_option(options))) : std::nullopt;
+  const auto chosen = white ? std::optional(asked_white(*white, film, white_option(options))) : relit;
   FilmSensor sensor = sensor_of(film, options.film, others, options, chosen);
   return {std::move(film), std::move(sensor)};
 }

@@ -3,17 +3,23 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <numeric>
 #include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "develop/radiance.h"
 #include "io/error.h"
+#include "io/spectral_exr.h"
 #include "io/text.h"
 #include "sensor/film/film_planes.h"
 #include "sensor/film/recorded_error.h"
 #include "sensor/film/recorded_layers.h"
 #include "sensor/film/variance_name.h"
+#include "sensor/response/stokes_channels.h"
+#include "spectral/rgb.h"
 
 namespace abbe {
 namespace {
@@ -160,7 +166,53 @@ std::string told_factors(std::span<const LightFactor> factors) {
   return fmt::format("{}", fmt::join(told, " "));
 }
 
+// The mean of a layer's plane.
+double mean_of(const Image& film, const std::string& channel) {
+  const std::vector<float>& values = film.find(channel)->values;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// What such means of a film's planes count.
+double counted(const Image& film, const std::vector<std::string>& planes, const std::vector<double>& means) {
+  Image one{1, 1, {}, film.metadata};
+  for (std::size_t k = 0; k < planes.size(); ++k)
+    one.channels.push_back({planes[k], {static_cast<float>(means[k])}});
+  const auto value = [](const Image& image, const std::string& channel) {
+    return static_cast<double>(image.find(channel)->values.front());
+  };
+  if (is_spectral(film)) {
+    const Image seen = observed(spectral_image(std::move(one), "film"));
+    return multiply(rgb_to_xyz(kRec709), {value(seen, "R"), value(seen, "G"), value(seen, "B")})[1];
+  }
+  if (is_of_observer(film)) return value(one, "Y");
+  double sum = 0;
+  for (const std::string& plane : intensities(planes)) sum += value(one, plane);
+  return sum;
+}
+
 }  // namespace
+
+bool is_of_observer(const Image& film) {
+  return intensities(plane_names(film)) == std::vector<std::string>{"X", "Y", "Z"} &&
+         tells_tristimulus_values(film);
+}
+
+std::vector<LightShare> light_shares(const Image& film, std::span<const LightFactor> factors) {
+  const std::vector<std::string> lights = lights_of(film);
+  const std::vector<std::string> planes = planes_with_layers(film, lights);
+  const std::vector<std::vector<double>> by_light = factors_by_light(lights, planes.size(), factors);
+  std::vector<LightShare> shares;
+  for (std::size_t g = 0; g < lights.size(); ++g) {
+    std::vector<double> before;
+    std::vector<double> after;
+    for (std::size_t k = 0; k < planes.size(); ++k) {
+      before.push_back(mean_of(film, layer_of(lights[g], planes[k])));
+      after.push_back(by_light[g][k] * before.back());
+    }
+    shares.push_back({lights[g], counted(film, planes, before), counted(film, planes, after)});
+  }
+  return shares;
+}
 
 void relight(Image& film, std::span<const LightFactor> factors) {
   const std::vector<std::string> lights = lights_of(film);

@@ -86,21 +86,30 @@ void add_white(const Scene& scene, FilmIdentity& identity) {
   if (!lights.empty()) identity[kLightsXyKey] = lights.dump();
 }
 
+std::vector<RecordedLight> recorded_lights(const Image& film) {
+  const auto recorded = film.metadata.find(kLightsXyKey);
+  Json told = Json::object();
+  if (recorded != film.metadata.end()) told = Json::parse(recorded->second, nullptr, false);
+  std::vector<RecordedLight> lights;
+  for (const auto& [name, xy] : told.items())
+    if (xy.is_null())
+      lights.push_back({name, {}});
+    else if (xy.is_array() && xy.size() == 2 && xy[0].is_number() && xy[1].is_number())
+      lights.push_back({name, xy.get<Chromaticity>()});
+  return lights;
+}
+
 White asked_white(const std::string& text, const Image& film, std::string_view said_by) {
   Diagnostics diagnostics;
-  const auto recorded = film.metadata.find(kLightsXyKey);
-  Json lights = Json::object();
-  if (recorded != film.metadata.end()) lights = Json::parse(recorded->second, nullptr, false);
   const std::vector<Light> none;
   WhiteNames names = white_names(none);
-  for (const auto& [name, xy] : lights.items())
-    if (xy.is_null())
-      names.lights.insert(names.lights.end(), 2, name);
-    else if (xy.is_array() && xy.size() == 2 && xy[0].is_number() && xy[1].is_number())
-      names.lights.push_back(name);
-  names.white_of_light = [&](std::size_t i) {
-    return White{names.lights[i], "", lights[names.lights[i]].get<Chromaticity>()};
-  };
+  std::vector<Chromaticity> colors;
+  for (const RecordedLight& light : recorded_lights(film))
+    for (int i = light.xy ? 1 : 2; i > 0; --i) {
+      names.lights.push_back(light.name);
+      colors.push_back(light.xy.value_or(Chromaticity{}));
+    }
+  names.white_of_light = [&](std::size_t i) { return White{names.lights[i], "", colors[i]}; };
   White white = read_asked(text, names, said_by, diagnostics);
   require_adaptable(white, ErrorCode::usage, kWhitePointer);
   return white;

@@ -4,9 +4,12 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "io/image.h"
 #include "scene/scene.h"
+#include "spectral/colorimetry.h"
 #include "transport/plan/plan.h"
 #include "transport/render/part.h"
 
@@ -20,6 +23,13 @@ void settle_white(Scene& scene, const std::filesystem::path& path, int threads =
 /// Adds it to what a film tells of itself, with the chromaticities of up to 256 lights, by which
 /// `asked_white` finds them.
 void add_white(const Scene& scene, FilmIdentity& identity);
+
+/// A light that a film tells of: several of one name have no colour of theirs.
+struct RecordedLight {
+  std::string name;
+  std::optional<Chromaticity> xy;
+};
+[[nodiscard]] std::vector<RecordedLight> recorded_lights(const Image& film);
 
 /// The white of the sensor of a scene that looks at a spectral film: the one it asks for, else the film's,
 /// else that of its own lights. `said_by` is the option or the keyword that asks.

@@ -13,4 +13,7 @@ namespace abbe {
 /// the order of the file. Throws Error{input} for a name that begins as a spectral one and is none.
 [[nodiscard]] std::vector<std::string> plane_names(const Image& film);
 
+/// Whether X, Y, Z may be tristimulus values: those that are not, their film tells to be of another unit.
+[[nodiscard]] bool tells_tristimulus_values(const Image& film);
+
 }  // namespace abbe

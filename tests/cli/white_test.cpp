@@ -104,6 +104,50 @@ TEST(White, IsToldByWhatIsDevelopedForIt) {
             read_picture(file("t_d65.png")).channels[0].values);
 }
 
+// Of a film whose lights are told apart: the name of the white and what is said of it.
+struct Relit {
+  std::string white;
+  std::string err;
+  double warmth;
+};
+Relit relit(const std::string& film, const std::string& options) {
+  const Outcome run = abbe("develop " + film + " " + options + " --display " + file("relit.png"));
+  EXPECT_EQ(run.code, 0) << run.err;
+  return {read_picture(file("relit.png")).metadata.at("white"), run.err, warmth(file("relit.png"))};
+}
+
+// The ball in the light of the lamp of D65 alone is grey, as where the dome does not shine.
+TEST_P(AnySensor, ShowsTheMainLightThatIsLeftAsWhite) {
+  const std::string film = film_of(lit_dome("relit.json", GetParam()), "relit", "--layers lights");
+  const Relit left = relit(film, "--light dome=0");
+  EXPECT_EQ(left.white, "faint");
+  EXPECT_LT(std::abs(left.warmth), 0.02);
+  const bool corrects = GetParam() == kNikon;
+  EXPECT_EQ(left.err.find("--white dome") != std::string::npos, corrects) << left.err;
+  EXPECT_EQ(left.err.empty(), !corrects) << left.err;
+  for (const char* same : {"--light dome=0.5", "--light faint=0", "--light dome=3 --light faint=3",
+                           "--light dome=0 --light faint=0", "--light dome=0 --white dome"}) {
+    const Relit kept = relit(film, same);
+    EXPECT_EQ(kept.white, "dome") << same;
+    EXPECT_EQ(kept.err, "") << same;
+  }
+  const Relit asked = relit(film, "--light dome=0 --white A");
+  EXPECT_EQ(asked.white, "A");
+  EXPECT_EQ(asked.err, "");
+}
+
+TEST_P(AnySensor, KeepsTheWhiteThatItsSceneAsksForWhateverLightsAreLeft) {
+  for (const char* white : {"FL11", "faint"}) {
+    const std::string film =
+        film_of(lit_dome("told.json", GetParam(), fmt::format("\"{}\"", white)), "told", "--layers lights");
+    for (const char* lights : {"--light dome=0", "--light faint=0"}) {
+      const Relit kept = relit(film, lights);
+      EXPECT_EQ(kept.white, white) << lights;
+      EXPECT_EQ(kept.err, "") << lights;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(White, AnySensor, testing::Values(kObserver, kNikon, kSpectral));
 
 TEST(White, AFilmTellsItsWhiteToTheSensorThatLooksAtIt) {
@@ -120,6 +164,46 @@ TEST(White, AFilmTellsItsWhiteToTheSensorThatLooksAtIt) {
       << "not what the sensor's scene has";
   EXPECT_GT(seen(lit_dome("n.json", kNikon, "\"D65\""), ""), 0.3);
   EXPECT_GT(seen(lit_dome("n.json", kNikon), " --set /output/white=D65"), 0.3);
+}
+
+// A sensor that looks at radiances is corrected for the light that is left, where its scene has it.
+TEST(White, ASensorThatLooksAtLightsThatAreLeftIsCorrectedForThem) {
+  const std::string film = film_of(lit_dome("s.json", kSpectral), "lit", "--layers lights");
+  const Relit seen = relit(film, "--light dome=0 --scene " + lit_dome("n.json", kNikon));
+  EXPECT_EQ(seen.white, "faint");
+  EXPECT_LT(std::abs(seen.warmth), 0.005);
+  EXPECT_EQ(seen.err, "");
+}
+
+TEST(White, OfLightsThatShareALayerIsToldWhereTheyHaveOne) {
+  const std::string path = lit_dome("rest.json", kObserver);
+  EXPECT_EQ(relit(film_of(path, "rest", "--layers lights:faint"), "--light rest=0").white, "faint");
+  std::string text = read_file(path);
+  const std::string lights = "\"lights\": [";
+  text.insert(text.find(lights) + lights.size(),
+              R"({"name": "other", "point": {"at": [0, 0, 1]},
+                  "emission": {"illuminant": "FL11", "luminous_intensity": 0.001}}, )");
+  const std::string three = scratch().write("three.json", text).string();
+  const Relit untold = relit(film_of(three, "three", "--layers lights:dome"), "--light dome=0");
+  EXPECT_EQ(untold.white, "dome");
+  EXPECT_NE(untold.err.find("the film does not tell the colour of \"rest\""), std::string::npos)
+      << untold.err;
+  EXPECT_NE(untold.err.find("--white"), std::string::npos) << untold.err;
+}
+
+// Two lamps of one colour are brighter than a third that is brighter than each.
+TEST(White, IsThatOfTheLightsThatTogetherGiveMost) {
+  const std::string path = lit_dome("group.json", kObserver);
+  std::string text = read_file(path);
+  const std::string lights = "\"lights\": [";
+  text.insert(text.find(lights) + lights.size(),
+              R"({"name": "other", "point": {"at": [0, 0, 1]},
+                  "emission": {"illuminant": "D65", "luminous_intensity": 0.0007}},
+                 {"name": "third", "point": {"at": [0, 0, 1]},
+                  "emission": {"illuminant": "FL11", "luminous_intensity": 0.0013}}, )");
+  const std::string film = film_of(scratch().write("group.json", text).string(), "group", "--layers lights");
+  EXPECT_EQ(relit(film, "--light dome=0").white, "faint");
+  EXPECT_EQ(relit(film, "--light dome=0 --light faint=0.3").white, "third");
 }
 
 TEST(White, InfoSaysWhichAndWhy) {

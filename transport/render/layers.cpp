@@ -12,8 +12,6 @@
 namespace abbe {
 namespace {
 
-constexpr const char* kRest = "rest";
-
 std::vector<std::string> layers_of_lights(const Scene& scene) {
   std::vector<std::string> names;
   for (const Light& light : scene.lights) names.push_back(layer_name(light.name));
@@ -79,14 +77,15 @@ Layers light_layers(const Scene& scene, const std::vector<std::string>& names) {
   const bool all = std::all_of(there.begin(), there.end(), [&](const std::string& name) {
     return std::find(layers.names.begin(), layers.names.end(), name) != layers.names.end();
   });
-  if (!all && std::find(there.begin(), there.end(), kRest) != there.end())
-    throw Error(
-        ErrorCode::usage, "--layers",
-        fmt::format("a light has the name \"{}\", that of all others together: call it otherwise", kRest));
-  if (!all) layers.names = each_once(layers.names, kRest);
+  if (!all && std::find(there.begin(), there.end(), kRestOfLights) != there.end())
+    throw Error(ErrorCode::usage, "--layers",
+                fmt::format("a light has the name \"{}\", that of all others together: call it otherwise",
+                            kRestOfLights));
+  if (!all) layers.names = each_once(layers.names, kRestOfLights);
   for (const std::string& name : there) {
     auto found = std::find(layers.names.begin(), layers.names.end(), name);
-    if (found == layers.names.end()) found = std::find(layers.names.begin(), layers.names.end(), kRest);
+    if (found == layers.names.end())
+      found = std::find(layers.names.begin(), layers.names.end(), kRestOfLights);
     layers.of_light.push_back(static_cast<std::uint32_t>(found - layers.names.begin()));
   }
   for (std::string& name : layers.names) name.insert(0, kLightLayer);

@@ -26,6 +26,8 @@ struct Layers {
 /// light that was scattered once, and so on; what has had `last` events or more is in one layer,
 /// `bounce<last>plus`.
 [[nodiscard]] Layers bounce_layers(int last);
+/// What the layer of all lights that have none of their own is called.
+inline constexpr const char* kRestOfLights = "rest";
 /// A layer `light.NAME` for each of some lights, by the names that `layer_name` makes of theirs, which
 /// several lights may have, and `light.rest` for all others, if there are some. Of no names, all that the
 /// scene's lights have. Throws Error{usage} for a name that none has, for a scene without lights, where two

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "io/text.h"
+#include "sensor/film/film_planes.h"
 #include "sensor/film/recorded_white.h"
 #include "sensor/response/stokes_channels.h"
 #include "spectral/rgb.h"
@@ -21,12 +22,6 @@ FilmColors colors_by_matrix(const Image& image, const std::vector<std::string>& 
   if (!std::is_permutation(channels.begin(), channels.end(), wanted.begin(), wanted.end()))
     return {wanted, {}, false, white};
   return {channels, parse_matrix3(matrix->second), true, white};
-}
-
-// Whether X, Y, Z may be tristimulus values: those that are not, their film tells to be of another unit.
-bool tells_tristimulus_values(const Image& image) {
-  const auto told = image.metadata.find("channel.X");
-  return told == image.metadata.end() || told->second.starts_with("photometric");
 }
 
 }  // namespace
