@@ -229,7 +229,7 @@ void scale_to_peak(const spec::Sensor& said, Sensor& sensor, LoadContext& contex
                               "says the scale that peak_quantum_efficiency says too; give one of them");
   else if (said.quantum_efficiency)
     context.diagnostics.error(peak->where, fmt::format("{} goes without quantum_efficiency", key));
-  else if (!sensor.channels.empty() && !sensor.spectral && !is_observer(sensor.channels))
+  else if (!sensor.channels.empty() && !sensor.spectral && !standard_observer(sensor.channels))
     sensor.channels = with_peak_efficiency(std::move(sensor.channels), peak->value);
 }
 

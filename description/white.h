@@ -20,8 +20,9 @@ struct White : schema::Located<std::variant<std::string, std::array<double, 2>>>
 
 namespace abbe {
 
-/// What a white may be named by.
+/// What a white may be named by, and who sees it.
 struct WhiteNames {
+  Onlooker onlooker;
   std::vector<std::string> lights;
   std::function<White(std::size_t)> white_of_light;  ///< Of one of them.
   /// A name as `load_illuminant` takes it, such as where a file lies; nothing after an error.
@@ -37,6 +38,6 @@ struct WhiteNames {
                                               Diagnostics& diagnostics);
 
 /// The names of a scene's lights, and of illuminants as they are.
-[[nodiscard]] WhiteNames white_names(const std::vector<Light>& lights);
+[[nodiscard]] WhiteNames white_names(const std::vector<Light>& lights, const Onlooker& onlooker);
 
 }  // namespace abbe

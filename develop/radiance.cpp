@@ -17,6 +17,7 @@
 #include "sensor/readout/demosaic.h"
 #include "sensor/readout/speed.h"
 #include "sensor/response/polariser_group.h"
+#include "sensor/response/stokes_channels.h"
 #include "spectral/rgb.h"
 
 namespace abbe {
@@ -128,8 +129,10 @@ Image exposed_film(const SpectralImage& image, const RadianceSensor& sensor,
   if (sensor.mosaic) film = mosaicked(film, *sensor.mosaic, names_of(sensor.channels));
   film.metadata = image.metadata;
   forget_sensor(film.metadata);
-  if (const auto lights = image.metadata.find(kLightsXyKey); lights != image.metadata.end())
-    film.metadata.insert(*lights);  // whose colours are the same to all who look
+  // Whose colours are the same to all who look at it but the observer of 1964.
+  if (const auto lights = image.metadata.find(kLightsXyKey);
+      lights != image.metadata.end() && standard_observer(intensities(sensor.channels)) != Observer::cie1964)
+    film.metadata.insert(*lights);
   forget_layout(film.metadata);
   for (const char* key : {"aperture", kIsoSpeedKey}) film.metadata.erase(key);  // of the camera before
   if (tells_variance(image))

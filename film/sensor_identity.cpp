@@ -11,6 +11,7 @@
 #include "io/error.h"
 #include "io/text.h"
 #include "scene/colors.h"
+#include "sensor/film/recorded_onlooker.h"
 #include "sensor/film/recorded_white.h"
 #include "sensor/film/variance_name.h"
 #include "sensor/readout/demosaic.h"
@@ -76,7 +77,9 @@ const char* unit_of(ResponseKind kind) {
     case ResponseKind::quantum:
       return "quantum, electrons per m^2";
     case ResponseKind::photometric:
-      return "photometric, lx s";
+      return photometric_unit(Observer::cie1931);
+    case ResponseKind::photometric_1964:
+      return photometric_unit(Observer::cie1964);
   }
   throw Error(ErrorCode::internal, "", "no such response");
 }

@@ -9,6 +9,7 @@
 #include "description/white.h"
 #include "io/standard_stream.h"
 #include "scene/colors.h"
+#include "sensor/film/recorded_onlooker.h"
 #include "sensor/film/recorded_white.h"
 #include "spectral/rgb.h"
 #include "transport/render/white.h"
@@ -43,11 +44,15 @@ std::optional<White> white_of_film(const Scene& scene, const Image& film) {
   const std::optional<Chromaticity> xy = recorded_white(film);
   if (!xy) return std::nullopt;
   const std::string& name = film.metadata.at(kWhiteKey);
+  const Onlooker of_film = recorded_onlooker(film);
+  const Onlooker onlooker = onlooker_of(scene);
   for (const Light& light : scene.lights) {
     if (light.name != name) continue;
-    White white = white_of(light, "the film's");
-    if (std::abs(white.xy[0] - (*xy)[0]) + std::abs(white.xy[1] - (*xy)[1]) < 1e-9) return white;
+    const Chromaticity found = white_of(light, of_film, "").xy;
+    if (std::abs(found[0] - (*xy)[0]) + std::abs(found[1] - (*xy)[1]) < 1e-9)
+      return white_of(light, onlooker, "the film's");
   }
+  if (onlooker.observer != of_film.observer) return std::nullopt;
   return White{name, "the film's", *xy};
 }
 
@@ -65,7 +70,9 @@ void settle_white(Scene& scene, const std::filesystem::path& path, int threads,
 void settle_white(Scene& scene, const std::filesystem::path& path, const Image& film,
                   const std::optional<std::string>& asked, std::string_view said_by) {
   Diagnostics diagnostics;
-  if (asked) scene.output.white = read_asked(*asked, white_names(scene.lights), said_by, diagnostics);
+  if (asked)
+    scene.output.white =
+        read_asked(*asked, white_names(scene.lights, onlooker_of(scene)), said_by, diagnostics);
   if (!scene.output.white) scene.output.white = white_of_film(scene, film);
   settle_white(scene, path);
 }
@@ -76,12 +83,13 @@ void add_white(const Scene& scene, FilmIdentity& identity) {
   if (!std::isfinite(white.xy[0])) return;
   record_white(white.name, white.xy, identity);
   if (scene.lights.size() > kMostLights) return;
+  const Onlooker onlooker = onlooker_of(scene);
   Json lights = Json::object();
   for (const Light& light : scene.lights)
     if (std::count_if(scene.lights.begin(), scene.lights.end(),
                       [&light](const Light& other) { return other.name == light.name; }) > 1)
       lights[light.name] = nullptr;
-    else if (const Chromaticity xy = white_of(light, "").xy; std::isfinite(xy[0]))
+    else if (const Chromaticity xy = white_of(light, onlooker, "").xy; std::isfinite(xy[0]))
       lights[light.name] = xy;
   if (!lights.empty()) identity[kLightsXyKey] = lights.dump();
 }
@@ -102,7 +110,7 @@ std::vector<RecordedLight> recorded_lights(const Image& film) {
 White asked_white(const std::string& text, const Image& film, std::string_view said_by) {
   Diagnostics diagnostics;
   const std::vector<Light> none;
-  WhiteNames names = white_names(none);
+  WhiteNames names = white_names(none, recorded_onlooker(film));
   std::vector<Chromaticity> colors;
   for (const RecordedLight& light : recorded_lights(film))
     for (int i = light.xy ? 1 : 2; i > 0; --i) {

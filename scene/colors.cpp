@@ -8,4 +8,8 @@ bool has_colors(const Scene& scene) {
   return scene.spectral || count_intensities(scene.channels) == 3;
 }
 
+Onlooker onlooker_of(const Scene& scene) {
+  return {standard_observer(intensities(scene.channels)).value_or(Observer::cie1931)};
+}
+
 }  // namespace abbe

@@ -8,4 +8,7 @@ namespace abbe {
 /// spectrum.
 [[nodiscard]] bool has_colors(const Scene& scene);
 
+/// Who sees those colours: the observer that the sensor is, else that of 1931.
+[[nodiscard]] Onlooker onlooker_of(const Scene& scene);
+
 }  // namespace abbe

@@ -4,9 +4,9 @@
 
 namespace abbe {
 
-White white_of(const Light& light, std::string reason) {
+White white_of(const Light& light, const Onlooker& onlooker, std::string reason) {
   Curve spectrum = mean_emission(light).curve();
-  const Chromaticity xy = chromaticity(spectrum);
+  const Chromaticity xy = chromaticity(spectrum, onlooker);
   return {light.name, std::move(reason), xy, std::move(spectrum)};
 }
 

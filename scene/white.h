@@ -4,7 +4,7 @@
 #include <string>
 
 #include "scene/lights/light.h"
-#include "spectral/colorimetry.h"
+#include "spectral/onlooker.h"
 
 namespace abbe {
 
@@ -16,7 +16,7 @@ struct White {
   std::optional<Curve> spectrum = {};  ///< Of the light; nothing for what lights nothing.
 };
 
-/// The white of a light: the chromaticity of its mean emission.
-[[nodiscard]] White white_of(const Light& light, std::string reason);
+/// The white of a light: its mean emission, and the chromaticity of that as it is seen.
+[[nodiscard]] White white_of(const Light& light, const Onlooker& onlooker, std::string reason);
 
 }  // namespace abbe

@@ -19,7 +19,7 @@ void require_visible(const Channel& channel, double diffuser) {
 
 // Sensors count what eyes do not see, too; observers are summed as colours are.
 SumRange sensed(std::span<const Channel> channels) {
-  return is_observer(channels) ? SumRange{} : SumRange{kMinWavelengthNm, kMaxWavelengthNm};
+  return standard_observer(channels) ? SumRange{} : SumRange{kMinWavelengthNm, kMaxWavelengthNm};
 }
 
 // The channel whose diffuser value is the unit of raw values.

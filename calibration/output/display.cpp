@@ -20,6 +20,7 @@
 #include "io/exr.h"
 #include "io/picture_codec.h"
 #include "sensor/film/recorded_crop.h"
+#include "spectral/onlooker.h"
 
 namespace abbe {
 namespace {
@@ -275,8 +276,10 @@ DisplayTransform make_display(const std::vector<Channel>& channels, const Curve&
   if (channels.size() == 1) return grey_display(channels.front(), options);
   std::vector<std::string> names;
   for (const Channel& channel : channels) names.push_back(channel.name);
-  const Matrix3 adapted = white_adaptation(white.value_or(chromaticity(illuminant)));
-  if (is_observer(channels)) return {std::move(names), adapted, {}, options};
+  const std::optional<Observer> observer = standard_observer(channels);
+  const Onlooker onlooker{observer.value_or(Observer::cie1931)};
+  const Matrix3 adapted = white_adaptation(white.value_or(chromaticity(illuminant, onlooker)));
+  if (observer) return {std::move(names), adapted, {}, options};
   auto [fit, to_xyz] = fit_channels(channels, names, illuminant);
   return {std::move(names), adapted * to_xyz, std::move(fit), options};
 }

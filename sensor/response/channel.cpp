@@ -63,6 +63,10 @@ bool tells_its_ends(const NamedCurve& curve, const std::string& column, const Ch
   return check_ends(named, Curve(1.0), {&channel, 1}, where, diagnostics);
 }
 
+ResponseKind photometric_kind(Observer observer) {
+  return observer == Observer::cie1931 ? ResponseKind::photometric : ResponseKind::photometric_1964;
+}
+
 }  // namespace
 
 Channel energy_channel(std::string name, Curve response) {
@@ -153,16 +157,18 @@ std::optional<std::vector<Channel>> load_camera(const std::string& name, const S
 
 std::vector<Channel> observer_channels(Observer observer) {
   const ColorMatching& cmf = color_matching(observer);
-  constexpr ResponseKind kKind = ResponseKind::photometric;
-  return {{"X", kKind, scaled(cmf.x, kLuminousEfficacy)},
-          {"Y", kKind, scaled(cmf.y, kLuminousEfficacy)},
-          {"Z", kKind, scaled(cmf.z, kLuminousEfficacy)}};
+  const ResponseKind kind = photometric_kind(observer);
+  return {{"X", kind, scaled(cmf.x, kLuminousEfficacy)},
+          {"Y", kind, scaled(cmf.y, kLuminousEfficacy)},
+          {"Z", kind, scaled(cmf.z, kLuminousEfficacy)}};
 }
 
-bool is_observer(std::span<const Channel> channels) {
-  constexpr auto is_photometric = [](const Channel& c) { return c.kind == ResponseKind::photometric; };
-  return channels.size() == 3 && channels[0].name == "X" && channels[1].name == "Y" &&
-         channels[2].name == "Z" && std::all_of(channels.begin(), channels.end(), is_photometric);
+std::optional<Observer> standard_observer(std::span<const Channel> channels) {
+  if (channels.size() != 3 || channels[0].name != "X" || channels[1].name != "Y" || channels[2].name != "Z")
+    return std::nullopt;
+  for (const Observer observer : {Observer::cie1931, Observer::cie1964})
+    if (std::ranges::count(channels, photometric_kind(observer), &Channel::kind) == 3) return observer;
+  return std::nullopt;
 }
 
 }  // namespace abbe

@@ -14,9 +14,9 @@
 
 namespace abbe {
 
-/// What a response multiplies: the energy that arrives, the photons that arrive, or, of an observer's
-/// colour-matching functions, the luminous exposure.
-enum class ResponseKind { energy, quantum, photometric };
+/// What a response multiplies: the energy that arrives, the photons that arrive, or, of the colour-matching
+/// functions of the observer of 1931, the luminous exposure, and of that of 1964 what is like it.
+enum class ResponseKind { energy, quantum, photometric, photometric_1964 };
 
 /// How the weight of a channel depends on the angle of incidence.
 struct AngularResponse {
@@ -26,7 +26,7 @@ struct AngularResponse {
 
 /// One channel of a sensor. Its film value for a spectral irradiance E over the sensor's exposure t is t
 /// times the integral of E(lambda) weight(lambda): J/m^2 weighted by the response for an energy channel,
-/// electrons per m^2 for a quantum channel, lx s for one of an observer.
+/// electrons per m^2 for a quantum channel, lx s for one of the observer of 1931.
 struct Channel {
   std::string name;
   ResponseKind kind = ResponseKind::energy;
@@ -91,10 +91,11 @@ enum class ResponseScale { absolute, relative };
                                                               std::optional<ResponseKind> kind = {},
                                                               ResponseScale scale = ResponseScale::absolute);
 
-/// The standard observer as a sensor: X, Y, Z with weight 683.002 times the colour-matching functions, so Y
-/// is in lx s.
+/// The standard observer as a sensor: X, Y, Z with weight 683.002 times the colour-matching functions, so
+/// that of 1931 Y is in lx s.
 [[nodiscard]] std::vector<Channel> observer_channels(Observer observer);
-/// Whether three channels are those, perhaps behind filters, and no sensor's own of the same names.
-[[nodiscard]] bool is_observer(std::span<const Channel> channels);
+/// The observer whose three channels those are, perhaps behind filters; nothing for a sensor's own of the
+/// same names.
+[[nodiscard]] std::optional<Observer> standard_observer(std::span<const Channel> channels);
 
 }  // namespace abbe

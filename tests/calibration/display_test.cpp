@@ -79,9 +79,10 @@ TEST(Display, AgreesWithDoublePrecision) {
 }
 
 TEST(Display, WhiteStaysWhiteUnderAnyLight) {
-  for (const char* light : {"A", "D50", "D65", "FL2"}) {
+  for (const char* light : {"A", "D50", "D65", "FL2", "FL11"}) {
     const Curve illuminant = test::illuminant(light);
-    for (const std::vector<Channel>& channels : {test::camera(), observer_channels(Observer::cie1931)}) {
+    for (const std::vector<Channel>& channels :
+         {test::camera(), observer_channels(Observer::cie1931), observer_channels(Observer::cie1964)}) {
       const DisplayTransform display = make_display(channels, illuminant);
       const std::vector<double> white = diffuser_values(channels, illuminant);
       const std::vector<std::string> names{channels[0].name, channels[1].name, channels[2].name};

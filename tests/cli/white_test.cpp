@@ -1,11 +1,13 @@
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "io/exr.h"
 #include "io/picture.h"
+#include "spectral/colorimetry.h"
 #include "tests/cli/program.h"
 #include "tests/cli/runs.h"
 #include "transport/render/part.h"
@@ -16,6 +18,7 @@ namespace abbe::test {
 namespace {
 
 constexpr const char* kObserver = R"("observer": "1931")";
+constexpr const char* kWideObserver = R"("observer": "1964")";
 constexpr const char* kNikon = R"("camera": "Nikon_D5100")";
 constexpr const char* kSpectral = R"("spectral": {"from_nm": 380, "to_nm": 780, "step_nm": 5})";
 
@@ -148,7 +151,34 @@ TEST_P(AnySensor, KeepsTheWhiteThatItsSceneAsksForWhateverLightsAreLeft) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(White, AnySensor, testing::Values(kObserver, kNikon, kSpectral));
+INSTANTIATE_TEST_SUITE_P(White, AnySensor, testing::Values(kObserver, kWideObserver, kNikon, kSpectral));
+
+void expect_xy(const std::map<std::string, std::string>& metadata, const Chromaticity& xy, double bound) {
+  const std::string& told = metadata.at("white_xy");
+  EXPECT_NEAR(std::stod(told), xy[0], bound) << told;
+  EXPECT_NEAR(std::stod(told.substr(told.find(' '))), xy[1], bound) << told;
+}
+
+// White points of A, D65 and FL11 for the CIE 1964 observer as they are published.
+TEST(White, IsThatOfTheObserverWhoseFilmItIs) {
+  const Chromaticity a{0.45117, 0.40594};
+  const Chromaticity fl11{0.38541, 0.37123};
+  const std::string film = film_of(lit_dome("wide.json", kWideObserver, "", "FL11"), "wide");
+  const auto told = read_exr(film).metadata;
+  expect_xy(told, fl11, 2e-5);
+  const auto lights = nlohmann::json::parse(told.at("lights_xy"));
+  EXPECT_NEAR(lights["faint"][0].get<double>(), 0.31382, 2e-5);
+  EXPECT_NEAR(lights["faint"][1].get<double>(), 0.33100, 2e-5);
+  const auto white = [](const std::string& of) { return read_exr_parts(of).front().image.metadata; };
+  developed(film + " --white A -o " + file("wide_a.exr"));
+  expect_xy(white(file("wide_a.exr")), a, 2e-5);
+  expect_xy(read_exr(film_of(lit_dome("wide_a.json", kWideObserver, "\"A\"", "FL11"), "wide_asked")).metadata,
+            a, 2e-5);
+  const Outcome compared =
+      abbe("compare " + film + " " + film_of(lit_dome("eye.json", kObserver, "", "FL11"), "eye"));
+  EXPECT_EQ(compared.code, 4);
+  EXPECT_NE(compared.err.find("photometric of CIE 1964"), std::string::npos) << compared.err;
+}
 
 TEST(White, AFilmTellsItsWhiteToTheSensorThatLooksAtIt) {
   const std::string film = file("spectral.exr");

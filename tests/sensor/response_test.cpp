@@ -138,14 +138,14 @@ TEST(Response, TheObserverMeasuresLux) {
 
 TEST(Response, AnObserverIsNoSensorWithItsNames) {
   for (const Observer which : {Observer::cie1931, Observer::cie1964})
-    EXPECT_TRUE(is_observer(observer_channels(which)));
+    EXPECT_EQ(standard_observer(observer_channels(which)), which);
   std::vector<Channel> filtered = observer_channels(Observer::cie1931);
   for (Channel& channel : filtered) channel = exposed(behind(channel, FilterStack{Curve(0.5)}), 2);
-  EXPECT_TRUE(is_observer(filtered));
+  EXPECT_EQ(standard_observer(filtered), Observer::cie1931);
   const std::vector<Channel> own{energy_channel("X", band(580, 650)), energy_channel("Y", band(500, 600)),
                                  energy_channel("Z", band(420, 490))};
-  EXPECT_FALSE(is_observer(own));
-  EXPECT_FALSE(is_observer(with_peak_efficiency(own, 0.5)));
+  EXPECT_EQ(standard_observer(own), std::nullopt);
+  EXPECT_EQ(standard_observer(with_peak_efficiency(own, 0.5)), std::nullopt);
 }
 
 }  // namespace

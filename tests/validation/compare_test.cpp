@@ -232,6 +232,21 @@ TEST(CompareChart, PatchesAreComparedWithTheirSpectra) {
   EXPECT_LT(off[5].delta_e.value(), 0.2) << "only the common factor moves the others";
 }
 
+TEST(CompareChart, PatchesAreSeenByTheFilmsObserver) {
+  const Scene wide = chart_scene(R"({"observer": "1964", "resolution": [96, 64]})", "FL11");
+  const Scene narrow = chart_scene(R"({"observer": "1931", "resolution": [96, 64]})", "FL11");
+  const Image film = planted_film(wide, 1);
+  for (const Scene* scene : {&wide, &narrow})
+    for (const PatchDifference& patch : compare_chart(*scene, film, nullptr, DeltaE::cie2000))
+      EXPECT_LT(patch.delta_e.value(), 1e-4) << patch.name;
+  const Image other = planted_film(narrow, 1);
+  EXPECT_EQ(fault([&] { static_cast<void>(compare_chart(wide, film, &other, DeltaE::cie2000)); },
+                  "alone is of the CIE 1964 observer"),
+            ErrorCode::input);
+  EXPECT_EQ(fault([&] { static_cast<void>(compare_images(film, other)); }, "photometric of CIE 1964"),
+            ErrorCode::input);
+}
+
 TEST(CompareChart, AFilmOfACameraIsReadByItsOwnMatrix) {
   for (const char* illuminant : {"D65", "A"}) {
     const Scene scene = chart_scene(kNikon, illuminant);

@@ -18,7 +18,7 @@ RelativePlaces::RelativePlaces(const Scene& scene)
       planes_(scene.film_planes().size()),
       across_(std::min(kBlocks, scene.camera.width)),
       down_(std::min(kBlocks, scene.camera.height)) {
-  if (!scene.mosaic && is_observer(scene.channels)) from_xyz_ = rgb_to_xyz(kRec709).inverse();
+  if (!scene.mosaic && standard_observer(scene.channels)) from_xyz_ = rgb_to_xyz(kRec709).inverse();
 }
 
 std::size_t RelativePlaces::count() const {

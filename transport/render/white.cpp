@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "scene/colors.h"
 #include "scene/extent.h"
 #include "sensor/response/stokes_channels.h"
 #include "transport/path/film_response.h"
@@ -68,7 +69,7 @@ std::vector<double> channel_weights(const Scene& scene) {
   if (scene.mosaic) return {1};
   const std::vector<Channel> counting = intensities(scene.channels);
   std::vector<double> weights(counting.size(), 1.0);
-  if (is_observer(counting)) weights = {0, 1, 0};
+  if (standard_observer(counting)) weights = {0, 1, 0};
   if (scene.spectral)
     for (std::size_t k = 0; k < counting.size(); ++k)
       weights[k] = photometric(counting[k].weight) / counting[k].weight.integral();
@@ -81,9 +82,10 @@ std::vector<double> channel_weights(const Scene& scene) {
 White main_light(const Scene& scene, int threads, const std::shared_ptr<const Guides>& guides) {
   ExposureByLight sums{{}, channel_weights(scene), {}};
   const std::vector<Group> groups = groups_of(scene, sums.group);
-  if (groups.empty()) return {"E", "there is no light", chromaticity(Curve(1.0)), Curve(1.0)};
+  const Onlooker onlooker = onlooker_of(scene);
+  if (groups.empty()) return {"E", "there is no light", chromaticity(Curve(1.0), onlooker), Curve(1.0)};
   const auto white = [&](const Group& group, std::string reason) {
-    return white_of(scene.lights[group.light], std::move(reason));
+    return white_of(scene.lights[group.light], onlooker, std::move(reason));
   };
   if (groups.size() == 1)
     return white(groups.front(), scene.lights.size() == 1 ? "the only light" : "the only spectrum of light");

@@ -4,6 +4,7 @@
 
 #include "calibration/output/display.h"
 #include "scene/chart/readout.h"
+#include "sensor/film/recorded_onlooker.h"
 #include "transport/render/white.h"
 #include "validation/statistics/film_colors.h"
 
@@ -47,15 +48,18 @@ std::vector<PatchDifference> compare_chart(const Scene& scene, const Image& imag
                                            DeltaE formula) {
   if (scene.charts.empty()) throw Error(ErrorCode::input, "", "the scene has no chart");
   if (scene.lights.empty()) throw Error(ErrorCode::input, "", "the scene has no light for its chart");
-  const White main = main_light(scene);
-  const Curve& light = *main.spectrum;
-  const XYZ white = tristimulus(light, Curve(1), Observer::cie1931);
-  const ChartFilm film = read_film(scene, image, main.xy);
+  const Observer observer = recorded_onlooker(image).observer;
+  if (reference != nullptr && recorded_onlooker(*reference).observer != observer)
+    throw Error(ErrorCode::input, "",
+                "one of the films alone is of the CIE 1964 observer, so that their colours do not compare");
+  const Curve light = main_light(scene).spectrum.value();
+  const XYZ white = tristimulus(light, Curve(1), observer);
+  const ChartFilm film = read_film(scene, image, chromaticity(light));
   std::vector<XYZ> integrated;
   for (const PatchReading& patch : film.patches)
-    integrated.push_back(tristimulus(light, *patch.reflectance, Observer::cie1931));
-  const auto other =
-      reference != nullptr ? read_film(scene, *reference, main.xy).xyz : std::optional(integrated);
+    integrated.push_back(tristimulus(light, *patch.reflectance, observer));
+  const auto other = reference != nullptr ? read_film(scene, *reference, chromaticity(light)).xyz
+                                          : std::optional(integrated);
   const auto& exposed = reference != nullptr ? other : film.xyz;
   const double factor = exposed ? sum_of_y(integrated) / sum_of_y(*exposed) : 1;
   std::vector<PatchDifference> differences;

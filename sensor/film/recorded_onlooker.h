@@ -1,0 +1,14 @@
+#pragma once
+
+#include "io/image.h"
+#include "spectral/onlooker.h"
+
+namespace abbe {
+
+/// What films tell of the unit of an observer's channels.
+[[nodiscard]] const char* photometric_unit(Observer observer);
+
+/// Who sees a film's colours, by what it tells: the observer whose X it has, else that of 1931.
+[[nodiscard]] Onlooker recorded_onlooker(const Image& film);
+
+}  // namespace abbe
