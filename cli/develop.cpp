@@ -147,7 +147,8 @@ FilmSensor sensor_of(const Image& film, const fs::path& path, const std::vector<
 
 ExposedFilm expose_spectral(Image file, const DevelopOptions& options, Inputs& inputs) {
   const auto [white, others] = asked(options);
-  const Image told{0, 0, {}, file.metadata};
+  Image told{0, 0, {}, file.metadata};
+  for (const ImageChannel& channel : file.channels) told.channels.push_back({channel.name, {}});
   const SpectralImage image = spectral_image(std::move(file), options.film.string());
   if (!options.scene.empty()) {
     Diagnostics diagnostics;

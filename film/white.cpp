@@ -20,6 +20,7 @@ namespace {
 using Json = nlohmann::ordered_json;  // keys keep their order
 
 constexpr std::size_t kMostLights = 256;
+constexpr double kSame = 1e-6;  // of chromaticities: names of bands are rounded
 
 void require_adaptable(const White& white, ErrorCode code, const std::string& where) {
   if (adaptation(unit_xyz(white.xy), unit_xyz(kD65))) return;
@@ -49,7 +50,7 @@ std::optional<White> white_of_film(const Scene& scene, const Image& film) {
   for (const Light& light : scene.lights) {
     if (light.name != name) continue;
     const Chromaticity found = white_of(light, of_film, "").xy;
-    if (std::abs(found[0] - (*xy)[0]) + std::abs(found[1] - (*xy)[1]) < 1e-9)
+    if (std::abs(found[0] - (*xy)[0]) + std::abs(found[1] - (*xy)[1]) < kSame)
       return white_of(light, onlooker, "the film's");
   }
   if (onlooker.observer != of_film.observer) return std::nullopt;
@@ -70,11 +71,17 @@ void settle_white(Scene& scene, const std::filesystem::path& path, int threads,
 void settle_white(Scene& scene, const std::filesystem::path& path, const Image& film,
                   const std::optional<std::string>& asked, std::string_view said_by) {
   Diagnostics diagnostics;
+  scene.image_band_edges_nm = recorded_onlooker(film).band_edges_nm;
   if (asked)
     scene.output.white =
         read_asked(*asked, white_names(scene.lights, onlooker_of(scene)), said_by, diagnostics);
-  if (!scene.output.white) scene.output.white = white_of_film(scene, film);
+  std::optional<White>& white = scene.output.white;
+  if (!white) white = white_of_film(scene, film);
+  if (white && white->spectrum) white->xy = chromaticity(*white->spectrum, onlooker_of(scene));
   settle_white(scene, path);
+  // The sensor is characterised in the light that it is shown.
+  if (white && white->spectrum && !scene.image_band_edges_nm.empty())
+    white->spectrum = in_bands(*white->spectrum, scene.image_band_edges_nm);
 }
 
 void add_white(const Scene& scene, FilmIdentity& identity) {

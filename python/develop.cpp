@@ -64,8 +64,7 @@ FilmSensor sensor_of(const Image& film, const py::object& readout, const std::op
 ExposedFilm seen(const FilmHandle& film, SceneHandle& looker, const py::object& readout,
                  const std::optional<std::string>& white) {
   abbe::Scene scene = looker.scene();
-  const Image told{0, 0, {}, film.metadata()};
-  settle_white(scene, looker.name(), told, white, "white");
+  settle_white(scene, looker.name(), film.image(), white, "white");
   Diagnostics diagnostics;
   Image image = seen_by(scene, spectral_image(film.image(), kWhere), kWhere, diagnostics);
   check(diagnostics);

@@ -9,7 +9,8 @@ bool has_colors(const Scene& scene) {
 }
 
 Onlooker onlooker_of(const Scene& scene) {
-  return {standard_observer(intensities(scene.channels)).value_or(Observer::cie1931)};
+  return {standard_observer(intensities(scene.channels)).value_or(Observer::cie1931),
+          scene.spectral ? edges_nm(*scene.spectral) : scene.image_band_edges_nm};
 }
 
 }  // namespace abbe

@@ -8,7 +8,8 @@ namespace abbe {
 /// spectrum.
 [[nodiscard]] bool has_colors(const Scene& scene);
 
-/// Who sees those colours: the observer that the sensor is, else that of 1931.
+/// Who sees those colours: the observer that the sensor is, else that of 1931; of spectral films, and through
+/// a sensor that looks at one, by bands.
 [[nodiscard]] Onlooker onlooker_of(const Scene& scene);
 
 }  // namespace abbe

@@ -176,6 +176,8 @@ class Scene {
   std::optional<Readout> readout;
   /// Whose channels are the channels, if the film is of radiance.
   std::optional<SpectralBins> spectral;
+  /// Ends of the bands of the spectral image that the sensor looks at, if it looks at one [nm].
+  std::vector<double> image_band_edges_nm;
   std::string sensor_text;  ///< The sensor's description, as one line of JSON.
   RenderSettings render;
   OutputSettings output;

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "spectral/colorimetry.h"
 
 namespace abbe {
@@ -7,7 +10,12 @@ namespace abbe {
 /// Who sees the colours of a film.
 struct Onlooker {
   Observer observer = Observer::cie1931;
+  /// Ends of the bands that a spectral image has of light, ascending [nm]; without any, light itself is seen.
+  std::vector<double> band_edges_nm = {};
 };
+
+/// A light of which an image has bands alone: its mean over each, and nothing beyond.
+[[nodiscard]] Curve in_bands(const Curve& light, std::span<const double> edges_nm);
 
 /// Chromaticity of a light as it is seen; not finite for a light that is not.
 [[nodiscard]] Chromaticity chromaticity(const Curve& light, const Onlooker& onlooker);

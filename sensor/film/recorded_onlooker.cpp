@@ -1,6 +1,25 @@
 #include "sensor/film/recorded_onlooker.h"
 
+#include <algorithm>
+#include <vector>
+
+#include "io/spectral_exr.h"
+
 namespace abbe {
+namespace {
+
+// Nothing for one band, whose width no other tells.
+std::vector<double> edges_of_bands(const Image& film) {
+  std::vector<SpectralBand> bands;
+  for (const ImageChannel& channel : film.channels)
+    if (const auto name = parse_spectral_channel(channel.name, "film"); name && name->kind == '0')
+      bands.push_back({name->center_nm, {}});
+  if (bands.size() < 2) return {};
+  std::ranges::sort(bands, {}, &SpectralBand::center_nm);
+  return band_edges(bands);
+}
+
+}  // namespace
 
 const char* photometric_unit(Observer observer) {
   return observer == Observer::cie1931 ? "photometric, lx s"
@@ -11,7 +30,7 @@ Onlooker recorded_onlooker(const Image& film) {
   const auto unit = film.metadata.find("channel.X");
   if (unit != film.metadata.end() && unit->second == photometric_unit(Observer::cie1964))
     return {Observer::cie1964};
-  return {};
+  return {Observer::cie1931, is_spectral(film) ? edges_of_bands(film) : std::vector<double>{}};
 }
 
 }  // namespace abbe

@@ -8,7 +8,8 @@ namespace abbe {
 /// What films tell of the unit of an observer's channels.
 [[nodiscard]] const char* photometric_unit(Observer observer);
 
-/// Who sees a film's colours, by what it tells: the observer whose X it has, else that of 1931.
+/// Who sees a film's colours, by what it tells: the observer whose X it has, else that of 1931, who sees of a
+/// spectral film its bands.
 [[nodiscard]] Onlooker recorded_onlooker(const Image& film);
 
 }  // namespace abbe

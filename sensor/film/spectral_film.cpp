@@ -101,11 +101,18 @@ std::vector<Term> terms_of(const SpectralImage& image, const Channel& channel) {
 
 }  // namespace
 
+std::vector<double> edges_nm(const SpectralBins& bins) {
+  std::vector<double> edges;
+  for (int bin = 0; bin <= bins.count; ++bin) edges.push_back(bins.from_nm + bin * bins.step_nm);
+  return edges;
+}
+
 std::vector<Channel> spectral_channels(const SpectralBins& bins) {
+  const std::vector<double> edges = edges_nm(bins);
   std::vector<Channel> channels;
-  for (int bin = 0; bin < bins.count; ++bin)
-    channels.push_back(energy_channel(bin_name(bins, bin), band(bins.from_nm + bin * bins.step_nm,
-                                                                bins.from_nm + (bin + 1) * bins.step_nm)));
+  for (std::size_t bin = 0; bin + 1 < edges.size(); ++bin)
+    channels.push_back(
+        energy_channel(bin_name(bins, static_cast<int>(bin)), band(edges[bin], edges[bin + 1])));
   return channels;
 }
 

@@ -19,6 +19,9 @@ struct SpectralBins {
   [[nodiscard]] double center_nm(int bin) const { return from_nm + (bin + 0.5) * step_nm; }
 };
 
+/// The ends of the bins, one more than there are [nm].
+[[nodiscard]] std::vector<double> edges_nm(const SpectralBins& bins);
+
 /// A channel for each bin that weighs energy by 1 within it: its film value is the radiant exposure that
 /// arrives in the bin [J/m^2]. Named by their centres, as "545nm".
 [[nodiscard]] std::vector<Channel> spectral_channels(const SpectralBins& bins);

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -234,6 +235,56 @@ TEST(White, IsThatOfTheLightsThatTogetherGiveMost) {
   const std::string film = film_of(scratch().write("group.json", text).string(), "group", "--layers lights");
   EXPECT_EQ(relit(film, "--light dome=0").white, "faint");
   EXPECT_EQ(relit(film, "--light dome=0 --light faint=0.3").white, "third");
+}
+
+// The colour of lights that are even from one whole nanometre to another, by their power there.
+Chromaticity color_of_bands(const std::map<std::pair<int, int>, double>& power) {
+  const ColorMatching& eye = color_matching(Observer::cie1931);
+  XYZ seen{};
+  for (const auto& [nm, watts] : power)
+    for (int at = nm.first; at < nm.second; ++at) {
+      const double share = watts / 2 / (nm.second - nm.first);
+      seen[0] += share * (eye.x(at) + eye.x(at + 1));
+      seen[1] += share * (eye.y(at) + eye.y(at + 1));
+      seen[2] += share * (eye.z(at) + eye.z(at + 1));
+    }
+  return chromaticity(seen);
+}
+
+// A film of lines in wide bins, with exactly what the lamp has in each.
+TEST(White, OfASpectralFilmIsWhatItsBinsShow) {
+  const auto lit_lines = [](const std::string& name, const std::string& sensor) {
+    std::string text = read_file(lit_dome(name, sensor));
+    const std::string light = R"("illuminant": "A", "luminance": 100)";
+    text.replace(
+        text.find(light), light.size(),
+        R"("lines": [{"nm": 462, "width_nm": 0.1, "power": 1}, {"nm": 525, "width_nm": 0.1, "power": 1.2},
+                    {"nm": 638, "width_nm": 0.1, "power": 1.5}], "luminance": 100)");
+    return scratch().write(name, text).string();
+  };
+  const std::string path =
+      film_of(lit_lines("bins.json", R"("spectral": {"from_nm": 380, "to_nm": 780, "step_nm": 20})"), "bins");
+  Image film = read_exr(path);
+  expect_xy(film.metadata, color_of_bands({{{460, 480}, 1}, {{520, 540}, 1.2}, {{620, 640}, 1.5}}), 1e-6);
+  const std::map<std::string, float> held{
+      {"S0.470,000000nm", 1.0F}, {"S0.530,000000nm", 1.2F}, {"S0.630,000000nm", 1.5F}};
+  for (ImageChannel& channel : film.channels)
+    if (channel.name.starts_with("S0.")) {
+      const auto found = held.find(channel.name);
+      channel.values.assign(film.pixels(), found == held.end() ? 0.0F : found->second);
+    }
+  write_exr(path, film);
+  const auto expect_neutral = [](const std::string& arguments) {
+    developed(arguments + " --display " + file("bins.png"));
+    const auto [r, g, b] = means(read_picture(file("bins.png")));
+    EXPECT_NEAR(r, g, 1.5 / 255) << arguments;
+    EXPECT_NEAR(b, g, 1.5 / 255) << arguments;
+  };
+  expect_neutral(path);
+  for (const char* sensor : {kNikon, kWideObserver}) {
+    expect_neutral(path + " --scene " + lit_lines("looker.json", sensor));
+    expect_neutral(path + " --white dome --scene " + lit_lines("looker.json", sensor));
+  }
 }
 
 TEST(White, InfoSaysWhichAndWhy) {
