@@ -62,7 +62,7 @@ namespace {
 OutputSettings build(const spec::Output& said, LoadContext& context, const Scene& scene) {
   OutputSettings output{said.image.value_or(""), said.display.value_or(""), said.exposure, {}};
   if (!said.white) return output;
-  WhiteNames names = white_names(scene.lights, onlooker_of(scene));
+  WhiteNames names = white_names(scene.lights, film_observer_of(scene));
   names.illuminant = [&context](const schema::Located<std::string>& name) {
     return context.table(name.value, name.where);
   };

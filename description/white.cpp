@@ -63,7 +63,7 @@ std::optional<White> build(const spec::White& said, const WhiteNames& names, Dia
   const std::optional<std::string> table = names.illuminant({{name}, where});
   const auto illuminant = table ? load_illuminant(*table, where, diagnostics) : std::nullopt;
   if (!illuminant) return std::nullopt;
-  return White{name, kAsked, chromaticity(illuminant->curve, names.onlooker)};
+  return White{name, kAsked, chromaticity(illuminant->curve, names.film_observer)};
 }
 
 std::optional<White> read_white(const JsonValue& json, const WhiteNames& names, Diagnostics& diagnostics) {
@@ -71,10 +71,10 @@ std::optional<White> read_white(const JsonValue& json, const WhiteNames& names, 
   return said ? build(*said, names, diagnostics) : std::nullopt;
 }
 
-WhiteNames white_names(const std::vector<Light>& lights, const Onlooker& onlooker) {
-  WhiteNames names{onlooker,
+WhiteNames white_names(const std::vector<Light>& lights, const FilmObserver& film_observer) {
+  WhiteNames names{film_observer,
                    {},
-                   [&lights, onlooker](std::size_t i) { return white_of(lights[i], onlooker, ""); },
+                   [&lights, film_observer](std::size_t i) { return white_of(lights[i], film_observer, ""); },
                    [](const schema::Located<std::string>& name) { return std::optional(name.value); }};
   for (const Light& light : lights) names.lights.push_back(light.name);
   return names;

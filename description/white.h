@@ -22,7 +22,7 @@ namespace abbe {
 
 /// What a white may be named by, and who sees it.
 struct WhiteNames {
-  Onlooker onlooker;
+  FilmObserver film_observer;
   std::vector<std::string> lights;
   std::function<White(std::size_t)> white_of_light;  ///< Of one of them.
   /// A name as `load_illuminant` takes it, such as where a file lies; nothing after an error.
@@ -38,6 +38,6 @@ struct WhiteNames {
                                               Diagnostics& diagnostics);
 
 /// The names of a scene's lights, and of illuminants as they are.
-[[nodiscard]] WhiteNames white_names(const std::vector<Light>& lights, const Onlooker& onlooker);
+[[nodiscard]] WhiteNames white_names(const std::vector<Light>& lights, const FilmObserver& film_observer);
 
 }  // namespace abbe

@@ -11,7 +11,7 @@
 #include "io/error.h"
 #include "io/text.h"
 #include "scene/colors.h"
-#include "sensor/film/recorded_onlooker.h"
+#include "sensor/film/recorded_film_observer.h"
 #include "sensor/film/recorded_white.h"
 #include "sensor/film/variance_name.h"
 #include "sensor/readout/demosaic.h"

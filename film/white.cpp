@@ -9,7 +9,7 @@
 #include "description/white.h"
 #include "io/standard_stream.h"
 #include "scene/colors.h"
-#include "sensor/film/recorded_onlooker.h"
+#include "sensor/film/recorded_film_observer.h"
 #include "sensor/film/recorded_white.h"
 #include "spectral/rgb.h"
 #include "transport/render/white.h"
@@ -45,15 +45,15 @@ std::optional<White> white_of_film(const Scene& scene, const Image& film) {
   const std::optional<Chromaticity> xy = recorded_white(film);
   if (!xy) return std::nullopt;
   const std::string& name = film.metadata.at(kWhiteKey);
-  const Onlooker of_film = recorded_onlooker(film);
-  const Onlooker onlooker = onlooker_of(scene);
+  const FilmObserver of_film = recorded_film_observer(film);
+  const FilmObserver film_observer = film_observer_of(scene);
   for (const Light& light : scene.lights) {
     if (light.name != name) continue;
     const Chromaticity found = white_of(light, of_film, "").xy;
     if (std::abs(found[0] - (*xy)[0]) + std::abs(found[1] - (*xy)[1]) < kSame)
-      return white_of(light, onlooker, "the film's");
+      return white_of(light, film_observer, "the film's");
   }
-  if (onlooker.observer != of_film.observer) return std::nullopt;
+  if (film_observer.observer != of_film.observer) return std::nullopt;
   return White{name, "the film's", *xy};
 }
 
@@ -71,13 +71,13 @@ void settle_white(Scene& scene, const std::filesystem::path& path, int threads,
 void settle_white(Scene& scene, const std::filesystem::path& path, const Image& film,
                   const std::optional<std::string>& asked, std::string_view said_by) {
   Diagnostics diagnostics;
-  scene.image_band_edges_nm = recorded_onlooker(film).band_edges_nm;
+  scene.image_band_edges_nm = recorded_film_observer(film).band_edges_nm;
   if (asked)
     scene.output.white =
-        read_asked(*asked, white_names(scene.lights, onlooker_of(scene)), said_by, diagnostics);
+        read_asked(*asked, white_names(scene.lights, film_observer_of(scene)), said_by, diagnostics);
   std::optional<White>& white = scene.output.white;
   if (!white) white = white_of_film(scene, film);
-  if (white && white->spectrum) white->xy = chromaticity(*white->spectrum, onlooker_of(scene));
+  if (white && white->spectrum) white->xy = chromaticity(*white->spectrum, film_observer_of(scene));
   settle_white(scene, path);
   // The sensor is characterised in the light that it is shown.
   if (white && white->spectrum && !scene.image_band_edges_nm.empty())
@@ -90,13 +90,13 @@ void add_white(const Scene& scene, FilmIdentity& identity) {
   if (!std::isfinite(white.xy[0])) return;
   record_white(white.name, white.xy, identity);
   if (scene.lights.size() > kMostLights) return;
-  const Onlooker onlooker = onlooker_of(scene);
+  const FilmObserver film_observer = film_observer_of(scene);
   Json lights = Json::object();
   for (const Light& light : scene.lights)
     if (std::count_if(scene.lights.begin(), scene.lights.end(),
                       [&light](const Light& other) { return other.name == light.name; }) > 1)
       lights[light.name] = nullptr;
-    else if (const Chromaticity xy = white_of(light, onlooker, "").xy; std::isfinite(xy[0]))
+    else if (const Chromaticity xy = white_of(light, film_observer, "").xy; std::isfinite(xy[0]))
       lights[light.name] = xy;
   if (!lights.empty()) identity[kLightsXyKey] = lights.dump();
 }
@@ -117,7 +117,7 @@ std::vector<RecordedLight> recorded_lights(const Image& film) {
 White asked_white(const std::string& text, const Image& film, std::string_view said_by) {
   Diagnostics diagnostics;
   const std::vector<Light> none;
-  WhiteNames names = white_names(none, recorded_onlooker(film));
+  WhiteNames names = white_names(none, recorded_film_observer(film));
   std::vector<Chromaticity> colors;
   for (const RecordedLight& light : recorded_lights(film))
     for (int i = light.xy ? 1 : 2; i > 0; --i) {

@@ -8,7 +8,7 @@ bool has_colors(const Scene& scene) {
   return scene.spectral || count_intensities(scene.channels) == 3;
 }
 
-Onlooker onlooker_of(const Scene& scene) {
+FilmObserver film_observer_of(const Scene& scene) {
   return {standard_observer(intensities(scene.channels)).value_or(Observer::cie1931),
           scene.spectral ? edges_nm(*scene.spectral) : scene.image_band_edges_nm};
 }

@@ -10,6 +10,6 @@ namespace abbe {
 
 /// Who sees those colours: the observer that the sensor is, else that of 1931; of spectral films, and through
 /// a sensor that looks at one, by bands.
-[[nodiscard]] Onlooker onlooker_of(const Scene& scene);
+[[nodiscard]] FilmObserver film_observer_of(const Scene& scene);
 
 }  // namespace abbe

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "scene/lights/light.h"
-#include "spectral/onlooker.h"
+#include "spectral/film_observer.h"
 
 namespace abbe {
 
@@ -17,6 +17,6 @@ struct White {
 };
 
 /// The white of a light: its mean emission, and the chromaticity of that as it is seen.
-[[nodiscard]] White white_of(const Light& light, const Onlooker& onlooker, std::string reason);
+[[nodiscard]] White white_of(const Light& light, const FilmObserver& film_observer, std::string reason);
 
 }  // namespace abbe

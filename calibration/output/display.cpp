@@ -20,7 +20,7 @@
 #include "io/exr.h"
 #include "io/picture_codec.h"
 #include "sensor/film/recorded_crop.h"
-#include "spectral/onlooker.h"
+#include "spectral/film_observer.h"
 
 namespace abbe {
 namespace {
@@ -277,8 +277,8 @@ DisplayTransform make_display(const std::vector<Channel>& channels, const Curve&
   std::vector<std::string> names;
   for (const Channel& channel : channels) names.push_back(channel.name);
   const std::optional<Observer> observer = standard_observer(channels);
-  const Onlooker onlooker{observer.value_or(Observer::cie1931)};
-  const Matrix3 adapted = white_adaptation(white.value_or(chromaticity(illuminant, onlooker)));
+  const FilmObserver film_observer{observer.value_or(Observer::cie1931)};
+  const Matrix3 adapted = white_adaptation(white.value_or(chromaticity(illuminant, film_observer)));
   if (observer) return {std::move(names), adapted, {}, options};
   auto [fit, to_xyz] = fit_channels(channels, names, illuminant);
   return {std::move(names), adapted * to_xyz, std::move(fit), options};

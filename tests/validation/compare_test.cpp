@@ -33,14 +33,6 @@ std::filesystem::path saved(const std::string& name, const Image& image) {
   return scratch() / name;
 }
 
-TEST(DeltaEChoice, EachFormulaIsItsOwn) {
-  const Lab a{50, 50, 0};
-  const Lab b{50, 60, 0};
-  EXPECT_DOUBLE_EQ(delta_e(DeltaE::cie76, a, b), 10);
-  EXPECT_NEAR(delta_e(DeltaE::cie94, a, b), 10 / 3.25, 1e-12);
-  EXPECT_NEAR(delta_e(DeltaE::cie2000, {50, 2.6772, -79.7751}, {50, 0, -82.7485}), 2.0425, 5e-5);
-}
-
 TEST(Compare, LooksAtPixelsThatBothFilmsHave) {
   const auto cropped = [](std::vector<float> values, const std::string& crop) {
     Image film = grey(values);
@@ -112,15 +104,6 @@ TEST(Compare, ChannelsThatOneImageAloneHasAreWarnedOf) {
     EXPECT_EQ(testing::internal::GetCapturedStderr(),
               "abbe: warning: channels that only one of the images has are not compared: red\n");
   }
-}
-
-TEST(RelativeErrors, TheirMeanSquareIsTheRelMse) {
-  const Image a = grey({1, 2, 4, 0});
-  const Image b = grey({1, 3, 3, 1});
-  double squares = 0;
-  for (const double error : relative_errors(a, b)) squares += error * error / 4;
-  EXPECT_NEAR(squares, rel_mse(a, b), 1e-12);
-  EXPECT_EQ(relative_errors(a, b)[0], 0);
 }
 
 TEST(DifferenceMaps, ColoursAndScaleFollowTheValues) {

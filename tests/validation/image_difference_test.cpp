@@ -96,6 +96,15 @@ TEST(RelMse, KnownAnswerWithFloorVarianceAndWeights) {
   EXPECT_LT(rel_mse(reference, reference, {.subtract_variance = true}), 0);
 }
 
+TEST(RelativeErrors, TheirMeanSquareIsTheRelMse) {
+  const Image a = image({{"Y", {1, 2, 4, 0}}});
+  const Image b = image({{"Y", {1, 3, 3, 1}}});
+  double squares = 0;
+  for (const double error : relative_errors(a, b)) squares += error * error / 4;
+  EXPECT_NEAR(squares, rel_mse(a, b), 1e-12);
+  EXPECT_EQ(relative_errors(a, b)[0], 0);
+}
+
 TEST(RelMse, TrimLeavesTheLargestQuotientsOut) {
   std::vector<float> values(2000, 1.0F);
   const Image reference = image({{"Y", values}});
@@ -194,6 +203,14 @@ TEST(Compare, RefusesWhatCannotBeCompared) {
   EXPECT_THROW(static_cast<void>(compare_images(image({{"Y", {1}}}), image({{"Y", {1, 2}}}))), Error);
   EXPECT_THROW(static_cast<void>(compare_images(image({{"Y", {1}}}), image({{"R", {1}}}))), Error);
   EXPECT_THROW(static_cast<void>(compare_images(image({{"Y", {NAN}}}), image({{"Y", {1}}}))), Error);
+}
+
+TEST(DeltaEChoice, EachFormulaIsItsOwn) {
+  const Lab a{50, 50, 0};
+  const Lab b{50, 60, 0};
+  EXPECT_DOUBLE_EQ(delta_e(DeltaE::cie76, a, b), 10);
+  EXPECT_NEAR(delta_e(DeltaE::cie94, a, b), 10 / 3.25, 1e-12);
+  EXPECT_NEAR(delta_e(DeltaE::cie2000, {50, 2.6772, -79.7751}, {50, 0, -82.7485}), 2.0425, 5e-5);
 }
 
 TEST(DeltaEChoice, OfWhatIsNotFiniteIsUnknown) {

@@ -19,8 +19,7 @@ namespace {
 constexpr std::size_t kCells = 128;  // along each side of the grid
 constexpr std::size_t kGrid = kCells * kCells;
 constexpr float kEmissionShare = 0.05F;
-// Of those that are aimed, once an aim has learnt, at most where few others have gone, and once it has
-// guessed, anywhere.
+// Of those that are aimed: at most where few others have gone, and, once guessed, anywhere.
 constexpr float kApart = 0.1F;
 constexpr float kAnywhereByGuess = 0.5F;
 constexpr double kEvenShare = 0.1;  // of those within a grid
@@ -212,14 +211,13 @@ void Aim::guess(std::span<const ShownRay> shown) {
 // Many places around the given ones, as many at distances from one to twice any, down to half a cell of the
 // grid: in turn about each, in directions a golden angle apart.
 std::vector<Aim::WeighedPlace> Aim::spread_over_scales(const std::vector<WeighedPlace>& places) {
-  constexpr std::size_t kPlaces = kGrid;
   constexpr double kLeast = 0.5 / kCells;
   constexpr double kMost = 0.5;
   constexpr double kGoldenAngle = 2 * std::numbers::pi / (std::numbers::phi * std::numbers::phi);
   std::vector<WeighedPlace> spread;
-  for (std::size_t i = 0; !places.empty() && i < kPlaces; ++i) {
-    const double share = (static_cast<double>(i) + 0.5) / kPlaces;
-    const auto distance = static_cast<float>(kLeast * std::pow(kMost / kLeast, share));
+  for (std::size_t i = 0; !places.empty() && i < kGrid; ++i) {
+    const auto distance =
+        static_cast<float>(kLeast * std::pow(kMost / kLeast, (static_cast<double>(i) + 0.5) / kGrid));
     const auto angle = static_cast<float>(kGoldenAngle * static_cast<double>(i));
     const Imath::V2f at =
         places[i % places.size()].at + Imath::V2f(std::cos(angle), std::sin(angle)) * distance;

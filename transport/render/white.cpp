@@ -82,10 +82,10 @@ std::vector<double> channel_weights(const Scene& scene) {
 White main_light(const Scene& scene, int threads, const std::shared_ptr<const Guides>& guides) {
   ExposureByLight sums{{}, channel_weights(scene), {}};
   const std::vector<Group> groups = groups_of(scene, sums.group);
-  const Onlooker onlooker = onlooker_of(scene);
-  if (groups.empty()) return {"E", "there is no light", chromaticity(Curve(1.0), onlooker), Curve(1.0)};
+  const FilmObserver film_observer = film_observer_of(scene);
+  if (groups.empty()) return {"E", "there is no light", chromaticity(Curve(1.0), film_observer), Curve(1.0)};
   const auto white = [&](const Group& group, std::string reason) {
-    return white_of(scene.lights[group.light], onlooker, std::move(reason));
+    return white_of(scene.lights[group.light], film_observer, std::move(reason));
   };
   if (groups.size() == 1)
     return white(groups.front(), scene.lights.size() == 1 ? "the only light" : "the only spectrum of light");

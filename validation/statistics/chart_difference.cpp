@@ -4,7 +4,7 @@
 
 #include "calibration/output/display.h"
 #include "scene/chart/readout.h"
-#include "sensor/film/recorded_onlooker.h"
+#include "sensor/film/recorded_film_observer.h"
 #include "transport/render/white.h"
 #include "validation/statistics/film_colors.h"
 
@@ -48,8 +48,8 @@ std::vector<PatchDifference> compare_chart(const Scene& scene, const Image& imag
                                            DeltaE formula) {
   if (scene.charts.empty()) throw Error(ErrorCode::input, "", "the scene has no chart");
   if (scene.lights.empty()) throw Error(ErrorCode::input, "", "the scene has no light for its chart");
-  const Observer observer = recorded_onlooker(image).observer;
-  if (reference != nullptr && recorded_onlooker(*reference).observer != observer)
+  const Observer observer = recorded_film_observer(image).observer;
+  if (reference != nullptr && recorded_film_observer(*reference).observer != observer)
     throw Error(ErrorCode::input, "",
                 "one of the films alone is of the CIE 1964 observer, so that their colours do not compare");
   const Curve light = main_light(scene).spectrum.value();

@@ -1,4 +1,4 @@
-#include "sensor/film/recorded_onlooker.h"
+#include "sensor/film/recorded_film_observer.h"
 
 #include <algorithm>
 #include <vector>
@@ -26,7 +26,7 @@ const char* photometric_unit(Observer observer) {
                                        : "photometric of CIE 1964, 683.002 lm/W times J per m^2";
 }
 
-Onlooker recorded_onlooker(const Image& film) {
+FilmObserver recorded_film_observer(const Image& film) {
   const auto unit = film.metadata.find("channel.X");
   if (unit != film.metadata.end() && unit->second == photometric_unit(Observer::cie1964))
     return {Observer::cie1964};

@@ -8,7 +8,7 @@
 namespace abbe {
 
 /// Who sees the colours of a film.
-struct Onlooker {
+struct FilmObserver {
   Observer observer = Observer::cie1931;
   /// Ends of the bands that a spectral image has of light, ascending [nm]; without any, light itself is seen.
   std::vector<double> band_edges_nm = {};
@@ -18,6 +18,6 @@ struct Onlooker {
 [[nodiscard]] Curve in_bands(const Curve& light, std::span<const double> edges_nm);
 
 /// Chromaticity of a light as it is seen; not finite for a light that is not.
-[[nodiscard]] Chromaticity chromaticity(const Curve& light, const Onlooker& onlooker);
+[[nodiscard]] Chromaticity chromaticity(const Curve& light, const FilmObserver& film_observer);
 
 }  // namespace abbe

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "io/image.h"
-#include "spectral/onlooker.h"
+#include "spectral/film_observer.h"
 
 namespace abbe {
 
@@ -10,6 +10,6 @@ namespace abbe {
 
 /// Who sees a film's colours, by what it tells: the observer whose X it has, else that of 1931, who sees of a
 /// spectral film its bands.
-[[nodiscard]] Onlooker recorded_onlooker(const Image& film);
+[[nodiscard]] FilmObserver recorded_film_observer(const Image& film);
 
 }  // namespace abbe

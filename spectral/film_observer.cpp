@@ -1,4 +1,4 @@
-#include "spectral/onlooker.h"
+#include "spectral/film_observer.h"
 
 #include <cstddef>
 #include <utility>
@@ -18,10 +18,10 @@ Curve in_bands(const Curve& light, std::span<const double> edges_nm) {
   return Curve(std::move(knots));
 }
 
-Chromaticity chromaticity(const Curve& light, const Onlooker& onlooker) {
-  if (!onlooker.band_edges_nm.empty())
-    return chromaticity(in_bands(light, onlooker.band_edges_nm), Onlooker{onlooker.observer});
-  return chromaticity(tristimulus(light, Curve(1.0), onlooker.observer));
+Chromaticity chromaticity(const Curve& light, const FilmObserver& film_observer) {
+  if (!film_observer.band_edges_nm.empty())
+    return chromaticity(in_bands(light, film_observer.band_edges_nm), FilmObserver{film_observer.observer});
+  return chromaticity(tristimulus(light, Curve(1.0), film_observer.observer));
 }
 
 }  // namespace abbe
