@@ -150,11 +150,11 @@ TEST(CorrectionFit, RefusesDegreeThreeOnTwentyFourPatchesForAGoodReason) {
 
 // Adjoining bands: without one of the greys their fit takes more than 300 steps.
 TEST(CorrectionFit, ReachesItsToleranceOnIdealFilters) {
-  PatchColors colors =
-      integrate(test::chart(),
-                std::vector<Channel>{energy_channel("R", band(600, 700)), energy_channel("G", band(500, 600)),
-                                     energy_channel("B", band(400, 500))},
-                test::illuminant("D65"));
+  PatchColors colors = integrate(
+      test::chart(),
+      std::vector<Channel>{energy_channel("R", band(599.5, 699.5)), energy_channel("G", band(499.5, 599.5)),
+                           energy_channel("B", band(399.5, 499.5))},
+      test::illuminant("D65"));
   EXPECT_EQ(fit_correction(colors).usable, 16);
   EXPECT_LT(cross_validate(colors, {}, 24).mean, 3.7);
 }
