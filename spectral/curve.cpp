@@ -123,6 +123,7 @@ std::vector<Parabola> parabolas_of(const Curve& a, const Curve& b) {
 void append_between(std::vector<Knot>& knots, const Parabola& p, double greatest) {
   // At a share t of its width it lies q t (1 - t) below the chord, q / 4 in the middle.
   const double q = 2 * (p.first - 2 * p.middle + p.last);
+  if (q == 0) return;               // as where there is nothing at all
   constexpr double kJumpNm = 1e-9;  // a table that is 0 outside falls so just beyond its last row
   const double parts = std::ceil(std::sqrt(std::abs(q / greatest) / (4 * kLargestBend)));
   if (!(parts > 1) || p.to_nm - p.from_nm < kJumpNm) return;

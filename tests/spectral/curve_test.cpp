@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cfenv>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -181,6 +182,16 @@ TEST(Curve, steep_factors_have_the_area_of_their_product) {
   const Curve rising(std::vector<Knot>{{540, 0}, {541, 1}});
   EXPECT_NEAR(product(falling, rising).integral(), 1.0 / 6, 1e-12);
   EXPECT_NEAR(product(falling, scaled(rising, -3)).integral(), -3.0 / 6, 1e-12);
+}
+
+// Curves that are nowhere both: nothing is divided by their greatest product.
+TEST(Curve, product_of_curves_apart_is_dark_without_invalid_operations) {
+  const Curve blue({{500, 0}, {501, 1}, {502, 0}});
+  const Curve red({{600, 0}, {601, 1}, {602, 0}});
+  std::feclearexcept(FE_ALL_EXCEPT);
+  const Curve dark = product(blue, red);
+  EXPECT_EQ(std::fetestexcept(FE_INVALID | FE_DIVBYZERO), 0);
+  EXPECT_EQ(dark.integral(), 0);
 }
 
 TEST(Curve, product_follows_its_factors_everywhere) {
