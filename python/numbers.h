@@ -111,6 +111,7 @@ struct pyobject_caster<abbe::python::Numbers> {
   PYBIND11_TYPE_CASTER(abbe::python::Numbers, handle_type_name<abbe::python::Numbers>::name);
 };
 
+/// Takes an argument for a Whole, by what Python makes an index of it.
 template <typename T>
 struct type_caster<abbe::python::Whole<T>> {
   bool load(const handle& object, bool convert) {
