@@ -68,14 +68,17 @@ bool has_byte_order_mark(const fs::path& path) {
 }
 
 /// Where a line of these cells has the first semicolon or, between what it holds, tab where commas are
-/// expected. Behind a quoted cell they leave none.
+/// expected. Behind a quoted cell, which they follow at once, they leave none.
 std::optional<std::size_t> wrong_separator(std::string_view line,
                                            const std::optional<std::vector<Cell>>& cells) {
   if (cells && cells->size() != 1) return std::nullopt;
   const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
   const bool is_quoted = line.substr(begin).starts_with('"');
-  const std::size_t at = line.find_first_of(";\t", is_quoted ? closing_quote(line, begin) : begin);
-  return at <= line.find_last_not_of(" \t") ? std::optional(at) : std::nullopt;
+  if (!is_quoted && !cells) return std::nullopt;
+  const std::size_t at = is_quoted ? line.find_first_not_of(' ', closing_quote(line, begin) + 1)
+                                   : line.find_first_of(";\t", begin);
+  if (at > line.find_last_not_of(" \t") || (line[at] != ';' && line[at] != '\t')) return std::nullopt;
+  return at;
 }
 
 bool is_blank(std::string_view line) {

@@ -124,6 +124,10 @@ TEST(Table, WhatSpreadsheetsWriteIsNamed) {
             "3:5: error: cells are separated by semicolons (got ';', allowed ',')\n");
   EXPECT_EQ(complaints("# unit: W\nl,a\n1,2\n\"1;2\n", TableOrigin::user),
             "4:1: error: quoted cell without its closing quote\n");
+  for (const char* row : {"1,\"a;b", "1,\t\"2", "\"1\" x,2;3"})
+    EXPECT_EQ(complaints(std::string("# unit: W\nl,a\n1,2\n") + row + "\n", TableOrigin::user),
+              "4:1: error: quoted cell without its closing quote\n")
+        << row;
   Diagnostics diagnostics;
   EXPECT_TRUE(table_of("# unit: W\n\"l;\t\"\n1\n", TableOrigin::user, diagnostics)) << diagnostics.text();
   EXPECT_TRUE(table_of("# unit: W; per nm\nl,\"a;b\"\n1,x;y\n", TableOrigin::user, diagnostics))
