@@ -12,11 +12,9 @@
 namespace abbe {
 namespace {
 
-constexpr const char* kAsked = "asked for";
-
 std::optional<White> build_chromaticity(const Chromaticity& white, const SourcePosition& where,
                                         Diagnostics& diagnostics) {
-  if (white[0] + white[1] <= 1) return White{fmt::format("{},{}", white[0], white[1]), kAsked, white};
+  if (white[0] + white[1] <= 1) return White{fmt::format("{},{}", white[0], white[1]), "", white};
   diagnostics.error(where,
                     fmt::format("is no chromaticity: x + y is above 1 (got {}, {})", white[0], white[1]));
   return std::nullopt;
@@ -26,6 +24,30 @@ std::optional<White> build_chromaticity(const Chromaticity& white, const SourceP
 bool may_be_illuminant(const std::string& name, const std::vector<std::string>& illuminants) {
   return user_table_end(name) != std::string::npos || name.find(':') != std::string::npos ||
          std::find(illuminants.begin(), illuminants.end(), name) != illuminants.end();
+}
+
+// Of a light of the scene or of an illuminant.
+std::optional<White> build_named(const std::string& name, const SourcePosition& where,
+                                 const WhiteNames& names, Diagnostics& diagnostics) {
+  const std::vector<std::string>& lights = names.lights;
+  const auto light = std::find(lights.begin(), lights.end(), name);
+  if (light != lights.end()) {
+    if (std::find(light + 1, lights.end(), name) == lights.end())
+      return names.white_of_light(static_cast<std::size_t>(light - lights.begin()));
+    diagnostics.error(where, fmt::format("several lights are called \"{}\"", name));
+    return std::nullopt;
+  }
+  std::vector<std::string> known = table_names("illuminant");
+  if (!may_be_illuminant(name, known)) {
+    known.insert(known.begin(), lights.begin(), lights.end());
+    diagnostics.error(where, unknown_name("light or illuminant", name, known));
+    return std::nullopt;
+  }
+  const std::optional<std::string> table = names.illuminant({{name}, where});
+  auto illuminant = table ? load_illuminant(*table, where, diagnostics) : std::nullopt;
+  if (!illuminant) return std::nullopt;
+  const Chromaticity xy = chromaticity(illuminant->curve, names.film_observer);
+  return White{name, "", xy, {}, std::move(illuminant->curve)};
 }
 
 }  // namespace
@@ -39,31 +61,15 @@ schema::Kind spec::white() {
 }
 
 std::optional<White> build(const spec::White& said, const WhiteNames& names, Diagnostics& diagnostics) {
-  const SourcePosition& where = said.where;
-  if (const auto* xy = std::get_if<std::array<double, 2>>(&said.value))
-    return build_chromaticity({(*xy)[0], (*xy)[1]}, where, diagnostics);
-  const auto& name = std::get<std::string>(said.value);
-  const std::vector<std::string>& lights = names.lights;
-  const auto light = std::find(lights.begin(), lights.end(), name);
-  if (light != lights.end()) {
-    if (std::find(light + 1, lights.end(), name) == lights.end()) {
-      White white = names.white_of_light(static_cast<std::size_t>(light - lights.begin()));
-      white.reason = kAsked;
-      return white;
-    }
-    diagnostics.error(where, fmt::format("several lights are called \"{}\"", name));
-    return std::nullopt;
+  const auto* xy = std::get_if<std::array<double, 2>>(&said.value);
+  std::optional<White> white =
+      xy != nullptr ? build_chromaticity({(*xy)[0], (*xy)[1]}, said.where, diagnostics)
+                    : build_named(std::get<std::string>(said.value), said.where, names, diagnostics);
+  if (white) {
+    white->reason = "asked for";
+    white->asked = true;
   }
-  std::vector<std::string> known = table_names("illuminant");
-  if (!may_be_illuminant(name, known)) {
-    known.insert(known.begin(), lights.begin(), lights.end());
-    diagnostics.error(where, unknown_name("light or illuminant", name, known));
-    return std::nullopt;
-  }
-  const std::optional<std::string> table = names.illuminant({{name}, where});
-  const auto illuminant = table ? load_illuminant(*table, where, diagnostics) : std::nullopt;
-  if (!illuminant) return std::nullopt;
-  return White{name, kAsked, chromaticity(illuminant->curve, names.film_observer)};
+  return white;
 }
 
 std::optional<White> read_white(const JsonValue& json, const WhiteNames& names, Diagnostics& diagnostics) {

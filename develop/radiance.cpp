@@ -108,7 +108,7 @@ void forget_sensor(std::map<std::string, std::string>& metadata) {
   });
   for (const char* key : {"sensor", "sensor_channels", "mosaic", "mosaic_channels", "gathering_area_m2",
                           "electrons_per_lx_s", "to_xyz_d65", kNoPictureKey, "display_exposure", kWhiteKey,
-                          kWhiteXyKey, kLightsXyKey, kHandednessKey})
+                          kWhiteXyKey, kWhiteAskedKey, kLightsXyKey, kHandednessKey})
     metadata.erase(key);
 }
 

@@ -88,6 +88,7 @@ Lamp* lamp_of_white(std::vector<Lamp>& lamps, const std::vector<RecordedLight>& 
 }  // namespace
 
 RelitWhite relit_white(const Image& film, std::span<const LightFactor> factors) {
+  if (film.metadata.contains(kWhiteAskedKey)) return {};
   const std::vector<RecordedLight> lights = recorded_lights(film);
   std::vector<Lamp> lamps = lamps_of(light_shares(film, factors), lights);
   const Lamp* own = lamp_of_white(lamps, lights, film);

@@ -22,8 +22,21 @@ using Json = nlohmann::ordered_json;  // keys keep their order
 constexpr std::size_t kMostLights = 256;
 constexpr double kSame = 1e-6;  // of chromaticities: names of bands are rounded
 
-void require_adaptable(const White& white, ErrorCode code, const std::string& where) {
-  if (adaptation(unit_xyz(white.xy), unit_xyz(kD65))) return;
+bool is_adaptable(const Chromaticity& xy) {
+  return adaptation(unit_xyz(xy), unit_xyz(kD65)).has_value();
+}
+
+// The light of a white, whether it lights or not.
+const std::optional<Curve>& light_of(const White& white) {
+  return white.spectrum ? white.spectrum : white.illuminant;
+}
+
+// Sees a white that is asked for as it is where the bands of a film leave nothing of it that an eye adapts
+// to.
+void make_adaptable(White& white, Observer observer, ErrorCode code, const std::string& where) {
+  if (is_adaptable(white.xy)) return;
+  if (light_of(white)) white.xy = chromaticity(*light_of(white), observer);
+  if (is_adaptable(white.xy)) return;
   throw Error(code, where,
               fmt::format("is no white that an eye adapts to (got {}, x {:.4f}, y {:.4f})", white.name,
                           white.xy[0], white.xy[1]));
@@ -57,31 +70,43 @@ std::optional<White> white_of_film(const Scene& scene, const Image& film) {
   return White{name, "the film's", *xy};
 }
 
+// Whether all channels of a scene's sensor see something of a light, and the observer X, Y and Z.
+bool is_seen(const Curve& light, const Scene& scene) {
+  const XYZ xyz = tristimulus(light, Curve(1.0), film_observer_of(scene).observer);
+  return std::all_of(xyz.begin(), xyz.end(), [](double value) { return value > 0; }) &&
+         std::all_of(scene.channels.begin(), scene.channels.end(),
+                     [&](const Channel& channel) { return sum_product(light, channel.weight) > 0; });
+}
+
 }  // namespace
 
 void settle_white(Scene& scene, const std::filesystem::path& path, int threads,
                   const std::shared_ptr<const Guides>& guides) {
   if (!has_colors(scene)) return;
-  if (scene.output.white)
-    require_adaptable(*scene.output.white, ErrorCode::scene,
-                      fmt::format("{}: {}", input_name(path), kWhitePointer));
-  scene.output.white = white_of(scene, threads, guides);
+  std::optional<White>& white = scene.output.white;
+  if (white && white->asked)
+    make_adaptable(*white, film_observer_of(scene).observer, ErrorCode::scene,
+                   fmt::format("{}: {}", input_name(path), kWhitePointer));
+  white = white_of(scene, threads, guides);
 }
 
 void settle_white(Scene& scene, const std::filesystem::path& path, const Image& film,
                   const std::optional<std::string>& asked, std::string_view said_by) {
   Diagnostics diagnostics;
   scene.image_band_edges_nm = recorded_film_observer(film).band_edges_nm;
-  if (asked)
-    scene.output.white =
-        read_asked(*asked, white_names(scene.lights, film_observer_of(scene)), said_by, diagnostics);
+  const FilmObserver film_observer = film_observer_of(scene);
   std::optional<White>& white = scene.output.white;
-  if (!white) white = white_of_film(scene, film);
-  if (white && white->spectrum) white->xy = chromaticity(*white->spectrum, film_observer_of(scene));
+  if (asked)
+    white = read_asked(*asked, white_names(scene.lights, film_observer), said_by, diagnostics);
+  else if (!white)
+    white = white_of_film(scene, film);
+  else if (light_of(*white))
+    white->xy = chromaticity(*light_of(*white), film_observer);
   settle_white(scene, path);
-  // The sensor is characterised in the light that it is shown.
-  if (white && white->spectrum && !scene.image_band_edges_nm.empty())
-    white->spectrum = in_bands(*white->spectrum, scene.image_band_edges_nm);
+  // The sensor is characterised in the light that it is shown, unless that leaves a channel in the dark.
+  if (!white || !white->spectrum || scene.image_band_edges_nm.empty()) return;
+  Curve shown = in_bands(*white->spectrum, scene.image_band_edges_nm);
+  if (is_seen(shown, scene)) white->spectrum = std::move(shown);
 }
 
 void add_white(const Scene& scene, FilmIdentity& identity) {
@@ -89,6 +114,7 @@ void add_white(const Scene& scene, FilmIdentity& identity) {
   const White white = white_of(scene);
   if (!std::isfinite(white.xy[0])) return;
   record_white(white.name, white.xy, identity);
+  if (white.asked) identity[kWhiteAskedKey] = "yes";
   if (scene.lights.size() > kMostLights) return;
   const FilmObserver film_observer = film_observer_of(scene);
   Json lights = Json::object();
@@ -126,7 +152,7 @@ White asked_white(const std::string& text, const Image& film, std::string_view s
     }
   names.white_of_light = [&](std::size_t i) { return White{names.lights[i], "", colors[i]}; };
   White white = read_asked(text, names, said_by, diagnostics);
-  require_adaptable(white, ErrorCode::usage, kWhitePointer);
+  make_adaptable(white, names.film_observer.observer, ErrorCode::usage, kWhitePointer);
   return white;
 }
 

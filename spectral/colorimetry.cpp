@@ -185,8 +185,8 @@ Chromaticity chromaticity(const XYZ& xyz) {
   return {xyz[0] / total, xyz[1] / total};
 }
 
-Chromaticity chromaticity(const Curve& light) {
-  return chromaticity(tristimulus(light, Curve(1.0), Observer::cie1931));
+Chromaticity chromaticity(const Curve& light, Observer observer) {
+  return chromaticity(tristimulus(light, Curve(1.0), observer));
 }
 
 XYZ lab_to_xyz(const Lab& lab, const XYZ& white) {

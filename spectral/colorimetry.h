@@ -50,13 +50,13 @@ struct SumRange {
 [[nodiscard]] XYZ tristimulus(const Curve& illuminant, const Curve& reflectance, Observer observer,
                               SumRange range = {});
 
-/// CIE 1931 chromaticity coordinates.
+/// Chromaticity coordinates x, y.
 using Chromaticity = std::array<double, 2>;
 
 /// Chromaticity coordinates x, y; {0, 0} for black.
 [[nodiscard]] Chromaticity chromaticity(const XYZ& xyz);
-/// Chromaticity of a light for the CIE 1931 observer; not finite for a light that nobody sees.
-[[nodiscard]] Chromaticity chromaticity(const Curve& light);
+/// Chromaticity of a light as an observer sees it; not finite for a light that nobody sees.
+[[nodiscard]] Chromaticity chromaticity(const Curve& light, Observer observer = Observer::cie1931);
 
 /// CIE 1976 L*a*b* relative to `white`, both in the same scale [CIE15, sec. 8.2.1].
 template <typename T>

@@ -1,5 +1,6 @@
 #include "spectral/film_observer.h"
 
+#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -19,9 +20,11 @@ Curve in_bands(const Curve& light, std::span<const double> edges_nm) {
 }
 
 Chromaticity chromaticity(const Curve& light, const FilmObserver& film_observer) {
-  if (!film_observer.band_edges_nm.empty())
-    return chromaticity(in_bands(light, film_observer.band_edges_nm), FilmObserver{film_observer.observer});
-  return chromaticity(tristimulus(light, Curve(1.0), film_observer.observer));
+  const Chromaticity own = chromaticity(light, film_observer.observer);
+  if (film_observer.band_edges_nm.empty()) return own;
+  const Chromaticity shown =
+      chromaticity(in_bands(light, film_observer.band_edges_nm), film_observer.observer);
+  return std::isfinite(shown[0]) ? shown : own;
 }
 
 }  // namespace abbe

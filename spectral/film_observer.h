@@ -17,7 +17,8 @@ struct FilmObserver {
 /// A light of which an image has bands alone: its mean over each, and nothing beyond.
 [[nodiscard]] Curve in_bands(const Curve& light, std::span<const double> edges_nm);
 
-/// Chromaticity of a light as it is seen; not finite for a light that is not.
+/// Chromaticity of a light as it is seen, of one of which nothing is seen in bands as it is itself; not
+/// finite for a light that nobody sees.
 [[nodiscard]] Chromaticity chromaticity(const Curve& light, const FilmObserver& film_observer);
 
 }  // namespace abbe

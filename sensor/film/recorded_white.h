@@ -14,6 +14,8 @@ inline constexpr const char* kWhitePointer = "/output/white";
 /// Attributes of a film that name its white and tell its chromaticity, x and y with a blank between them.
 inline constexpr const char* kWhiteKey = "white";
 inline constexpr const char* kWhiteXyKey = "white_xy";
+/// The attribute of a film whose scene asks for its white, "yes"; others show their main light as white.
+inline constexpr const char* kWhiteAskedKey = "white_asked";
 /// The attribute with the chromaticities of the scene's lights: a JSON object of [x, y] by name, null for a
 /// name that several lights have.
 inline constexpr const char* kLightsXyKey = "lights_xy";

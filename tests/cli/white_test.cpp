@@ -9,6 +9,7 @@
 #include "io/exr.h"
 #include "io/picture.h"
 #include "spectral/colorimetry.h"
+#include "tests/cli/lit_dome.h"
 #include "tests/cli/program.h"
 #include "tests/cli/runs.h"
 #include "transport/render/part.h"
@@ -17,42 +18,6 @@
 
 namespace abbe::test {
 namespace {
-
-constexpr const char* kObserver = R"("observer": "1931")";
-constexpr const char* kWideObserver = R"("observer": "1964")";
-constexpr const char* kNikon = R"("camera": "Nikon_D5100")";
-constexpr const char* kSpectral = R"("spectral": {"from_nm": 380, "to_nm": 780, "step_nm": 5})";
-
-// A white dome behind, and before it in the list, a lamp that hardly shines.
-std::string lit_dome(const std::string& name, const std::string& sensor, const std::string& white = "",
-                     const std::string& dome = "A") {
-  return scratch()
-      .write(name, fmt::format(R"({{"abbe": 1, "camera": {{"pinhole": {{"fov_deg": 40, "f_number": 8}},
-        "from": [0, 0, 0], "to": [0, 0, 1], "up": [0, 1, 0]}},
-        "sensor": {{"resolution": [24, 16], {}}},
-        "materials": {{"grey": {{"diffuse": {{"reflectance": 0.5}}}}}},
-        "lights": [{{"name": "faint", "point": {{"at": [0, 0, 1]}},
-                     "emission": {{"illuminant": "D65", "luminous_intensity": 0.001}}}},
-                   {{"name": "dome", "environment": {{}}, "emission": {{"illuminant": "{}", "luminance": 100}}}}],
-        "shapes": [{{"sphere": {{"center": [0, 0, 5], "radius": 1}}, "material": "grey"}}],
-        "render": {{"samples": 64}}, "output": {{{}}}}})",
-                               sensor, dome, white.empty() ? "" : "\"white\": " + white))
-      .string();
-}
-
-// Means of a picture's code values, or of channels.
-std::array<double, 3> means(const Image& picture) {
-  std::array<double, 3> mean{};
-  for (std::size_t k = 0; k < 3; ++k)
-    for (const float v : picture.find(std::string(1, "RGB"[k]))->values)
-      mean[k] += static_cast<double>(v) / static_cast<double>(picture.pixels());
-  return mean;
-}
-// How much redder than blue.
-double warmth(const std::string& picture) {
-  const auto [r, g, b] = means(read_picture(picture));
-  return r - b;
-}
 
 // All sensors: the one light that matters is white by default, in the picture of the render and in that of
 // its film; another white is asked for by the name of a light, of an illuminant, or by coordinates.
@@ -108,57 +73,7 @@ TEST(White, IsToldByWhatIsDevelopedForIt) {
             read_picture(file("t_d65.png")).channels[0].values);
 }
 
-// Of a film whose lights are told apart: the name of the white and what is said of it.
-struct Relit {
-  std::string white;
-  std::string err;
-  double warmth;
-};
-Relit relit(const std::string& film, const std::string& options) {
-  const Outcome run = abbe("develop " + film + " " + options + " --display " + file("relit.png"));
-  EXPECT_EQ(run.code, 0) << run.err;
-  return {read_picture(file("relit.png")).metadata.at("white"), run.err, warmth(file("relit.png"))};
-}
-
-// The ball in the light of the lamp of D65 alone is grey, as where the dome does not shine.
-TEST_P(AnySensor, ShowsTheMainLightThatIsLeftAsWhite) {
-  const std::string film = film_of(lit_dome("relit.json", GetParam()), "relit", "--layers lights");
-  const Relit left = relit(film, "--light dome=0");
-  EXPECT_EQ(left.white, "faint");
-  EXPECT_LT(std::abs(left.warmth), 0.02);
-  const bool corrects = GetParam() == kNikon;
-  EXPECT_EQ(left.err.find("--white dome") != std::string::npos, corrects) << left.err;
-  EXPECT_EQ(left.err.empty(), !corrects) << left.err;
-  for (const char* same : {"--light dome=0.5", "--light faint=0", "--light dome=3 --light faint=3",
-                           "--light dome=0 --light faint=0", "--light dome=0 --white dome"}) {
-    const Relit kept = relit(film, same);
-    EXPECT_EQ(kept.white, "dome") << same;
-    EXPECT_EQ(kept.err, "") << same;
-  }
-  const Relit asked = relit(film, "--light dome=0 --white A");
-  EXPECT_EQ(asked.white, "A");
-  EXPECT_EQ(asked.err, "");
-}
-
-TEST_P(AnySensor, KeepsTheWhiteThatItsSceneAsksForWhateverLightsAreLeft) {
-  for (const char* white : {"FL11", "faint"}) {
-    const std::string film =
-        film_of(lit_dome("told.json", GetParam(), fmt::format("\"{}\"", white)), "told", "--layers lights");
-    for (const char* lights : {"--light dome=0", "--light faint=0"}) {
-      const Relit kept = relit(film, lights);
-      EXPECT_EQ(kept.white, white) << lights;
-      EXPECT_EQ(kept.err, "") << lights;
-    }
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(White, AnySensor, testing::Values(kObserver, kWideObserver, kNikon, kSpectral));
-
-void expect_xy(const std::map<std::string, std::string>& metadata, const Chromaticity& xy, double bound) {
-  const std::string& told = metadata.at("white_xy");
-  EXPECT_NEAR(std::stod(told), xy[0], bound) << told;
-  EXPECT_NEAR(std::stod(told.substr(told.find(' '))), xy[1], bound) << told;
-}
 
 // White points of A, D65 and FL11 for the CIE 1964 observer as they are published.
 TEST(White, IsThatOfTheObserverWhoseFilmItIs) {
@@ -195,45 +110,6 @@ TEST(White, AFilmTellsItsWhiteToTheSensorThatLooksAtIt) {
       << "not what the sensor's scene has";
   EXPECT_GT(seen(lit_dome("n.json", kNikon, "\"D65\""), ""), 0.3);
   EXPECT_GT(seen(lit_dome("n.json", kNikon), " --set /output/white=D65"), 0.3);
-}
-
-// A sensor that looks at radiances is corrected for the light that is left, where its scene has it.
-TEST(White, ASensorThatLooksAtLightsThatAreLeftIsCorrectedForThem) {
-  const std::string film = film_of(lit_dome("s.json", kSpectral), "lit", "--layers lights");
-  const Relit seen = relit(film, "--light dome=0 --scene " + lit_dome("n.json", kNikon));
-  EXPECT_EQ(seen.white, "faint");
-  EXPECT_LT(std::abs(seen.warmth), 0.005);
-  EXPECT_EQ(seen.err, "");
-}
-
-// That scene with more lights before its own.
-std::string with_lights(const std::string& name, const std::string& path, const std::string& lights) {
-  std::string text = read_file(path);
-  text.insert(text.find('[', text.find("\"lights\"")) + 1, lights + ", ");
-  return scratch().write(name, text).string();
-}
-
-TEST(White, OfLightsThatShareALayerIsToldWhereTheyHaveOne) {
-  const std::string path = lit_dome("rest.json", kObserver);
-  EXPECT_EQ(relit(film_of(path, "rest", "--layers lights:faint"), "--light rest=0").white, "faint");
-  const std::string three = with_lights("three.json", path,
-                                        R"({"name": "other", "point": {"at": [0, 0, 1]},
-    "emission": {"illuminant": "FL11", "luminous_intensity": 0.001}})");
-  const Relit untold = relit(film_of(three, "three", "--layers lights:dome"), "--light dome=0");
-  EXPECT_EQ(untold.white, "dome");
-  const std::string told = "does not tell the colour of \"rest\" (--white tells another)";
-  EXPECT_NE(untold.err.find(told), std::string::npos) << untold.err;
-}
-
-// Two lamps of one colour are brighter than a third that is brighter than each.
-TEST(White, IsThatOfTheLightsThatTogetherGiveMost) {
-  const std::string path = with_lights("group.json", lit_dome("group.json", kObserver),
-                                       R"({"name": "other", "point": {"at": [0, 0, 1]},
-    "emission": {"illuminant": "D65", "luminous_intensity": 0.0007}}, {"name": "third",
-    "point": {"at": [0, 0, 1]}, "emission": {"illuminant": "FL11", "luminous_intensity": 0.0013}})");
-  const std::string film = film_of(path, "group", "--layers lights");
-  EXPECT_EQ(relit(film, "--light dome=0").white, "faint");
-  EXPECT_EQ(relit(film, "--light dome=0 --light faint=0.3").white, "third");
 }
 
 // The colour of lights that are even from one whole nanometre to another, by their power there.
@@ -284,6 +160,50 @@ TEST(White, OfASpectralFilmIsWhatItsBinsShow) {
     expect_neutral(path + " --scene " + lit_lines("looker.json", sensor));
     expect_neutral(path + " --white dome --scene " + lit_lines("looker.json", sensor));
   }
+}
+
+// Films of bands that leave little of the light, or nothing that is seen.
+TEST(White, OfBandsThatNoEyeAdaptsToIsWhatIsAskedForOrNone) {
+  struct Bands {
+    const char* sensor;
+    Chromaticity a;
+    Chromaticity d65;
+  };
+  const Chromaticity d65{0.31274, 0.32905};  // from 380 to 780 nm
+  for (const auto& [sensor, of_a, of_d65] :
+       {Bands{R"("spectral": {"from_nm": 500, "to_nm": 600, "step_nm": 10})",
+              {0.39379, 0.58297},
+              {0.34846, 0.61574}},
+        Bands{R"("spectral": {"from_nm": 650, "to_nm": 700, "step_nm": 10})", {0.73020, 0.26980}, d65},
+        Bands{R"("spectral": {"from_nm": 800, "to_nm": 1000, "step_nm": 50})", {0.44758, 0.40745}, d65}}) {
+    SCOPED_TRACE(sensor);
+    const std::string film = film_of(lit_dome("few.json", sensor), "few");
+    expect_xy(read_exr(film).metadata, of_a, 2e-5);
+    expect_xy(read_exr(film_of(lit_dome("named.json", sensor, "\"D65\""), "named")).metadata, of_d65, 2e-5);
+    developed(film + " --white D65 --display " + file("few.png"));
+    if (of_a[0] < 0.45 && of_a[1] < 0.45) continue;  // which no camera sees anything of
+    const std::string looker = lit_dome("looker.json", kNikon);
+    developed(film + " --display " + file("few.png") + " --scene " + looker);
+    const auto expect_asked = [&](const std::string& how) {
+      developed(film + " -o " + file("asked.exr") + how);
+      expect_xy(read_exr_parts(file("asked.exr")).front().image.metadata, of_d65, 2e-5);
+    };
+    expect_asked(" --white D65 --scene " + looker);
+    expect_asked(" --scene " + lit_dome("asks.json", kNikon, "\"D65\""));
+  }
+}
+
+// Whoever names it, the scene that looks or an option.
+TEST(White, OfAnIlluminantIsWhatTheBinsOfAFilmShowOfIt) {
+  const std::string film =
+      film_of(lit_dome("bins.json", R"("spectral": {"from_nm": 380, "to_nm": 780, "step_nm": 20})"), "bins");
+  const auto white_xy = [&](const std::string& how) {
+    developed(film + how + " -o " + file("bins_seen.exr"));
+    return read_exr_parts(file("bins_seen.exr")).front().image.metadata.at("white_xy");
+  };
+  const std::string said = white_xy(" --scene " + lit_dome("asks.json", kNikon, "\"FL11\""));
+  EXPECT_EQ(said, white_xy(" --white FL11 --scene " + lit_dome("looker.json", kNikon)));
+  EXPECT_GT(std::abs(std::stod(said) - 0.38052), 0.002) << "FL11 itself";
 }
 
 TEST(White, InfoSaysWhichAndWhy) {

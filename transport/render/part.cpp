@@ -31,9 +31,9 @@ constexpr const char* kShape = "film";
 constexpr const char* kSamples = "samples";  // or `kAreasKey`, where the pixels do not all have the same
 constexpr const char* kCounts = "paths_rays_nonfinite_cut";
 constexpr const char* kCutSum = "cut_sum";  // its upper and lower 64 bits
-constexpr std::array<std::string_view, 8> kTellNothing{"scene",       kStatedSamplesKey, "to_xyz_d65",
-                                                       kNoPictureKey, kWhiteKey,         kWhiteXyKey,
-                                                       kLightsXyKey,  kShapeNamesKey};
+constexpr std::array<std::string_view, 9> kTellNothing{"scene",        kStatedSamplesKey, "to_xyz_d65",
+                                                       kNoPictureKey,  kWhiteKey,         kWhiteXyKey,
+                                                       kWhiteAskedKey, kLightsXyKey,      kShapeNamesKey};
 constexpr const char* kUnfinished = "unfinished";  // samples of a pass from first to last, and its items done
 
 template <typename Number>

@@ -23,7 +23,7 @@ inline constexpr const char* kInstructionSetKey = "instruction_set";
 /// What a film is a film of, by name: version, scene, seed and all else its values are a function of, besides
 /// the samples. `sensor_channels` lists the film's channels, separated by commas. Some tell no films apart:
 /// `scene`, the name of the scene file, `kStatedSamplesKey`, and how pictures show it: `to_xyz_d65`, fitted
-/// on the machine that rendered, or `no_picture`, `white` and `white_xy`.
+/// on the machine that rendered, or `no_picture`, `white`, `white_xy` and `white_asked`.
 using FilmIdentity = std::map<std::string, std::string>;
 
 /// Some samples of some pixels of a render. Parts of one identity but for their crops add up, in any order

@@ -106,10 +106,9 @@ White main_light(const Scene& scene, int threads, const std::shared_ptr<const Gu
 }
 
 White white_of(const Scene& scene, int threads, const std::shared_ptr<const Guides>& guides) {
-  const std::optional<White>& asked = scene.output.white;
-  if (asked && asked->spectrum) return *asked;
-  White white = main_light(scene, threads, guides);
-  if (asked) white = {asked->name, asked->reason, asked->xy, std::move(white.spectrum)};
+  if (!scene.output.white) return main_light(scene, threads, guides);
+  White white = *scene.output.white;
+  if (!white.spectrum) white.spectrum = main_light(scene, threads, guides).spectrum;
   return white;
 }
 
