@@ -304,6 +304,7 @@ std::optional<double> image_distance(const spec::Lens& said, System system, Diag
 void set_focus(const spec::Lens& said, System& system, Diagnostics& diagnostics) {
   if (const auto distance = image_distance(said, system, diagnostics))
     system.surfaces.back().thickness_mm = *distance + said.defocus;
+  system.defocus_mm = said.defocus;
 }
 
 // Its stop and its image stay as they are set at its own primary wavelength.

@@ -15,7 +15,7 @@ namespace abbe::spec {
 
 inline constexpr Range kModelIndex{1, 4, true, false};  ///< Of n_d.
 inline constexpr Range kAbbeNumber{1, 1000};
-inline constexpr double kMaxMm = 1e9;  ///< Of any length.
+using lens::kMaxMm;
 inline constexpr Range kPositiveMm{0, kMaxMm, true, false, "mm"};
 inline constexpr Range kFieldAngle = Range{-120, 120}.in("degrees");
 

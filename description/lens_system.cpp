@@ -89,8 +89,17 @@ std::optional<double> closed_stop(const spec::LensSystem& said, const lens::Syst
   return std::nullopt;
 }
 
+void warn_of_lost_defocus(const spec::LensSystem& said, const lens::System& lens, LoadContext& context) {
+  if (lens.defocus_mm == 0) return;
+  context.diagnostics.warning(
+      said.prescription.where,
+      fmt::format("a defocus without effect (got {:g} mm): a focus_distance moves the film into focus",
+                  lens.defocus_mm));
+}
+
 // Moves the film to the image of what is that far from the first surface.
 bool focus(const spec::LensSystem& said, lens::System& lens, double stop_radius, LoadContext& context) {
+  warn_of_lost_defocus(said, lens, context);
   const auto* distance = std::get_if<double>(&*said.focus_distance);
   lens.object_distance_mm =
       distance != nullptr ? std::optional(*distance * context.unit_m * lens::kMmPerM) : std::nullopt;

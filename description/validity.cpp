@@ -49,7 +49,7 @@ void check_clear(const Material& material, const Support& sensor, const SourcePo
 
 void check_validity(const spec::Materials& materials, const LoadContext& context, const Scene& scene) {
   Support sensor;
-  for (const Channel& channel : scene.channels) extend(sensor, channel.weight);
+  for (const Channel& channel : scene.channels) extend(sensor, envelope(channel));
   for (const Material& material : scene.materials) {
     const auto said = std::find_if(materials.begin(), materials.end(),
                                    [&](const auto& named) { return named.name == material.name; });
@@ -68,7 +68,7 @@ void check_lamps(const LoadContext& context, const Scene& scene) {
     if (!seen.contains(&spectrum))
       seen[&spectrum] =
           std::any_of(scene.channels.begin(), scene.channels.end(), [&](const Channel& channel) {
-            const Curve exposed = product(spectrum, channel.weight);
+            const Curve exposed = product(spectrum, envelope(channel));
             return exposed.max() > 0 || exposed.min() < 0;
           });
     if (!dark && seen[&spectrum]) continue;

@@ -57,10 +57,13 @@ std::optional<Rim> rim_of(const Beam& beam) {
 }
 
 // Of the axial beam's widths, that in the paraxial entrance pupil over that in the launch plane. Light of an
-// object at infinity has the same width in every plane, a pupil at infinity included.
+// object at infinity has the same width in every plane, a pupil at infinity included. A pupil that is so far
+// away that its chief rays are parallel to what digits of a prescription tell has no width.
 double pupil_over_launch(const SystemAt& at) {
+  constexpr double kMost = 1e4;
   const auto& distance = at.system->object_distance_mm;
-  return distance ? std::abs(1 + first_order(at).entrance_pupil_mm / *distance) : 1;
+  const double ratio = distance ? std::abs(1 + first_order(at).entrance_pupil_mm / *distance) : 1;
+  return ratio < kMost ? ratio : std::numeric_limits<double>::infinity();
 }
 
 // Of the power that would fill the round stop, what the image has: `round` tells it without blades, whose
@@ -114,12 +117,8 @@ std::optional<Chief> chief_ray(const SystemAt& at, double field, double stop_rad
   const auto path = chief_path(at, field, stop_radius_mm);
   if (!path) return std::nullopt;
   Chief chief{path->last.origin.y, std::nullopt};
-  const FirstOrder first = first_order(at);
-  const Imath::V3d& d = path->last.direction;
-  const double defocus = at.system->surfaces.back().thickness_mm - first.image_distance_mm;
-  const double paraxial = paraxial_image_height(at, first, field);
-  const double ideal = paraxial + defocus * d.y / d.z;
-  if (paraxial != 0 && ideal != 0 && std::isfinite(ideal)) chief.distortion = chief.height_mm / ideal - 1;
+  const double ideal = paraxial_chief_height(at, field);
+  if (ideal != 0 && std::isfinite(ideal)) chief.distortion = chief.height_mm / ideal - 1;
   return chief;
 }
 

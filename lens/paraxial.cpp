@@ -27,6 +27,10 @@ Matrix matrix(const SystemAt& at, std::size_t first, std::size_t last, bool onwa
   return m;
 }
 
+double or_infinity(double mm) {
+  return std::abs(mm) > kMaxMm ? std::copysign(std::numeric_limits<double>::infinity(), mm) : mm;
+}
+
 }  // namespace
 
 std::vector<ParaxialHit> paraxial_trace(const SystemAt& at, double y, double u) {
@@ -47,22 +51,22 @@ FirstOrder first_order(const SystemAt& at) {
   const Matrix behind = matrix(at, stop, at.size(), false);
   const double n_image = at.n.back();
   FirstOrder first{};
-  first.focal_length_mm = -n_image / all.c;
-  first.back_focus_mm = -n_image * all.a / all.c;
-  first.front_focus_mm = all.d / all.c;
+  first.focal_length_mm = or_infinity(-n_image / all.c);
+  first.back_focus_mm = or_infinity(-n_image * all.a / all.c);
+  first.front_focus_mm = or_infinity(all.d / all.c);
   first.front_principal_mm = first.front_focus_mm - 1 / all.c;
   first.rear_principal_mm = first.back_focus_mm - first.focal_length_mm;
-  first.entrance_pupil_mm = before.b / before.a;
-  first.entrance_magnification = 1 / before.a;
+  first.entrance_pupil_mm = or_infinity(before.b / before.a);
+  first.entrance_magnification = 1 / (std::isinf(first.entrance_pupil_mm) ? 0 : before.a);
   first.stop_by_slope_mm = before.b;
-  first.exit_pupil_mm = -n_image * behind.b / behind.d;
-  first.exit_magnification = 1 / behind.d;
+  first.exit_pupil_mm = or_infinity(-n_image * behind.b / behind.d);
+  first.exit_magnification = 1 / (std::isinf(first.exit_pupil_mm) ? 0 : behind.d);
   first.image_distance_mm = first.back_focus_mm;
   if (const auto distance = at.system->object_distance_mm) {
     const double y = all.a * *distance + all.b;  // of the ray that leaves the axis at a slope of 1
     const double nu = all.c * *distance + all.d;
-    first.image_distance_mm = -n_image * y / nu;
-    first.magnification = 1 / nu;
+    first.image_distance_mm = or_infinity(-n_image * y / nu);
+    first.magnification = 1 / (std::isinf(first.image_distance_mm) ? 0 : nu);
   }
   return first;
 }
@@ -72,9 +76,23 @@ double paraxial_slope(double direction_deg) {
   return std::tan(direction_deg * std::numbers::pi / 180);
 }
 
-double paraxial_image_height(const SystemAt& at, const FirstOrder& first, double field) {
-  if (at.system->object_distance_mm) return first.magnification * field;
-  return first.focal_length_mm / at.n.back() * paraxial_slope(field);
+ParaxialRay paraxial_chief_ray(const SystemAt& at, double field) {
+  const FirstOrder first = first_order(at);
+  if (const auto distance = at.system->object_distance_mm) {
+    // A ray passes the stop at by_height y + by_slope u, wherever the entrance pupil is.
+    const double by_height = 1 / first.entrance_magnification;
+    const double by_slope = first.stop_by_slope_mm;
+    const double share = field / (by_height * *distance + by_slope);
+    return {by_slope * share, -by_height * share};
+  }
+  const double slope = paraxial_slope(field);
+  return {-first.entrance_pupil_mm * slope, slope};
+}
+
+double paraxial_chief_height(const SystemAt& at, double field) {
+  const auto [y, u] = paraxial_chief_ray(at, field);
+  const ParaxialHit last = paraxial_trace(at, y, u).back();
+  return last.y + last.u * at.system->surfaces.back().thickness_mm;
 }
 
 }  // namespace abbe::lens

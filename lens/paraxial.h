@@ -17,7 +17,7 @@ struct ParaxialHit {
 [[nodiscard]] std::vector<ParaxialHit> paraxial_trace(const SystemAt& at, double y, double u);
 
 /// What a system does to rays near its axis, at one wavelength. Distances of object space are counted from
-/// the first vertex, of image space from the last, both positive towards +z.
+/// the first vertex, of image space from the last, both positive towards +z, and infinite beyond `kMaxMm`.
 struct FirstOrder {
   double focal_length_mm;         ///< f' = n'/power; infinite for a system without power.
   double back_focus_mm;           ///< Of the rear focal point.
@@ -38,8 +38,15 @@ struct FirstOrder {
 /// Slope of a paraxial ray in a direction as in `System`; not a number from 90 degrees on.
 [[nodiscard]] double paraxial_slope(double direction_deg);
 
-/// Height in the plane of the image that a paraxial chief ray of the field has; fields as in `System`. Not a
-/// number for directions of 90 degrees and more.
-[[nodiscard]] double paraxial_image_height(const SystemAt& at, const FirstOrder& first, double field);
+/// The paraxial ray of a field, as in `System`, through the middle of the stop: its height at the first
+/// vertex and its slope before that. Not a number for directions of 90 degrees and more.
+struct ParaxialRay {
+  double y;
+  double u;
+};
+[[nodiscard]] ParaxialRay paraxial_chief_ray(const SystemAt& at, double field);
+
+/// The height of that ray in the plane of the image, in focus or not.
+[[nodiscard]] double paraxial_chief_height(const SystemAt& at, double field);
 
 }  // namespace abbe::lens

@@ -5,24 +5,6 @@
 namespace abbe::lens {
 namespace {
 
-struct Slope {
-  double y, u;  // at the first vertex, and before it
-};
-
-// The paraxial rays of the beam: of this height at the first vertex, and through the middle of the stop.
-std::pair<Slope, Slope> beam_rays(const SystemAt& at, double marginal, double field) {
-  const FirstOrder first = first_order(at);
-  if (const auto distance = at.system->object_distance_mm) {
-    // A ray passes the stop at by_height y + by_slope u, wherever the entrance pupil is.
-    const double by_height = 1 / first.entrance_magnification;
-    const double by_slope = first.stop_by_slope_mm;
-    const double share = field / (by_height * *distance + by_slope);
-    return {{marginal, marginal / *distance}, {by_slope * share, -by_height * share}};
-  }
-  const double chief = paraxial_slope(field);
-  return {{marginal, 0}, {-first.entrance_pupil_mm * chief, chief}};
-}
-
 struct SurfaceRays {
   double y, u, u_behind;  // of the marginal ray
   double chief_y, chief_u;
@@ -81,7 +63,9 @@ Seidel& Seidel::operator+=(const Seidel& other) {
 
 SeidelSums seidel_sums(const SystemAt& at, const SystemAt& blue, const SystemAt& red, double marginal_mm,
                        double field) {
-  const auto [marginal, chief] = beam_rays(at, marginal_mm, field);
+  const auto& distance = at.system->object_distance_mm;
+  const ParaxialRay marginal{marginal_mm, distance ? marginal_mm / *distance : 0};
+  const ParaxialRay chief = paraxial_chief_ray(at, field);
   const auto hits = paraxial_trace(at, marginal.y, marginal.u);
   const auto chief_hits = paraxial_trace(at, chief.y, chief.u);
   const double lagrange = at.n[0] * (marginal.u * chief.y - chief.u * marginal.y);

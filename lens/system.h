@@ -17,6 +17,10 @@
 // the origin, lengths are millimetres, angles degrees, indices relative to air, in which the lens stands.
 namespace abbe::lens {
 
+/// The greatest of lengths [mm]: what rays near the axis would meet further away is at infinity, as where
+/// the digits of a prescription alone keep them from being parallel.
+inline constexpr double kMaxMm = 1e9;
+
 inline constexpr double kMmPerM = 1000;
 
 /// What lies behind a surface.
@@ -61,6 +65,7 @@ struct System {
   /// Directions of objects at infinity [degrees], heights of near ones [mm]: a positive direction is that of
   /// light that rises towards +y, a positive height is towards +y.
   std::vector<double> fields{0};
+  double defocus_mm = 0;  ///< How far the image has been moved from its focus.
   std::vector<double> wavelengths_nm{587.5618};
   std::size_t primary = 0;            ///< Which of them the stop is set and the focus is found at,
   std::optional<double> set_at_nm{};  ///< if not at one of their own, in whose place they are.

@@ -53,5 +53,41 @@ TEST_F(LensSystemTest, TellsAFocusOfAFilmThatNothingMoves) {
   EXPECT_EQ(told(R"("focus_distance": 3)"), "");
 }
 
+TEST_F(LensSystemTest, TellsADefocusThatAFocusDistanceLoses) {
+  const auto told = [&](const std::string& focused) {
+    return load(
+               R"({"camera": {"lens_system": {"prescription": {"f_number": 4, "focus": "paraxial", "defocus": 3,
+          "surfaces": [{"stop": true, "thickness": 2}, [60, 5, 1.5], [-60, 1]]})" +
+               focused + R"(}, "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]},
+        "lights": [{"environment": {}, "emission": {"spectrum": 1}}],
+        "sensor": {"resolution": [1, 1], "channels": {"a": {"band": [500, 600]}}}})")
+        .text();
+  };
+  EXPECT_EQ(told(""), "");
+  const std::string lost = told(R"(, "focus_distance": 3)");
+  EXPECT_NE(lost.find("/prescription: warning: a defocus without effect (got 3 mm)"), std::string::npos)
+      << lost;
+}
+
+// An interference filter counts shorter waves than it lets through along its normal.
+TEST_F(LensSystemTest, WhatTheSensorSeesIsSeenAtAnyAngle) {
+  const auto told = [&](double line_nm) {
+    return load(
+               fmt::format(
+                   R"({{"camera": {{"pinhole": {{"fov_deg": 60}}, "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]}},
+        "sensor": {{"resolution": [16, 16], "channels": {{"a": {{"filters": [
+          {{"transmittance": {{"band": [560, 700]}}, "effective_index": 1.8}}]}}}}}},
+        "materials": {{"g": {{"dielectric": {{"ior": {{"wavelength_nm": [557, 720], "n": [1.6, 1.5]}}}}}}}},
+        "lights": [{{"name": "na", "environment": {{}},
+                    "emission": {{"lines": [{{"nm": {}, "width_nm": 1, "power": 1}}], "radiance": 1}}}}]}})",
+                   line_nm))
+        .text();
+  };
+  const std::string lit = told(545);
+  EXPECT_EQ(lit.find("emits nothing"), std::string::npos) << lit;
+  EXPECT_NE(lit.find("holds on [557, 720] nm, the sensor sees [5"), std::string::npos) << lit;
+  EXPECT_NE(told(530).find("emits nothing that the sensor sees"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace abbe

@@ -1,8 +1,12 @@
 #include <array>
+#include <cmath>
+#include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "lens/beam.h"
+#include "lens/field.h"
 #include "lens/paraxial.h"
 #include "lenses.h"
 
@@ -106,6 +110,48 @@ TEST(LensFirstOrder, CoefficientOfTheSquareBendsTheVertex) {
   const System sphere = test::sound_lens_of(R"({"surfaces": [{"radius": 20, )" + rest);
   EXPECT_NEAR(of(bent, 550).focal_length_mm, of(sphere, 550).focal_length_mm, 1e-12);
   EXPECT_NEAR(of(bent, 550).focal_length_mm, 40, 1e-12);
+}
+
+// A stop in the focus of what is before it by the last bit of doubles, and by the digits of a listing.
+TEST(LensFirstOrder, WhatDigitsAloneKeepFromBeingParallelIs) {
+  for (const char* gap : {"99.15966386554621", "99.159664"}) {
+    const System system = test::sound_lens_of(
+        std::string(R"({"object_distance": 120, "object_heights": [0, 5], "focus": "paraxial",
+          "surfaces": [[100, 5, 1.5], [-100, )") +
+        gap + R"(], {"stop": true, "thickness": 50, "aperture": 4}]})");
+    const auto found = speed(SystemAt(system, 587.5618), stop_radius(system), 20);
+    ASSERT_TRUE(found) << gap;
+    EXPECT_TRUE(std::isinf(found->entrance_diameter_mm)) << gap;
+    EXPECT_TRUE(std::isnan(found->f_number)) << gap;
+    EXPECT_TRUE(std::isnan(found->t_stop)) << gap;
+    EXPECT_NEAR(found->working_f_number, 59.69, 0.05) << gap;
+  }
+}
+
+// Of Kepler's kind, with its eyepiece so far behind the objective [mm].
+System telescope(const std::string& gap) {
+  return test::sound_lens_of(R"({"entrance_pupil": 5, "fields_deg": [0, 0.02, 2], "surfaces": [
+    {"stop": true, "thickness": 2}, [100, 3, 1.5], [-100, )" +
+                             gap + "], [50, 3, 1.5], [-50, 30]]}");
+}
+
+TEST(LensFirstOrder, AnAfocalTelescopeHasNoFocus) {
+  const System system = telescope("148.9924369321354");
+  const SystemAt at(system, 587.5618);
+  const FirstOrder first = first_order(at);
+  EXPECT_TRUE(std::isinf(first.focal_length_mm));
+  EXPECT_TRUE(std::isinf(first.image_distance_mm));
+  EXPECT_TRUE(std::isinf(speed(at, 2.5, 20)->f_number));
+}
+
+// Behind the eyepiece, of a telescope in focus and of one 5 mm too long.
+TEST(LensFirstOrder, DistortionOffTheFocusIsOverTheParaxialChiefRayThere) {
+  for (const auto& [gap, percent] : {std::pair("148.9924", -1.403), std::pair("153.9924369321354", -1.526)}) {
+    const System system = telescope(gap);
+    const SystemAt at(system, 587.5618);
+    EXPECT_NEAR(100 * *chief_ray(at, 0.02, 2.5)->distortion, 0, 2e-4) << gap;
+    EXPECT_NEAR(100 * *chief_ray(at, 2, 2.5)->distortion, percent, 1e-3) << gap;
+  }
 }
 
 }  // namespace
