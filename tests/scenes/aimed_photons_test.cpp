@@ -63,9 +63,11 @@ TEST(AimedPhotons, AreAimedForCertainByNoFewOthers) {
   EXPECT_LT(share, 0.5);
 }
 
-// What each of many lamps is shown by too few photons to aim its others by, all are by many together.
+// What each of many lamps is shown by too few photons to aim its others by, all are by many together, but
+// for those that none shows where most are shown by one.
 TEST(AimedPhotons, AreNotRareWhereManyLampsAreShownByFewEach) {
   EXPECT_FALSE(make_learnt_plan(floor_below_pane(8, 64), 2).guides.photons_are_rare);
+  EXPECT_TRUE(make_learnt_plan(floor_below_pane(3, 128), 2).guides.photons_are_rare);
   EXPECT_TRUE(make_learnt_plan(floor_below_pane(0.5, 4), 2).guides.photons_are_rare);
 }
 

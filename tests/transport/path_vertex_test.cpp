@@ -1,5 +1,7 @@
 #include "transport/path/path_vertex.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 #include "scene/lights/emission.h"
@@ -156,6 +158,33 @@ TEST(PathRecorder, EndsLongPathsSoon) {
   double events = 0;
   for (const RecordedPath& path : recorder.paths()) events += path.events;
   EXPECT_NEAR(events / kPaths, 128, 20);
+}
+
+// In a cloud that is as good as endless: of those that have had n events a share of n^(-1/2) is still in it
+// without roulette, and (64/n)^(1/2) of these go on by it.
+TEST(PathRecorder, EndsLongPathsInMatterNoSoonerThanOthers) {
+  Scene scene = test::lit_by(DirectionalLight{{0, 0, -1}});
+  MediumMaterial cloud;
+  cloud.filling.scattering_per_m = Curve(1e5);
+  scene.materials = {{"cloud", cloud}};
+  scene.shapes = {{"ball", Sphere{{0, 0, 0}, 1}, 0}};
+  scene.render.max_depth = 260;
+  scene.commit();
+  RayCaster caster(scene);
+  PathRecorder<TransportMode::power> recorder(scene, caster);
+  for (std::uint32_t i = 0; i < 8000; ++i) {
+    RecordedPath& path = recorder.paths().emplace_back(Sampler(1, Purpose::light, 0, 0, i), i);
+    path.packet = packet();
+    path.ray = ray_at({0, 0, -4}, {0, 0, 1}, 0);
+    path.vertices = {{.at = LightVertex{0, {0, 0, -1}, V3f(0), true}, .packet = path.packet}};
+  }
+  recorder.run();
+  const auto longer = [&recorder](int events) {
+    return static_cast<double>(
+        std::count_if(recorder.paths().begin(), recorder.paths().end(),
+                      [&](const RecordedPath& path) { return path.events >= events; }));
+  };
+  EXPECT_NEAR(longer(256) / longer(64), 0.25, 0.06);
 }
 
 // f of both ends, G and what fog leaves: the same both ways between what is reciprocal.

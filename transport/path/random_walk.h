@@ -65,7 +65,8 @@ concept WalkingTechnique = std::derived_from<typename T::Path, Walk> &&
 template <typename Technique>
 inline constexpr bool kDrawsPolarised = true;
 
-/// How soon long paths of a technique end, the `a` of `survival`.
+/// How soon long paths of a technique end at surfaces, the `a` of `survival`; within matter all are those
+/// of `kEndingOfPaths`.
 template <typename Technique>
 inline constexpr float kEnding = kEndingOfPaths;
 
@@ -131,7 +132,9 @@ class RandomWalks {
     if (event.transmitted)
       path.around.enter(scene_, vertex.behind(scene_, path.around.inside), path.lambda_nm());
     path.ray = vertex.leave(vertex.frame.to_world(event.wi), path.ray.time);
-    return survives(path, technique.kept(path, vertex, event), event.delta, u);
+    const float ending =
+        event.delta ? std::max(kEnding<Technique>, kEndingOfSpecularPaths) : kEnding<Technique>;
+    return survives(path, technique.kept(path, vertex, event), ending, u);
   }
 
   // Where a path is refracted by dispersive glass, each of its lanes goes on by itself, along its own
@@ -225,7 +228,7 @@ class RandomWalks {
     technique.connect_within(path, phase, v);
     path.last = {path.ray.origin, std::nullopt};
     path.ray.direction = turn(path, phase, {u[0], u[1]});
-    return survives(path, technique.kept_within(path), false, u[3]);
+    return survives(path, technique.kept_within(path), kEndingOfPaths, u[3]);
   }
 
   // A direction drawn within matter, in which the path is connected and polarised as if it went there.
@@ -262,12 +265,11 @@ class RandomWalks {
     return true;
   }
 
-  bool survives(Path& path, float kept, bool specular, float u) const {
+  bool survives(Path& path, float kept, float ending, float u) const {
     ++path.events;
     if (path.packet.throughput.is_zero()) return false;
     if (!plays_roulette(scene_.render, path.events)) return true;
-    const float a = specular ? std::max(kEnding<Technique>, kEndingOfSpecularPaths) : kEnding<Technique>;
-    const float q = survival(kept, path.events, a);
+    const float q = survival(kept, path.events, ending);
     if (u >= q) return false;
     survive(path.packet, q);
     return true;

@@ -24,7 +24,8 @@ inline constexpr int kMostEvents = 100000;
 }
 
 /// The `a` of `survival`: of paths whose cost is in proportion to their events, of those whose last event was
-/// specular, and of those of which all vertices are joined to all of another, at a cost of the third power.
+/// specular, and, at surfaces, of those of which all vertices are joined to all of another, at a cost of the
+/// third power.
 inline constexpr float kEndingOfPaths = 0.5F;
 inline constexpr float kEndingOfSpecularPaths = 1;
 inline constexpr float kEndingOfJoinedPaths = 2;
@@ -37,7 +38,8 @@ inline constexpr float kEndingOfJoinedPaths = 2;
 /// for a < 1/2, while the events of a path are in proportion to the sum of n^(-1/2 - a). Their product is
 /// least for a = 1/2 up to the most events there are. Light that total reflection holds in clear glass for
 /// ever ends ten times sooner by a = 1. The third power of a path's events is in proportion to the sum of
-/// n^(2 - a), which leaves little for a = 2 of what it is for 1/2.
+/// n^(2 - a), which leaves little for a = 2 of what it is for 1/2: surfaces absorb enough for that, clouds do
+/// not.
 [[nodiscard]] inline float survival(float throughput, int events, float a) {
   const float most = events > kLongPath ? 1 - a / static_cast<float>(events) : 1;
   return std::min(most, std::max(0.1F, throughput));

@@ -106,16 +106,22 @@ void aim_by(const Shown& shown, Plan& plan) {
 }
 
 // By how many photons the lights are shown, taken together, that can be aimed and are shown by too few each;
-// nothing where they bring no more than such a share of all that is shown.
+// nothing where they bring no more than such a share of all that is shown. Lights that a single photon shows
+// bring about as much as those that none shows [Good1953]: where that is more than the share, one shows them.
 std::optional<double> photons_of_few(const Shown& shown, const Plan& plan, double share) {
+  constexpr double kSingle = 1.5;
   Count all;
   Count few;
+  Count single;
   for (std::size_t light = 0; light < shown.lights.size(); ++light) {
-    all.add(shown.lights[light]);
-    if (plan.guides.aims[light].learns() && !is_shown_enough(shown.lights[light]))
-      few.add(shown.lights[light]);
+    const Count& here = shown.lights[light];
+    all.add(here);
+    if (!plan.guides.aims[light].learns() || is_shown_enough(here)) continue;
+    few.add(here);
+    if (here.photons() < kSingle) single.add(here);
   }
-  return few.worth > share * all.worth ? std::optional(few.photons()) : std::nullopt;
+  if (!(few.worth > share * all.worth)) return std::nullopt;
+  return single.worth > share * all.worth ? 1 : few.photons();
 }
 
 Shown show(const Plan& plan, PilotStage stage, int threads) {
