@@ -77,6 +77,17 @@ double share_at_image(const SystemAt& at, double stop_radius_mm, const Spot& rou
   return bladed.transmitted / bladed.filled;
 }
 
+// What the height of the real chief ray, which comes in that direction, is compared with.
+double ideal_height(const SystemAt& at, double field, const Imath::V3d& real) {
+  constexpr double kNear = 0.1;  // of the focal length
+  const FirstOrder first = first_order(at);
+  const double image = at.system->surfaces.back().thickness_mm;
+  const double defocus = image - first.image_distance_mm;
+  if (!std::isfinite(defocus) || std::abs(defocus) > kNear * std::abs(first.focal_length_mm))
+    return paraxial_chief_height(at, field, image);
+  return paraxial_chief_height(at, field, first.image_distance_mm) + defocus * real.y / real.z;
+}
+
 }  // namespace
 
 std::optional<Speed> speed(const SystemAt& at, double stop_radius_mm, int side) {
@@ -117,7 +128,7 @@ std::optional<Chief> chief_ray(const SystemAt& at, double field, double stop_rad
   const auto path = chief_path(at, field, stop_radius_mm);
   if (!path) return std::nullopt;
   Chief chief{path->last.origin.y, std::nullopt};
-  const double ideal = paraxial_chief_height(at, field);
+  const double ideal = ideal_height(at, field, path->last.direction);
   if (ideal != 0 && std::isfinite(ideal)) chief.distortion = chief.height_mm / ideal - 1;
   return chief;
 }

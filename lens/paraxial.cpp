@@ -89,10 +89,10 @@ ParaxialRay paraxial_chief_ray(const SystemAt& at, double field) {
   return {-first.entrance_pupil_mm * slope, slope};
 }
 
-double paraxial_chief_height(const SystemAt& at, double field) {
+double paraxial_chief_height(const SystemAt& at, double field, double distance_mm) {
   const auto [y, u] = paraxial_chief_ray(at, field);
   const ParaxialHit last = paraxial_trace(at, y, u).back();
-  return last.y + last.u * at.system->surfaces.back().thickness_mm;
+  return last.y + last.u * distance_mm;
 }
 
 }  // namespace abbe::lens

@@ -46,7 +46,7 @@ struct ParaxialRay {
 };
 [[nodiscard]] ParaxialRay paraxial_chief_ray(const SystemAt& at, double field);
 
-/// The height of that ray in the plane of the image, in focus or not.
-[[nodiscard]] double paraxial_chief_height(const SystemAt& at, double field);
+/// The height of that ray so far behind the last vertex.
+[[nodiscard]] double paraxial_chief_height(const SystemAt& at, double field, double distance_mm);
 
 }  // namespace abbe::lens
