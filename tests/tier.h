@@ -10,4 +10,10 @@ namespace abbe::test {
   return kSaid;
 }
 
+/// What is enough by day, as at night only with more time.
+template <typename T>
+[[nodiscard]] T by_night(T at_night, T by_day) {
+  return nightly() ? at_night : by_day;
+}
+
 }  // namespace abbe::test

@@ -7,6 +7,7 @@
 #include <random>
 
 #include "tests/calibration/response_fixture.h"
+#include "tests/tier.h"
 
 namespace abbe::test {
 namespace {
@@ -116,7 +117,7 @@ TEST(ExposureSeries, ScattersAsItSays) {
 
 TEST(ResponseFit, ItsIntervalHoldsThePlantedCurve) {
   for (const char* name : {"linear", "gamma:2.2", "s-curve"}) {
-    const Recovery recovery = recover_often(name, 6);
+    const Recovery recovery = recover_often(name, by_night(6, 3));
     EXPECT_LT(recovery.worst, 0.003) << name;
     EXPECT_GE(recovery.coverage, 0.85) << name;
     EXPECT_LE(recovery.coverage, 1) << name;
@@ -126,7 +127,7 @@ TEST(ResponseFit, ItsIntervalHoldsThePlantedCurve) {
 // Photons make the errors of bright codes many times those of dark ones, and nothing says so.
 TEST(ResponseFit, ItsIntervalHoldsThePlantedCurveOfSinglePixels) {
   for (const char* name : {"linear", "gamma:2.2", "s-curve"})
-    EXPECT_GE(recover_often(name, 6, kSinglePixels, false).coverage, 0.85) << name;
+    EXPECT_GE(recover_often(name, by_night(6, 3), kSinglePixels, false).coverage, 0.85) << name;
 }
 
 // Noise ten times as large makes the interval ten times as wide, whether it was announced or not.

@@ -15,17 +15,18 @@ namespace {
 constexpr int kStrips = 6;  // of a film, across
 constexpr int kSeeds = 16;
 
-// Means of a channel over the strips of films of some seeds.
+// Means of each channel over the strips of films of some seeds.
 using Strips = std::array<std::array<double, kSeeds>, kStrips>;
-Strips strips_of(const Scene& scene, const Plan& plan, int channel, std::uint64_t samples) {
-  Strips strips;
+std::array<Strips, 3> strips_of(const Scene& scene, const Plan& plan, std::uint64_t samples) {
+  std::array<Strips, 3> strips;
   for (std::size_t seed = 0; seed < kSeeds; ++seed) {
     const Film film = test::film_of(scene, plan, samples, seed + (plan.photons_part ? 100 : 0));
-    for (int i = 0; i < kStrips; ++i)
-      strips[static_cast<std::size_t>(i)][seed] =
-          test::region(film, channel, i * film.width() / kStrips, 0, (i + 1) * film.width() / kStrips,
-                       film.height())
-              .mean;
+    for (int channel = 0; channel < 3; ++channel)
+      for (int i = 0; i < kStrips; ++i)
+        strips[static_cast<std::size_t>(channel)][static_cast<std::size_t>(i)][seed] =
+            test::region(film, channel, i * film.width() / kStrips, 0, (i + 1) * film.width() / kStrips,
+                         film.height())
+                .mean;
   }
   return strips;
 }
@@ -51,17 +52,17 @@ void expect_the_same_light(const Scene& scene, std::uint64_t samples, double wit
   parting.photons = whole.photons / 8;
   std::array<double, kSeeds> all{};
   std::array<double, kSeeds> all_parted{};
-  for (int channel = 0; channel < 3; ++channel) {
-    const Strips a = strips_of(scene, whole, channel, samples);
-    const Strips b = strips_of(scene, parting, channel, samples);
+  const std::array<Strips, 3> a = strips_of(scene, whole, samples);
+  const std::array<Strips, 3> b = strips_of(scene, parting, samples);
+  for (std::size_t channel = 0; channel < 3; ++channel) {
     for (std::size_t i = 0; i < kStrips; ++i) {
-      const Estimate x = estimate(a[i]);
-      const Estimate y = estimate(b[i]);
+      const Estimate x = estimate(a[channel][i]);
+      const Estimate y = estimate(b[channel][i]);
       EXPECT_LE(std::abs(x.mean - y.mean), kLargestZ * std::sqrt(x.variance + y.variance))
           << "channel " << channel << ", strip " << i << ": " << x.mean << " and " << y.mean;
       for (std::size_t seed = 0; seed < kSeeds; ++seed) {
-        all[seed] += a[i][seed];
-        all_parted[seed] += b[i][seed];
+        all[seed] += a[channel][i][seed];
+        all_parted[seed] += b[channel][i][seed];
       }
     }
   }

@@ -71,7 +71,7 @@ TEST(SmallMeter, ReadsALampThroughAWindow) {
   }
   const std::string bulb =
       R"({"sphere": {"center": [0, 0, 4], "radius": 0.03}, "emission": {"illuminant": "E", "irradiance": 1, "distance": 1}})";
-  expect_irradiance(window(disc(0.01), bulb), behind_window({0, 0, 4}), 1024, 0.08);
+  expect_irradiance(window(disc(0.01), bulb), behind_window({0, 0, 4}), test::by_night(1024, 512), 0.08);
 }
 
 // Of the pilots few set out from the weaker lamps.
@@ -109,6 +109,7 @@ TEST(SmallMeter, ReadsTheSunUnderWater) {
   const double expected = 0.5 * (1 - reflectance(1.333, 0.5));
   for (const auto& [light, center] :
        {std::pair("directional", "[0, 0, -1]"), {"directional", "[-2, 2, -1]"}, {"sun", "[1.3, -0.7, -1]"}}) {
+    if (!test::nightly() && center == std::string("[0, 0, -1]")) continue;  // by day off the middle alone
     SCOPED_TRACE(std::string(light) + " at " + center);
     expect_irradiance(pool(light, center), expected);
   }
