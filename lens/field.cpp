@@ -85,7 +85,8 @@ double ideal_height(const SystemAt& at, double field, const Imath::V3d& real) {
   const double defocus = image - first.image_distance_mm;
   if (!std::isfinite(defocus) || std::abs(defocus) > kNear * std::abs(first.focal_length_mm))
     return paraxial_chief_height(at, field, image);
-  return paraxial_chief_height(at, field, first.image_distance_mm) + defocus * real.y / real.z;
+  const double in_focus = paraxial_chief_height(at, field, first.image_distance_mm);
+  return in_focus != 0 ? in_focus + defocus * real.y / real.z : 0;
 }
 
 }  // namespace
