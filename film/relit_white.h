@@ -19,8 +19,8 @@ struct RelitWhite {
 /// That of a film that still has its layers of lights, before `relight`. A film shows its main light as
 /// white: lights of one colour count together, within the pilot's noise. A white that its scene asks for
 /// stays, as does one that is not that of the light which gives the film most, as of a crop, and that of a
-/// light which goes on giving most. The factors of planes change what a light gives and not the colour that it is known by.
-/// Throws as `relight` does.
+/// light which goes on giving most. The factors of planes change what a light gives and not the colour that
+/// it is known by. Throws as `relight` does.
 [[nodiscard]] RelitWhite relit_white(const Image& film, std::span<const LightFactor> factors);
 
 }  // namespace abbe

@@ -71,14 +71,13 @@ bool has_byte_order_mark(const fs::path& path) {
 /// expected. Behind a quoted cell, which they follow at once, they leave none.
 std::optional<std::size_t> wrong_separator(std::string_view line,
                                            const std::optional<std::vector<Cell>>& cells) {
-  if (cells && cells->size() != 1) return std::nullopt;
   const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
   const bool is_quoted = line.substr(begin).starts_with('"');
-  if (!is_quoted && !cells) return std::nullopt;
+  if (cells ? cells->size() != 1 : !is_quoted) return std::nullopt;
   const std::size_t at = is_quoted ? line.find_first_not_of(' ', closing_quote(line, begin) + 1)
                                    : line.find_first_of(";\t", begin);
-  if (at > line.find_last_not_of(" \t") || (line[at] != ';' && line[at] != '\t')) return std::nullopt;
-  return at;
+  const bool separates = at <= line.find_last_not_of(" \t") && (line[at] == ';' || line[at] == '\t');
+  return separates ? std::optional(at) : std::nullopt;
 }
 
 bool is_blank(std::string_view line) {
@@ -94,8 +93,7 @@ std::optional<std::pair<std::string, std::string>> key_line(std::string_view lin
 }
 
 bool governs(const std::string& key) {
-  const auto& keys = governing_keys();
-  return std::find(keys.begin(), keys.end(), key) != keys.end();
+  return std::ranges::find(governing_keys(), key) != governing_keys().end();
 }
 
 /// The key of a comment `# key = value` that would say how the table is read, had it a colon.
@@ -383,8 +381,7 @@ std::optional<TableColumn> find_table(std::string_view folder, const std::string
                                       const SourcePosition& where, Diagnostics& diagnostics) {
   if (user_table_end(name) != std::string::npos) return user_column(name, where, diagnostics);
   const Names& names = names_in(folder);
-  const auto found = names.find(name);
-  if (found != names.end()) return found->second;
+  if (const auto found = names.find(name); found != names.end()) return found->second;
   if (auto elsewhere = column_elsewhere(name)) return elsewhere;
   diagnostics.error(where, unknown_name(folder, name, table_names(folder)));
   return std::nullopt;
