@@ -183,7 +183,10 @@ TEST(White, OfBandsThatNoEyeAdaptsToIsWhatIsAskedForOrNone) {
     developed(film + " --white D65 --display " + file("few.png"));
     if (of_a[0] < 0.45 && of_a[1] < 0.45) continue;  // which no camera sees anything of
     const std::string looker = lit_dome("looker.json", kNikon);
-    developed(film + " --display " + file("few.png") + " --scene " + looker);
+    for (const std::string& scene : {looker, lit_dome("other.json", kNikon, "", "FL11")}) {
+      developed(film + " -o " + file("seen.exr") + " --display " + file("few.png") + " --scene " + scene);
+      expect_xy(read_exr_parts(file("seen.exr")).front().image.metadata, of_a, 2e-5);
+    }
     const auto expect_asked = [&](const std::string& how) {
       developed(film + " -o " + file("asked.exr") + how);
       expect_xy(read_exr_parts(file("asked.exr")).front().image.metadata, of_d65, 2e-5);

@@ -114,7 +114,7 @@ TEST(LensFirstOrder, CoefficientOfTheSquareBendsTheVertex) {
 
 // A stop in the focus of what is before it by the last bit of doubles, and by the digits of a listing.
 TEST(LensFirstOrder, WhatDigitsAloneKeepFromBeingParallelIs) {
-  for (const char* gap : {"99.15966386554621", "99.159664"}) {
+  for (const char* gap : {"99.15966386554621", "99.159664", "99.1597"}) {
     const System system = test::sound_lens_of(
         std::string(R"({"object_distance": 120, "object_heights": [0, 5], "focus": "paraxial",
           "surfaces": [[100, 5, 1.5], [-100, )") +
