@@ -1,16 +1,19 @@
 #include "film/white.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "calibration/chart/patches.h"
 #include "calibration/output/color_spaces.h"
 #include "description/white.h"
 #include "io/standard_stream.h"
 #include "scene/colors.h"
 #include "sensor/film/recorded_film_observer.h"
 #include "sensor/film/recorded_white.h"
+#include "sensor/response/stokes_channels.h"
 #include "spectral/rgb.h"
 #include "transport/render/white.h"
 
@@ -73,9 +76,11 @@ std::optional<White> white_of_film(const Scene& scene, const Image& film) {
 // Whether all channels of a scene's sensor see something of a light, and the observer X, Y and Z.
 bool is_seen(const Curve& light, const Scene& scene) {
   const XYZ xyz = tristimulus(light, Curve(1.0), film_observer_of(scene).observer);
+  const std::vector<Channel> channels = intensities(scene.channels);
   return std::all_of(xyz.begin(), xyz.end(), [](double value) { return value > 0; }) &&
-         std::all_of(scene.channels.begin(), scene.channels.end(),
-                     [&](const Channel& channel) { return sum_product(light, channel.weight) > 0; });
+         std::all_of(channels.begin(), channels.end(), [&](const Channel& channel) {
+           return sum_product(light, channel.weight, sensed(channels)) > 0;
+         });
 }
 
 }  // namespace

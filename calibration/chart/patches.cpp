@@ -17,11 +17,6 @@ void require_visible(const Channel& channel, double diffuser) {
                           diffuser));
 }
 
-// Sensors count what eyes do not see, too; observers are summed as colours are.
-SumRange sensed(std::span<const Channel> channels) {
-  return standard_observer(channels) ? SumRange{} : SumRange{kMinWavelengthNm, kMaxWavelengthNm};
-}
-
 // The channel whose diffuser value is the unit of raw values.
 const Channel& reference_channel(std::span<const Channel> channels) {
   for (const char* name : {"G", "Y"}) {
@@ -33,6 +28,10 @@ const Channel& reference_channel(std::span<const Channel> channels) {
 }
 
 }  // namespace
+
+SumRange sensed(std::span<const Channel> channels) {
+  return standard_observer(channels) ? SumRange{} : SumRange{kMinWavelengthNm, kMaxWavelengthNm};
+}
 
 XYZ unit_tristimulus(const Curve& illuminant, const Curve& reflectance) {
   XYZ xyz = tristimulus(illuminant, reflectance, Observer::cie1931);

@@ -15,9 +15,13 @@ namespace abbe {
 /// CIE 1931 tristimulus values, Y = 1 for the perfect diffuser.
 [[nodiscard]] XYZ unit_tristimulus(const Curve& illuminant, const Curve& reflectance);
 
+/// What channels are summed over: sensors count what eyes do not see, too, from 300 to 1100 nm; observers are
+/// summed as colours are, from 380 to 780 nm.
+[[nodiscard]] SumRange sensed(std::span<const Channel> channels);
+
 /// Raw values of a reflectance under an illuminant in channel order, divided by the value of the perfect
-/// diffuser in the channel named G, else Y, else the first: `sum_product` from 300 to 1100 nm, of the
-/// observer from 380 to 780 nm. Throws Error{input} when that channel does not see the illuminant.
+/// diffuser in the channel named G, else Y, else the first: `sum_product` over what is `sensed`. Throws
+/// Error{input} when that channel does not see the illuminant.
 [[nodiscard]] std::vector<double> camera_raw(std::span<const Channel> channels, const Curve& illuminant,
                                              const Curve& reflectance);
 

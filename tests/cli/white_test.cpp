@@ -134,15 +134,18 @@ TEST(White, OfASpectralFilmIsWhatItsBinsShow) {
     text.replace(
         text.find(light), light.size(),
         R"("lines": [{"nm": 462, "width_nm": 0.1, "power": 1}, {"nm": 525, "width_nm": 0.1, "power": 1.2},
-                    {"nm": 638, "width_nm": 0.1, "power": 1.5}], "luminance": 100)");
+                    {"nm": 638, "width_nm": 0.1, "power": 1.5}, {"nm": 850, "width_nm": 0.1, "power": 2}],
+                    "luminance": 100)");
     return scratch().write(name, text).string();
   };
   const std::string path =
-      film_of(lit_lines("bins.json", R"("spectral": {"from_nm": 380, "to_nm": 780, "step_nm": 20})"), "bins");
+      film_of(lit_lines("bins.json", R"("spectral": {"from_nm": 380, "to_nm": 900, "step_nm": 20})"), "bins");
   Image film = read_exr(path);
   expect_xy(film.metadata, color_of_bands({{{460, 480}, 1}, {{520, 540}, 1.2}, {{620, 640}, 1.5}}), 1e-6);
-  const std::map<std::string, float> held{
-      {"S0.470,000000nm", 1.0F}, {"S0.530,000000nm", 1.2F}, {"S0.630,000000nm", 1.5F}};
+  const std::map<std::string, float> held{{"S0.470,000000nm", 1.0F},
+                                          {"S0.530,000000nm", 1.2F},
+                                          {"S0.630,000000nm", 1.5F},
+                                          {"S0.850,000000nm", 2.0F}};
   for (ImageChannel& channel : film.channels)
     if (channel.name.starts_with("S0.")) {
       const auto found = held.find(channel.name);
@@ -156,7 +159,10 @@ TEST(White, OfASpectralFilmIsWhatItsBinsShow) {
     EXPECT_NEAR(b, g, 1.5 / 255) << arguments;
   };
   expect_neutral(path);
-  for (const char* sensor : {kNikon, kWideObserver}) {
+  // The bin of the red line is half within the red channel.
+  constexpr const char* kInfrared =
+      R"("channels": {"R": {"band": [630, 680]}, "G": {"band": [500, 590]}, "N": {"band": [790, 900]}})";
+  for (const char* sensor : {kNikon, kWideObserver, kInfrared}) {
     expect_neutral(path + " --scene " + lit_lines("looker.json", sensor));
     expect_neutral(path + " --white dome --scene " + lit_lines("looker.json", sensor));
   }
