@@ -56,20 +56,23 @@ White read_asked(const std::string& text, const WhiteNames& names, std::string_v
   return *std::move(white);
 }
 
-// What the film says of its white, by a light of the scene where that is the same one.
+// What the film says of its white, by a light of the scene where that is the same one: as the film's bands
+// show it, or, as `make_adaptable` may have it, as it is itself.
 std::optional<White> white_of_film(const Scene& scene, const Image& film) {
   const std::optional<Chromaticity> xy = recorded_white(film);
   if (!xy) return std::nullopt;
   const std::string& name = film.metadata.at(kWhiteKey);
   const FilmObserver of_film = recorded_film_observer(film);
-  const FilmObserver film_observer = film_observer_of(scene);
+  const Observer observer = film_observer_of(scene).observer;
   for (const Light& light : scene.lights) {
     if (light.name != name) continue;
-    const Chromaticity found = white_of(light, of_film, "").xy;
-    if (std::abs(found[0] - (*xy)[0]) + std::abs(found[1] - (*xy)[1]) < kSame)
-      return white_of(light, film_observer, "the film's");
+    for (const std::vector<double>& edges_nm : {of_film.band_edges_nm, {}}) {
+      const Chromaticity found = white_of(light, {of_film.observer, edges_nm}, "").xy;
+      if (std::abs(found[0] - (*xy)[0]) + std::abs(found[1] - (*xy)[1]) < kSame)
+        return white_of(light, {observer, edges_nm}, "the film's");
+    }
   }
-  if (film_observer.observer != of_film.observer) return std::nullopt;
+  if (observer != of_film.observer) return std::nullopt;
   return White{name, "the film's", *xy};
 }
 

@@ -202,6 +202,16 @@ TEST(White, OfBandsThatNoEyeAdaptsToIsWhatIsAskedForOrNone) {
   }
 }
 
+// A light to whose colour in the film's bands no eye adapts; asked for, it is seen as it is.
+TEST(White, OfALightThatAFilmOfBandsAsksForIsThatLightToWhoLooks) {
+  constexpr const char* kRed = R"("spectral": {"from_nm": 650, "to_nm": 700, "step_nm": 10})";
+  const std::string film = film_of(lit_dome("red.json", kRed, "\"faint\""), "red");
+  const auto lit = read_exr(film_of(lit_dome("lit.json", kNikon, "\"faint\""), "lit")).metadata;
+  developed(film + " -o " + file("red_seen.exr") + " --scene " + lit_dome("looker.json", kNikon));
+  const auto seen = read_exr_parts(file("red_seen.exr")).front().image.metadata;
+  for (const char* key : {"white", "white_xy", "to_xyz_d65"}) EXPECT_EQ(seen.at(key), lit.at(key)) << key;
+}
+
 // Whoever names it, the scene that looks or an option.
 TEST(White, OfAnIlluminantIsWhatTheBinsOfAFilmShowOfIt) {
   const std::string film =
