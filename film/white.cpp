@@ -76,6 +76,15 @@ std::optional<White> white_of_film(const Scene& scene, const Image& film) {
   return White{name, "the film's", *xy};
 }
 
+// The colour that a film tells of a light: of the one that is its white, which may be seen as it is itself,
+// that of its white.
+Chromaticity told_color(const RecordedLight& light, const Image& film) {
+  const auto white = film.metadata.find(kWhiteKey);
+  const bool is_white = white != film.metadata.end() && white->second == light.name;
+  const std::optional<Chromaticity> xy = is_white ? recorded_white(film) : std::nullopt;
+  return xy ? *xy : light.xy.value_or(Chromaticity{});
+}
+
 // Whether all channels of a scene's sensor see something of a light, and the observer X, Y and Z.
 bool is_seen(const Curve& light, const Scene& scene) {
   const XYZ xyz = tristimulus(light, Curve(1.0), film_observer_of(scene).observer);
@@ -156,7 +165,7 @@ White asked_white(const std::string& text, const Image& film, std::string_view s
   for (const RecordedLight& light : recorded_lights(film))
     for (int i = light.xy ? 1 : 2; i > 0; --i) {
       names.lights.push_back(light.name);
-      colors.push_back(light.xy.value_or(Chromaticity{}));
+      colors.push_back(told_color(light, film));
     }
   names.white_of_light = [&](std::size_t i) { return White{names.lights[i], "", colors[i]}; };
   White white = read_asked(text, names, said_by, diagnostics);

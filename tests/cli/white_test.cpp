@@ -212,6 +212,17 @@ TEST(White, OfALightThatAFilmOfBandsAsksForIsThatLightToWhoLooks) {
   for (const char* key : {"white", "white_xy", "to_xyz_d65"}) EXPECT_EQ(seen.at(key), lit.at(key)) << key;
 }
 
+TEST(White, OfAFilmOfBandsIsFoundByTheNameThatTheFilmHasForIt) {
+  constexpr const char* kRed = R"("spectral": {"from_nm": 650, "to_nm": 700, "step_nm": 10})";
+  const std::string film = film_of(lit_dome("red.json", kRed, "\"dome\""), "red");
+  expect_xy(read_exr(film).metadata, {0.44758, 0.40745}, 2e-5);
+  developed(film + " --display " + file("red.png"));
+  developed(film + " --white dome --display " + file("red_dome.png"));
+  EXPECT_EQ(means(read_picture(file("red_dome.png"))), means(read_picture(file("red.png"))));
+  EXPECT_EQ(abbe("compare " + film + " " + film + " --white dome").code, 0);
+  EXPECT_EQ(abbe("develop " + film + " --white faint --display " + file("red.png")).code, 2);
+}
+
 // Whoever names it, the scene that looks or an option.
 TEST(White, OfAnIlluminantIsWhatTheBinsOfAFilmShowOfIt) {
   const std::string film =
