@@ -205,7 +205,7 @@ ExposedFilm load(const DevelopOptions& options, Inputs& inputs) {
   const std::optional<White> relit = relight_as_asked(film, options);
   if (!options.polarisation.empty()) write_polarisation(film, options);
   if (is_spectral(film)) {
-    if (relit) record_white(relit->name, relit->xy, film.metadata);
+    if (relit) record_white(relit->name, relit->xy, relit->asked, film.metadata);
     return expose_spectral(std::move(film), options, inputs);
   }
   if (!options.scene.empty())

@@ -22,7 +22,8 @@ namespace {
 void tell_showing(const FilmSensor& sensor, std::map<std::string, std::string>& told) {
   if (sensor.display_exposure) told["display_exposure"] = fmt::format("{}", *sensor.display_exposure);
   if (sensor.white_name.empty() || !sensor.white || !sensor.display) return;
-  record_white(sensor.white_name, *sensor.white, told);
+  const bool asked = told.contains(kWhiteAskedKey) && told[kWhiteKey] == sensor.white_name;
+  record_white(sensor.white_name, *sensor.white, asked, told);
   told["to_xyz_d65"] = to_text(sensor.display->to_xyz_d65());
 }
 

@@ -130,8 +130,7 @@ void add_white(const Scene& scene, FilmIdentity& identity) {
   if (!has_colors(scene)) return;
   const White white = white_of(scene);
   if (!std::isfinite(white.xy[0])) return;
-  record_white(white.name, white.xy, identity);
-  if (white.asked) identity[kWhiteAskedKey] = "yes";
+  record_white(white.name, white.xy, white.asked, identity);
   if (scene.lights.size() > kMostLights) return;
   const FilmObserver film_observer = film_observer_of(scene);
   Json lights = Json::object();

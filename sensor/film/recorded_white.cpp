@@ -11,11 +11,15 @@
 
 namespace abbe {
 
-void record_white(const std::string& name, const Chromaticity& xy,
+void record_white(const std::string& name, const Chromaticity& xy, bool asked,
                   std::map<std::string, std::string>& metadata) {
   std::string& told = metadata[kWhiteKey] = name;
   std::replace(told.begin(), told.end(), '\n', '?');  // headers have a line per entry
   metadata[kWhiteXyKey] = fmt::format("{} {}", xy[0], xy[1]);
+  if (asked)
+    metadata[kWhiteAskedKey] = "yes";
+  else
+    metadata.erase(kWhiteAskedKey);
 }
 
 std::optional<Chromaticity> recorded_white(const Image& film) {

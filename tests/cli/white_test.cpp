@@ -73,6 +73,16 @@ TEST(White, IsToldByWhatIsDevelopedForIt) {
             read_picture(file("t_d65.png")).channels[0].values);
 }
 
+TEST(White, IsToldAsAskedForWhereTheSceneAsksForIt) {
+  const std::string film = film_of(lit_dome("asks.json", kNikon, "\"D65\""), "asks");
+  const auto told = [](const std::string& of) { return read_exr_parts(of).front().image.metadata; };
+  EXPECT_EQ(told(film).at("white_asked"), "yes");
+  for (const auto& [white, asked] : {std::pair("", true), {" --white D65", true}, {" --white A", false}}) {
+    developed(film + white + " -o " + file("asks_seen.exr"));
+    EXPECT_EQ(told(file("asks_seen.exr")).contains("white_asked"), asked) << white;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(White, AnySensor, testing::Values(kObserver, kWideObserver, kNikon, kSpectral));
 
 // White points of A, D65 and FL11 for the CIE 1964 observer as they are published.
