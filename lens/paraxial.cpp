@@ -71,6 +71,16 @@ FirstOrder first_order(const SystemAt& at) {
   return first;
 }
 
+// A ray that leaves the stop at (y_s, n u_s) passes the last vertex at y = a y_s + b n u_s, and the plane at
+// z behind it at x = A y_s + B n u_s with A = a + z c/n', B = b + z d/n'. As ad - bc = 1,
+//   y = x b/B + y_s (z/n')/B.
+SeenStop stop_seen_from(const SystemAt& at, double distance_mm) {
+  const Matrix behind = matrix(at, at.system->stop, at.size(), false);
+  const double reduced = distance_mm / at.n.back();
+  const double by_slope = behind.b + reduced * behind.d;
+  return {reduced / by_slope, behind.b / by_slope};
+}
+
 double paraxial_slope(double direction_deg) {
   if (!(std::abs(direction_deg) < 90)) return std::numeric_limits<double>::quiet_NaN();
   return std::tan(direction_deg * std::numbers::pi / 180);

@@ -35,6 +35,14 @@ struct FirstOrder {
 
 [[nodiscard]] FirstOrder first_order(const SystemAt& at);
 
+/// How a point of the image, so far behind the last vertex, sees the stop through what is behind this: where
+/// its paraxial rays pass the tangent plane of that vertex. Not finite in the plane of the exit pupil.
+struct SeenStop {
+  double magnification;  ///< Of the stop.
+  double shift;          ///< How far its middle moves, over how far the point does: 1 of a pupil far away.
+};
+[[nodiscard]] SeenStop stop_seen_from(const SystemAt& at, double distance_mm);
+
 /// Slope of a paraxial ray in a direction as in `System`; not a number from 90 degrees on.
 [[nodiscard]] double paraxial_slope(double direction_deg);
 
