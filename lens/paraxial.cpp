@@ -54,8 +54,10 @@ FirstOrder first_order(const SystemAt& at) {
   first.focal_length_mm = or_infinity(-n_image / all.c);
   first.back_focus_mm = or_infinity(-n_image * all.a / all.c);
   first.front_focus_mm = or_infinity(all.d / all.c);
-  first.front_principal_mm = first.front_focus_mm - 1 / all.c;
-  first.rear_principal_mm = first.back_focus_mm - first.focal_length_mm;
+  const double far = std::numeric_limits<double>::infinity();
+  const bool afocal = std::isinf(first.focal_length_mm);  // where a or d is 1, digits alone set the planes
+  first.front_principal_mm = afocal ? far : or_infinity((all.d - 1) / all.c);
+  first.rear_principal_mm = afocal ? far : or_infinity(n_image * (1 - all.a) / all.c);
   first.entrance_pupil_mm = or_infinity(before.b / before.a);
   first.entrance_magnification = 1 / (std::isinf(first.entrance_pupil_mm) ? 0 : before.a);
   first.stop_by_slope_mm = before.b;

@@ -22,8 +22,8 @@ struct FirstOrder {
   double focal_length_mm;         ///< f' = n'/power; infinite for a system without power.
   double back_focus_mm;           ///< Of the rear focal point.
   double front_focus_mm;          ///< Of the front focal point.
-  double front_principal_mm;      ///< Of the principal plane of object space.
-  double rear_principal_mm;       ///< Of the principal plane of image space.
+  double front_principal_mm;      ///< Of the principal plane of object space; infinite without power.
+  double rear_principal_mm;       ///< Of the principal plane of image space; likewise.
   double entrance_pupil_mm;       ///< Of the image of the stop in object space.
   double exit_pupil_mm;           ///< Of the image of the stop in image space.
   double entrance_magnification;  ///< Entrance pupil over stop.

@@ -141,7 +141,23 @@ TEST(LensFirstOrder, AnAfocalTelescopeHasNoFocus) {
   const FirstOrder first = first_order(at);
   EXPECT_TRUE(std::isinf(first.focal_length_mm));
   EXPECT_TRUE(std::isinf(first.image_distance_mm));
+  EXPECT_TRUE(std::isinf(first.front_principal_mm));
+  EXPECT_TRUE(std::isinf(first.rear_principal_mm));
   EXPECT_TRUE(std::isinf(speed(at, 2.5, 20)->f_number));
+}
+
+// A plane window has its principal planes anywhere; an erect relay, of a = d = 1, likewise.
+TEST(LensFirstOrder, WhatHasNoPowerHasNoPrincipalPlanes) {
+  const std::string lens = "[100, 5, 1.5], [-100, 198.31932773109242], ";
+  for (const std::string& surfaces :
+       {std::string(R"({"stop": true, "aperture": 4, "thickness": 2}, [0, 5, 1.5], [0, 20])"),
+        R"({"stop": true, "aperture": 4, "thickness": 99.15966386554621}, )" + lens + lens + lens +
+            "[100, 5, 1.5], [-100, 50]"}) {
+    const FirstOrder first =
+        of(test::sound_lens_of(R"({"focus": "given", "surfaces": [)" + surfaces + "]}"), 550);
+    EXPECT_TRUE(std::isinf(first.front_principal_mm)) << first.front_principal_mm;
+    EXPECT_TRUE(std::isinf(first.rear_principal_mm)) << first.rear_principal_mm;
+  }
 }
 
 // Behind the eyepiece, of a telescope in focus and of one 5 mm too long.
