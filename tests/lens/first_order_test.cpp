@@ -160,6 +160,23 @@ TEST(LensFirstOrder, WhatHasNoPowerHasNoPrincipalPlanes) {
   }
 }
 
+// Of a paraxial beam a = -0.9066667 of what comes in parallel is its height in the stop, wherever the object.
+TEST(LensField, ObjectsNextToALensSeeItsEntrancePupilAsOthersDo) {
+  for (const char* distance : {"0.001", "0.002", "1"}) {
+    const System system = test::sound_lens_of(std::string(R"({"object_heights": [0], "object_distance": )") +
+                                              distance + R"(, "focus": "given",
+          "surfaces": [[-100, 2, 1.5], [-5, 20], {"stop": true, "thickness": 0.1, "aperture": 0.04},
+            [50, 4, 1.5], [-50, 60]]})");
+    const SystemAt at(system, 550);
+    const auto found = speed(at, stop_radius(system), 20);
+    ASSERT_TRUE(found) << distance;
+    EXPECT_NEAR(found->entrance_diameter_mm, 0.08 / 0.9066667, 1e-5) << distance;
+    EXPECT_NEAR(found->f_number * 0.08 / 0.9066667, std::abs(first_order(at).focal_length_mm), 0.01)
+        << distance;
+    EXPECT_GT(found->t_stop, found->f_number) << distance;
+  }
+}
+
 // Behind the eyepiece, of a telescope in focus and of one 5 mm too long.
 TEST(LensFirstOrder, DistortionOffTheFocusIsOverTheParaxialChiefRayThere) {
   for (const auto& [gap, percent] : {std::pair("148.9924", -1.403), std::pair("153.9924369321354", -1.526)}) {
