@@ -95,6 +95,25 @@ TEST_F(LensSystemTest, RelaysAreLookedThroughWithPixelsThatFloatsTellApart) {
     }
 }
 
+// The stop next to the focus of what is before it, and far from open enough.
+TEST_F(LensSystemTest, OpeningsOfTelecentricLensesAreRefusedInWords) {
+  const auto told = [&](const std::string& opening, const std::string& camera) {
+    return load(R"({"camera": {"lens_system": {"prescription": {"object_distance": 120, )" + opening +
+                R"("focus": "paraxial", "surfaces": [[100, 5, 1.5], [-100, 99.155],
+            {"stop": true, "aperture": 4, "thickness": 50}]})" +
+                camera + R"(}, "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]},
+        "lights": [{"environment": {}, "emission": {"spectrum": 1}}],
+        "sensor": {"resolution": [8, 8], "pixel_pitch_um": 500, "channels": {"a": {"band": [500, 600]}}}})")
+        .text();
+  };
+  for (const auto& [said, words] :
+       {std::pair(told("", R"(, "f_number": 0.0004)"), "(got f/0.0004, allowed what its prescription says)"),
+        {told(R"("f_number": 0.0004, )", ""), "(got f/0.0004, allowed what its aperture says)"},
+        {told(R"("entrance_pupil": 2.5e5, )", ""),
+         "(got an entrance pupil of 2.5e+05 mm, allowed what its aperture says)"}})
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+}
+
 // An interference filter counts shorter waves than it lets through along its normal.
 TEST_F(LensSystemTest, WhatTheSensorSeesIsSeenAtAnyAngle) {
   const auto told = [&](double line_nm) {
