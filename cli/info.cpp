@@ -1,6 +1,7 @@
 #include "cli/info.h"
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -131,16 +132,19 @@ std::string shares_line(const Json& shares) {
 }
 
 std::string lens_line(const Json& lens) {
-  std::string line = fmt::format("lens         {}: focal length {:.5g} mm, film {:.5g} mm behind it",
-                                 lens["title"].get<std::string>(), lens["focal_length_mm"].get<double>(),
-                                 lens["image_mm"].get<double>());
+  const auto number = [&lens](const char* key) { return lens[key].get<double>(); };
+  const double focal_length = number("focal_length_mm");
+  std::string line = fmt::format(
+      "lens         {}: {}, film {:.5g} mm behind it", lens["title"].get<std::string>(),
+      std::isfinite(focal_length) ? fmt::format("focal length {:.5g} mm", focal_length) : "afocal",
+      number("image_mm"));
   if (const auto ghosts = lens["ghosts"].get<std::size_t>(); ghosts > 0)
     line += fmt::format(", {} {}", ghosts, ghosts == 1 ? "ghost" : "ghosts");
-  if (lens.contains("f_number"))
-    line += fmt::format(", f/{:.4g} (T/{:.4g}), Airy radius {:.3g} um at {:g} nm, which no picture shows",
-                        lens["f_number"].get<double>(), lens["t_stop"].get<double>(),
-                        lens["airy_radius_um"].get<double>(), lens["wavelength_nm"].get<double>());
-  return line + "\n";
+  if (!lens.contains("f_number")) return line + "\n";
+  if (std::isfinite(number("f_number")))
+    line += fmt::format(", f/{:.4g} (T/{:.4g})", number("f_number"), number("t_stop"));
+  return line + fmt::format(", Airy radius {:.3g} um at {:g} nm, which no picture shows\n",
+                            number("airy_radius_um"), number("wavelength_nm"));
 }
 
 }  // namespace

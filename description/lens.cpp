@@ -327,8 +327,10 @@ std::string widest_opening(const System& system, double stop_aperture_mm) {
   const auto speed = lens::speed(lens::SystemAt(system, system.primary_nm()), stop_aperture_mm, kCells);
   if (!speed) return "what lets light pass it";
   const lens::ApertureKind kind = system.aperture.kind;
-  return kind == lens::ApertureKind::entrance_pupil ? opening(kind, speed->entrance_diameter_mm) + " or less"
-                                                    : opening(kind, speed->f_number) + " or more";
+  const bool by_pupil = kind == lens::ApertureKind::entrance_pupil;
+  const double widest = by_pupil ? speed->entrance_diameter_mm : speed->f_number;
+  if (!std::isfinite(widest)) return "what its aperture says";
+  return opening(kind, widest) + (by_pupil ? " or less" : " or more");
 }
 
 // A stop whose own clear aperture is less than what the lens is said to open to.

@@ -84,8 +84,9 @@ std::optional<double> closed_stop(const spec::LensSystem& said, const lens::Syst
   const auto speed = lens::speed(lens::SystemAt(lens, lens.primary_nm()), widest, kCells);
   context.diagnostics.error(
       said.f_number->where,
-      fmt::format("the lens does not open so far (got f/{:g}, allowed {} or more)", said.f_number->value,
-                  speed ? fmt::format("f/{:.4g}", speed->f_number) : "what its prescription says"));
+      fmt::format("the lens does not open so far (got f/{:g}, allowed {})", said.f_number->value,
+                  speed && std::isfinite(speed->f_number) ? fmt::format("f/{:.4g} or more", speed->f_number)
+                                                          : "what its prescription says"));
   return std::nullopt;
 }
 

@@ -58,12 +58,16 @@ std::optional<Rim> rim_of(const Beam& beam) {
 
 // Of the axial beam's widths, that in the paraxial entrance pupil over that in the launch plane. Light of an
 // object at infinity has the same width in every plane, a pupil at infinity included. A pupil that is so far
-// away that its chief rays are parallel to what digits of a prescription tell has no width.
+// away that its chief rays are parallel to what digits of a prescription tell has no width. As objects may
+// touch a lens, far is by its length too.
 double pupil_over_launch(const SystemAt& at) {
-  constexpr double kMost = 1e4;
+  constexpr double kFar = 1e4;
   const auto& distance = at.system->object_distance_mm;
-  const double ratio = distance ? std::abs(1 + first_order(at).entrance_pupil_mm / *distance) : 1;
-  return ratio < kMost ? ratio : std::numeric_limits<double>::infinity();
+  if (!distance) return 1;
+  const double pupil = first_order(at).entrance_pupil_mm;
+  const double length = at.vertex_z[at.size() - 1];
+  return std::abs(pupil) < kFar * std::max(*distance, length) ? std::abs(1 + pupil / *distance)
+                                                              : std::numeric_limits<double>::infinity();
 }
 
 // Of the power that would fill the round stop, what the image has: `round` tells it without blades, whose

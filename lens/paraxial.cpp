@@ -54,8 +54,10 @@ FirstOrder first_order(const SystemAt& at) {
   first.focal_length_mm = or_infinity(-n_image / all.c);
   first.back_focus_mm = or_infinity(-n_image * all.a / all.c);
   first.front_focus_mm = or_infinity(all.d / all.c);
-  first.front_principal_mm = first.front_focus_mm - 1 / all.c;
-  first.rear_principal_mm = first.back_focus_mm - first.focal_length_mm;
+  const double far = std::numeric_limits<double>::infinity();
+  const bool afocal = std::isinf(first.focal_length_mm);  // where a or d is 1, digits alone set the planes
+  first.front_principal_mm = afocal ? far : or_infinity((all.d - 1) / all.c);
+  first.rear_principal_mm = afocal ? far : or_infinity(n_image * (1 - all.a) / all.c);
   first.entrance_pupil_mm = or_infinity(before.b / before.a);
   first.entrance_magnification = 1 / (std::isinf(first.entrance_pupil_mm) ? 0 : before.a);
   first.stop_by_slope_mm = before.b;
@@ -69,6 +71,16 @@ FirstOrder first_order(const SystemAt& at) {
     first.magnification = 1 / (std::isinf(first.image_distance_mm) ? 0 : nu);
   }
   return first;
+}
+
+// A ray that leaves the stop at (y_s, n u_s) passes the last vertex at y = a y_s + b n u_s, and the plane at
+// z behind it at x = A y_s + B n u_s with A = a + z c/n', B = b + z d/n'. As ad - bc = 1,
+//   y = x b/B + y_s (z/n')/B.
+SeenStop stop_seen_from(const SystemAt& at, double distance_mm) {
+  const Matrix behind = matrix(at, at.system->stop, at.size(), false);
+  const double reduced = distance_mm / at.n.back();
+  const double by_slope = behind.b + reduced * behind.d;
+  return {reduced / by_slope, behind.b / by_slope};
 }
 
 double paraxial_slope(double direction_deg) {

@@ -22,8 +22,8 @@ struct FirstOrder {
   double focal_length_mm;         ///< f' = n'/power; infinite for a system without power.
   double back_focus_mm;           ///< Of the rear focal point.
   double front_focus_mm;          ///< Of the front focal point.
-  double front_principal_mm;      ///< Of the principal plane of object space.
-  double rear_principal_mm;       ///< Of the principal plane of image space.
+  double front_principal_mm;      ///< Of the principal plane of object space; infinite without power.
+  double rear_principal_mm;       ///< Of the principal plane of image space; likewise.
   double entrance_pupil_mm;       ///< Of the image of the stop in object space.
   double exit_pupil_mm;           ///< Of the image of the stop in image space.
   double entrance_magnification;  ///< Entrance pupil over stop.
@@ -34,6 +34,14 @@ struct FirstOrder {
 };
 
 [[nodiscard]] FirstOrder first_order(const SystemAt& at);
+
+/// How a point of the image, so far behind the last vertex, sees the stop through what is behind this: where
+/// its paraxial rays pass the tangent plane of that vertex. Not finite in the plane of the exit pupil.
+struct SeenStop {
+  double magnification;  ///< Of the stop.
+  double shift;          ///< How far its middle moves, over how far the point does: 1 of a pupil far away.
+};
+[[nodiscard]] SeenStop stop_seen_from(const SystemAt& at, double distance_mm);
 
 /// Slope of a paraxial ray in a direction as in `System`; not a number from 90 degrees on.
 [[nodiscard]] double paraxial_slope(double direction_deg);

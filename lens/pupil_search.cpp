@@ -48,21 +48,20 @@ struct PupilRays {
   }
 };
 
-// From the last vertex to the image, over from the exit pupil to there; 0 for a pupil far away.
-double depth_of_pupil(const SpectralSystem& system, const FirstOrder& first) {
-  const double film = system.image_z() - system.last_z();
-  const double to_pupil = film - first.exit_pupil_mm;
-  return std::isfinite(to_pupil) && to_pupil != 0 ? film / to_pupil : 0;
+// As the image sees it paraxially; nothing for an image in the exit pupil.
+std::optional<SeenStop> seen_stop(const SpectralSystem& system, double wavelength_nm) {
+  const SeenStop seen =
+      stop_seen_from(SystemAt(system.system(), wavelength_nm), system.image_z() - system.last_z());
+  return std::isfinite(seen.magnification) ? std::optional(seen) : std::nullopt;
 }
 
 // A square around where paraxial optics has the exit pupil.
 Box first_guess(const PupilRays& rays) {
   const SpectralSystem& system = rays.system;
-  const FirstOrder first = first_order(SystemAt(system.system(), rays.wavelength_nm));
-  const double depth = depth_of_pupil(system, first);
-  const V2d center = rays.image * (1 - depth);
-  const double half = depth != 0 ? 1.5 * std::abs(system.stop_radius_mm() * first.exit_magnification * depth)
-                                 : (system.image_z() - system.last_z()) / 2;
+  const std::optional<SeenStop> seen = seen_stop(system, rays.wavelength_nm);
+  const V2d center = rays.image * (seen ? seen->shift : 1);
+  const double half = seen ? 1.5 * std::abs(system.stop_radius_mm() * seen->magnification)
+                           : (system.image_z() - system.last_z()) / 2;
   return {center - V2d(half), center + V2d(half)};
 }
 
@@ -168,7 +167,8 @@ std::vector<V2d> rim_around(const PupilRays& rays, const V2d& inner, double far)
 }  // namespace
 
 double pupil_shift(const SpectralSystem& system, double wavelength_nm) {
-  return 1 - depth_of_pupil(system, first_order(SystemAt(system.system(), wavelength_nm)));
+  const std::optional<SeenStop> seen = seen_stop(system, wavelength_nm);
+  return seen ? seen->shift : 1;
 }
 
 SeenPupil search_pupil(const SpectralSystem& system, const V2d& image, double wavelength_nm) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "lens/clear_apertures.h"
 #include "lens/paraxial.h"
@@ -27,6 +28,14 @@ double steepest_cosine(const lens::SpectralSystem& system, const V2d& half_film_
   return depth / std::hypot(depth, across);
 }
 
+// Of near objects the image is as large as by a pinhole at the first vertex.
+std::optional<double> image_distance(const lens::SystemAt& at) {
+  const lens::FirstOrder first = lens::first_order(at);
+  const auto& object_mm = at.system->object_distance_mm;
+  const double mm = std::abs(object_mm ? first.magnification * *object_mm : first.focal_length_mm);
+  return std::isfinite(mm) ? std::optional(mm) : std::nullopt;
+}
+
 }  // namespace
 
 LensOptics::LensOptics(lens::System lens, double stop_radius_mm, const FilmGrid& grid, double low_nm,
@@ -39,7 +48,7 @@ LensOptics::LensOptics(lens::System lens, double stop_radius_mm, const FilmGrid&
   const lens::System& of = system.system();
   constexpr int kSpeedCells = 64;  // across the axial beam
   const lens::SystemAt at(of, of.primary_nm());
-  image_distance_mm = std::abs(of.surfaces.back().thickness_mm - lens::first_order(at).rear_principal_mm);
+  image_distance_mm = image_distance(at);
   speed = lens::speed(at, stop_radius_mm, kSpeedCells);
   if (ghosts == Ghosts::enumerated) enumerate_ghosts(half_size_mm(grid), low_nm, high_nm);
 }

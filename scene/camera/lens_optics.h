@@ -18,8 +18,9 @@ struct LensOptics {
 
   lens::SpectralSystem system;
   lens::ExitPupil pupil;  ///< For a film, and wavelengths, of which nothing else may be asked.
-  double
-      image_distance_mm;  ///< From the principal plane of image space, paraxially, at the primary wavelength.
+  /// Of the pinhole whose image is as large, paraxially, at the primary wavelength; none where what the lens
+  /// is to see has no image.
+  std::optional<double> image_distance_mm;
   std::optional<lens::Speed>
       speed;  ///< On the axis at the primary wavelength; none where its beam does not get there.
   std::vector<lens::Route> routes;  ///< By `LensRoute`.

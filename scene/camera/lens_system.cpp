@@ -295,13 +295,15 @@ V3d LensSystem::middle() const {
 
 // Of ghosts the opening holds the first surface too.
 CameraTraits LensSystem::traits() const {
+  const bool numbered = optics->speed && std::isfinite(optics->speed->f_number);
+  const auto& image_mm = optics->image_distance_mm;
   const double radius = std::max(front_radius(*this), ghosts ? optics->semi_aperture_mm(0) : 0.0) / kMmPerM;
   return {.depth_of_field = true,
           .displaces_lanes = true,
           .ghosts = ghosts,
           .polarises = true,
-          .image_distance = optics->image_distance_mm / kMmPerM,
-          .f_number = optics->speed ? std::optional(optics->speed->f_number) : std::nullopt,
+          .image_distance = image_mm ? std::optional(*image_mm / kMmPerM) : std::nullopt,
+          .f_number = numbered ? std::optional(optics->speed->f_number) : std::nullopt,
           .axis = frame.forward,
           .opening = FlatOpening{middle(), frame.right * radius, frame.up * radius, frame.forward, true}};
 }

@@ -123,6 +123,38 @@ TEST(Lens, SeidelSumsThatAreNoneAreNull) {
   for (const auto& sum : telecentric["S_I"]) EXPECT_TRUE(sum.is_null());
 }
 
+// Of a lens that is telecentric before the stop, and of an erect relay without power.
+TEST(Lens, WithoutFNumberIsLookedThroughAndDeveloped) {
+  const std::string objective = "[100, 5, 1.5], [-100, 99.15966386554621], ";
+  const std::string stop = R"({"stop": true, "thickness": 99.15966386554621, "aperture": 4})";
+  const std::string relays = ", [100, 5, 1.5], [-100, 198.31932773109242]";
+  const auto told = [](const std::string& surfaces) {
+    const auto scene = scratch()
+                           .write("unnumbered.json", R"({"abbe": 1, "camera": {"lens_system": {
+        "prescription": {"title": "unnumbered", "object_distance": 100, "object_heights": [0, 2], "focus": "paraxial",
+          "surfaces": [)" + surfaces + R"(]}}, "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]},
+      "lights": [{"environment": {}, "emission": {"illuminant": "D65", "radiance": 1}}],
+      "sensor": {"resolution": [4, 4], "pixel_pitch_um": 500,
+        "channels": {"R": {"band": [600, 700]}, "G": {"band": [500, 600]}, "B": {"band": [400, 500]}}},
+      "render": {"integrator": "path", "samples": 1}})")
+                           .string();
+    const std::string film = (scratch() / "unnumbered.exr").string();
+    const std::string picture = (scratch() / "unnumbered.png").string();
+    EXPECT_EQ(abbe("render " + scene + " -o " + film).code, 0);
+    const Outcome developed = abbe("develop " + film + " --display " + picture);
+    EXPECT_EQ(developed.code, 0) << developed.err;
+    EXPECT_TRUE(abbe("info " + scene + " --json").json()["lens"]["f_number"].is_null());
+    const std::string info = abbe("info " + scene).out;
+    const auto from = info.find("unnumbered: ");
+    return info.substr(from, info.find(" um at 5", from) - from);
+  };
+  const std::string telecentric = told(objective + R"({"stop": true, "thickness": 50, "aperture": 4})");
+  EXPECT_TRUE(telecentric.starts_with("unnumbered: focal length 100.84 mm, film ")) << telecentric;
+  EXPECT_NE(telecentric.find(" mm behind it, Airy radius "), std::string::npos) << telecentric;
+  const std::string afocal = told(objective + stop + relays + relays + ", [100, 5, 1.5], [-100, 50]");
+  EXPECT_TRUE(afocal.starts_with("unnumbered: afocal, film 98.319 mm behind it, Airy radius ")) << afocal;
+}
+
 // A stop that no ray fills, and a field beyond what the lens sees, leave their figures out.
 TEST(Lens, WhatDoesNotGetThroughHasNoFigures) {
   const auto dark = scratch().write("dark.json", R"({"entrance_pupil": 5, "fields_deg": [0, 100],

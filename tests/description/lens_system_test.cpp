@@ -69,6 +69,51 @@ TEST_F(LensSystemTest, TellsADefocusThatAFocusDistanceLoses) {
       << lost;
 }
 
+// Relays without power, upside down and upright, by the last bit of doubles and by the digits of a listing:
+// each images its object, 100 mm before it, as large as that is, so that a pixel sees its pitch over 100 mm.
+TEST_F(LensSystemTest, RelaysAreLookedThroughWithPixelsThatFloatsTellApart) {
+  const auto told = [&](const std::string& gap, bool upright, double pitch_um) {
+    const std::string more =
+        upright ? ", [100, 5, 1.5], [-100, 198.31932773109242], [100, 5, 1.5], [-100, 198.31932773109242]"
+                : "";
+    return load(R"({"camera": {"lens_system": {"prescription": {"object_distance": 100, "focus": "paraxial",
+          "surfaces": [[100, 5, 1.5], [-100, 99.15966386554621],
+            {"stop": true, "aperture": 4, "thickness": )" +
+                gap + "}" + more + R"(, [100, 5, 1.5], [-100, 50]]}},
+          "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]},
+        "lights": [{"environment": {}, "emission": {"spectrum": 1}}],
+        "sensor": {"resolution": [8, 8], "pixel_pitch_um": )" +
+                fmt::format("{}", pitch_um) + R"(, "channels": {"a": {"band": [500, 600]}}}})")
+        .text();
+  };
+  for (const char* gap : {"99.15966386554621", "99.1597"})
+    for (const bool upright : {false, true}) {
+      EXPECT_EQ(told(gap, upright, 500), "") << gap << upright;
+      EXPECT_EQ(told(gap, upright, 0.05), "") << gap << upright;
+      const std::string small = told(gap, upright, 0.04);
+      EXPECT_NE(small.find("a pixel sees 4e-07 of a radian"), std::string::npos) << gap << upright << small;
+    }
+}
+
+// The stop next to the focus of what is before it, and far from open enough.
+TEST_F(LensSystemTest, OpeningsOfTelecentricLensesAreRefusedInWords) {
+  const auto told = [&](const std::string& opening, const std::string& camera) {
+    return load(R"({"camera": {"lens_system": {"prescription": {"object_distance": 120, )" + opening +
+                R"("focus": "paraxial", "surfaces": [[100, 5, 1.5], [-100, 99.155],
+            {"stop": true, "aperture": 4, "thickness": 50}]})" +
+                camera + R"(}, "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]},
+        "lights": [{"environment": {}, "emission": {"spectrum": 1}}],
+        "sensor": {"resolution": [8, 8], "pixel_pitch_um": 500, "channels": {"a": {"band": [500, 600]}}}})")
+        .text();
+  };
+  for (const auto& [said, words] :
+       {std::pair(told("", R"(, "f_number": 0.0004)"), "(got f/0.0004, allowed what its prescription says)"),
+        {told(R"("f_number": 0.0004, )", ""), "(got f/0.0004, allowed what its aperture says)"},
+        {told(R"("entrance_pupil": 2.5e5, )", ""),
+         "(got an entrance pupil of 2.5e+05 mm, allowed what its aperture says)"}})
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+}
+
 // An interference filter counts shorter waves than it lets through along its normal.
 TEST_F(LensSystemTest, WhatTheSensorSeesIsSeenAtAnyAngle) {
   const auto told = [&](double line_nm) {

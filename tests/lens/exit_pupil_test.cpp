@@ -146,6 +146,26 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedLens,
                          ::testing::Values("landscape", "achromat", "cooke_triplet", "tessar", "double_gauss",
                                            "fisheye"));
 
+// The stop is in the front focus of the lens behind it: points of the image at the distance z see it by the
+// angle R/f', straight ahead.
+TEST(FarExitPupil, IsBoundByItsAngle) {
+  for (const char* gap : {"99.1597", "99.15966386554621"}) {
+    const System lens = abbe::test::sound_lens_of(
+        std::string(R"({"f_number": 25, "focus": "paraxial", "surfaces": [{"stop": true, "thickness": )") +
+        gap + "}, [100, 5, 1.5], [-100, 50]]}");
+    const SpectralSystem system(lens, stop_radius(lens));
+    const ExitPupil pupil(system, V2d(2, 2), 400, 700);
+    const double depth = system.image_z() - system.last_z();
+    const double expected =
+        depth * system.stop_radius_mm() / first_order(SystemAt(lens, 550)).focal_length_mm;
+    for (const double x : {0.0, 1.5}) {
+      EXPECT_GT(pupil.bound({x, 0}).semi.y, expected) << gap;
+      EXPECT_LT(pupil.bound({x, 0}).semi.y, 1.05 * expected) << gap;
+      EXPECT_NEAR(pupil.bound({x, 0}).center.x, x, 0.01 * expected) << gap;
+    }
+  }
+}
+
 // A wedge before the lens and one element aside: nothing is round then.
 TEST(DisplacedLens, LosesNothingByTheBoundsOfItsExitPupil) {
   System lens = abbe::test::lens_named("cooke_triplet");

@@ -141,7 +141,40 @@ TEST(LensFirstOrder, AnAfocalTelescopeHasNoFocus) {
   const FirstOrder first = first_order(at);
   EXPECT_TRUE(std::isinf(first.focal_length_mm));
   EXPECT_TRUE(std::isinf(first.image_distance_mm));
+  EXPECT_TRUE(std::isinf(first.front_principal_mm));
+  EXPECT_TRUE(std::isinf(first.rear_principal_mm));
   EXPECT_TRUE(std::isinf(speed(at, 2.5, 20)->f_number));
+}
+
+// A plane window has its principal planes anywhere; an erect relay, of a = d = 1, likewise.
+TEST(LensFirstOrder, WhatHasNoPowerHasNoPrincipalPlanes) {
+  const std::string lens = "[100, 5, 1.5], [-100, 198.31932773109242], ";
+  for (const std::string& surfaces :
+       {std::string(R"({"stop": true, "aperture": 4, "thickness": 2}, [0, 5, 1.5], [0, 20])"),
+        R"({"stop": true, "aperture": 4, "thickness": 99.15966386554621}, )" + lens + lens + lens +
+            "[100, 5, 1.5], [-100, 50]"}) {
+    const FirstOrder first =
+        of(test::sound_lens_of(R"({"focus": "given", "surfaces": [)" + surfaces + "]}"), 550);
+    EXPECT_TRUE(std::isinf(first.front_principal_mm)) << first.front_principal_mm;
+    EXPECT_TRUE(std::isinf(first.rear_principal_mm)) << first.rear_principal_mm;
+  }
+}
+
+// Of a paraxial beam a = -0.9066667 of what comes in parallel is its height in the stop, wherever the object.
+TEST(LensField, ObjectsNextToALensSeeItsEntrancePupilAsOthersDo) {
+  for (const char* distance : {"0.001", "0.002", "1"}) {
+    const System system = test::sound_lens_of(std::string(R"({"object_heights": [0], "object_distance": )") +
+                                              distance + R"(, "focus": "given",
+          "surfaces": [[-100, 2, 1.5], [-5, 20], {"stop": true, "thickness": 0.1, "aperture": 0.04},
+            [50, 4, 1.5], [-50, 60]]})");
+    const SystemAt at(system, 550);
+    const auto found = speed(at, stop_radius(system), 20);
+    ASSERT_TRUE(found) << distance;
+    EXPECT_NEAR(found->entrance_diameter_mm, 0.08 / 0.9066667, 1e-5) << distance;
+    EXPECT_NEAR(found->f_number * 0.08 / 0.9066667, std::abs(first_order(at).focal_length_mm), 0.01)
+        << distance;
+    EXPECT_GT(found->t_stop, found->f_number) << distance;
+  }
 }
 
 // Behind the eyepiece, of a telescope in focus and of one 5 mm too long.
