@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdint>
 #include <limits>
 #include <set>
 #include <utility>
@@ -55,28 +56,53 @@ void require(Needs& needs, bool Needs::*need, bool asked, const char* kind, cons
   needs.because[known->key] = name.empty() ? kind : fmt::format("{} \"{}\"", kind, name);
 }
 
-// A shape that light enters by an interface and another one that looks otherwise there, or ends matter
-// without an interface, if their boxes meet. Boxes are asked in order of x.
-const ShapeInstance* nested_shape(const Scene& scene) {
-  struct Boxed {
-    Imath::Box3d box;
-    const ShapeInstance* shape;
-    bool filled;  // behind an interface
-  };
-  // In a scene so full that the most pairs do not tell, matter is taken to touch somewhere.
-  std::vector<Boxed> all;
+// A shape that light enters by an interface, another one that looks otherwise there, or one that ends matter
+// without an interface; or all the faces that bound matter of one material, which may be a body.
+struct Bounded {
+  Imath::Box3d box;
+  const ShapeInstance* shape;  // of a body the first face
+  bool filled;                 // behind an interface
+  bool face;                   // bounds matter, but no volume by itself
+  bool body = false;           // made of faces
+};
+
+std::vector<Bounded> boxes_where_matter_counts(const Scene& scene) {
+  std::vector<Bounded> all;
+  std::map<std::uint32_t, Bounded> bodies;  // by material
   for (const ShapeInstance& instance : scene.shapes) {
     const Material& material = scene.materials[instance.material];
-    if (depends_on_outside(material) || is_boundary(material))
-      all.push_back({bounds(instance.shape), &instance, interior(material) != nullptr});
+    if (!depends_on_outside(material) && !is_boundary(material)) continue;
+    const bool face = encloses_medium(material) && !(instance.volume > 0);
+    all.push_back({bounds(instance.shape), &instance, interior(material) != nullptr, face});
+    if (!face) continue;
+    Bounded& body = bodies.try_emplace(instance.material, all.back()).first->second;
+    body.box.extendBy(all.back().box);
+    body.body = true;
   }
-  std::sort(all.begin(), all.end(), [](const Boxed& a, const Boxed& b) { return a.box.min.x < b.box.min.x; });
+  for (const auto& [material, body] : bodies) all.push_back(body);
+  return all;
+}
+
+// Whether one is a body of which the other is a face.
+bool belong_together(const Bounded& a, const Bounded& b) {
+  return (a.body || b.body) && a.face && b.face && a.shape->material == b.shape->material;
+}
+
+// One of two shapes, or bodies made of faces, the boxes of which meet, if one of them is filled. Boxes are
+// asked in order of x.
+const ShapeInstance* nested_shape(const Scene& scene) {
+  std::vector<Bounded> all = boxes_where_matter_counts(scene);
+  std::sort(all.begin(), all.end(),
+            [](const Bounded& a, const Bounded& b) { return a.box.min.x < b.box.min.x; });
   const double reach = scene.touch_distance();
+  // In a scene so full that the most pairs do not tell, matter is taken to touch somewhere.
   std::size_t pairs = 0;
   for (auto a = all.begin(); a != all.end(); ++a) {
     const Imath::Box3d near = grown(a->box, reach);
     for (auto b = a + 1; b != all.end() && b->box.min.x <= near.max.x; ++b)
-      if (++pairs > kMostPairs || ((a->filled || b->filled) && near.intersects(b->box))) return b->shape;
+      if (++pairs > kMostPairs ||
+          ((a->filled || b->filled) && near.intersects(b->box) && !belong_together(*a, *b)))
+        return b->shape;
   }
   return nullptr;
 }

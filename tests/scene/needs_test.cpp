@@ -99,6 +99,38 @@ TEST(Needs, NestingOfWhatAnIndexTells) {
     EXPECT_FALSE(nests(kGlass, Sphere{apart, 0.5})) << apart;
 }
 
+// What stands between two faces of matter, however they are placed, and whatever their boxes are apart; not
+// what stands beside them, nor faces alone.
+TEST(Needs, NestingWithinABodyOfFaces) {
+  const Quad above{{-9, -9, 3}, {18, 0, 0}, {0, 18, 0}};
+  const Quad below{{-9, -9, 1}, {0, 18, 0}, {18, 0, 0}};
+  const auto nests = [&](const std::vector<std::pair<Shape, std::uint32_t>>& others, const Shape& top) {
+    Scene scene = floor_scene();
+    scene.shapes.push_back({"below", below, kGlass});
+    for (const auto& [shape, material] : others) scene.shapes.push_back({"other", shape, material});
+    scene.shapes.push_back({"above", top, kGlass});
+    scene.materials.push_back(glass());
+    scene.commit();
+    return scene.needs.nesting;
+  };
+  constexpr std::uint32_t kOtherGlass = 3;
+  const Sphere within{{0, 0, 2}, 0.5};
+  const Disc sheet{{0, 0, 2}, {0, 0, 1}, 1};
+  const Sphere over{{0, 0, 4}, 0.5};
+  const auto raised = std::make_shared<Placement>(placement(Imath::M44d().setTranslation(V3d(0, 0, 2))));
+  const PlacedShape placed{make_prototype(Quad{{-9, -9, 1}, {18, 0, 0}, {0, 18, 0}}), raised};
+  for (const Shape& top : {Shape(above), Shape(Disc{{0, 0, 3}, {0, 0, 1}, 9}), Shape(placed)}) {
+    for (const std::uint32_t material : {kMirror, kGlass, kOtherGlass})
+      EXPECT_TRUE(nests({{within, material}}, top)) << material;
+    EXPECT_TRUE(nests({{sheet, kMirror}}, top));
+    EXPECT_TRUE(nests({{sheet, kOtherGlass}}, top));
+    EXPECT_FALSE(nests({}, top)) << "a bare slab";
+    EXPECT_FALSE(nests({{within, kDiffuse}}, top)) << "looks the same in any matter";
+    for (const std::uint32_t material : {kMirror, kGlass, kOtherGlass})
+      EXPECT_FALSE(nests({{over, material}}, top)) << material;
+  }
+}
+
 // Of matter with a face in one of what ends light's way, whichever kind of shape either is, and however it is
 // placed.
 TEST(Contact, TellsSheetsThatAreLost) {

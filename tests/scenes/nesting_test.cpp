@@ -31,6 +31,7 @@ constexpr const char* kNestedMatter = R"("materials": {
   "flint": {"dielectric": {"ior": 1.7}}, "air": {"dielectric": {"ior": 1}},
   "ratio": {"dielectric": {"ior": 1.125281320330083}}, "bk7": {"dielectric": {"ior": "N-BK7"}, "priority": 1},
   "oil": {"dielectric": {"ior": "N-BK7"}}, "metal": {"conductor": {"ior": {"n": 0.2, "k": 3}}},
+  "matched": {"conductor": {"ior": {"n": 1.7, "k": 0}}},
   "coated": {"conductor": {"ior": {"n": 0.2, "k": 3}, "coating": [{"ior": 1.6, "thickness_nm": 80}]}},
   "pane": {"thin_glass": {"ior": 1.5}}, "fog": {"medium": {"scattering_per_m": 1}},
   "clear": {"medium": {"absorption_per_m": 0}}, "clear first": {"medium": {"absorption_per_m": 0}, "priority": 3},
@@ -107,6 +108,50 @@ TEST(Nesting, MetalInWaterReflectsByTheRatioOfIndices) {
                           {0.5F, {0, 0}}, 0, TransportMode::radiance);
     ASSERT_TRUE(s);
     EXPECT_NEAR(s->weight[0], f.R(), 1e-6) << metal;
+  }
+}
+
+// A plate of two quads of flint, and in it what has the same index: a ball of flint, which is not seen, and a
+// metal without absorption, which takes all that comes to it.
+TEST(Nesting, WhatStandsBetweenFacesOfMatterIsInIt) {
+  constexpr double kIndex = 1.7;
+  const std::string plate = R"(
+    {"material": "flint", "quad": {"corner": [-9, -9, -1.2], "edge_u": [0, 18, 0], "edge_v": [18, 0, 0]}},
+    {"material": "flint", "quad": {"corner": [-9, -9, 1.2], "edge_u": [18, 0, 0], "edge_v": [0, 18, 0]}})";
+  const std::string metal =
+      R"(, {"material": "matched", "disc": {"center": [0, 0, 0], "normal": [0, 0, -1], "radius": 5}})";
+  // The means over the view of what the plate's first face reflects, and both let through.
+  double reflected = 0;
+  double transmitted = 0;
+  constexpr int kSide = 50;
+  const double edge = std::tan(15 * std::numbers::pi / 180);
+  for (int i = 0; i < kSide; ++i)
+    for (int j = 0; j < kSide; ++j) {
+      const double x = edge * (i + 0.5) / kSide;
+      const double y = edge * (j + 0.5) / kSide;
+      const auto f = fresnel_dielectric(1 / std::sqrt(1 + x * x + y * y), kIndex);
+      reflected += f.R() / kSide / kSide;
+      transmitted += ((1 - f.Rs) / (1 + f.Rs) + (1 - f.Rp) / (1 + f.Rp)) / 2 / kSide / kSide;
+    }
+  const auto seen = [](const std::string& shapes, const std::string& lights) {
+    const char* settings = R"("max_depth": 1000, "roulette_depth": -1, "integrator": "path")";
+    Scene scene = scene_of(shapes, settings, lights);
+    scene.render.samples = 256;
+    static const Film unit = render(scene_of(""), {}).film;
+    const Film film = render(scene, {}).film;
+    return test::whole(film).mean / test::whole(unit).mean;
+  };
+  const std::string sky = R"({"environment": {}, "emission": {"spectrum": 1}})";
+  const std::string behind =
+      R"({"quad": {"corner": [-9, -9, 3], "edge_u": [0, 18, 0], "edge_v": [18, 0, 0]}, "emission": {"spectrum": 1}})";
+  EXPECT_NEAR(seen(plate + metal, sky), reflected, 0.004);
+  EXPECT_NEAR(seen(plate, behind), transmitted, 0.005);
+  EXPECT_NEAR(seen(plate + "," + ball("flint", 1), behind), transmitted, 0.005);
+
+  for (const std::string& inside : {metal, "," + ball("flint", 1)}) {
+    const RayTrace trace = traced(scene_of(plate + inside), {0, 0, -3}, {0, 0, 0});
+    EXPECT_NEAR(trace.events.at(0).R, std::pow((kIndex - 1) / (kIndex + 1), 2), 1e-6);
+    EXPECT_NEAR(trace.events.at(1).R, 0, 1e-9) << inside;
   }
 }
 
