@@ -1,4 +1,9 @@
 // Bidirectional path tracing beside the other techniques.
+#include <cmath>
+#include <cstdio>
+
+#include <fmt/format.h>
+
 #include "tests/scenes/margin.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
@@ -80,6 +85,46 @@ TEST(Bidirectional, FindsLightThatConnectionsOfPathTracingDoNot) {
   const IntegratorChoice choice = choose_integrator(larger, 2);
   EXPECT_EQ(choice.integrator, Integrator::bdpt) << choice.cost_ratio.value_or(0);
   EXPECT_NE(choice.because.find("times as cheap"), std::string::npos) << choice.because;
+}
+
+// A ball of cloud 60 free paths thick seen from its lit side, and a white room with a ball in it, where most
+// light has more events than all are joined at.
+TEST(Bidirectional, JoinsLongPathsAtSomeOfTheirVerticesForAll) {
+  const char* cloud = R"(
+    "camera": {"pinhole": {"fov_deg": 28}, "from": [0, -4, 0], "to": [0, 0, 0], "up": [0, 0, 1]},
+    "materials": {"cloud": {"medium": {"scattering_per_m": 30}}},
+    "lights": [{"directional": {"towards": [0, -1, 0], "irradiance": 1}}],
+    "shapes": [{"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "cloud"}])";
+  const char* room = R"(
+    "camera": {"pinhole": {"fov_deg": 60}, "from": [0, -0.9, 0], "to": [0, 0, 0], "up": [0, 0, 1]},
+    "materials": {"white": {"diffuse": {"reflectance": 0.95}}, "copper": {"conductor": {"ior": "Cu_Johnson", "roughness": 0.4}}},
+    "lights": [{"sphere": {"center": [0.4, -0.2, 0.5], "radius": 0.1}, "emission": {"spectrum": 1}}],
+    "shapes": [{"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "white"},
+               {"sphere": {"center": [0.2, 0.3, 0], "radius": 0.3}, "material": "copper"}])";
+  struct Compared {
+    const char* scene;
+    int paths;
+    int joined;
+  };
+  for (const auto& [scene, paths, joined] : {Compared{cloud, 1024, 192}, Compared{room, 512, 48}}) {
+    const auto by = [scene = scene](const char* integrator, int samples) {
+      const Film film = render(test::load_text(fmt::format(
+                                   R"({{"abbe": 1, {}, "sensor": {{"resolution": [8, 8], "channels":
+          {{"a": {{"band": [500, 600]}}}}}}, "render": {{"integrator": "{}", "samples": {}, "max_depth": 60}}}})",
+                                   scene, integrator, samples)),
+                               {})
+                            .film;
+      return test::region(film, 0, 0, 0, 8, 8);
+    };
+    const test::Region path = by("path", paths);
+    for (const char* integrator : {"bdpt", "vcm"}) {
+      const test::Region both = by(integrator, joined);
+      const double deviation = std::sqrt(path.variance + both.variance) / path.mean;
+      std::printf("%s: %.4f of path, deviation %.4f\n", integrator, both.mean / path.mean, deviation);
+      EXPECT_NEAR(both.mean / path.mean, 1, 5 * deviation) << integrator;
+      EXPECT_LT(deviation, 0.02) << integrator;
+    }
+  }
 }
 
 }  // namespace

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 
 #include "scene/scene.h"
 
@@ -24,8 +26,7 @@ inline constexpr int kMostEvents = 100000;
 }
 
 /// The `a` of `survival`: of paths whose cost is in proportion to their events, of those whose last event was
-/// specular, and, at surfaces, of those of which all vertices are joined to all of another, at a cost of the
-/// third power.
+/// specular, and, at surfaces, of those that are joined to others at many of their vertices.
 inline constexpr float kEndingOfPaths = 0.5F;
 inline constexpr float kEndingOfSpecularPaths = 1;
 inline constexpr float kEndingOfJoinedPaths = 2;
@@ -37,12 +38,17 @@ inline constexpr float kEndingOfJoinedPaths = 2;
 /// proportion to n^(-3/2), so that the second moment of what it carries, the sum of n^(a - 3/2), is finite
 /// for a < 1/2, while the events of a path are in proportion to the sum of n^(-1/2 - a). Their product is
 /// least for a = 1/2 up to the most events there are. Light that total reflection holds in clear glass for
-/// ever ends ten times sooner by a = 1. The third power of a path's events is in proportion to the sum of
-/// n^(2 - a), which leaves little for a = 2 of what it is for 1/2: surfaces absorb enough for that, clouds do
-/// not.
+/// ever ends ten times sooner by a = 1. Paths that are joined to others end sooner still at surfaces, by
+/// a = 2, since these absorb enough to leave little for long ones; clouds do not.
 [[nodiscard]] inline float survival(float throughput, int events, float a) {
   const float most = events > kLongPath ? 1 - a / static_cast<float>(events) : 1;
   return std::min(most, std::max(0.1F, throughput));
+}
+
+/// The share of the paths which roulette lets have so many events, where nothing but it ends them and a is
+/// 1/2: the product of `survival`, about.
+[[nodiscard]] inline float kept_share(std::size_t events) {
+  return events > kLongPath ? std::sqrt(kLongPath / static_cast<float>(events)) : 1.0F;
 }
 
 }  // namespace abbe

@@ -43,7 +43,10 @@ struct EndDensities {
 /// path through the pixel. Merging at z_m is a strategy too [Georgiev2012], whose density, with N
 /// paths from lights and the radius r, is N pi r^2 prod_{i <= m} p_k(z_{i-1} -> z_i) prod_{i >= m}
 /// p_k(z_{i+1} -> z_i). Strategies that would join at a vertex where light goes in a single direction are
-/// left out. Roulette is not looked at, as it changes no mean. Serves one thread.
+/// left out. Long paths end by roulette and are joined at some of their vertices alone: n_t' counts that as
+/// if nothing but `kept_share` ended them, as the weights of a path need not be exact but to add up to 1, and
+/// what comes of strategy t is multiplied by the same share, which its throughputs were divided by. Serves
+/// one thread.
 class StrategyWeights {
  public:
   StrategyWeights(const Scene& scene, RayCaster& caster);

@@ -13,12 +13,6 @@
 namespace abbe {
 namespace {
 
-// Whether light goes there in more than single directions, so that it can be connected to something.
-bool joins(const PathVertex& vertex) {
-  const auto* surface = std::get_if<SurfaceVertex>(&vertex.at);
-  return surface == nullptr || scatters(surface->bsdf);
-}
-
 // The numbers for connections of the vertex after `i` others.
 std::array<float, 4> connection_numbers(const Sampler& sampler, std::size_t i) {
   return sampler.group(scattering_group(static_cast<int>(i) - 1) + 1);
@@ -96,18 +90,34 @@ void BidirectionalTracer::trace_together(std::span<const PixelPair> samples, std
 }
 
 void BidirectionalTracer::join(std::uint32_t i) {
-  const std::vector<PathVertex>& x = from_camera_.paths()[i].vertices;
-  const std::span<const PathVertex> y = own_light_path(i).vertices;
-  for (const MetLight& met : from_camera_.paths()[i].met) meet(i, met);
-  for (std::size_t t = meter_ ? 1 : 2; t <= x.size(); ++t) {
-    if (!joins(x[t - 1])) continue;
-    if (t < most_vertices_) connect_to_light(i, t);
-    for (std::size_t s = 2; s <= y.size() && s + t <= most_vertices_; ++s)
-      if (joins(y[s - 1])) connect(i, t, s);
-    if (from_lights_ != nullptr && t > 1 && std::holds_alternative<SurfaceVertex>(x[t - 1].at)) merge(i, t);
+  const RecordedPath& eye = from_camera_.paths()[i];
+  const LightPaths::Path photon = own_light_path(i);
+  count_ = 1;
+  for (const MetLight& met : eye.met) meet(i, met);
+  choose_joined(eye.vertices, eye.sampler, of_camera_);
+  choose_joined(photon.vertices, photon.sampler, of_light_);
+  for (const JoinedVertex& x : of_camera_)
+    if (meter_ || x.number > 1) join(i, x);
+  for (const JoinedVertex& y : of_light_) {
+    if (meter_ || y.number == 1 || y.number >= most_vertices_) continue;
+    count_ = y.count;
+    connect_to_lens(i, y.number);
   }
-  for (std::size_t s = 2; !meter_ && s <= y.size() && s < most_vertices_; ++s)
-    if (joins(y[s - 1])) connect_to_lens(i, s);
+}
+
+// A vertex of the camera's path with lights, and with paths from there.
+void BidirectionalTracer::join(std::uint32_t i, const JoinedVertex& x) {
+  count_ = x.count;
+  if (x.number < most_vertices_) connect_to_light(i, x.number);
+  for (const JoinedVertex& y : of_light_) {
+    if (y.number == 1 || x.number + y.number > most_vertices_) continue;
+    count_ = x.count * y.count;
+    connect(i, x.number, y.number);
+  }
+  count_ = x.count;
+  const PathVertex& vertex = from_camera_.paths()[i].vertices[x.number - 1];
+  if (from_lights_ != nullptr && x.number > 1 && std::holds_alternative<SurfaceVertex>(vertex.at))
+    merge(i, x.number);
 }
 
 void BidirectionalTracer::meet(std::uint32_t i, const MetLight& met) {
@@ -219,7 +229,7 @@ float BidirectionalTracer::weight() {
   ends.lens_connections = meter_ ? 1 : static_cast<float>(plan_.photons);
   if (from_lights_ != nullptr)
     ends.merging = disc_area(from_lights_->radius()) * static_cast<float>(from_lights_->size());
-  return weights_.of(joined_, ends);
+  return count_ * weights_.of(joined_, ends);
 }
 
 // Path tracing has other ways than these to light that comes through specular matter or is scattered on its

@@ -8,6 +8,7 @@
 #include "sampling/sampler.h"
 #include "transport/path/film_response.h"
 #include "transport/path/found_light.h"
+#include "transport/path/joined_vertices.h"
 #include "transport/path/path_recorder.h"
 #include "transport/path/strategies.h"
 #include "transport/plan/plan.h"
@@ -26,10 +27,11 @@ struct PixelPair {
 };
 
 /// Bidirectional path tracing [Lafortune1993] [Veach1997, ch. 10]: a path from the camera and one from a
-/// light, of the same wavelengths and hero, are joined at all of their vertices, and what they carry is
-/// balanced over all strategies and lanes. With the paths from lights of a whole sample, a vertex of the
-/// camera's path is also merged with those of any of them close by, a strategy beside the others: vertex
-/// connection and merging [Georgiev2012] [Hachisuka2012]. Serves one thread.
+/// light, of the same wavelengths and hero, are joined at their vertices, many of those of long paths left
+/// out (`choose_joined`), and what they carry is balanced over all strategies and lanes. With the paths from
+/// lights of a whole sample, a vertex of the camera's path is also merged with those of any of them close by,
+/// a strategy beside the others: vertex connection and merging [Georgiev2012] [Hachisuka2012]. Serves one
+/// thread.
 ///
 /// Owned: every path that ends on a light with area, and of those that end on another one all that have two
 /// neighbouring vertices, the light's own included, where light does not go in a single direction. By
@@ -51,6 +53,7 @@ class BidirectionalTracer {
  private:
   void trace_together(std::span<const PixelPair> samples, std::uint32_t first);
   void join(std::uint32_t i);
+  void join(std::uint32_t i, const JoinedVertex& x);
   void meet(std::uint32_t i, const MetLight& met);
   void connect_to_light(std::uint32_t i, std::size_t t);
   void connect(std::uint32_t i, std::size_t t, std::size_t s);
@@ -89,6 +92,9 @@ class BidirectionalTracer {
   FoundLight found_;                    // and with what
   StrategyWeights weights_;
   JoinedPath joined_;
+  float count_ = 1;                      // how often it counts
+  std::vector<JoinedVertex> of_camera_;  // of the paths in hand, which are joined
+  std::vector<JoinedVertex> of_light_;
   std::vector<LightPaths::Vertex> near_;  // at one place
 };
 
