@@ -138,7 +138,7 @@ TEST(PathRecorder, TellsWhatFogLeavesOfLightFromInfinity) {
   EXPECT_LT(through, 54);
 }
 
-// Within a white sphere, each vertex at the cost of all of another path: of n > 64 events a share (64/n)^2 of
+// Within a white sphere, of paths that are joined to others: of n > 64 events a share (64/n)^2 of
 // paths has more, so that they have 128 on an average.
 TEST(PathRecorder, EndsLongPathsSoon) {
   Scene scene = test::lit_by(PointLight{{0, 0, 0.5F}});
