@@ -49,9 +49,11 @@ void check_shapes(const LoadContext& context, const Scene& scene) {
 
 void check_precision(const SourcePosition& where, const LoadContext& context, const Scene& scene) {
   check_shapes(context, scene);
-  const std::optional<double> image_distance = traits(scene.camera).image_distance;
-  if (!image_distance) return;
-  const double pixel = scene.camera.pixel_pitch / *image_distance;
+  const CameraTraits camera = traits(scene.camera);
+  const std::optional<double> distance_of_film =
+      camera.pinhole_distance ? camera.pinhole_distance : camera.image_distance;
+  if (!distance_of_film) return;
+  const double pixel = scene.camera.pixel_pitch / *distance_of_film;
   if (pixel < kLeastPixelSteps * kDirectionStep)
     context.diagnostics.error(
         where,

@@ -28,12 +28,15 @@ double steepest_cosine(const lens::SpectralSystem& system, const V2d& half_film_
   return depth / std::hypot(depth, across);
 }
 
+std::optional<double> finite(double mm) {
+  return std::isfinite(mm) ? std::optional(mm) : std::nullopt;
+}
+
 // Of near objects the image is as large as by a pinhole at the first vertex.
-std::optional<double> image_distance(const lens::SystemAt& at) {
+std::optional<double> pinhole_distance(const lens::SystemAt& at) {
   const lens::FirstOrder first = lens::first_order(at);
   const auto& object_mm = at.system->object_distance_mm;
-  const double mm = std::abs(object_mm ? first.magnification * *object_mm : first.focal_length_mm);
-  return std::isfinite(mm) ? std::optional(mm) : std::nullopt;
+  return finite(std::abs(object_mm ? first.magnification * *object_mm : first.focal_length_mm));
 }
 
 }  // namespace
@@ -48,7 +51,10 @@ LensOptics::LensOptics(lens::System lens, double stop_radius_mm, const FilmGrid&
   const lens::System& of = system.system();
   constexpr int kSpeedCells = 64;  // across the axial beam
   const lens::SystemAt at(of, of.primary_nm());
-  image_distance_mm = image_distance(at);
+  pinhole_distance_mm = pinhole_distance(at);
+  image_distance_mm =
+      finite(std::abs(of.surfaces.back().thickness_mm - lens::first_order(at).rear_principal_mm));
+  if (!image_distance_mm) image_distance_mm = pinhole_distance_mm;
   speed = lens::speed(at, stop_radius_mm, kSpeedCells);
   if (ghosts == Ghosts::enumerated) enumerate_ghosts(half_size_mm(grid), low_nm, high_nm);
 }

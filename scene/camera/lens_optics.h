@@ -18,8 +18,10 @@ struct LensOptics {
 
   lens::SpectralSystem system;
   lens::ExitPupil pupil;  ///< For a film, and wavelengths, of which nothing else may be asked.
-  /// Of the pinhole whose image is as large, paraxially, at the primary wavelength; none where what the lens
-  /// is to see has no image.
+  /// Film of the pinhole whose image is as large, paraxially, at the primary wavelength, to it; none where
+  /// what the lens is to see has no image.
+  std::optional<double> pinhole_distance_mm;
+  /// Film to the principal plane of image space, likewise; of lenses without power that to the pinhole.
   std::optional<double> image_distance_mm;
   std::optional<lens::Speed>
       speed;  ///< On the axis at the primary wavelength; none where its beam does not get there.

@@ -296,13 +296,16 @@ V3d LensSystem::middle() const {
 // Of ghosts the opening holds the first surface too.
 CameraTraits LensSystem::traits() const {
   const bool numbered = optics->speed && std::isfinite(optics->speed->f_number);
-  const auto& image_mm = optics->image_distance_mm;
+  const auto in_m = [](const std::optional<double>& mm) {
+    return mm ? std::optional(*mm / kMmPerM) : std::nullopt;
+  };
   const double radius = std::max(front_radius(*this), ghosts ? optics->semi_aperture_mm(0) : 0.0) / kMmPerM;
   return {.depth_of_field = true,
           .displaces_lanes = true,
           .ghosts = ghosts,
           .polarises = true,
-          .image_distance = image_mm ? std::optional(*image_mm / kMmPerM) : std::nullopt,
+          .image_distance = in_m(optics->image_distance_mm),
+          .pinhole_distance = in_m(optics->pinhole_distance_mm),
           .f_number = numbered ? std::optional(optics->speed->f_number) : std::nullopt,
           .axis = frame.forward,
           .opening = FlatOpening{middle(), frame.right * radius, frame.up * radius, frame.forward, true}};

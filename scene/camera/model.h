@@ -111,9 +111,11 @@ struct CameraTraits {
   bool ghosts = false;
   /// The lens changes how light is polarised.
   bool polarises = false;
-  std::optional<double> image_distance = {};  ///< Film behind a lens, or the pinhole of its image, to it [m].
-  std::optional<double> f_number = {};        ///< Finite; of the opening, without the losses of the lens.
-  std::optional<Imath::V3d> axis = {};        ///< Unit direction in which a lens looks.
+  std::optional<double> image_distance = {};  ///< Film behind a lens to it [m].
+  /// Film of the pinhole whose image is as large as that of a lens of surfaces, to it [m].
+  std::optional<double> pinhole_distance = {};
+  std::optional<double> f_number = {};  ///< Finite; of the opening, without the losses of the lens.
+  std::optional<Imath::V3d> axis = {};  ///< Unit direction in which a lens looks.
   /// Of a meter, which takes light itself: the sine of the greatest angle with its normal that counts. Light
   /// is then connected to it as to a surface, and `sample_towards` connects nothing; every other camera
   /// connects.

@@ -226,6 +226,20 @@ TEST(LensCamera, IsAnEventForPolarisedLight) {
   EXPECT_TRUE(scene.needs.polarisation_matters);
 }
 
+// A thick lens has 1/f' = (n - 1)(2/R - (n - 1) t/(n R^2)), and its principal planes are f' (n - 1) t/(n R)
+// within its vertices: its image of what is 150 mm before it is 1/(1/f' - 1/u) behind the second.
+TEST(LensCamera, TellsHowFarItsFilmIsFromThePrincipalPlane) {
+  const lens::System lens = test::sound_lens_of(R"({"entrance_pupil": 2, "object_distance": 149,
+      "focus": "paraxial", "surfaces": [{"stop": true, "thickness": 1}, [50, 3, 1.5], [-50, 70]]})");
+  const double focal_length = 1 / (0.5 * (2 / 50.0 - 0.5 * 3 / (1.5 * 50 * 50)));
+  const double within = focal_length * 0.5 * 3 / (1.5 * 50);
+  const double object = 150 + within;
+  const double image = 1 / (1 / focal_length - 1 / object);
+  const CameraTraits told = traits(looking_through(lens, lens::stop_radius(lens)));
+  EXPECT_NEAR(*told.image_distance, image * 1e-3, 1e-8);
+  EXPECT_NEAR(*told.pinhole_distance, image / object * 149 * 1e-3, 1e-8);
+}
+
 TEST(LensCamera, TellsOfItself) {
   const lens::System lens = lens_named("double_gauss");
   const Camera camera = looking_through(lens, lens::stop_radius(lens));
