@@ -1,6 +1,7 @@
 #include "transport/render/choose_integrator.h"
 
 #include <cmath>
+#include <cstdio>
 #include <memory>
 #include <string>
 
@@ -88,6 +89,37 @@ TEST(TechniquePilots, JoinedPathsTellWhatPathTracingWouldHave) {
   EXPECT_LT(joined.path_tracing_square, 1.02 * square);
   EXPECT_GT(joined.path_tracing_square, 0.8 * square);
   EXPECT_LT(joined.path_square, 0.75 * square);
+}
+
+// Within a sphere of the reflectance r, lit from its middle, each path of path tracing has r^k at its event
+// k, and the squares of these are to be told, over that of their sum: of joined paths, of which all but the
+// first eight vertices are joined by chance, too.
+TEST(TechniquePilots, JoinedPathsTellWhatPathTracingWouldHaveOfLongPaths) {
+  constexpr double kReflectance = 0.97;
+  constexpr int kEvents = 40;
+  Scene scene = load(
+      "scenes/cornell.json",
+      {{"/units", "\"m\""},
+       {"/camera", R"({"pinhole": {"fov_deg": 60}, "from": [0, -0.9, 0], "to": [0, 0, 0], "up": [0, 0, 1]})"},
+       {"/materials", R"({"white": {"diffuse": {"reflectance": 0.97}}})"},
+       {"/lights", R"([{"point": {"at": [0, 0, 0]}, "emission": {"spectrum": 1}}])"},
+       {"/shapes", R"([{"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "white"}])"},
+       {"/render/max_depth", fmt::format("{}", kEvents)},
+       {"/render/roulette_depth", "-1"},
+       {"/render/integrator", "path"}});
+  double sum = 0;
+  double squares = 0;
+  for (int k = 1; k <= kEvents; ++k) {
+    sum += std::pow(kReflectance, k);
+    squares += std::pow(kReflectance, 2 * k);
+  }
+  const double square = try_techniques(make_plan(scene), 2, 512).path_square;
+  scene.render.integrator = Integrator::bdpt;
+  const double told = try_techniques(make_plan(scene), 2, 512).path_tracing_square;
+  const double of_each = told / square / (squares / (sum * sum));
+  std::printf("%.3f of the squares, but for what falls to connections with the lens\n", of_each);
+  EXPECT_LT(of_each, 1.02);
+  EXPECT_GT(of_each, 0.8);
 }
 
 // Where few pixels say that joining is not worth it, no more are asked. All light of one lamp comes through

@@ -32,7 +32,9 @@ inline constexpr int kMeterEvent = -1;
 [[nodiscard]] constexpr std::uint32_t free_path_group(int event) {
   return 0x80000000 + static_cast<std::uint32_t>(event);
 }
+/// The group for which samples have a path through a pixel, where not all have one.
+inline constexpr std::uint32_t kPhaseGroup = 0xC0000000;
 /// The group for which vertices of a long path are joined to those of another.
-inline constexpr std::uint32_t kJoiningGroup = 0xC0000000;
+inline constexpr std::uint32_t kJoiningGroup = 0xE0000000;
 
 }  // namespace abbe

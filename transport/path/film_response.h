@@ -74,7 +74,7 @@ struct FilmPoint {
 struct LightHistory {
   std::uint32_t light;
   int events;
-  /// Of the densities of all strategies by which it was joined the share of those that path tracing has too.
+  /// Its density by path tracing over that of all strategies by which it was joined.
   float by_path_tracing = 1;
 };
 

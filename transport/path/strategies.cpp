@@ -32,13 +32,20 @@ bool joins(const JoinedPath& path, std::size_t i) {
   return i == 0 || i == last || joint || !path.z[i]->delta;
 }
 
-// How often paths of `t` vertices from the camera and of the rest from a light come to have so many and are
-// joined at their last.
-float frequency(const JoinedPath& path, std::size_t t) {
-  if (path.z.size() <= kAllJoined) return 1;
-  const std::size_t rest = path.z.size() - std::min(t, path.z.size());
-  const float kept = kept_share(t) * kept_share(rest);
-  return rest == 0 ? kept : kept * joined_share(t) * joined_share(rest);
+// How many vertices the light makes where the camera makes `t`.
+std::size_t rest_of(const JoinedPath& path, std::size_t t) {
+  return path.z.size() - std::min(t, path.z.size());
+}
+
+// Which share of the paths from both ends roulette lets have so many vertices,
+float kept(const JoinedPath& path, std::size_t t) {
+  return kept_share(t) * kept_share(rest_of(path, t));
+}
+
+// and which share of these is joined at the last of both.
+float joined(const JoinedPath& path, std::size_t t) {
+  const std::size_t rest = rest_of(path, t);
+  return rest == 0 ? 1 : joined_share(t) * joined_share(rest);
 }
 
 // How many paths of strategy `t` there are for each path through the pixel; 0 where it cannot make this one.
@@ -121,12 +128,12 @@ float StrategyWeights::of(const JoinedPath& path, const EndDensities& ends) {
   const SampledSpectrum connected(ends.light_connection / at_[last].ours);
   SampledSpectrum from_camera(1.0F);
   for (std::size_t t = 1; t <= last + 1; ++t) {
-    if (const float n = count(path, ends, t) * frequency(path, t); n > 0) {
+    if (const float n = count(path, ends, t) * kept(path, t); n > 0) {
       const SampledSpectrum density = from_camera * (t == last ? connected : from_light_[t]) * n;
-      sum_ += density;
+      sum_ += density * joined(path, t);
       if (t >= last) own_ += density;
     }
-    if (const float n = merging(path, ends, t) * frequency(path, t); n > 0)
+    if (const float n = merging(path, ends, t) * kept(path, t) * joined(path, t); n > 0)
       sum_ += from_camera * at_[t - 1].by_light * from_light_[t] * n;
     if (t <= last) from_camera *= at_[t].by_camera * (1 / at_[t].ours);
   }
@@ -136,7 +143,7 @@ float StrategyWeights::of(const JoinedPath& path, const EndDensities& ends) {
     unit *= path.merged->packet.lane_pdf[hero] / path.merged->pdf_forward[hero];
   else if (path.t <= last)
     unit *= path.z[path.t]->packet.lane_pdf[hero];
-  const float weight = frequency(path, path.t) / (sum_.sum() * unit);
+  const float weight = kept(path, path.t) * joined(path, path.t) / (sum_.sum() * unit);
   return std::isfinite(weight) ? weight : 0.0F;
 }
 

@@ -54,9 +54,9 @@ class StrategyWeights {
   /// What the path's contribution by its throughputs is to be multiplied by.
   [[nodiscard]] float of(const JoinedPath& path, const EndDensities& ends);
 
-  /// Which share of the densities of that path the strategies have whose path from the camera meets the
-  /// light, or is connected to one drawn for it: those of path tracing.
-  /// 0 where they cannot make it.
+  /// The density of that path by path tracing, whose path from the camera meets the light, or is connected at
+  /// each of its vertices to one drawn for it, over that of all strategies together: their share, or more
+  /// where these join some of the vertices alone. 0 where path tracing cannot make it.
   [[nodiscard]] float by_path_tracing() const {
     const float all = sum_.sum();
     return all > 0 ? own_.sum() / all : 0;

@@ -6,6 +6,7 @@
 #include <mutex>
 
 #include "io/error.h"
+#include "transport/path/dimensions.h"
 #include "transport/render/collect.h"
 #include "transport/render/threads.h"
 
@@ -188,7 +189,6 @@ Pass::PixelPaths Pass::paths_of(std::uint64_t sample, int x, int y) const {
   if (uses(plan_.techniques, Technique::ppm)) return {0, 1};
   const std::uint32_t together = plan_.density.at(x, y);
   if (path_interval_ == 1) return {index(sample) * together, together};
-  constexpr std::uint32_t kPhaseGroup = 0xC0000000;
   const float u =
       Sampler(seed_, Purpose::camera, replicate(sample), number_of(x, y), 0).group(kPhaseGroup)[0];
   const std::uint32_t at = index(sample) + static_cast<std::uint32_t>(u * static_cast<float>(path_interval_));

@@ -240,7 +240,7 @@ float BidirectionalTracer::by_path_tracing() const {
       between.empty() ||
       (std::holds_alternative<SurfaceVertex>(between.back()->at) &&
        std::none_of(between.begin(), between.end(), [](const PathVertex* vertex) { return vertex->delta; }));
-  return plain ? weights_.by_path_tracing() : 1;
+  return plain ? weights_.by_path_tracing() : std::max(1.0F, weights_.by_path_tracing());
 }
 
 // A meter sees each light under an angle of its own.
