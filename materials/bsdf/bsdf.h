@@ -58,6 +58,12 @@ template <typename... Models>
 inline constexpr bool kAllBsdfModels<std::variant<Models...>> = (BsdfModel<Models> && ...);
 static_assert(kAllBsdfModels<Bsdf>);
 
+/// Whether a model is one of some.
+template <typename... Models>
+[[nodiscard]] bool is_any_of(const Bsdf& bsdf) {
+  return (std::holds_alternative<Models>(bsdf) || ...);
+}
+
 /// What `visitor` makes of the model, the commonest being asked for first, in line.
 template <typename Visitor>
 [[nodiscard]] decltype(auto) visit_model(Visitor&& visitor, const Bsdf& bsdf) {

@@ -41,7 +41,7 @@ float across(const Leaving& at) {
 }
 
 EmissionDensity density_of(const EnvironmentLight& light, const Leaving& at) {
-  return {across(at), light.image ? light.image->pdf(-at.wo) : 1 / (4 * std::numbers::pi_v<float>)};
+  return {across(at), light.pdf({}, -at.wo)};
 }
 
 EmissionDensity density_of(const DirectionalLight& /*light*/, const Leaving& at) {

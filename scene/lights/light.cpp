@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "io/error.h"
+#include "materials/bsdf/warp.h"
 #include "scene/shapes/basis.h"
 #include "scene/shapes/placed.h"
 #include "scene/shapes/shape_instance.h"
@@ -108,16 +109,16 @@ AreaSample sample_area_light_at(float time, const AreaLight& light, const Shape&
   return sample;
 }
 
-// What is asked of a light: towards which point, by which numbers and when.
+// What is asked of a light: towards which place, by which numbers and when.
 struct SampleRequest {
-  const Imath::V3f& point;
+  const LightSampleContext& place;
   Imath::V2f u;
   float time;
 };
 
 std::optional<LightSample> sample_kind(const Light& light, const AreaLight& emitter,
                                        const std::vector<ShapeInstance>& shapes, const SampleRequest& asked) {
-  const Imath::V3f& point = asked.point;
+  const Imath::V3f& point = asked.place.point;
   const auto [at, drawn] =
       sample_area_light_at(asked.time, emitter, shapes[emitter.shape].shape, Imath::V3d(point), asked.u);
   const Imath::V3d d = Imath::V3d(at.point) - Imath::V3d(point);
@@ -144,47 +145,48 @@ std::optional<LightSample> from_point(const Imath::V3f& position, const Imath::V
 
 std::optional<LightSample> sample_kind(const Light&, const PointLight& lamp,
                                        const std::vector<ShapeInstance>&, const SampleRequest& asked) {
-  return from_point(place_at(lamp, asked.time), asked.point);
+  return from_point(place_at(lamp, asked.time), asked.place.point);
 }
 
 std::optional<LightSample> sample_kind(const Light&, const SpotLight& lamp, const std::vector<ShapeInstance>&,
                                        const SampleRequest& asked) {
-  std::optional<LightSample> sample = from_point(place_at(lamp, asked.time), asked.point);
+  std::optional<LightSample> sample = from_point(place_at(lamp, asked.time), asked.place.point);
   if (!sample || !lamp.lights(-sample->wi, asked.time)) return std::nullopt;
   return sample;
 }
 
+std::optional<Imath::V3f> sample_direction(const EnvironmentLight& environment, const SampleRequest& asked) {
+  if (environment.image) return environment.image->sample(asked.u);
+  if (!asked.place.side) return sample_area(Sphere{{0, 0, 0}, 1}, asked.u).normal;
+  return Basis<float>(*asked.place.side).to_world(cosine_hemisphere(asked.u));
+}
+
 std::optional<LightSample> sample_kind(const Light&, const EnvironmentLight& environment,
                                        const std::vector<ShapeInstance>&, const SampleRequest& asked) {
-  const Imath::V3f& point = asked.point;
-  const Imath::V2f u = asked.u;
-  if (!environment.image)
-    return LightSample{sample_area(Sphere{{0, 0, 0}, 1}, u).normal, kInfinity, 1,
-                       static_cast<float>(1 / (4 * std::numbers::pi)), point};
-  const auto wi = environment.image->sample(u);
+  const auto wi = sample_direction(environment, asked);
   if (!wi) return std::nullopt;
   // Rounded, the direction may meet the next texel; then that one's density goes with that one's radiance.
-  const float pdf = environment.image->pdf(*wi);
+  const float pdf = environment.pdf(asked.place, *wi);
   if (!(pdf > 0)) return std::nullopt;
-  return LightSample{*wi, kInfinity, 1, pdf, point};
+  return LightSample{*wi, kInfinity, 1, pdf, asked.place.point};
 }
 
 std::optional<LightSample> sample_kind(const Light&, const DirectionalLight& beam,
                                        const std::vector<ShapeInstance>&, const SampleRequest& asked) {
-  return LightSample{beam.towards, kInfinity, 1, 1, asked.point};
+  return LightSample{beam.towards, kInfinity, 1, 1, asked.place.point};
 }
 
 std::optional<LightSample> sample_kind(const Light&, const SunLight& sun, const std::vector<ShapeInstance>&,
                                        const SampleRequest& asked) {
   const float phi = 2 * std::numbers::pi_v<float> * asked.u.y;
   return LightSample{direction_about(sun.towards, asked.u.x * sun.cap, phi), kInfinity, 1, cone_pdf(sun.cap),
-                     asked.point};
+                     asked.place.point};
 }
 
-// Light that arrives at `point` from the unit direction `wi`, of a light hit at `hit` with that normal, at
+// Light that arrives at a place from the unit direction `wi`, of a light hit at `hit` with that normal, at
 // some time.
 struct Arrival {
-  const Imath::V3f& point;
+  const LightSampleContext& place;
   const Imath::V3f& wi;
   const Imath::V3f& hit;
   const Imath::V3f& normal;
@@ -193,7 +195,7 @@ struct Arrival {
 
 float pdf_of(const AreaLight& emitter, const std::vector<ShapeInstance>& shapes, const Arrival& at) {
   const Shape& shape = shapes[emitter.shape].shape;
-  const Imath::V3d from(at.point);
+  const Imath::V3d from(at.place.point);
   const Imath::V3d seen_from =
       motion_of(shape) == nullptr ? from : from * pose_of(shape, at.time).to_prototype;
   if (const auto height = wide_cone(shape, seen_from))
@@ -210,7 +212,7 @@ float pdf_of(const SpotLight&, const std::vector<ShapeInstance>&, const Arrival&
   return 0;
 }
 float pdf_of(const EnvironmentLight& environment, const std::vector<ShapeInstance>&, const Arrival& at) {
-  return environment.image ? environment.image->pdf(at.wi) : static_cast<float>(1 / (4 * std::numbers::pi));
+  return environment.pdf(at.place, at.wi);
 }
 float pdf_of(const DirectionalLight&, const std::vector<ShapeInstance>&, const Arrival&) {
   return 0;
@@ -299,6 +301,12 @@ const Motion* motion_of(const Light& light, const std::vector<ShapeInstance>& sh
   return emitter != nullptr ? motion_of(shapes[emitter->shape].shape) : nullptr;
 }
 
+float EnvironmentLight::pdf(const LightSampleContext& place, const Imath::V3f& wi) const {
+  if (image) return image->pdf(wi);
+  return place.side ? std::max(0.0F, place.side->dot(wi)) / std::numbers::pi_v<float>
+                    : 1 / (4 * std::numbers::pi_v<float>);
+}
+
 SampledSpectrum emission_from(const Light& light, const Imath::V3f& wi,
                               const SampledSpectrum& wavelengths_nm) {
   const auto* environment = std::get_if<EnvironmentLight>(&light.kind);
@@ -307,17 +315,17 @@ SampledSpectrum emission_from(const Light& light, const Imath::V3f& wi,
 }
 
 std::optional<LightSample> sample_light(const Light& light, const std::vector<ShapeInstance>& shapes,
-                                        const Imath::V3f& point, Imath::V2f u, float time) {
-  const SampleRequest asked{point, u, time};
+                                        const LightSampleContext& place, Imath::V2f u, float time) {
+  const SampleRequest asked{place, u, time};
   return std::visit([&](const auto& kind) { return sample_kind(light, kind, shapes, asked); }, light.kind);
 }
 
-float light_pdf(const Light& light, const std::vector<ShapeInstance>& shapes, const Imath::V3f& point,
+float light_pdf(const Light& light, const std::vector<ShapeInstance>& shapes, const LightSampleContext& place,
                 const Imath::V3f& wi, const Imath::V3f& hit_point, const Imath::V3f& hit_normal, float time) {
   if (!emits_towards(light, hit_normal, -wi)) return 0;
   return std::visit(
       [&](const auto& kind) {
-        return pdf_of(kind, shapes, {point, wi, hit_point, hit_normal, time});
+        return pdf_of(kind, shapes, {place, wi, hit_point, hit_normal, time});
       },
       light.kind);
 }

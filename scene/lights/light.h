@@ -23,6 +23,16 @@ namespace abbe {
 
 struct ShapeInstance;
 
+/// Where light arrives to be scattered: at a point, on the side of a surface that a unit normal says, or from
+/// everywhere.
+struct LightSampleContext {
+  Imath::V3f point{0, 0, 0};
+  std::optional<Imath::V3f> side = {};
+  bool glossy = false;  ///< Whether it is scattered in lobes, which find light from everywhere by themselves.
+
+  [[nodiscard]] const Imath::V3f* normal() const { return side ? &*side : nullptr; }
+};
+
 /// Density [1/sr] of directions drawn uniformly from a cone, `cap` being 1 - cos of its half angle.
 [[nodiscard]] inline float cone_pdf(float cap) {
   return 1 / (2 * std::numbers::pi_v<float> * cap);
@@ -66,6 +76,10 @@ struct SpotLight {
 /// Light from infinity: the same radiance from all directions, or as an image says.
 struct EnvironmentLight {
   std::shared_ptr<const EnvironmentImage> image = nullptr;
+
+  /// Density [1/sr] of the unit direction `wi` as drawn for a place: by the image, or without one by the
+  /// cosine on the side that light can come to, evenly where that is everywhere.
+  [[nodiscard]] float pdf(const LightSampleContext& place, const Imath::V3f& wi) const;
 };
 /// A parallel beam from infinity. `towards` is the unit direction from the scene to where it comes from.
 struct DirectionalLight {
@@ -133,19 +147,20 @@ struct LightSample {
   Imath::V3f normal{0, 0, 0};  ///< Outward, of an area light there; zero for the others.
 };
 
-/// Draws a direction from `point` towards the light at that time; nothing if the light cannot reach it.
+/// Draws a direction from a place towards the light at that time; nothing if the light cannot reach it.
 /// Spheres seen from outside are drawn by solid angle [Pharr2023, sec. 6.2.4], rectangles that look large too
-/// [Urena2013], all else by area.
+/// [Urena2013], environments as they say, all else by area.
 [[nodiscard]] std::optional<LightSample> sample_light(const Light& light,
                                                       const std::vector<ShapeInstance>& shapes,
-                                                      const Imath::V3f& point, Imath::V2f u, float time);
+                                                      const LightSampleContext& place, Imath::V2f u,
+                                                      float time);
 
-/// Density [1/sr] with which `sample_light` draws the direction from `point` that hits the light at
+/// Density [1/sr] with which `sample_light` draws the direction from a place that hits the light at
 /// `hit_point` with outward normal `hit_normal`; for lights at infinity pass the direction in `wi` only. 0
 /// for delta lights.
 [[nodiscard]] float light_pdf(const Light& light, const std::vector<ShapeInstance>& shapes,
-                              const Imath::V3f& point, const Imath::V3f& wi, const Imath::V3f& hit_point,
-                              const Imath::V3f& hit_normal, float time);
+                              const LightSampleContext& place, const Imath::V3f& wi,
+                              const Imath::V3f& hit_point, const Imath::V3f& hit_normal, float time);
 
 /// Whether the light emits from a surface point with outward `normal` into direction `wo` (away from the
 /// surface).

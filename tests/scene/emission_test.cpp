@@ -116,7 +116,7 @@ TEST(Emission, DensityPerAreaIsThatPerSolidAngleTimesCosineOverDistanceSquared) 
         const V3f wi = d.normalized();
         if (radius > 0 && at.normal.dot(wi) > 0) continue;
         const double per_area =
-            static_cast<double>(light_pdf(light, scene.shapes, from, wi, at.point, at.normal, 0) *
+            static_cast<double>(light_pdf(light, scene.shapes, {from}, wi, at.point, at.normal, 0) *
                                 std::abs(at.normal.dot(wi)) / d.length2());
         sum += per_area / static_cast<double>(at.pdf_area);
       }

@@ -128,10 +128,10 @@ TEST(EnvironmentImage, WhiteIsTheConstantEnvironment) {
     const V3f wi(random.direction());
     const SampledSpectrum nm(static_cast<float>(random.between(300, 1100)));
     EXPECT_NEAR(emission_from(white, wi, nm)[0] / emission_from(plain, wi, nm)[0], 1, 1e-6);
-    EXPECT_NEAR(light_pdf(white, {}, V3f(0), wi, V3f(0), V3f(0), 0) /
-                    light_pdf(plain, {}, V3f(0), wi, V3f(0), V3f(0), 0),
-                1, 1e-5);
-    const auto sample = sample_light(white, {}, V3f(0), random.pair(), 0);
+    EXPECT_NEAR(
+        light_pdf(white, {}, {}, wi, V3f(0), V3f(0), 0) / light_pdf(plain, {}, {}, wi, V3f(0), V3f(0), 0), 1,
+        1e-5);
+    const auto sample = sample_light(white, {}, {}, random.pair(), 0);
     ASSERT_TRUE(sample);
     EXPECT_NEAR(sample->pdf * 4 * static_cast<float>(kPi), 1, 1e-5);
   }
@@ -157,7 +157,7 @@ TEST(EnvironmentImage, OneHotTexelLightsAsItShould) {
   double sum = 0;
   constexpr int kSamples = 64;
   for (int i = 0; i < kSamples; ++i) {
-    const auto sample = sample_light(sky, {}, V3f(0), random.pair(), 0);
+    const auto sample = sample_light(sky, {}, {}, random.pair(), 0);
     ASSERT_TRUE(sample);
     sum += static_cast<double>(emission_from(sky, sample->wi, kGreen)[0] * std::max(sample->wi.z, 0.0F) /
                                sample->pdf);
@@ -186,7 +186,7 @@ TEST_F(EnvironmentFileTest, ReadsImages) {
                   (8 * static_cast<float>(sky.emission(650.0))),
               1, 0.02);
   EXPECT_LT(emission_from(sky, {-0.7F, 0.7F, 0.1F}, SampledSpectrum(650))[0], 0.02F);
-  const auto drawn = sample_light(sky, loaded->shapes, V3f(0), {0.5F, 0.25F}, 0);
+  const auto drawn = sample_light(sky, loaded->shapes, {}, {0.5F, 0.25F}, 0);
   ASSERT_TRUE(drawn) << "by what the sensor of the scene sees";
   EXPECT_GT(drawn->wi.y, 0);
   EXPECT_GT(loaded->memory_bytes(), 8 * (sizeof(float) * 3 + sizeof(double)));

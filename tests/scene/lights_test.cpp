@@ -25,7 +25,7 @@ double configuration_factor(const Scene& scene, const V3f& point, const V3f& nor
     for (int j = 0; j < side; ++j) {
       const Imath::V2f u((static_cast<float>(i) + random.uniform()) / static_cast<float>(side),
                          (static_cast<float>(j) + random.uniform()) / static_cast<float>(side));
-      const auto sample = sample_light(scene.lights[0], scene.shapes, point, u, 0);
+      const auto sample = sample_light(scene.lights[0], scene.shapes, {point}, u, 0);
       if (!sample) continue;
       EXPECT_NEAR(sample->wi.length(), 1, 1e-6);
       sum += std::max(0.0, static_cast<double>(sample->wi.dot(normal))) *
@@ -132,7 +132,7 @@ TEST(AreaLights, OneSidedOnesAreDarkFromBehind) {
     EXPECT_GT(configuration_factor(lit_by(shape, true), above, {0, 0, -1}, 16), 0.2);
     const Scene scene = lit_by(shape);
     const V3f wi(0, 0, -1);
-    EXPECT_EQ(light_pdf(scene.lights[0], scene.shapes, above, wi, above + wi * 0.5F, wi, 0), 0);
+    EXPECT_EQ(light_pdf(scene.lights[0], scene.shapes, {above}, wi, above + wi * 0.5F, wi, 0), 0);
     EXPECT_FALSE(emits_towards(scene.lights[0], {0, 0, -1}, {0, 0, 1}));
     EXPECT_TRUE(emits_towards(scene.lights[0], {0, 0, -1}, {0, 0, -1}));
   }
@@ -160,14 +160,14 @@ TEST(AreaLights, DensityIsThatOfTheSamples) {
   for (const auto& [shape, point] : views()) {
     const Scene scene = lit_by(shape, true);
     for (int i = 0; i < 5000; ++i) {
-      const auto sample = sample_light(scene.lights[0], scene.shapes, point, random.pair(), 0);
+      const auto sample = sample_light(scene.lights[0], scene.shapes, {point}, random.pair(), 0);
       ASSERT_TRUE(sample);
       const auto hit = scene.intersect({point, sample->wi});
       if (!hit || std::abs(hit->t - sample->distance) > 1e-3F * sample->distance)
         continue;  // a rim, or seen through the light
       const float grazing = std::abs(hit->normal.dot(sample->wi));
       if (grazing < 1e-3F) continue;
-      EXPECT_NEAR(light_pdf(scene.lights[0], scene.shapes, point, sample->wi, hit->point, hit->normal, 0) /
+      EXPECT_NEAR(light_pdf(scene.lights[0], scene.shapes, {point}, sample->wi, hit->point, hit->normal, 0) /
                       sample->pdf,
                   1, 1e-5 / grazing);
       EXPECT_FALSE(scene.occluded(point, sample->end));
@@ -193,7 +193,7 @@ TEST(AreaLights, DensityIntegratesToOne) {
         if (!hit) continue;
         ++hits;
         sum += static_cast<double>(
-            light_pdf(scene.lights[0], scene.shapes, point, wi, hit->point, hit->normal, 0));
+            light_pdf(scene.lights[0], scene.shapes, {point}, wi, hit->point, hit->normal, 0));
       }
     EXPECT_NEAR(sum / (kSide * kSide) * 4 * kPi, 1, hits < 1000 ? 4 / std::sqrt(hits) : 5e-3)
         << shape.index() << " from " << point;
@@ -228,22 +228,22 @@ TEST(SphericalRectangle, LeavesTheRestToArea) {
 
 TEST(DeltaLights, FallOffWithTheSquareOfDistance) {
   const Light bulb{"bulb", PointLight{{0, 0, 2}}, Curve(1.0)};
-  const auto sample = sample_light(bulb, {}, {0, 0, 0}, {0, 0}, 0);
+  const auto sample = sample_light(bulb, {}, {{0, 0, 0}}, {0, 0}, 0);
   ASSERT_TRUE(sample);
   EXPECT_EQ(sample->wi, V3f(0, 0, 1));
   EXPECT_FLOAT_EQ(sample->distance, 2);
   EXPECT_FLOAT_EQ(sample->factor, 0.25F);
   EXPECT_EQ(sample->pdf, 1);
   EXPECT_EQ(sample->end, V3f(0, 0, 2));
-  EXPECT_FLOAT_EQ(sample_light(bulb, {}, {0, 0, 1.99999F}, {0, 0}, 0)->factor,
+  EXPECT_FLOAT_EQ(sample_light(bulb, {}, {{0, 0, 1.99999F}}, {0, 0}, 0)->factor,
                   1 / std::pow(2 - 1.99999F, 2.0F))
       << "very near";
-  EXPECT_EQ(light_pdf(bulb, {}, {0, 0, 0}, {0, 0, 1}, {0, 0, 2}, {0, 0, -1}, 0), 0);
-  EXPECT_FALSE(sample_light(bulb, {}, {0, 0, 2}, {0, 0}, 0));
+  EXPECT_EQ(light_pdf(bulb, {}, {{0, 0, 0}}, {0, 0, 1}, {0, 0, 2}, {0, 0, -1}, 0), 0);
+  EXPECT_FALSE(sample_light(bulb, {}, {{0, 0, 2}}, {0, 0}, 0));
 
   const Light spot{"spot", SpotLight{{0, 0, 2}, {0, 0, -1}, 1 - std::cos(0.5F)}, Curve(1.0)};
   const auto at_angle = [&](float angle) {
-    return sample_light(spot, {}, {2 * std::tan(angle), 0, 0}, {0, 0}, 0);
+    return sample_light(spot, {}, {{2 * std::tan(angle), 0, 0}}, {0, 0}, 0);
   };
   EXPECT_TRUE(at_angle(0.49F));
   EXPECT_FALSE(at_angle(0.51F));
@@ -257,26 +257,46 @@ TEST(EnvironmentLights, ComeFromEverywhere) {
   double irradiance = 0;
   constexpr int kCount = 100000;
   for (int i = 0; i < kCount; ++i) {
-    const auto sample = sample_light(sky, {}, {1, 2, 3}, random.pair(), 0);
+    const auto sample = sample_light(sky, {}, {{1, 2, 3}}, random.pair(), 0);
     ASSERT_TRUE(sample);
     EXPECT_TRUE(std::isinf(sample->distance));
     mean += V3d(sample->wi);
     irradiance += std::max(0.0, static_cast<double>(sample->wi.y)) / static_cast<double>(sample->pdf);
-    EXPECT_EQ(sample->pdf, light_pdf(sky, {}, {1, 2, 3}, sample->wi, V3f(0), V3f(0), 0));
+    EXPECT_EQ(sample->pdf, light_pdf(sky, {}, {{1, 2, 3}}, sample->wi, V3f(0), V3f(0), 0));
   }
   EXPECT_LT(mean.length() / kCount, 0.01);
   EXPECT_NEAR(irradiance / kCount, kPi, 0.03);
 }
 
+// So that each direction tells the irradiance of a surface that sees all of the sky.
+TEST(EnvironmentLights, ComeToASideByTheCosine) {
+  const Light sky{"sky", EnvironmentLight{}, Curve(1.0)};
+  const V3f normal(0.48F, -0.6F, 0.64F);
+  const LightSampleContext place{{1, 2, 3}, normal};
+  Random random(6);
+  double cosines = 0;
+  constexpr int kCount = 100000;
+  for (int i = 0; i < kCount; ++i) {
+    const auto sample = sample_light(sky, {}, place, random.pair(), 0);
+    ASSERT_TRUE(sample);
+    EXPECT_EQ(sample->pdf, light_pdf(sky, {}, place, sample->wi, V3f(0), V3f(0), 0));
+    const double cosine = static_cast<double>(sample->wi.dot(normal));
+    ASSERT_NEAR(static_cast<double>(sample->pdf) * kPi, cosine, 1e-6);
+    cosines += cosine;
+  }
+  EXPECT_NEAR(cosines / kCount, 2.0 / 3, 0.003);
+  EXPECT_EQ(light_pdf(sky, {}, place, -normal, V3f(0), V3f(0), 0), 0);
+}
+
 TEST(DeltaLights, ABeamComesFromOneDirection) {
   const Light beam{"beam", DirectionalLight{{0, 0.6F, 0.8F}}, Curve(1.0)};
-  const auto sample = sample_light(beam, {}, {1, 2, 3}, {0.3F, 0.7F}, 0);
+  const auto sample = sample_light(beam, {}, {{1, 2, 3}}, {0.3F, 0.7F}, 0);
   ASSERT_TRUE(sample);
   EXPECT_EQ(sample->wi, V3f(0, 0.6F, 0.8F));
   EXPECT_TRUE(std::isinf(sample->distance));
   EXPECT_EQ(sample->factor, 1);
   EXPECT_EQ(sample->pdf, 1);
-  EXPECT_EQ(light_pdf(beam, {}, {1, 2, 3}, sample->wi, V3f(0), V3f(0), 0), 0);
+  EXPECT_EQ(light_pdf(beam, {}, {{1, 2, 3}}, sample->wi, V3f(0), V3f(0), 0), 0);
   EXPECT_TRUE(beam.is_delta());
 }
 
@@ -295,14 +315,14 @@ TEST(Suns, AreDiscsAtInfinity) {
     for (int i = 0; i < kSide; ++i)
       for (int j = 0; j < kSide; ++j) {
         const auto s =
-            sample_light(sun, {}, {1, 2, 3},
+            sample_light(sun, {}, {{1, 2, 3}},
                          {(static_cast<float>(i) + 0.5F) / kSide, (static_cast<float>(j) + 0.5F) / kSide}, 0);
         ASSERT_TRUE(s && std::isinf(s->distance));
         irradiance += V3d(s->wi).dot(normal) / static_cast<double>(s->pdf);
         inner += SunLight{kind.towards, kind.cap / 4}.shows(s->wi);
         // One on the rim may fall off it by rounding.
         if (i < kSide - 8) {
-          ASSERT_EQ(light_pdf(sun, {}, {1, 2, 3}, s->wi, V3f(0), V3f(0), 0), s->pdf);
+          ASSERT_EQ(light_pdf(sun, {}, {{1, 2, 3}}, s->wi, V3f(0), V3f(0), 0), s->pdf);
         }
       }
     const double all = kPi * std::pow(std::sin(half_angle_deg * kPi / 180), 2);
@@ -314,7 +334,7 @@ TEST(Suns, AreDiscsAtInfinity) {
     int shown = 0;
     constexpr int kCount = 400000;
     for (int i = 0; i < kCount; ++i)
-      shown += light_pdf(sun, {}, {0, 0, 0},
+      shown += light_pdf(sun, {}, {{0, 0, 0}},
                          direction_about(kind.towards, random.uniform() * 2 * kind.cap,
                                          random.uniform() * 2 * std::numbers::pi_v<float>),
                          V3f(0), V3f(0), 0) > 0;

@@ -68,7 +68,7 @@ void expect_irradiance(const Scene& scene, bool met, const std::string& what) {
   for (int i = 0; i < kSide; ++i)
     for (int j = 0; j < kSide; ++j) {
       const auto s =
-          sample_light(light, scene.shapes, point,
+          sample_light(light, scene.shapes, {point},
                        {(static_cast<float>(i) + 0.5F) / kSide, (static_cast<float>(j) + 0.5F) / kSide}, 0);
       ASSERT_TRUE(s) << what;
       sum += static_cast<double>(s->factor) / static_cast<double>(s->pdf) * V3d(s->wi).dot(kTowards);
@@ -76,7 +76,8 @@ void expect_irradiance(const Scene& scene, bool met, const std::string& what) {
       const auto hit = scene.intersect({point, s->wi});
       if (!met || !hit) continue;  // a rim
       ASSERT_EQ(scene.shapes[hit->shape].light, 0) << what;
-      ASSERT_NEAR(light_pdf(light, scene.shapes, point, s->wi, hit->point, hit->normal, 0) / s->pdf, 1, 1e-5)
+      ASSERT_NEAR(light_pdf(light, scene.shapes, {point}, s->wi, hit->point, hit->normal, 0) / s->pdf, 1,
+                  1e-5)
           << what;
     }
   EXPECT_NEAR(sum / (kSide * kSide) * light.emission.curve().integral() / 1000, 1, 1e-5) << what;

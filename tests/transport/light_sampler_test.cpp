@@ -1,6 +1,7 @@
 #include <array>
 #include <cmath>
 #include <ctime>
+#include <memory>
 #include <numbers>
 #include <numeric>
 
@@ -38,9 +39,9 @@ struct Hall {
     scene.shapes.push_back({name, std::move(shape), 0, static_cast<std::int32_t>(scene.lights.size())});
     add({name, AreaLight{index, two_sided}, Curve(1.0)}, as_seen);
   }
-  LightSampler sampler() {
+  LightSampler sampler(bool scattering_finds = true) {
     scene.commit();
-    return {scene, seen};
+    return {scene, seen, scattering_finds};
   }
 };
 
@@ -81,15 +82,12 @@ Hall mixed_hall(std::uint32_t lamps) {
   return hall;
 }
 
-// A place among the lamps, every third of which takes light from all sides.
-struct Place {
-  V3f point, side;
-  bool all_sides;
-  [[nodiscard]] const V3f* normal() const { return all_sides ? nullptr : &side; }
-};
-Place place_among_lamps(std::uint32_t i) {
+// A place among the lamps, every third of which takes light from all sides, and every second of which is
+// glossy.
+LightSampleContext place_among_lamps(std::uint32_t i) {
   const auto u = numbers(i, 2);
-  return {{24 * u[0] - 12, 24 * u[1] - 12, 6 * u[2]}, direction(u[3], u[1]), i % 3 == 0};
+  const V3f point(24 * u[0] - 12, 24 * u[1] - 12, 6 * u[2]);
+  return {point, i % 3 == 0 ? std::nullopt : std::optional(direction(u[3], u[1])), i % 2 == 0};
 }
 
 TEST(LightSampler, ProbabilitiesSumToOne) {
@@ -97,10 +95,10 @@ TEST(LightSampler, ProbabilitiesSumToOne) {
     Hall hall = mixed_hall(lamps);
     const LightSampler sampler = hall.sampler();
     for (std::uint32_t i = 0; i < 200; ++i) {
-      const Place at = place_among_lamps(i);
+      const LightSampleContext at = place_among_lamps(i);
       double sum = 0;
       for (std::uint32_t light = 0; light < hall.scene.lights.size(); ++light) {
-        const float p = sampler.probability(light, at.point, at.normal());
+        const float p = sampler.probability(light, at);
         EXPECT_EQ(p > 0, hall.seen[light] > 0);
         sum += static_cast<double>(p);
       }
@@ -116,17 +114,16 @@ TEST(LightSampler, PicksAsOftenAsItSays) {
     Hall hall = mixed_hall(lamps);
     const LightSampler sampler = hall.sampler();
     for (std::uint32_t i = 0; i < 12; ++i) {
-      const Place at = place_among_lamps(i);
+      const LightSampleContext at = place_among_lamps(i);
       constexpr int kPicks = 1 << 16;
       std::vector<int> counts(hall.scene.lights.size());
       for (int k = 0; k < kPicks; ++k) {
-        const auto pick =
-            sampler.pick(at.point, at.normal(), (static_cast<float>(k) + 0.5F) / static_cast<float>(kPicks));
-        ASSERT_EQ(pick.probability, sampler.probability(pick.light, at.point, at.normal()));
+        const auto pick = sampler.pick(at, (static_cast<float>(k) + 0.5F) / static_cast<float>(kPicks));
+        ASSERT_EQ(pick.probability, sampler.probability(pick.light, at));
         ++counts[pick.light];
       }
       for (std::uint32_t light = 0; light < counts.size(); ++light) {
-        const float p = sampler.probability(light, at.point, at.normal());
+        const float p = sampler.probability(light, at);
         ASSERT_NEAR(counts[light], static_cast<double>(p) * kPicks, 2.1) << hall.scene.lights[light].name;
       }
     }
@@ -142,15 +139,36 @@ TEST(LightSampler, WeighsWhatComesToThePlace) {
   const LightSampler sampler = hall.sampler();
   const V3f point(0);
   const V3f up(0, 0, 1);
-  const auto expect = [&](const V3f* normal, const std::array<double, 4>& irradiance) {
+  const auto expect = [&](const LightSampleContext& place, const std::array<double, 4>& irradiance) {
     const double all = std::accumulate(irradiance.begin(), irradiance.end(), 0.0);
     for (std::uint32_t i = 0; i < 4; ++i)
-      EXPECT_NEAR(sampler.probability(i, point, normal), 0.9 * irradiance[i] / all + 0.1 / 4, 1e-6) << i;
+      EXPECT_NEAR(sampler.probability(i, place), 0.9 * irradiance[i] / all + 0.1 / 4, 1e-6) << i;
   };
-  expect(&up, {1, 0.25, 0.8, std::numbers::pi});
-  expect(nullptr, {1, 0.25, 1, 4 * std::numbers::pi});
+  expect({point, up}, {1, 0.25, 0.8, std::numbers::pi});
+  expect({point}, {1, 0.25, 1, 4 * std::numbers::pi});
   const V3f down(0, 0, -1);
-  expect(&down, {0, 0, 0, std::numbers::pi});
+  expect({point, down}, {0, 0, 0, std::numbers::pi});
+  // What scatters in lobes finds the sky by itself,
+  expect({point, up, true}, {1, 0.25, 0.8, 0});
+  expect({point, std::nullopt, true}, {1, 0.25, 1, 0});
+}
+
+// but where connections alone are to find it. An image's light comes from some directions more than from
+// others.
+TEST(LightSampler, LeavesAmbientLightToLobesWhereBothAreBalanced) {
+  const V3f up(0, 0, 1);
+  const auto sky_of = [&up](EnvironmentLight sky, bool scattering_finds) {
+    Hall hall = empty_hall();
+    hall.add({"lamp", PointLight{{0, 0, 1}}, Curve(1.0)}, std::numbers::pi);
+    hall.add({"sky", std::move(sky), Curve(1.0)}, 1);
+    return hall.sampler(scattering_finds).probability(1, {V3f(0), up, true});
+  };
+  const auto image = std::make_shared<const EnvironmentImage>(
+      2, 1, std::vector<std::array<float, 3>>{{1, 1, 1}, {2, 2, 2}}, environment_frame({0, 0, 1}, 0),
+      Curve(1.0), std::vector{energy_channel("all", Curve(1.0))});
+  EXPECT_FLOAT_EQ(sky_of({}, true), 0.05F);
+  EXPECT_FLOAT_EQ(sky_of({}, false), 0.5F);
+  EXPECT_FLOAT_EQ(sky_of({image}, true), 0.5F);
 }
 
 // Behind what is lit, or behind itself, a lamp has no more than its share of the tenth that asks for no
@@ -171,10 +189,10 @@ TEST(LightSampler, LeavesWhatCannotShineItsFloor) {
     for (std::uint32_t i = 0; i < 100; ++i) {
       const auto u = numbers(i, 4);
       const V3f point(10 * u[0], 10 * u[1], 0.5F * u[2]);
-      EXPECT_NEAR(sampler.probability(lamps, point, &up), floor, 1e-8F);
-      EXPECT_NEAR(sampler.probability(lamps + 1, point, &up), floor, 1e-8F);
-      EXPECT_NEAR(sampler.probability(lamps + 2, point, &up), floor, 1e-8F);
-      EXPECT_NEAR(sampler.probability(lamps + 2, point, nullptr), floor, 1e-8F);
+      EXPECT_NEAR(sampler.probability(lamps, {point, up}), floor, 1e-8F);
+      EXPECT_NEAR(sampler.probability(lamps + 1, {point, up}), floor, 1e-8F);
+      EXPECT_NEAR(sampler.probability(lamps + 2, {point, up}), floor, 1e-8F);
+      EXPECT_NEAR(sampler.probability(lamps + 2, {point}), floor, 1e-8F);
     }
   }
 }
@@ -185,10 +203,10 @@ TEST(LightSampler, OneLightIsCertainAndNoneIsNoChoice) {
   one.add({"lamp", PointLight{{0, 0, 2}}, Curve(1.0)}, 3);
   const LightSampler sampler = one.sampler();
   const V3f down(0, 0, -1);
-  EXPECT_EQ(sampler.pick({0, 0, 0}, &down, 0.7F).light, 1U);
-  EXPECT_EQ(sampler.pick({0, 0, 0}, &down, 0.7F).probability, 1);
-  EXPECT_EQ(sampler.probability(1, {0, 0, 0}, &down), 1);
-  EXPECT_EQ(sampler.probability(0, {0, 0, 0}, &down), 0);
+  EXPECT_EQ(sampler.pick({V3f(0), down}, 0.7F).light, 1U);
+  EXPECT_EQ(sampler.pick({V3f(0), down}, 0.7F).probability, 1);
+  EXPECT_EQ(sampler.probability(1, {V3f(0), down}), 1);
+  EXPECT_EQ(sampler.probability(0, {V3f(0), down}), 0);
   Hall none = empty_hall();
   none.add({"dark", PointLight{{0, 0, 2}}, Curve(1.0)}, 0);
   EXPECT_TRUE(none.sampler().empty());
@@ -209,11 +227,11 @@ TEST(LightSampler, IsFiniteAnywhere) {
        {V3f(1, 1, 1), V3f(0, 0, 1), V3f(0, 0, 1.5F), V3f(0, 0, 3), V3f(0), V3f(1e-30F, 0, 0)}) {
     double sum = 0;
     for (std::uint32_t i = 0; i < hall.scene.lights.size(); ++i)
-      sum += static_cast<double>(sampler.probability(i, point, &side));
+      sum += static_cast<double>(sampler.probability(i, {point, side}));
     EXPECT_NEAR(sum, 1, 1e-5) << point;
     for (std::uint32_t i = 0; i < 64; ++i) {
-      const auto pick = sampler.pick(point, &side, numbers(i)[0]);
-      EXPECT_EQ(pick.probability, sampler.probability(pick.light, point, &side));
+      const auto pick = sampler.pick({point, side}, numbers(i)[0]);
+      EXPECT_EQ(pick.probability, sampler.probability(pick.light, {point, side}));
     }
   }
 }
@@ -248,7 +266,7 @@ TEST(LightSampler, ManyLampsCostLittleMoreThanTheIdealChoice) {
       const double e = hall.seen[i] * std::pow(static_cast<double>(way.z), 2) /
                        std::pow(static_cast<double>(way.length2()), 2);
       sum += e;
-      moment += e * e / static_cast<double>(sampler.probability(i, point, &up));
+      moment += e * e / static_cast<double>(sampler.probability(i, {point, up}));
       moment_by_power += e * e * power / hall.seen[i];
     }
     ours += moment / (sum * sum) / kPlaces;
@@ -266,7 +284,7 @@ TEST(LightSampler, IsBuiltInTheTimeThatSortingTakes) {
     Hall hall = mixed_hall(lamps);
     hall.scene.commit();
     const std::clock_t start = std::clock();  // of this process alone: others may keep the machine busy
-    const LightSampler sampler(hall.scene, hall.seen);
+    const LightSampler sampler(hall.scene, hall.seen, true);
     return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   };
   const std::uint32_t few = test::nightly() ? 10000 : 3000;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/lights/emission.h"
+#include "tests/materials/bsdf_examples.h"
 #include "tests/scene/light_kinds.h"
 #include "transport/path/path_recorder.h"
 #include "transport/plan/plan.h"
@@ -50,7 +51,7 @@ struct DrawnLight {
 };
 std::optional<DrawnLight> draw_light(const Scene& scene, const V3f& from, V2f u) {
   const Light& light = scene.lights[0];
-  const auto sample = sample_light(light, scene.shapes, from, u, 0);
+  const auto sample = sample_light(light, scene.shapes, {from}, u, 0);
   if (!sample) return std::nullopt;
   PathVertex vertex{.at = LightVertex{0, sample->wi, V3f(0), true}, .packet = packet()};
   if (light.at_infinity()) return DrawnLight{vertex, static_cast<double>(sample->pdf)};
@@ -65,6 +66,23 @@ std::optional<DrawnLight> draw_light(const Scene& scene, const V3f& from, V2f u)
   if (cosine < 0.02) return std::nullopt;
   return DrawnLight{vertex,
                     static_cast<double>(sample->pdf) * cosine / std::pow(static_cast<double>(hit->t), 2)};
+}
+
+TEST(SurfaceVertex, TellsWhereLightArrives) {
+  const V3f up(0, 0, 1);
+  const auto seen = [&up](const V3f& from, Bsdf bsdf) {
+    return std::get<SurfaceVertex>(surface_vertex({0, 0, 0}, up, from, std::move(bsdf)).at).place();
+  };
+  const DiffuseBsdf diffuse{uneven(0.2F)};
+  EXPECT_EQ(seen({1, 0, 1}, diffuse).side, up);
+  EXPECT_EQ(seen({1, 0, -1}, diffuse).side, -up);
+  EXPECT_FALSE(seen({1, 0, 1}, diffuse).glossy);
+  const auto metal = seen({1, 0, 1}, examples<RoughConductorBsdf>().front());
+  EXPECT_EQ(metal.side, up);
+  EXPECT_TRUE(metal.glossy);
+  const auto glass = seen({1, 0, 1}, examples<RoughDielectricBsdf>().front());
+  EXPECT_FALSE(glass.side);
+  EXPECT_TRUE(glass.glossy);
 }
 
 // Two points of one face are seen from each other along it, whichever side of it each is on.
@@ -87,7 +105,7 @@ TEST(Connect, ToALightIsWhatPathTracingAdds) {
       const V3f point(random.uniform() - 0.5F, random.uniform() - 0.5F, 0.05F);
       const V2f u = random.pair();
       const PathVertex x = surface_vertex(point, {0, 0, 1}, {0.3F, 0.4F, 2}, DiffuseBsdf{uneven(0.2F)});
-      const auto sample = sample_light(scene.lights[0], scene.shapes, point, u, 0);
+      const auto sample = sample_light(scene.lights[0], scene.shapes, {point}, u, 0);
       const auto light = draw_light(scene, point, u);
       if (!sample || !light || sample->wi.z < 0.01F) continue;
       const auto joined = connect(scene, caster, x, light->vertex);

@@ -40,6 +40,24 @@ TEST(Plan, ChoosesTechniquesByIntegratorAndNeed) {
   EXPECT_EQ(techniques(Integrator::light, 1, 0), List{}) << "a lamp without power";
 }
 
+// What scatters in lobes leaves the sky to scattering where that counts beside connections.
+TEST(Plan, ConnectsGlossyPlacesToTheSkyWhereNothingElseFindsIt) {
+  const auto sky = [](Integrator integrator, LightStrategy lights) {
+    Scene scene = lamps_over_glass(1);
+    scene.lights.push_back({"sky", EnvironmentLight{}, Curve(1.0)});
+    scene.render.integrator = integrator;
+    scene.render.sampling.lights = lights;
+    scene.commit();
+    return make_plan(scene).path_lights.probability(1, {{0, 0, 5}, Imath::V3f(0, 0, -1), true});
+  };
+  for (const Integrator balanced :
+       {Integrator::automatic, Integrator::path, Integrator::bdpt, Integrator::vcm})
+    EXPECT_FLOAT_EQ(sky(balanced, LightStrategy::mis), 0.05F);
+  EXPECT_GT(sky(Integrator::path, LightStrategy::light), 0.5F);
+  EXPECT_GT(sky(Integrator::photon_map, LightStrategy::mis), 0.5F);
+  EXPECT_GT(sky(Integrator::sppm, LightStrategy::mis), 0.5F);
+}
+
 TEST(Plan, RefusesWhatFloatsCannotTellFromNothing) {
   const auto refused = [](double power, double exposure_s) {
     Scene scene = lamps_over_glass(1);

@@ -73,7 +73,7 @@ inline constexpr float kEnding = kEndingOfPaths;
 /// Whether a smooth dispersive model refracts each lane its own way, and never reflects one that draws the
 /// number `kRefracted` unless all of its light is reflected.
 [[nodiscard]] inline bool refracts_each_lane(const Bsdf& bsdf) {
-  return std::holds_alternative<DielectricBsdf>(bsdf) || std::holds_alternative<CoatedDielectricBsdf>(bsdf);
+  return is_any_of<DielectricBsdf, CoatedDielectricBsdf>(bsdf);
 }
 inline constexpr BsdfRandom kRefracted{0x1.fffffep-1F, {0, 0}};
 

@@ -56,9 +56,10 @@ struct SurfaceVertex {
   /// Where it is, for light to arrive: from both sides where both may be scattered from; which parts a
   /// mixture has is not asked.
   [[nodiscard]] LightSampleContext place() const {
-    if (std::holds_alternative<RoughDielectricBsdf>(bsdf) || std::holds_alternative<MixtureBsdf>(bsdf))
-      return {hit.point, std::nullopt};
-    return {hit.point, wo.z > 0 ? hit.normal : -hit.normal};
+    const bool both = is_any_of<RoughDielectricBsdf, MixtureBsdf>(bsdf);
+    const bool glossy = is_any_of<RoughDielectricBsdf, RoughConductorBsdf, CosinePowerBsdf<false>,
+                                  CosinePowerBsdf<true>, PhongBsdf, RetroreflectorBsdf>(bsdf);
+    return {hit.point, both ? std::nullopt : std::optional(wo.z > 0 ? hit.normal : -hit.normal), glossy};
   }
 
   /// A ray that leaves it into the unit direction `w`, at that time of the exposure.

@@ -4,20 +4,12 @@
 #include <optional>
 
 #include "sampling/sampler.h"
+#include "scene/lights/light.h"
 #include "scene/shapes/ray.h"
 #include "transport/path/medium_at.h"
 #include "transport/path/packet.h"
 
 namespace abbe {
-
-/// Where light arrives to be scattered: at a point, on the side of a surface that a unit normal says, or from
-/// everywhere.
-struct LightSampleContext {
-  Imath::V3f point{0, 0, 0};
-  std::optional<Imath::V3f> side = {};
-
-  [[nodiscard]] const Imath::V3f* normal() const { return side ? &*side : nullptr; }
-};
 
 /// A stretch of even matter that scatters, along a ray from its origin, and what a path has come there with.
 struct Stretch {

@@ -23,15 +23,17 @@ LightImportance::LightImportance(const LightBounds& bounds, double scale, double
       cos_falloff_(static_cast<float>(std::cos(bounds.cone.falloff))),
       facing_(static_cast<float>(bounds.facing * scale)),
       all_sides_(static_cast<float>(bounds.all_sides * scale)),
+      glossy_(static_cast<float>(1 - bounds.ambient)),
       at_infinity_(bounds.at_infinity) {}
 
-float LightImportance::irradiance(const Imath::V3f& point, const Imath::V3f* normal) const {
+float LightImportance::irradiance(const LightSampleContext& place) const {
+  const Imath::V3f* normal = place.normal();
+  const float strength = (normal == nullptr ? all_sides_ : facing_) * (place.glossy ? glossy_ : 1.0F);
   if (at_infinity_)
-    return normal == nullptr ? all_sides_
-                             : facing_ * std::max(0.0F, cos_beyond(normal->dot(axis_), cos_spread_));
-  const Imath::V3f way = center_ - point;
+    return normal == nullptr ? strength
+                             : strength * std::max(0.0F, cos_beyond(normal->dot(axis_), cos_spread_));
+  const Imath::V3f way = center_ - place.point;
   const float distance2 = way.length2();
-  const float strength = normal == nullptr ? all_sides_ : facing_;
   const float nearness = strength / std::max(distance2, nearest2_);
   if (!(distance2 > radius2_)) return nearness;
   const Imath::V3f towards = way * (1 / std::sqrt(distance2));

@@ -2,6 +2,7 @@
 
 #include <ImathVec.h>
 
+#include "scene/lights/light.h"
 #include "transport/plan/light_bounds.h"
 
 namespace abbe {
@@ -13,11 +14,10 @@ class LightImportance {
   /// `least_distance` [m] > 0, which keeps the irradiance finite at the place of a lamp.
   LightImportance(const LightBounds& bounds, double scale, double least_distance);
 
-  /// Irradiance of a surface at `point` whose side of the unit `normal` alone can be lit, or, without a
-  /// normal, of what takes light from all sides: what the lamps could send there from the most favourable
-  /// place in their sphere, with nothing in between, but for their distance, which is that of the middle. Not
-  /// negative; 0 where they cannot shine. [Conty2018]
-  [[nodiscard]] float irradiance(const Imath::V3f& point, const Imath::V3f* normal) const;
+  /// Irradiance of a place: what the lamps could send there from the most favourable place in their sphere,
+  /// with nothing in between, but for their distance, which is that of the middle. Not negative; 0 where they
+  /// cannot shine. [Conty2018] To a glossy place ambient light counts for nothing.
+  [[nodiscard]] float irradiance(const LightSampleContext& place) const;
 
  private:
   Imath::V3f center_;
@@ -28,6 +28,7 @@ class LightImportance {
   float cos_falloff_;
   float facing_;
   float all_sides_;
+  float glossy_;  // the share of it that counts for a glossy place
   bool at_infinity_;
 };
 

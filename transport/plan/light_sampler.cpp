@@ -32,11 +32,11 @@ std::array<std::uint32_t, 2> children(const Nodes& nodes, std::uint32_t node) {
 
 // The shares of nodes in what they send to a place together; by their lights where that is nothing. Not in
 // line, as is the next: `pick` and `probability` have to round alike.
-[[gnu::noinline]] void weigh(const Nodes& nodes, Choice choice, const Imath::V3f& point,
-                             const Imath::V3f* normal, double* shares) {
+[[gnu::noinline]] void weigh(const Nodes& nodes, Choice choice, const LightSampleContext& place,
+                             double* shares) {
   double sum = 0;
   for (std::size_t i = 0; i < choice.size(); ++i)
-    sum += shares[i] = static_cast<double>(nodes[choice[i]].importance.irradiance(point, normal));
+    sum += shares[i] = static_cast<double>(nodes[choice[i]].importance.irradiance(place));
   if (!(sum > 0)) {
     for (std::size_t i = 0; i < choice.size(); ++i) sum += shares[i] = nodes[choice[i]].lights;
   }
@@ -50,11 +50,14 @@ std::array<std::uint32_t, 2> children(const Nodes& nodes, std::uint32_t node) {
 
 }  // namespace
 
-LightSampler::LightSampler(const Scene& scene, const std::vector<double>& seen) : ways_(scene.lights.size()) {
+LightSampler::LightSampler(const Scene& scene, const std::vector<double>& seen, bool scattering_finds)
+    : ways_(scene.lights.size()) {
   std::vector<LightLeaf> near;
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
     if (seen[i] > 0) near.push_back({i, light_bounds(scene.lights[i], scene, seen[i])});
   if (near.empty()) return;
+  if (!scattering_finds)
+    for (auto& [light, bounds] : near) bounds.ambient = 0;
   lights_ = static_cast<std::uint32_t>(near.size());
   const LightScale scale = scale_of(near, scene_radius(scene.bounds));
   unit_ = 1 / scale.strength;
@@ -105,20 +108,20 @@ void LightSampler::note_ways() {
   }
 }
 
-double LightSampler::irradiance(const Imath::V3f& point, const Imath::V3f* normal) const {
+double LightSampler::irradiance(const LightSampleContext& place) const {
   double sum = 0;
   for (const std::uint32_t root : roots_)
-    sum += static_cast<double>(nodes_[root].importance.irradiance(point, normal));
+    sum += static_cast<double>(nodes_[root].importance.irradiance(place));
   return sum * unit_;
 }
 
-LightSampler::Pick LightSampler::pick(const Imath::V3f& point, const Imath::V3f* normal, float u) const {
+LightSampler::Pick LightSampler::pick(const LightSampleContext& place, float u) const {
   if (lights_ == 1) return {nodes_.front().next, 1};
   double left = static_cast<double>(u);
   std::array<double, kMostRoots> shares;
   // The first of the nodes whose probabilities reach `left` in sum, and what then is left of it.
   const auto choose = [&](Choice choice, double whole) {
-    weigh(nodes_, choice, point, normal, shares.data());
+    weigh(nodes_, choice, place, shares.data());
     for (std::size_t i = 0;; ++i) {
       const double share = whole * shares[i];
       const double probability = probability_of(share, nodes_[choice[i]].lights, lights_);
@@ -131,18 +134,17 @@ LightSampler::Pick LightSampler::pick(const Imath::V3f& point, const Imath::V3f*
   return {nodes_[at].next, static_cast<float>(probability)};
 }
 
-float LightSampler::probability(std::uint32_t light, const Imath::V3f& point,
-                                const Imath::V3f* normal) const {
+float LightSampler::probability(std::uint32_t light, const LightSampleContext& place) const {
   const Way& way = ways_[light];
   if (!way.exists) return 0;
   if (lights_ == 1) return 1;
   std::array<double, kMostRoots> shares;
-  weigh(nodes_, roots_, point, normal, shares.data());
+  weigh(nodes_, roots_, place, shares.data());
   double share = shares[way.root];
   std::uint32_t at = roots_[way.root];
   for (std::uint64_t turns = way.turns; nodes_[at].lights > 1; turns >>= 1U) {
     const std::array<std::uint32_t, 2> choice = children(nodes_, at);
-    weigh(nodes_, choice, point, normal, shares.data());
+    weigh(nodes_, choice, place, shares.data());
     share *= shares[turns & 1U];
     at = choice[turns & 1U];
   }

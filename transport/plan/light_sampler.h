@@ -17,23 +17,23 @@ class LightSampler {
  public:
   using Pick = PowerLightSampler::SampledLight;
 
-  /// `seen` stands for each light's emission, as in `Emissions`; lights of 0 are never chosen.
-  LightSampler(const Scene& scene, const std::vector<double>& seen);
+  /// `seen` stands for each light's emission, as in `Emissions`; lights of 0 are never chosen. Where
+  /// scattering finds light too, and both ways are balanced, glossy places leave ambient light to it
+  /// [Karlik2019].
+  LightSampler(const Scene& scene, const std::vector<double>& seen, bool scattering_finds);
 
   /// Whether no light can be chosen.
   [[nodiscard]] bool empty() const { return roots_.empty(); }
 
   /// Irradiance at a place by all lights together, nothing standing in between, as `pick` weighs them, in the
   /// unit of `seen` times what `light_bounds` measures by.
-  [[nodiscard]] double irradiance(const Imath::V3f& point, const Imath::V3f* normal) const;
+  [[nodiscard]] double irradiance(const LightSampleContext& place) const;
 
-  /// A light for what is at `point`. `normal`, of unit length, says which side of a surface can be lit;
-  /// without one light may come from everywhere. `u` is in [0, 1); the lights follow each other along it,
-  /// neighbours in space mostly near.
-  [[nodiscard]] Pick pick(const Imath::V3f& point, const Imath::V3f* normal, float u) const;
+  /// A light for a place. `u` is in [0, 1); the lights follow each other along it, neighbours in space mostly
+  /// near.
+  [[nodiscard]] Pick pick(const LightSampleContext& place, float u) const;
   /// Probability with which `pick` chooses that light for that place: the same number to the bit.
-  [[nodiscard]] float probability(std::uint32_t light, const Imath::V3f& point,
-                                  const Imath::V3f* normal) const;
+  [[nodiscard]] float probability(std::uint32_t light, const LightSampleContext& place) const;
 
  private:
   // From a root to a light: bit k says whether turn k goes to the second child.

@@ -156,6 +156,13 @@ void look_for_moving_matter(Plan& plan) {
         matter_moves(scene, bounds_of(light, scene), motion_of(light, scene.shapes) != nullptr));
 }
 
+// Whether light that camera paths are connected to is balanced with what they find by scattering.
+bool balances_lights(const Scene& scene, const std::vector<Technique>& techniques) {
+  return uses(techniques, Technique::path)
+             ? scene.render.sampling.lights == LightStrategy::mis
+             : uses(techniques, Technique::bdpt) || uses(techniques, Technique::vcm);
+}
+
 // Nothing being known of `refusal`.
 Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissions& emissions,
              const std::vector<bool>& traced) {
@@ -172,7 +179,7 @@ Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissi
   const bool aims = uses(techniques, Technique::light);
   Plan plan{scene,
             wavelengths,
-            LightSampler(scene, emissions.seen),
+            LightSampler(scene, emissions.seen, balances_lights(scene, techniques)),
             PowerLightSampler(traced_powers),
             traced,
             {aims ? make_aims(scene, traced_powers, light_only) : std::vector<Aim>(), wavelengths},

@@ -38,8 +38,9 @@ void CausticPhotonTracer::reach(CausticPath& path, const SurfaceVertex& vertex) 
   const float last = (vertex.hit.point - path.last.point).length();
   path.distance += last;
   if (path.events == 0 || !scatters(vertex.bsdf)) return;
-  const LightSampleContext place = vertex.place();
-  const double unhindered = plan_.path_lights.irradiance(place.point, place.normal());
+  LightSampleContext place = vertex.place();
+  place.glossy = false;  // all light of the place
+  const double unhindered = plan_.path_lights.irradiance(place);
   arrivals_.push_back(
       {path.start,
        {vertex.hit.point, -path.ray.direction, last, path.distance, path.packet.carried() * path.seen,

@@ -38,10 +38,10 @@ void GhostLights::connect(const Sampler& sampler, const SampledWavelengths& wave
   const float time = of_lens[kTimeNumber];
   const auto from = sample_ghost(scene_.camera, {of_lens[0], of_lens[1]}, time);
   if (!from) return;
-  const PowerLightSampler::SampledLight pick =
-      plan_.path_lights.pick(from->point, &from->normal, of_light[0]);
+  const LightSampleContext place{from->point, from->normal};
+  const PowerLightSampler::SampledLight pick = plan_.path_lights.pick(place, of_light[0]);
   const Light& light = scene_.lights[pick.light];
-  const auto towards = sample_light(light, scene_.shapes, from->point, {of_light[1], of_light[2]}, time);
+  const auto towards = sample_light(light, scene_.shapes, place, {of_light[1], of_light[2]}, time);
   if (!towards) return;
   const Imath::V3f& wi = towards->wi;
   const Ray ray = ray_at(from->point, wi, time);

@@ -155,9 +155,9 @@ bool PathTracer::owned_by_others(const CameraPath& path, std::uint32_t light) co
 // With which a connection from its last vertex would have drawn the path's ray to the light.
 float PathTracer::connection_pdf(const CameraPath& path, const LightVertex& met) const {
   if (path.connected == 0) return 0;
-  return plan_.path_lights.probability(met.light, path.last.point, path.last.normal()) *
-         light_pdf(scene_.lights[met.light], scene_.shapes, path.ray.origin, path.ray.direction, met.point,
-                   met.normal, path.ray.time);
+  return plan_.path_lights.probability(met.light, path.last) *
+         light_pdf(scene_.lights[met.light], scene_.shapes, {path.ray.origin, path.last.side},
+                   path.ray.direction, met.point, met.normal, path.ray.time);
 }
 
 void PathTracer::escape(CameraPath& path) {
@@ -183,9 +183,9 @@ void PathTracer::add_met(CameraPath& path, const LightVertex& met) {
 
 PathTracer::ChosenLight PathTracer::choose_light(const LightSampleContext& place,
                                                  const std::array<float, 4>& u, float time) const {
-  const PowerLightSampler::SampledLight pick = plan_.path_lights.pick(place.point, place.normal(), u[0]);
+  const PowerLightSampler::SampledLight pick = plan_.path_lights.pick(place, u[0]);
   const Light& light = scene_.lights[pick.light];
-  ChosenLight chosen{pick.light, light, sample_light(light, scene_.shapes, place.point, {u[1], u[2]}, time),
+  ChosenLight chosen{pick.light, light, sample_light(light, scene_.shapes, place, {u[1], u[2]}, time),
                      pick.probability};
   if (chosen.towards) chosen.pdf *= chosen.towards->pdf;
   return chosen;

@@ -29,7 +29,8 @@ void PathTracer::connect_along(CameraPath& path, const Stretch& stretch, const I
   if (!part) return;
   const float t = part->sample(u.y);
   const Imath::V3f point = point_along(stretch.ray, t, stretch.length, stretch.end_normal);
-  const std::optional<LightSample> towards = sample_light(light, scene_.shapes, point, {0, 0}, path.ray.time);
+  const std::optional<LightSample> towards =
+      sample_light(light, scene_.shapes, {point}, {0, 0}, path.ray.time);
   if (!towards) return;
   const MediumAt& medium = path.around.medium;
   SampledSpectrum passed(1.0F);
@@ -42,8 +43,8 @@ void PathTracer::connect_along(CameraPath& path, const Stretch& stretch, const I
   if (path.packet.polarisation)
     seen = measured(path, mueller(medium.scattering->phase, stretch.ray.direction, wi), light, wi);
   const float scattered = (path.packet.lane_pdf * passed * medium.extinction_per_m).sum() /
-                          path.packet.lane_pdf.sum() *
-                          plan_.path_lights.probability(pick.light, point, nullptr) * towards->pdf;
+                          path.packet.lane_pdf.sum() * plan_.path_lights.probability(pick.light, {point}) *
+                          towards->pdf;
   connect_through_media(path, {pick.light, light, towards, pick.probability * part->pdf(t) + scattered},
                         contribution, SampledSpectrum(0.0F), ray_at(point, wi, path.ray.time), path.around,
                         path.at.cos_film, pointer_to(seen));

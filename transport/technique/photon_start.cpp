@@ -73,7 +73,7 @@ PhotonRay start_at_infinity(const Plan& plan, RayCaster& caster, const PowerLigh
                             const PhotonRandom& u) {
   const Light& light = plan.scene.lights[pick.light];
   const Aim& aim = plan.guides.aims[pick.light];
-  const LightSample from = *sample_light(light, plan.scene.shapes, Imath::V3f(0), u.start, u.time);
+  const LightSample from = *sample_light(light, plan.scene.shapes, {}, u.start, u.time);
   const AimedPoint at = aim.point(u.aim);
   const Ray ray = arriving(aim, at, -from.wi, u.time);
   if (caster.occluded(way_along(ray_at(ray.origin, from.wi, u.time)))) return {ray};

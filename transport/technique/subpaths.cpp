@@ -43,7 +43,7 @@ Departure leave_near(const Light& light, std::uint32_t index, const Scene& scene
 std::optional<Departure> leave_infinity(const Light& light, std::uint32_t index, const Scene& scene,
                                         RayCaster& caster, const std::array<float, 4>& aim,
                                         const std::array<float, 4>& start, float time) {
-  const LightSample from = *sample_light(light, scene.shapes, Imath::V3f(0), {start[0], start[1]}, time);
+  const LightSample from = *sample_light(light, scene.shapes, {}, {start[0], start[1]}, time);
   const Ball ball = ball_around(scene);
   const Basis<float> across(from.wi);
   const float phi = 2 * std::numbers::pi_v<float> * aim[1];
@@ -140,10 +140,9 @@ std::optional<PathVertex> light_for(const Plan& plan, const PathVertex& vertex,
   if (plan.path_lights.empty()) return std::nullopt;
   const Scene& scene = plan.scene;
   const LightSampleContext place = place_of(scene, vertex);
-  const LightSampler::Pick pick = plan.path_lights.pick(place.point, place.normal(), u[0]);
+  const LightSampler::Pick pick = plan.path_lights.pick(place, u[0]);
   const Light& light = scene.lights[pick.light];
-  const std::optional<LightSample> to =
-      sample_light(light, scene.shapes, place.point, {u[1], u[2]}, vertex.time);
+  const std::optional<LightSample> to = sample_light(light, scene.shapes, place, {u[1], u[2]}, vertex.time);
   if (!to) return std::nullopt;
   const bool far = light.at_infinity();
   std::optional<PathVertex> drawn(std::in_place);
@@ -174,13 +173,12 @@ EndDensities end_densities(const Plan& plan, const PathVertex& lit, const PathVe
   }
   const LightSampleContext place = place_of(scene, lit);
   if (!plan.path_lights.empty()) {
-    const float chosen = plan.path_lights.probability(at.light, place.point, place.normal());
-    ends.light_connection = emitter.is_delta()
-                                ? chosen
-                                : chosen *
-                                      light_pdf(emitter, scene.shapes, place.point, -way.direction, at.point,
-                                                at.normal, lit.time) *
-                                      solid_angle_per_area(scene, lit, light);
+    const float chosen = plan.path_lights.probability(at.light, place);
+    ends.light_connection = emitter.is_delta() ? chosen
+                                               : chosen *
+                                                     light_pdf(emitter, scene.shapes, place, -way.direction,
+                                                               at.point, at.normal, lit.time) *
+                                                     solid_angle_per_area(scene, lit, light);
   }
   return ends;
 }

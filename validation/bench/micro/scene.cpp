@@ -29,7 +29,7 @@ void sample_area_light(benchmark::State& state, const Shape& shape) {
   micro::Stream u;
   for (auto _ : state) {
     const Imath::V2f at = u.pair();
-    benchmark::DoNotOptimize(sample_light(light, shapes, {at.x, at.y, 0}, u.pair(), 0));
+    benchmark::DoNotOptimize(sample_light(light, shapes, {{at.x, at.y, 0}}, u.pair(), 0));
   }
 }
 BENCHMARK_CAPTURE(sample_area_light, sphere, Sphere{{0, 0, 3}, 0.5});
