@@ -28,9 +28,7 @@ struct ShapeInstance;
 struct LightSampleContext {
   Imath::V3f point{0, 0, 0};
   std::optional<Imath::V3f> side = {};
-  bool glossy = false;  ///< Whether it is scattered in lobes, which find light from everywhere by themselves.
-
-  [[nodiscard]] const Imath::V3f* normal() const { return side ? &*side : nullptr; }
+  bool glossy = false;  ///< Whether it is scattered in lobes, by which light from everywhere is found.
 };
 
 /// Density [1/sr] of directions drawn uniformly from a cone, `cap` being 1 - cos of its half angle.

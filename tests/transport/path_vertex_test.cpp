@@ -1,6 +1,7 @@
 #include "transport/path/path_vertex.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
@@ -68,21 +69,60 @@ std::optional<DrawnLight> draw_light(const Scene& scene, const V3f& from, V2f u)
                     static_cast<double>(sample->pdf) * cosine / std::pow(static_cast<double>(hit->t), 2)};
 }
 
-TEST(SurfaceVertex, TellsWhereLightArrives) {
+template <typename Model>
+void expect_lit_from(bool both_sides, bool glossy) {
   const V3f up(0, 0, 1);
-  const auto seen = [&up](const V3f& from, Bsdf bsdf) {
-    return std::get<SurfaceVertex>(surface_vertex({0, 0, 0}, up, from, std::move(bsdf)).at).place();
-  };
-  const DiffuseBsdf diffuse{uneven(0.2F)};
-  EXPECT_EQ(seen({1, 0, 1}, diffuse).side, up);
-  EXPECT_EQ(seen({1, 0, -1}, diffuse).side, -up);
-  EXPECT_FALSE(seen({1, 0, 1}, diffuse).glossy);
-  const auto metal = seen({1, 0, 1}, examples<RoughConductorBsdf>().front());
-  EXPECT_EQ(metal.side, up);
-  EXPECT_TRUE(metal.glossy);
-  const auto glass = seen({1, 0, 1}, examples<RoughDielectricBsdf>().front());
-  EXPECT_FALSE(glass.side);
-  EXPECT_TRUE(glass.glossy);
+  for (const Model& model : examples<Model>())
+    for (const V3f& wo : {V3f(0.6F, 0, 0.8F), V3f(-0.36F, 0.48F, -0.8F)}) {
+      const auto vertex = std::get<SurfaceVertex>(surface_vertex({0, 0, 0}, up, wo, model).at);
+      const LightSampleContext place = vertex.place();
+      EXPECT_EQ(place.glossy, glossy);
+      EXPECT_EQ(place.side, both_sides ? std::nullopt : std::optional(wo.z > 0 ? up : -up));
+      bool through = false;
+      for (const V3f& wi : {V3f(0.6F, 0, 0.8F), V3f(0, -0.6F, 0.8F), V3f(0.1F, 0.2F, 0.97F)})
+        through |=
+            !vertex
+                 .f(wi * std::copysign(1.0F, -wo.z), wi * std::copysign(1.0F, -wo.z), TransportMode::radiance)
+                 .is_zero();
+      EXPECT_EQ(through, both_sides);
+    }
+}
+
+TEST(SurfaceVertex, TellsWhereLightArrives) {
+  expect_lit_from<DiffuseBsdf>(false, false);
+  expect_lit_from<OrenNayarBsdf>(false, false);
+  expect_lit_from<CoatedDiffuseBsdf>(false, false);
+  expect_lit_from<PrincipledBsdf>(false, false);
+  expect_lit_from<MixtureBsdf>(false, false);
+  expect_lit_from<RoughConductorBsdf>(false, true);
+  expect_lit_from<CosinePowerBsdf<false>>(false, true);
+  expect_lit_from<CosinePowerBsdf<true>>(false, true);
+  expect_lit_from<PhongBsdf>(false, true);
+  expect_lit_from<RetroreflectorBsdf>(false, true);
+  expect_lit_from<RoughDielectricBsdf>(true, true);
+}
+
+// Where a model sees a normal of its own, light arrives by the cosine with that: by that of the shape, what a
+// connection brings would have no bound towards its horizon.
+TEST(SurfaceVertex, IsLitByTheNormalThatItsModelSees) {
+  const V3f turned = V3f(0.6F, 0, 0.8F);
+  const Light sky{"sky", EnvironmentLight{}, Curve(1.0)};
+  SurfaceVertex vertex({V3f(0), V3f(0, 0, 1), 0, 0}, Basis<float>(turned), V3f(0, 0, 1),
+                       DiffuseBsdf{SampledSpectrum(1.0F)});
+  vertex.relief = true;
+  EXPECT_EQ(vertex.place().side, turned);
+  Random random(31);
+  double sum = 0;
+  constexpr int kDraws = 20000;
+  for (int i = 0; i < kDraws; ++i) {
+    const auto drawn = sample_light(sky, {}, vertex.place(), random.pair(), 0);
+    if (!drawn) continue;
+    const auto [wi, f, crosses] = vertex.towards(drawn->wi, TransportMode::radiance);
+    const double brought = static_cast<double>(f[0] * std::abs(wi.z) / drawn->pdf);
+    ASSERT_LT(brought, 1.001);
+    sum += brought / kDraws;
+  }
+  EXPECT_NEAR(sum, 0.9, 0.01) << "(1 + cos)/2 of what a surface sees that is turned against its horizon";
 }
 
 // Two points of one face are seen from each other along it, whichever side of it each is on.

@@ -250,6 +250,26 @@ INSTANTIATE_TEST_SUITE_P(Fillings, BalancedStrategies,
                          testing::Values(Filling::nothing, Filling::fog, Filling::glass, Filling::gold,
                                          Filling::sky, Filling::filter));
 
+// A light is as dense as it was drawn, for a place on one side of a surface.
+TEST(EndDensities, AreThoseThatLightsAreDrawnWith) {
+  const Scene scene = room({kPinhole, Filling::sky});
+  RayCaster caster(scene);
+  const Plan plan = make_plan(scene);
+  PathRecorder<TransportMode::radiance> recorder(scene, caster);
+  recorder.paths().push_back(camera_path(plan, {6, Purpose::camera, 0, 0, 0}, 0));
+  recorder.run();
+  const PathVertex& lit = recorder.paths().front().vertices.at(1);
+  ASSERT_TRUE(std::get<SurfaceVertex>(lit.at).place().side);
+  int skies = 0;
+  for (std::uint32_t i = 0; i < 64; ++i) {
+    const auto light = light_for(plan, lit, Sampler(7, Purpose::pilot, 0, 0, i).group(0));
+    if (!light) continue;
+    skies += scene.lights[std::get<LightVertex>(light->at).light].is_environment();
+    EXPECT_NEAR(end_densities(plan, lit, *light).light_connection / light->pdf_forward[0], 1, 1e-5);
+  }
+  EXPECT_GT(skies, 0);
+}
+
 // As at the rim of a narrow sun, which a direction drawn within may miss when it is rounded.
 TEST(StrategyWeights, WhatIsDrawnWithNoDensityWeighsNothing) {
   const Scene scene = room({kPinhole, Filling::nothing});

@@ -53,13 +53,14 @@ struct SurfaceVertex {
     return crossed;
   }
 
-  /// Where it is, for light to arrive: from both sides where both may be scattered from; which parts a
-  /// mixture has is not asked.
+  /// Where it is, for light to arrive: on the side of the path by the normal that the model sees, from both
+  /// sides where it scatters to both. Glossy where lobes scatter alone; which parts a mixture has is not
+  /// asked.
   [[nodiscard]] LightSampleContext place() const {
-    const bool both = is_any_of<RoughDielectricBsdf, MixtureBsdf>(bsdf);
+    const bool both = std::holds_alternative<RoughDielectricBsdf>(bsdf);
     const bool glossy = is_any_of<RoughDielectricBsdf, RoughConductorBsdf, CosinePowerBsdf<false>,
                                   CosinePowerBsdf<true>, PhongBsdf, RetroreflectorBsdf>(bsdf);
-    return {hit.point, both ? std::nullopt : std::optional(wo.z > 0 ? hit.normal : -hit.normal), glossy};
+    return {hit.point, both ? std::nullopt : std::optional(wo.z > 0 ? frame.z : -frame.z), glossy};
   }
 
   /// A ray that leaves it into the unit direction `w`, at that time of the exposure.

@@ -82,7 +82,7 @@ LightBounds light_bounds(const Light& light, const Scene& scene, double seen) {
   if (const auto* environment = std::get_if<EnvironmentLight>(&light.kind)) {
     LightBounds sky = bounds_at_infinity({0, 0, 1}, 2, seen * std::numbers::pi, seen * 4 * std::numbers::pi);
     sky.box = Imath::Box3d(Imath::V3d(0));
-    sky.ambient = environment->image ? 0 : 1;
+    sky.ambient = environment->image == nullptr;
     return sky;
   }
   EmissionCone cone = kEverywhere;
@@ -106,8 +106,7 @@ LightBounds union_of(const LightBounds& a, const LightBounds& b) {
           union_of(a.cone, b.cone),
           a.facing + b.facing,
           a.all_sides + b.all_sides,
-          a.at_infinity,
-          (a.ambient * a.facing + b.ambient * b.facing) / (a.facing + b.facing)};
+          a.at_infinity};
 }
 
 }  // namespace abbe

@@ -17,7 +17,7 @@ struct LightBounds {
   double facing = 0;     ///< Intensity [m^2], or irradiance at infinity, of what faces the lights.
   double all_sides = 0;  ///< Intensity [m^2], or irradiance at infinity, of what takes light from all sides.
   bool at_infinity = false;
-  double ambient = 0;  ///< The share of `facing` that is the same from all directions.
+  bool ambient = false;  ///< The same from all directions.
 };
 
 /// A box around a light that has a place, of one that moves around all of its places.

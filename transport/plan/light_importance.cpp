@@ -23,15 +23,14 @@ LightImportance::LightImportance(const LightBounds& bounds, double scale, double
       cos_falloff_(static_cast<float>(std::cos(bounds.cone.falloff))),
       facing_(static_cast<float>(bounds.facing * scale)),
       all_sides_(static_cast<float>(bounds.all_sides * scale)),
-      glossy_(static_cast<float>(1 - bounds.ambient)),
-      at_infinity_(bounds.at_infinity) {}
+      at_infinity_(bounds.at_infinity),
+      ambient_(bounds.ambient) {}
 
 float LightImportance::irradiance(const LightSampleContext& place) const {
-  const Imath::V3f* normal = place.normal();
-  const float strength = (normal == nullptr ? all_sides_ : facing_) * (place.glossy ? glossy_ : 1.0F);
+  if (ambient_ && place.glossy) return 0;
+  const float strength = place.side ? facing_ : all_sides_;
   if (at_infinity_)
-    return normal == nullptr ? strength
-                             : strength * std::max(0.0F, cos_beyond(normal->dot(axis_), cos_spread_));
+    return place.side ? strength * std::max(0.0F, cos_beyond(place.side->dot(axis_), cos_spread_)) : strength;
   const Imath::V3f way = center_ - place.point;
   const float distance2 = way.length2();
   const float nearness = strength / std::max(distance2, nearest2_);
@@ -40,7 +39,7 @@ float LightImportance::irradiance(const LightSampleContext& place) const {
   const float cos_seen = std::sqrt(1 - radius2_ / distance2);  // half the angle the sphere is seen under
   const float emitted = cos_beyond(cos_beyond(-axis_.dot(towards), cos_spread_), cos_seen);
   if (emitted < cos_falloff_) return 0;
-  const float received = normal == nullptr ? 1 : cos_beyond(normal->dot(towards), cos_seen);
+  const float received = place.side ? cos_beyond(place.side->dot(towards), cos_seen) : 1;
   return nearness * std::max(0.0F, emitted) * std::max(0.0F, received);
 }
 

@@ -16,7 +16,7 @@ class LightImportance {
 
   /// Irradiance of a place: what the lamps could send there from the most favourable place in their sphere,
   /// with nothing in between, but for their distance, which is that of the middle. Not negative; 0 where they
-  /// cannot shine. [Conty2018] To a glossy place ambient light counts for nothing.
+  /// cannot shine. [Conty2018] Nothing of ambient light to a glossy place.
   [[nodiscard]] float irradiance(const LightSampleContext& place) const;
 
  private:
@@ -28,8 +28,8 @@ class LightImportance {
   float cos_falloff_;
   float facing_;
   float all_sides_;
-  float glossy_;  // the share of it that counts for a glossy place
   bool at_infinity_;
+  bool ambient_;
 };
 
 }  // namespace abbe

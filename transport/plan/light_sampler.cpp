@@ -52,24 +52,23 @@ std::array<std::uint32_t, 2> children(const Nodes& nodes, std::uint32_t node) {
 
 LightSampler::LightSampler(const Scene& scene, const std::vector<double>& seen, bool scattering_finds)
     : ways_(scene.lights.size()) {
-  std::vector<LightLeaf> near;
+  std::vector<LightLeaf> leaves;
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
-    if (seen[i] > 0) near.push_back({i, light_bounds(scene.lights[i], scene, seen[i])});
-  if (near.empty()) return;
-  if (!scattering_finds)
-    for (auto& [light, bounds] : near) bounds.ambient = 0;
-  lights_ = static_cast<std::uint32_t>(near.size());
-  const LightScale scale = scale_of(near, scene_radius(scene.bounds));
+    if (seen[i] > 0) leaves.push_back({i, light_bounds(scene.lights[i], scene, seen[i])});
+  if (leaves.empty()) return;
+  lights_ = static_cast<std::uint32_t>(leaves.size());
+  const LightScale scale = scale_of(leaves, scene_radius(scene.bounds));
   unit_ = 1 / scale.strength;
-  const auto first_far = std::stable_partition(
-      near.begin(), near.end(), [](const LightLeaf& leaf) { return !leaf.bounds.at_infinity; });
-  std::vector<LightLeaf> far(first_far, near.end());
-  near.erase(first_far, near.end());
+  std::array<std::vector<LightLeaf>, 3> trees;
+  for (LightLeaf& leaf : leaves) {
+    leaf.bounds.ambient = leaf.bounds.ambient && scattering_finds;
+    trees.at(leaf.bounds.ambient ? 2 : leaf.bounds.at_infinity ? 1 : 0).push_back(leaf);
+  }
   nodes_.reserve(2 * lights_);
-  for (std::vector<LightLeaf>* leaves : {&near, &far}) {
-    if (leaves->empty()) continue;
+  for (std::vector<LightLeaf>& of : trees) {
+    if (of.empty()) continue;
     roots_.push_back(static_cast<std::uint32_t>(nodes_.size()));
-    append_tree(std::move(*leaves), scale, nodes_);
+    append_tree(std::move(of), scale, nodes_);
   }
   open_roots();
   note_ways();

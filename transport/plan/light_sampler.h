@@ -12,14 +12,14 @@ namespace abbe {
 /// Chooses a light for a place: by what each sends there, nothing standing in between, nine parts in ten, and
 /// uniformly over all lights for the rest, so that none starves where it alone is not hidden. Up to 16 lights
 /// are weighed one by one. Of more, trees are descended by what each half sends [Conty2018], one over the
-/// lamps and one over the lights at infinity.
+/// lamps and one over the lights at infinity; light that is the same from all directions is by itself.
 class LightSampler {
  public:
   using Pick = PowerLightSampler::SampledLight;
 
   /// `seen` stands for each light's emission, as in `Emissions`; lights of 0 are never chosen. Where
-  /// scattering finds light too, and both ways are balanced, glossy places leave ambient light to it
-  /// [Karlik2019].
+  /// scattering finds light too, and both ways are balanced, glossy places leave what is the same from all
+  /// directions to it [Karlik2019]: it sends them nothing.
   LightSampler(const Scene& scene, const std::vector<double>& seen, bool scattering_finds);
 
   /// Whether no light can be chosen.

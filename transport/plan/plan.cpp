@@ -156,10 +156,11 @@ void look_for_moving_matter(Plan& plan) {
         matter_moves(scene, bounds_of(light, scene), motion_of(light, scene.shapes) != nullptr));
 }
 
-// Whether light that camera paths are connected to is balanced with what they find by scattering.
+// Whether light that camera paths are connected to is balanced with what they find by the model's scattering.
 bool balances_lights(const Scene& scene, const std::vector<Technique>& techniques) {
   return uses(techniques, Technique::path)
-             ? scene.render.sampling.lights == LightStrategy::mis
+             ? scene.render.sampling.lights == LightStrategy::mis &&
+                   scene.render.sampling.directions == DirectionSampling::bsdf
              : uses(techniques, Technique::bdpt) || uses(techniques, Technique::vcm);
 }
 
