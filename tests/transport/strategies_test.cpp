@@ -250,15 +250,20 @@ INSTANTIATE_TEST_SUITE_P(Fillings, BalancedStrategies,
                          testing::Values(Filling::nothing, Filling::fog, Filling::glass, Filling::gold,
                                          Filling::sky, Filling::filter));
 
+// Those of one path from the camera.
+std::vector<PathVertex> camera_vertices(const Scene& scene, RayCaster& caster, const Plan& plan) {
+  PathRecorder<TransportMode::radiance> recorder(scene, caster);
+  recorder.paths().push_back(camera_path(plan, {6, Purpose::camera, 0, 0, 0}, 0));
+  recorder.run();
+  return recorder.paths().front().vertices;
+}
+
 // A light is as dense as it was drawn, for a place on one side of a surface.
 TEST(EndDensities, AreThoseThatLightsAreDrawnWith) {
   const Scene scene = room({kPinhole, Filling::sky});
   RayCaster caster(scene);
   const Plan plan = make_plan(scene);
-  PathRecorder<TransportMode::radiance> recorder(scene, caster);
-  recorder.paths().push_back(camera_path(plan, {6, Purpose::camera, 0, 0, 0}, 0));
-  recorder.run();
-  const PathVertex& lit = recorder.paths().front().vertices.at(1);
+  const PathVertex lit = camera_vertices(scene, caster, plan).at(1);
   ASSERT_TRUE(std::get<SurfaceVertex>(lit.at).place().side);
   int skies = 0;
   for (std::uint32_t i = 0; i < 64; ++i) {
@@ -275,10 +280,7 @@ TEST(StrategyWeights, WhatIsDrawnWithNoDensityWeighsNothing) {
   const Scene scene = room({kPinhole, Filling::nothing});
   RayCaster caster(scene);
   const Plan plan = make_plan(scene);
-  PathRecorder<TransportMode::radiance> recorder(scene, caster);
-  recorder.paths().push_back(camera_path(plan, {6, Purpose::camera, 0, 0, 0}, 0));
-  recorder.run();
-  const std::vector<PathVertex>& x = recorder.paths().front().vertices;
+  const std::vector<PathVertex> x = camera_vertices(scene, caster, plan);
   const auto light = light_for(plan, x.at(1), {0.5F, 0.5F, 0.5F, 0.5F});
   ASSERT_TRUE(light);
   const JoinedPath path{.z = {&x[0], &x[1], &*light}, .t = 2};
