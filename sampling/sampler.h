@@ -9,14 +9,29 @@ namespace abbe {
 /// Those of `sample` are for what all paths of a sample have in common.
 enum class Purpose : std::uint32_t { camera = 1, light = 2, pilot = 3, sample = 4 };
 
-/// Owen-scrambled Sobol points in groups of four dimensions, a pure function of seed, purpose, replicate,
-/// stream (a pixel, say), sample index and group: nothing is consumed, so no path depends on what another
-/// asked for. Within one group the points of a stream are a (0, 2)-like low-discrepancy sequence; groups are
-/// padded by independent shuffles. [Burley2020]
+/// Which of `of` replicates, 1, 2, 4 or 8, that a sequence is parted into.
+struct Replicate {
+  std::uint32_t number = 0;
+  std::uint32_t of = 1;
+};
+
+/// Owen-scrambled Sobol points in groups of four dimensions, a pure function of seed, purpose, sequence,
+/// stream (a pixel, say), sample index, replicate and group: nothing is consumed, so no path depends on what
+/// another asked for. Within one group the points of a stream are a (0, 2)-like low-discrepancy sequence;
+/// groups are padded by independent shuffles. [Burley2020]
+///
+/// The R replicates of a stream are the slices of each group along one more dimension of Sobol's, from r/R up
+/// to (r + 1)/R. So the points of each are a low-discrepancy sequence, and the first n of all, n being 8 or a
+/// higher power of two, are the Rn points of one. What all R find together has thus less variance than R
+/// independent sequences leave, and as the slices repel each other, the spread of their means tells more than
+/// it has, rather than less.
 class Sampler {
  public:
-  Sampler(std::uint64_t seed, Purpose purpose, std::uint32_t replicate, std::uint32_t stream,
-          std::uint32_t index);
+  /// Indices below 2^kIndexBits have points of their own in any replicate.
+  static constexpr int kIndexBits = 29;
+
+  Sampler(std::uint64_t seed, Purpose purpose, std::uint32_t sequence, std::uint32_t stream,
+          std::uint32_t index, Replicate replicate = {});
 
   /// Four numbers in [0, 1).
   [[nodiscard]] std::array<float, 4> group(std::uint32_t group) const;
@@ -28,6 +43,7 @@ class Sampler {
  private:
   std::uint32_t key_;
   std::uint32_t reversed_index_;
+  Replicate replicate_;
 };
 
 }  // namespace abbe

@@ -52,8 +52,8 @@ struct FilmShape {
 
 /// Sums of film values per pixel, channel and replicate, in 128-bit fixed point: integer addition is
 /// associative, so the sums do not depend on the order, the threads or the partition that made them.
-/// Replicates are independent scramblings of the sample sequence; the spread of their means is the variance
-/// of the pixel.
+/// Replicates are slices of one sample sequence (`sampling/sampler.h`); the spread of their means bounds the
+/// variance of the pixel from above.
 class Film {
  public:
   /// `nominal` is the order of magnitude of a film value: values up to 2^44 times it are kept, each rounded

@@ -39,7 +39,7 @@ Outcome warned(const std::string& scene, const std::string& options = "") {
 TEST(Warnings, LightThatAChosenTechniqueLosesIsNamed) {
   const std::string scene = room(ball_of("white"), kLamp);
   EXPECT_EQ(warned(scene).err, "");
-  const Outcome light = warned(scene, " --integrator light --spp 16");
+  const Outcome light = warned(scene, " --integrator light --spp 64");
   EXPECT_EQ(light.code, 0);
   EXPECT_EQ(
       light.err,

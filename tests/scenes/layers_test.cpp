@@ -38,7 +38,7 @@ double missing(const RenderResult& result) {
 // term of the Neumann series of pi.
 TEST(Layers, BouncesAreTheTermsOfTheNeumannSeries) {
   const Scene scene =
-      test::load("validation/furnace.json", {{"/sensor/resolution", "[4, 4]"}, {"/render/samples", "1024"}});
+      test::load("validation/furnace.json", {{"/sensor/resolution", "[4, 4]"}, {"/render/samples", "2048"}});
   const RenderResult result = told_apart(scene, bounce_layers(8));
   const int planes = result.film.channels();
   for (int k = 0; k <= 8; ++k) {

@@ -120,7 +120,7 @@ EdgeResponse measured(const Film& film, int channel, const Edge& edge, double im
 }
 
 TEST(LensModulation, OfASlantedEdgeIsThatOfTheTracedSpots) {
-  const Scene scene = bench(test::nightly() ? 2048 : 128);
+  const Scene scene = bench(test::nightly() ? 2048 : 256);
   const double tolerance = test::nightly() ? 0.01 : 0.02;
   const LensOptics& optics = *std::get<LensSystem>(scene.camera.kind).optics;
   const double pitch_mm = scene.camera.pixel_pitch * 1e3;

@@ -131,8 +131,8 @@ TEST_P(MeterBy, TellsTheFluxBetweenDiscs) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, MeterBy,
-                         ::testing::Values(By{"path", 64}, By{"light", 64}, By{"bdpt", 64}, By{"vcm", 64},
-                                           By{"photon-map", 64}, By{"adjoint-brute", 256, 0.05},
+                         ::testing::Values(By{"path", 64}, By{"light", 64}, By{"bdpt", 64}, By{"vcm", 256},
+                                           By{"photon-map", 128}, By{"adjoint-brute", 256, 0.05},
                                            By{"photon-brute", 64}));
 
 // A bulb of 1000 lm: a point in the middle of a shell of glass that absorbs. What its faces of reflectance R

@@ -208,7 +208,7 @@ Estimate found_by_path_tracing(const Scene& scene) {
   return found_by([&](std::uint32_t first, const Deposit& deposit) {
     std::vector<PixelSample> samples;
     for (std::uint32_t i = 0; i < kBatch; ++i)
-      samples.push_back({0, 0, Sampler(7, Purpose::camera, 0, 0, first + i)});
+      samples.push_back({0, 0, Sampler(8, Purpose::camera, 0, 0, first + i)});
     tracer.trace(samples, deposit);
   });
 }
@@ -219,8 +219,8 @@ Estimate found_bidirectionally(const Scene& scene) {
   return found_by([&](std::uint32_t first, const Deposit& deposit) {
     std::vector<PixelPair> pairs;
     for (std::uint32_t i = 0; i < kBatch; ++i)
-      pairs.push_back({0, 0, Sampler(7, Purpose::camera, 0, 0, first + i),
-                       Sampler(7, Purpose::light, 0, 0, first + i), true});
+      pairs.push_back({0, 0, Sampler(8, Purpose::camera, 0, 0, first + i),
+                       Sampler(8, Purpose::light, 0, 0, first + i), true});
     tracer.trace(pairs, deposit);
   });
 }

@@ -154,8 +154,9 @@ void Pass::do_item(std::uint32_t item, Worker& worker) {
   }
 }
 
-std::uint32_t Pass::replicate(std::uint64_t sample) const {
-  return static_cast<std::uint32_t>(sample % static_cast<std::uint64_t>(film_.replicates()));
+Replicate Pass::replicate(std::uint64_t sample) const {
+  const auto replicates = static_cast<std::uint32_t>(film_.replicates());
+  return {static_cast<std::uint32_t>(sample % replicates), replicates};
 }
 
 bool Pass::holds(std::span<const double> values) const {
@@ -179,7 +180,7 @@ Pass::Tile Pass::tile(std::uint32_t number) const {
 // By which all paths of a sample have a packet and a time in common where they are to be joined across
 // pixels.
 std::array<float, 4> Pass::numbers_of(std::uint64_t sample) const {
-  return Sampler(seed_, Purpose::sample, replicate(sample), 0, index(sample)).group(0);
+  return Sampler(seed_, Purpose::sample, 0, 0, index(sample), replicate(sample)).group(0);
 }
 
 // Those of a sample at a pixel; none where the pixel skips it. Which samples these are is chance, for each
@@ -190,7 +191,7 @@ Pass::PixelPaths Pass::paths_of(std::uint64_t sample, int x, int y) const {
   const std::uint32_t together = plan_.density.at(x, y);
   if (path_interval_ == 1) return {index(sample) * together, together};
   const float u =
-      Sampler(seed_, Purpose::camera, replicate(sample), number_of(x, y), 0).group(kPhaseGroup)[0];
+      Sampler(seed_, Purpose::camera, 0, number_of(x, y), 0, replicate(sample)).group(kPhaseGroup)[0];
   const std::uint32_t at = index(sample) + static_cast<std::uint32_t>(u * static_cast<float>(path_interval_));
   if (at % path_interval_ != 0) return {};
   return {at / path_interval_ * together, together};
@@ -207,7 +208,7 @@ void Pass::take_pixels(const Tile& tile, const Crop& within, std::uint64_t sampl
       const PixelPaths paths = paths_of(x, y);
       for (std::uint32_t i = 0; i < paths.count; ++i)
         worker.pixels.push_back(
-            {x, y, Sampler(seed_, Purpose::camera, replicate(sample), number_of(x, y), paths.first + i),
+            {x, y, Sampler(seed_, Purpose::camera, 0, number_of(x, y), paths.first + i, replicate(sample)),
              static_cast<double>(path_interval_) / paths.count});
     }
 }
@@ -227,7 +228,7 @@ void Pass::take_pairs(const Tile& tile, std::uint64_t sample, Worker& worker) co
   for (int y = tile.y0; y < std::min(tile.y0 + kEdge, film_.height()); ++y)
     for (int x = tile.x0; x < std::min(tile.x0 + kEdge, film_.width()); ++x)
       worker.pairs.push_back(
-          {x, y, Sampler(seed_, Purpose::camera, replicate(sample), number_of(x, y), index(sample)),
+          {x, y, Sampler(seed_, Purpose::camera, 0, number_of(x, y), index(sample), replicate(sample)),
            photon_sampler(sample, number_of(x, y)), is_sampled(x, y)});
 }
 
@@ -241,8 +242,13 @@ void Pass::take_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t
 
 Sampler Pass::photon_sampler(std::uint64_t sample, std::uint64_t photon) const {
   const std::uint64_t number = index(sample) * photons_ + photon;
-  return {seed_, Purpose::light, replicate(sample), static_cast<std::uint32_t>(number >> 32),
-          static_cast<std::uint32_t>(number)};
+  constexpr std::uint64_t kOfStream = 1U << Sampler::kIndexBits;
+  return {seed_,
+          Purpose::light,
+          0,
+          static_cast<std::uint32_t>(number / kOfStream),
+          static_cast<std::uint32_t>(number % kOfStream),
+          replicate(sample)};
 }
 
 // As the films take them.
@@ -255,14 +261,14 @@ std::span<const double> Pass::weighted(std::span<const double> values, double we
 void Pass::deposit(std::uint64_t sample, const FilmPoint& at, std::span<const double> values, double weight,
                    Worker& worker) {
   if (is_asked_for(at.x, at.y) && keeps(weighted(values, weight, worker), worker))
-    film_.add(number_of(at.x, at.y), static_cast<int>(replicate(sample)), worker.values);
+    film_.add(number_of(at.x, at.y), static_cast<int>(replicate(sample).number), worker.values);
 }
 
 // What the layers get of what the film gets.
 void Pass::deposit_apart(std::uint64_t sample, const FilmPoint& at, const LightHistory& of,
                          std::span<const double> values, double weight, Worker& worker) {
   if (is_asked_for(at.x, at.y) && holds(weighted(values, weight, worker)))
-    beside_.layer_sums->add(number_of(at.x, at.y), static_cast<int>(replicate(sample)), worker.values,
+    beside_.layer_sums->add(number_of(at.x, at.y), static_cast<int>(replicate(sample).number), worker.values,
                             beside_.layers->of(of) * values.size());
 }
 

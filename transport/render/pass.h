@@ -159,7 +159,7 @@ class Pass {
   }
   [[nodiscard]] bool holds(std::span<const double> values) const;
   [[nodiscard]] bool keeps(std::span<const double> values, Worker& worker) const;
-  [[nodiscard]] std::uint32_t replicate(std::uint64_t sample) const;
+  [[nodiscard]] Replicate replicate(std::uint64_t sample) const;
   [[nodiscard]] std::uint32_t index(std::uint64_t sample) const;
   [[nodiscard]] PixelPaths paths_of(std::uint64_t sample, int x, int y) const;
 
