@@ -1,4 +1,7 @@
 // Camera paths that go where the noise is: the film is that of as many samples, for less.
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
 #include <set>
 
 #include "tests/scenes/scene_fixture.h"
