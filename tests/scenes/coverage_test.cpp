@@ -2,6 +2,7 @@
 // say: replicates tell more variance than their mean has.
 #include <array>
 #include <ostream>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -16,6 +17,9 @@ namespace abbe {
 namespace {
 
 const int kSeeds = test::nightly() ? 200 : 32;
+// More is too wide where photons alone make the film: pixels that share photons, taken as independent, give
+// 98.5 %. Few seeds do not tell.
+constexpr double kMostCoveredByPhotons = 0.975;
 constexpr double kNominal = 0.95;
 constexpr double kSignificance = 1e-6;  // of a test: over about a hundred figures, by Sidak's correction
 
@@ -138,6 +142,9 @@ TEST_P(Coverage, IntervalsHoldAsOftenAsTheySay) {
   const double covered = 1 - static_cast<double>(missed) / static_cast<double>(by_figure.size() * kSeeds);
   fmt::print("{}: {:.1f} % of the intervals hold\n", GetParam().name, 100 * covered);
   EXPECT_GT(covered, 0.85);
+  if (test::nightly() && GetParam().integrator == std::string_view("light")) {
+    EXPECT_LE(covered, kMostCoveredByPhotons);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, Coverage, testing::ValuesIn(kKinds),

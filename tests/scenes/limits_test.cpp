@@ -173,16 +173,17 @@ TEST(Limits, AnImageThroughGlassDoesNotDependOnTheUnitOfLength) {
   }
 }
 
-// Photons and camera paths go where those of pilots have shown light. In another unit one of 33 000 pilot
-// photons may fall, by rounding, on another block of the film, so that photons of the caustic are aimed
-// otherwise.
+// Photons and camera paths go where those of pilots have shown light. In other units but millimetres one of
+// 33 000 pilot photons falls, by rounding, on another block of the film, so that photons of the caustic are
+// aimed otherwise.
 TEST(Limits, AGuidedImageDoesNotDependOnTheUnitOfLengthButInItsCaustic) {
   const RenderResult metres = through_glass("m", "auto");
   const std::vector<const char*> by_day{"cm", "in"};
   for (const char* unit : test::nightly() ? std::vector{"cm", "mm", "in"} : by_day) {
     const RenderResult other = through_glass(unit, "auto");
     const std::vector<double> apart = differences(metres.film, other.film);
-    EXPECT_LT(apart[apart.size() / 16], 1e-5) << unit;
+    const bool same_photons = unit == std::string_view("mm");
+    EXPECT_LT(same_photons ? apart.front() : apart[apart.size() / 16], 1e-5) << unit;
     EXPECT_NEAR(mean(other) / mean(metres), 1, 1e-2) << unit;
   }
 }

@@ -323,7 +323,7 @@ TYPED_TEST(BsdfLaws, NoEnergyAppears) {
   double most = 0;
   this->for_all([&](const Bsdf& bsdf, const V3f& wo) {
     const Albedo white =
-        albedo(sampler_of(bsdf, wo, TransportMode::power), wo, test::nightly() ? 4096 : 1024);
+        albedo(sampler_of(bsdf, wo, TransportMode::power), wo, test::nightly() ? 32768 : 8192);
     const std::optional<double> lossless = lossless_within(std::get<TypeParam>(bsdf));
     for (int j = 0; j < kLanes; ++j) {
       const auto lane = static_cast<std::size_t>(j);
