@@ -327,7 +327,7 @@ TYPED_TEST(BsdfLaws, NoEnergyAppears) {
     const std::optional<double> lossless = lossless_within(std::get<TypeParam>(bsdf));
     for (int j = 0; j < kLanes; ++j) {
       const auto lane = static_cast<std::size_t>(j);
-      // Errors of eight replicates: Student's t with seven degrees is beyond 12 once in 150,000 times.
+      // Replicates so evenly spread often differ in few of their events, and tell too small an error then.
       const double noise =
           12 * std::hypot(white.reflected[lane].standard_error, white.transmitted[lane].standard_error);
       most = std::max(most, white.total(j));

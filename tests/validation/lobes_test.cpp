@@ -88,7 +88,7 @@ TEST(CheckDensity, SeesAFewPerCentOfTilt) {
                 .p,
             1e-12);
   EXPECT_LT(check_density(
-                uniform, [&](const V3f& w) { return flat(w) * (1 + 0.08 * w.x); }, 0)
+                uniform, [&](const V3f& w) { return flat(w) * (1 + 0.05 * w.x); }, 0, 800000)
                 .p,
             1e-6);
 }
