@@ -176,7 +176,7 @@ for lights, heuristic in (("bsdf", "balance"), ("light", "balance"), ("mis", "po
 
 found["roulette"] = {}
 EVEN = {"/camera/pinhole/fov_deg": 0.5, "/sensor": {"resolution": [256, 256], "response": "energy", "channels": {"all": 1}}}
-for albedo, depth in ((0.5, 1), (0.5, 3), (0.8, 1), (0.8, 4), (0.8, 8), (0.9, 1), (0.9, 8)):
+for albedo, depth in ((0.5, 3), (0.5, 4), (0.8, 7), (0.8, 9), (0.8, 12), (0.9, 14), (0.9, 20)):
     walls = {"/materials/wall/diffuse/reflectance": albedo, "/shapes/0/emission/spectrum": 1 - albedo}
     command = f"abbe render data/scenes/furnace.json --set /render/integrator=path --set /render/lights=bsdf --set /render/roulette_depth={depth}"
     found["roulette"][f"{albedo}, {depth}"] = spread(f"{command} {settings({**walls, **EVEN})}")
@@ -219,10 +219,10 @@ figure("lessons_directions.svg",
 
 played = []
 for albedo, colour in ((0.5, BLUE), (0.8, RED), (0.9, GREEN)):
-    depths = np.linspace(1, min(8, np.log(0.1) / np.log(albedo)), 60)
-    played += [formula(f"albedo {albedo}", colour, lambda d, a=albedo: a**d * (1 + a - a**d), depths),
+    depths = np.linspace(np.log(0.25) / np.log(albedo), min(20, np.log(0.025) / np.log(albedo)), 60)
+    played += [formula(f"albedo {albedo}", colour, lambda d, a=albedo: a**d * ((1 + a) / 4 - a**d), depths),
                measured("", colour, {case.split(", ")[1]: variance for case, variance in found["roulette"].items() if case.startswith(f"{albedo},")})]
-figure("lessons_roulette.svg", Panel("What roulette costs", Axis("events before roulette", range(1, 9)), Axis("relative variance", (0, 0.25, 0.5, 0.75, 1)), played))
+figure("lessons_roulette.svg", Panel("What roulette costs", Axis("events before roulette", (2, 5, 10, 15, 20)), Axis("relative variance", (0, 0.02, 0.04, 0.06)), played))
 
 spectra = []
 for (lamp, efficacy), file, colour in zip(found["efficacy"].items(), ("A", "FL1-12", "FL1-12", "LED"), (RED, GREY, GREEN, BLUE)):

@@ -239,7 +239,7 @@ class Lessons(Tutorial):
         for case, variance in found.items():
             albedo, depth = (float(number) for number in case.split(", "))
             left = albedo**depth
-            expected = left * (1 + albedo - left)
+            expected = left * ((1 + albedo) / 4 - left)
             # Of 65536 paths, the rare ones that survive long weigh most.
             self.assertAlmostEqual(variance, expected, delta=0.05 * expected, msg=case)
             self.check_claims(f"{albedo} | {depth:.0f}", [expected, variance])

@@ -304,7 +304,7 @@ bool PathTracer::follows(CameraPath& path, const BsdfSample& event) const {
 
 float PathTracer::kept(CameraPath& path, const SurfaceVertex& vertex, const BsdfSample& event) const {
   path.eta_scale *= vertex.squared_eta(event, path.packet.hero);
-  return carried(path);
+  return kGoingOnOfCameraPaths * carried(path);
 }
 
 void PathTracer::resolve_connections() {

@@ -83,7 +83,9 @@ class PathTracer {
     return true;
   }
   [[nodiscard]] float kept(CameraPath& path, const SurfaceVertex& vertex, const BsdfSample& event) const;
-  [[nodiscard]] float kept_within(const CameraPath& path) const { return carried(path); }
+  [[nodiscard]] float kept_within(const CameraPath& path) const {
+    return kGoingOnOfCameraPaths * carried(path);
+  }
   // What refraction into glass takes off radiance counts as still there.
   [[nodiscard]] float carried(const CameraPath& path) const { return path.packet.carried() * path.eta_scale; }
   void resolve_connections();
