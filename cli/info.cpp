@@ -18,6 +18,7 @@
 #include "scene/camera/lens_optics.h"
 #include "scene/unreached.h"
 #include "transport/render/collect.h"
+#include "transport/render/learn_splitting.h"
 #include "transport/render/learnt_plan.h"
 #include "transport/render/technique_shares.h"
 #include "transport/render/threads.h"
@@ -37,6 +38,7 @@ struct PlannedRender {
   std::vector<Technique> techniques;
   std::optional<std::array<double, 2>> wavelengths_nm = {};  ///< From and to.
   Json shares = nullptr;                                     ///< Of the techniques, where there are two.
+  int path_splitting = 1;
 };
 
 Json json_of(const TechniqueCost& cost) {
@@ -47,8 +49,10 @@ PlannedRender planned(const Scene& scene, const std::shared_ptr<const Guides>& g
   if (refusal(scene)) return {chosen_techniques(scene)};
   const int threads = thread_count(0);
   Plan plan = make_learnt_plan(scene, threads, guides);
+  learn_splitting(plan, threads);
   const std::optional<TechniqueCosts> costs = set_technique_shares(plan, threads);
   PlannedRender render{plan.techniques, {{plan.wavelengths.low_nm(), plan.wavelengths.high_nm()}}};
+  render.path_splitting = 1 << plan.split_bits;
   if (costs)
     render.shares = {{"photons_per_sample", plan.photons},
                      {"photons_part", plan.photons_part},
@@ -101,6 +105,7 @@ Json answer_for(const Scene& scene, const IntegratorChoice& choice) {
   for (const Technique technique : render.techniques)
     if (!bias_of(technique).empty()) answer["bias"] = bias_of(technique);
   answer["shares"] = render.shares;
+  answer["path_splitting"] = render.path_splitting;
   answer["lens"] = lens_answer(scene.camera);
   answer["unreached"] = unreached(scene, scene.needs, uses(render.techniques, Technique::light));
   if (scene.mosaic) answer["mosaic"] = pattern(scene);
@@ -172,6 +177,8 @@ std::string describe(const Scene& scene, const IntegratorChoice& choice) {
   for (const auto& [technique, paths] : answer["owned"].items())
     lines += fmt::format("  {:<10} {}\n", technique, paths.get<std::string>());
   if (!answer["shares"].is_null()) lines += shares_line(answer["shares"]);
+  if (const int parts = answer["path_splitting"].get<int>(); parts > 1)
+    lines += fmt::format("splitting    camera paths go on in {} where they first scatter\n", parts);
   if (!answer["bias"].is_null()) lines += fmt::format("bias         {}\n", answer["bias"].get<std::string>());
   lines += fmt::format("not reached  {}\n", joined(answer["unreached"]));
   if (answer.contains("wavelength_range_nm"))

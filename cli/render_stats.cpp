@@ -47,6 +47,7 @@ std::string stats_text(const Scene& scene, const RenderResult& result, const Cos
   answer["samples_before"] = stats.samples_before;
   answer["photons_per_sample"] = result.film.shape().photons;
   answer["path_interval"] = result.film.shape().path_interval;
+  answer["path_splitting"] = stats.path_splitting;
   answer["paths"] = stats.paths;
   answer["rays"] = stats.rays;
   answer["embree_replay_share"] = Json();  // which bench alone measures, by tracing paths again

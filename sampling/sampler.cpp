@@ -226,6 +226,12 @@ Sampler Sampler::branch(std::uint32_t number) const {
   return part;
 }
 
+Sampler Sampler::part(std::uint32_t number, int bits) const {
+  Sampler part = *this;
+  part.reversed_index_ = (reversed_index_ >> bits) | reverse_bits(number);
+  return part;
+}
+
 std::array<float, 4> Sampler::group(std::uint32_t group) const {
   const GroupPoint point(key_, reversed_index_, replicate_, group);
   return numbers(point, point)[0];

@@ -39,6 +39,9 @@ class Sampler {
   [[nodiscard]] std::array<std::array<float, 4>, 2> two_groups(std::uint32_t first) const;
   /// Numbers of its own, of the same index, for a part of a path that goes on apart from the others.
   [[nodiscard]] Sampler branch(std::uint32_t number) const;
+  /// The numbers of one of the 2^bits parts, below 2^bits, that a path goes on in, from where it does: those
+  /// of all parts of all paths follow each other in the same sequence.
+  [[nodiscard]] Sampler part(std::uint32_t number, int bits) const;
 
  private:
   std::uint32_t key_;

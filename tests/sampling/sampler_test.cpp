@@ -94,6 +94,18 @@ TEST(Sampler, BranchesHaveStratifiedNumbersOfTheirOwn) {
   EXPECT_EQ(boxes.size(), 256U);
 }
 
+TEST(Sampler, PartsOfPathsFollowEachOtherInOneSequence) {
+  for (std::uint32_t i = 0; i < 16; ++i)
+    for (const int bits : {0, 1, 2})
+      for (std::uint32_t number = 0; number < 1U << bits; ++number)
+        for (const Replicate replicate : {Replicate{0, 1}, Replicate{5, 8}}) {
+          const Sampler whole(1, Purpose::camera, 0, 3, i, replicate);
+          const Sampler part(1, Purpose::camera, 0, 3, (i << bits) + number, replicate);
+          for (std::uint32_t group = 0; group < 4; ++group)
+            EXPECT_EQ(whole.part(number, bits).group(group), part.group(group)) << i << " " << number;
+        }
+}
+
 TEST(Sampler, TwoGroupsAreThoseOfEach) {
   for (std::uint32_t i = 0; i < 1000; ++i) {
     const auto [first, second] = at(i * 7919, i).two_groups(i);

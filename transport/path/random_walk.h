@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "materials/medium/phase.h"
@@ -27,10 +29,11 @@ namespace abbe {
 /// `kept_within`. Whatever has to be done when the path has left a vertex, along its new ray, is done in
 /// `kept` and `kept_within`.
 ///
-/// A technique may have `parts_lanes()` besides, whether its paths are to go on lane by lane where smooth
-/// glass disperses them, and `connects_along()` with `connect_along(path, stretch, u)`, a connection from
-/// along matter that scatters evenly, before the event that ends the stretch. One that works out by itself
-/// with which density each event was drawn makes `kDrawsPolarised` false.
+/// A technique may have `split_bits(path)` besides, so that a path goes on in 2^bits where it scatters at a
+/// surface, and `split(part, bits)`, told each of these; `parts_lanes()`, whether its paths are to go on lane
+/// by lane where smooth glass disperses them; and `connects_along()` with `connect_along(path, stretch, u)`,
+/// a connection from along matter that scatters evenly, before the event that ends the stretch. One that
+/// works out by itself with which density each event was drawn makes `kDrawsPolarised` false.
 template <typename T>
 concept WalkingTechnique = std::derived_from<typename T::Path, Walk> &&
     std::constructible_from<typename T::Path, const Sampler&, std::uint32_t> &&
@@ -105,7 +108,20 @@ class RandomWalks {
   bool leave(Technique& technique, Path& path, const SurfaceVertex& vertex) {
     technique.reach(path, vertex);
     const auto [u, v] = path.sampler.two_groups(scattering_group(path.events));
-    if (scatters(vertex.bsdf)) technique.connect(path, vertex, v);
+    if (scatters(vertex.bsdf)) {
+      technique.connect(path, vertex, v);
+      if constexpr (requires { technique.split_bits(path); })
+        if (const int bits = technique.split_bits(path); bits > 0) {
+          split(technique, path, vertex, bits);
+          return false;
+        }
+    }
+    return scatter(technique, path, vertex, u);
+  }
+
+ private:
+  // Scatters a path at a vertex. Whether it goes on.
+  bool scatter(Technique& technique, Path& path, const SurfaceVertex& vertex, const std::array<float, 4>& u) {
     const bool drawn = path.packet.polarisation && kDrawsPolarised<Technique> && draws_polarised(vertex.bsdf);
     const float choice =
         drawn ? polarised_choice(path.packet, vertex, path.ray.direction, Technique::kMode, u[2]) : u[2];
@@ -120,7 +136,18 @@ class RandomWalks {
     return follow(technique, path, vertex, *event, drawn, u[3]);
   }
 
- private:
+  // Lets 2^bits paths go on from a vertex, each with its share of what that path carries.
+  void split(Technique& technique, const Path& path, const SurfaceVertex& vertex, int bits) {
+    for (std::uint32_t number = 0; number < 1U << bits; ++number) {
+      Path part = path;
+      part.sampler = path.sampler.part(number, bits);
+      part.packet.throughput *= std::ldexp(1.0F, -bits);
+      technique.split(part, bits);
+      if (scatter(technique, part, vertex, part.sampler.group(scattering_group(path.events))))
+        parted_.push_back(std::move(part));
+    }
+  }
+
   // Takes a path on after an event. Whether it goes on.
   bool follow(Technique& technique, Path& path, const SurfaceVertex& vertex, const BsdfSample& event,
               bool drawn, float u) {

@@ -55,6 +55,8 @@ struct Plan {
   PowerLightSampler lights_along{std::vector<double>()};
   /// Whether those of light tracing go on lane by lane where glass disperses them, each along its own way.
   bool photons_part = false;
+  /// Each camera path goes on in 2^this where it first scatters, if light is to be found behind.
+  int split_bits = 0;
   SamplingDensity density = {};  ///< How many there are then, where path tracing has them.
 
   /// Where camera paths through a pixel draw theirs from.

@@ -5,7 +5,6 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
 #include <vector>
 
 #include "sensor/film/relative_error.h"
@@ -87,15 +86,10 @@ std::vector<PixelSample> pilots_of(const Blocks& blocks, int block) {
 BlockNoise noise_of(std::span<const double> values, double rays) {
   BlockNoise noise{.rays = rays};
   for (std::size_t first = 0; first < values.size(); first += kPathsOfPixel) {
-    const auto pixel = values.subspan(first, kPathsOfPixel);
-    const double mean = std::accumulate(pixel.begin(), pixel.end(), 0.0) / kPathsOfPixel;
+    const PixelNoise pixel = noise_of_pixel(values.subspan(first, kPathsOfPixel), kPathsOfReplicate);
     noise.pixels += 1;
-    noise.mean += mean;
-    for (std::size_t r = 0; r < kPathsOfPixel; r += kPathsOfReplicate) {
-      const double of_replicate =
-          std::accumulate(&pixel[r], &pixel[r] + kPathsOfReplicate, 0.0) / kPathsOfReplicate;
-      noise.variance += kPathsOfReplicate * std::pow(of_replicate - mean, 2) / (kReplicates - 1);
-    }
+    noise.mean += pixel.mean;
+    noise.variance += pixel.variance;
   }
   return noise;
 }

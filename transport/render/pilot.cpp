@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <vector>
 
 #include "transport/render/pass.h"
@@ -27,9 +29,7 @@ std::vector<PixelSample> pixels_of(const Plan& plan, std::uint32_t batch) {
   const Camera& camera = plan.scene.camera;
   std::vector<PixelSample> samples;
   for (std::uint32_t i = batch * kPilotBatch; i < (batch + 1) * kPilotBatch; ++i) {
-    const std::array<float, 4> u = Sampler(kSeedOfPilots, Purpose::pilot, 0, 0, i).group(0);
-    const int x = std::min(static_cast<int>(u[0] * static_cast<float>(camera.width)), camera.width - 1);
-    const int y = std::min(static_cast<int>(u[1] * static_cast<float>(camera.height)), camera.height - 1);
+    const auto [x, y] = pixel_of_pilot(camera, 0, i);
     samples.push_back({x, y, Sampler(kSeedOfPilots, Purpose::camera, 0, 0, i)});
   }
   return samples;
@@ -77,6 +77,24 @@ void expose_photons(const Plan& plan, std::uint32_t batch, RayCaster& caster, Ex
 }
 
 }  // namespace
+
+std::pair<int, int> pixel_of_pilot(const Camera& camera, std::uint32_t stream, std::uint32_t pilot) {
+  const std::array<float, 4> u = Sampler(kSeedOfPilots, Purpose::pilot, 0, stream, pilot).group(0);
+  return {std::min(static_cast<int>(u[0] * static_cast<float>(camera.width)), camera.width - 1),
+          std::min(static_cast<int>(u[1] * static_cast<float>(camera.height)), camera.height - 1)};
+}
+
+PixelNoise noise_of_pixel(std::span<const double> values, std::size_t paths_of_replicate) {
+  const auto paths = static_cast<double>(paths_of_replicate);
+  const double replicates = static_cast<double>(values.size()) / paths;
+  PixelNoise noise{std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size())};
+  for (std::size_t first = 0; first < values.size(); first += paths_of_replicate) {
+    const auto replicate = values.subspan(first, paths_of_replicate);
+    const double mean = std::accumulate(replicate.begin(), replicate.end(), 0.0) / paths;
+    noise.variance += paths * std::pow(mean - noise.mean, 2) / (replicates - 1);
+  }
+  return noise;
+}
 
 std::optional<Film> pilot_film(const Plan& plan, int threads, std::optional<Crop> crop,
                                const std::function<bool()>& stop) {

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include "sensor/film/film.h"
 #include "transport/path/film_response.h"
@@ -23,6 +25,19 @@ inline constexpr std::uint64_t kSeedOfPilots = std::uint64_t{1} << 63;
   for (const double value : values) sum += std::abs(value);
   return std::isfinite(sum) ? sum : 0;
 }
+
+/// A pixel of the film that a pilot looks at: one of a sequence spread over all of it.
+[[nodiscard]] std::pair<int, int> pixel_of_pilot(const Camera& camera, std::uint32_t stream,
+                                                 std::uint32_t pilot);
+
+/// What pilots find of a pixel: the mean, and the variance of a path as replicates tell it.
+struct PixelNoise {
+  double mean = 0;
+  double variance = 0;
+};
+
+/// Of the values of its paths, so many of them one after the other in each replicate.
+[[nodiscard]] PixelNoise noise_of_pixel(std::span<const double> values, std::size_t paths_of_replicate);
 
 /// A film, of one replicate, of few samples per pixel that depend on nothing but the plan: 65536 paths or so,
 /// at least one and at most 16 for each pixel, and as many photons where these are traced. Its random numbers

@@ -14,6 +14,7 @@
 #include "io/error.h"
 #include "sensor/response/stokes_channels.h"
 #include "transport/render/learn_density.h"
+#include "transport/render/learn_splitting.h"
 #include "transport/render/learnt_plan.h"
 #include "transport/render/part_films.h"
 #include "transport/render/pass.h"
@@ -43,6 +44,7 @@ bool open_ended(const RenderOptions& options) {
 
 Plan balanced_plan(const Scene& scene, const RenderOptions& options, int threads) {
   Plan plan = make_learnt_plan(scene, threads, options.guides);
+  learn_splitting(plan, threads);
   set_technique_shares(plan, threads);
   if (options.adaptive) learn_density(plan, options.crop, threads);
   return plan;
@@ -87,6 +89,7 @@ class Rendering {
     RenderStats& stats = result_.stats;
     stats.threads = threads_;
     stats.processes = options_.crew.size;
+    stats.path_splitting = 1 << plan_.split_bits;
     if (!leads()) forget();
     if (leads() && !result_.unfinished && look_is_due() && asks_for_error()) look_at_error();
     stats.samples_before = samples();

@@ -78,6 +78,7 @@ struct RenderStats {
   double cpu_s = 0;
   int threads = 1;    ///< Of each process.
   int processes = 1;  ///< Of the crew, whose work these figures count.
+  int path_splitting = 1;  ///< Into how many a camera path goes on where it first scatters.
   std::uint64_t samples_per_pixel = 0;
   std::uint64_t samples_before = 0;  ///< Of an earlier run: the counts are of these too, the times are not.
   std::uint64_t paths = 0;

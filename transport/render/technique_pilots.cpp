@@ -79,11 +79,8 @@ struct Findings {
   }
 };
 
-// The pixel that a pilot looks at.
 std::pair<int, int> pixel_of(const Camera& camera, std::uint32_t pilot) {
-  const std::array<float, 4> u = Sampler(kSeedOfPilots, Purpose::pilot, 0, 1, pilot).group(0);
-  return {std::min(static_cast<int>(u[0] * static_cast<float>(camera.width)), camera.width - 1),
-          std::min(static_cast<int>(u[1] * static_cast<float>(camera.height)), camera.height - 1)};
+  return pixel_of_pilot(camera, 1, pilot);
 }
 
 Sampler path_sampler(std::uint32_t pilot, std::uint32_t path) {

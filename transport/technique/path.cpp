@@ -63,7 +63,7 @@ void PathTracer::trace_together(std::span<const PixelSample> samples) {
   }
   resolve_connections();
   walks_.run(*this);
-  for (const CameraPath& path : paths)
+  for (const CameraPath& path : std::span(paths).first(samples.size()))
     if (measures_polarisation_)
       expose(path, found_[path.path] * path.scale);
     else
@@ -304,7 +304,7 @@ bool PathTracer::follows(CameraPath& path, const BsdfSample& event) const {
 
 float PathTracer::kept(CameraPath& path, const SurfaceVertex& vertex, const BsdfSample& event) const {
   path.eta_scale *= vertex.squared_eta(event, path.packet.hero);
-  return kGoingOnOfCameraPaths * carried(path);
+  return path.going_on * carried(path);
 }
 
 void PathTracer::resolve_connections() {
@@ -326,7 +326,7 @@ void PathTracer::add(CameraPath& path, const LightHistory& of, const SampledSpec
     if constexpr (std::is_same_v<decltype(light), const StokesSpectrum&>)
       add_to(found_[path.path], path, of, light, cos_film);
     else
-      add_to(path.found, path, of, light, cos_film);
+      add_to(walks_.paths()[path.path].found, path, of, light, cos_film);
   });
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -27,6 +28,8 @@ struct CameraPath : Walk {
   SampledSpectrum scale;  ///< What radiance along its first ray exposes, times the exposure time.
   SampledSpectrum found;  ///< Light it has found so far, balanced over lanes and techniques.
   float eta_scale = 1;    ///< What refraction, guiding and the lens's parting of lanes have taken off it.
+  bool is_part = false;   ///< Of a path that has gone on in several.
+  float going_on = kGoingOnOfCameraPaths;  ///< What roulette goes by, over what it carries.
   bool owns_caustics = false;  ///< Whether what it finds of traced lights through specular matter is its own.
   CausticLobes caustics;       ///< Where to look for them from the vertex it has come to.
   LensRoute route = 0;         ///< By which it left the film.
@@ -83,8 +86,15 @@ class PathTracer {
     return true;
   }
   [[nodiscard]] float kept(CameraPath& path, const SurfaceVertex& vertex, const BsdfSample& event) const;
-  [[nodiscard]] float kept_within(const CameraPath& path) const {
-    return kGoingOnOfCameraPaths * carried(path);
+  [[nodiscard]] float kept_within(const CameraPath& path) const { return path.going_on * carried(path); }
+  // Once, at a surface.
+  [[nodiscard]] int split_bits(const CameraPath& path) const {
+    return path.is_part || path.events == kMeterEvent ? 0 : plan_.split_bits;
+  }
+  // Each carries 1/2^bits, and goes on as if that were its root.
+  void split(CameraPath& part, int bits) const {
+    part.is_part = true;
+    part.going_on *= std::sqrt(std::ldexp(1.0F, bits));
   }
   // What refraction into glass takes off radiance counts as still there.
   [[nodiscard]] float carried(const CameraPath& path) const { return path.packet.carried() * path.eta_scale; }
