@@ -109,7 +109,6 @@ abbe::RenderOptions how_to_render(const RenderOptions& options, const Scene& sce
   how.threads = options.threads;
   how.time_limit_s = options.time_limit_s;
   how.target_error = options.target_error;
-  how.adaptive = how.time_limit_s && !how.target_error;
   how.crop = options.crop;
   if (const std::optional<LayerChoice>& layers = options.layers) {
     how.layers = layers->bounces ? bounce_layers(*layers->bounces) : light_layers(scene, layers->lights);

@@ -55,7 +55,6 @@ FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_
     identity[kStatedSamplesKey] = fmt::format("{}", scene.render.samples);
   if (how.crop && *how.crop != Crop{0, 0, scene.camera.width, scene.camera.height})
     identity[kCropKey] = to_text(*how.crop);
-  if (how.adaptive) identity["camera_paths"] = "by noise";
   if (how.layers) identity[kLayersKey] = fmt::format("{}", fmt::join(how.layers->names, ","));
   if (!how.features.empty()) add_features(scene, how.features, identity);
   return identity;

@@ -26,7 +26,6 @@ namespace py = pybind11;
 
 RenderOptions how_to_render(const Request& request, int stated) {
   RenderOptions how = how_to_stop(request);
-  how.adaptive = how.time_limit_s && !how.target_error;
   how.measure_error = false;
   if (!request.samples) return how;
   const auto [first, last] = *request.samples;

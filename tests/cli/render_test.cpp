@@ -31,7 +31,7 @@ TEST(Render, WritesImagePictureAndStats) {
   EXPECT_EQ(read_picture(file("a.png")).width, 24);
 
   const nlohmann::json stats = nlohmann::json::parse(read_file(file("a.stats")));
-  EXPECT_EQ(stats.size(), 24U);
+  EXPECT_EQ(stats.size(), 25U);
   EXPECT_EQ(stats["threads"], 2);
   EXPECT_EQ(stats["samples_per_pixel"], 8);
   EXPECT_EQ(stats["samples_before"], 0);
@@ -49,6 +49,7 @@ TEST(Render, WritesImagePictureAndStats) {
   EXPECT_TRUE(stats["embree_replay_share"].is_null());
   EXPECT_EQ(stats["photons_per_sample"], 0);
   EXPECT_EQ(stats["path_interval"], 1);
+  EXPECT_EQ(stats["path_splitting"], 1);
   for (const char* part : {"load", "plan", "display", "write"}) {
     EXPECT_GT(stats["overhead"][part]["wall_s"], 0) << part;
     EXPECT_GT(stats["overhead"][part]["cpu_s"], 0) << part;

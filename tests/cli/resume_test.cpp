@@ -133,18 +133,6 @@ TEST(Merge, WhatTimeEndedIsComplete) {
   EXPECT_EQ(merged(timed, file("timed.exr")).code, 0);
 }
 
-// Those of one and those of the other do not add up to what either render would have given.
-TEST(Merge, SamplesSpreadByNoiseAreOfAnotherFilm) {
-  const std::string timed = part_of_ball("timed", "--time 0.01s");
-  EXPECT_EQ(read_part_file(timed).header.at("camera_paths"), "by noise");
-  const std::string either = part_of_ball("either", "--time 0.01s --error 50%");
-  EXPECT_FALSE(read_part_file(either).header.contains("camera_paths"));
-  const Outcome run =
-      merged(timed + " " + part_of_ball("rest", "--spp 100000 --sample-range 99998:99999"), file("no.exr"));
-  EXPECT_EQ(run.code, 4);
-  EXPECT_NE(run.err.find("camera_paths"), std::string::npos) << run.err;
-}
-
 TEST(Resume, WhatACheckpointHoldsIsTold) {
   const std::string saved = file("saved.abbepart");
   const auto told = [&saved](const std::string& samples, const std::string& unfinished) {

@@ -153,6 +153,20 @@ TEST(Depth, WhatIsCutIsOfTheOrderOfItsPathsWhereACausticIsLookedFor) {
   EXPECT_LT(cut.throughput(), 10 * static_cast<double>(cut.paths));
 }
 
+// Between walls that keep half a path has three rays for sure, the third with a quarter, and from there on
+// each next one by half a chance: four in all.
+TEST(Depth, CameraPathsGoOnForSureWhileTheyCarryAQuarter) {
+  const RenderResult result =
+      render(test::load("furnace.json", {{"/materials/wall/diffuse/reflectance", "0.5"},
+                                         {"/sensor/resolution", "[32, 32]"},
+                                         {"/render/samples", "32"},
+                                         {"/render/integrator", "path"},
+                                         {"/render/lights", "bsdf"},
+                                         {"/render/roulette_depth", "1"}}),
+             {});
+  EXPECT_NEAR(static_cast<double>(result.stats.rays) / static_cast<double>(result.stats.paths), 4, 0.05);
+}
+
 TEST(Depth, SurvivalIsTheThroughputAndNeverSureInLongPaths) {
   RenderSettings settings;
   EXPECT_FALSE(plays_roulette(settings, 3));

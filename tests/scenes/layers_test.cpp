@@ -93,12 +93,11 @@ TEST(Layers, AddUpToTheFilmWhichStaysAsItWas) {
   }
 }
 
-// A pixel that has camera paths in one of four samples counts them four times, shared among them.
+// A pixel that has camera paths in one of four samples counts them four times.
 TEST(Layers, AddUpWherePixelsSkipSamples) {
   const Scene scene = small(kTold[0]);
   Plan plan = make_plan(scene);
   plan.path_interval = 4;
-  plan.density = {0, 0, 16, 2, {1, 2, 4, 8}};
   const FilmShape shape = render(scene, {}).film.shape();
   RenderResult result{Film(shape), {}, {}};
   const Layers layers = bounce_layers(2);

@@ -242,13 +242,13 @@ TEST(BruteForce, PhotonsAndTheirAdjointsAgree) {
                                    {"/sensor/resolution", "[2, 2]"},
                                    {"/sensor/pixel_pitch_um", "700000"},
                                    {"/render/photons", R"({"per_sample": 100000})"}};
-  const Film path = film_of({"path", 8192, wide}, scene);
+  const Film path = film_of({"path", 65536, wide}, scene);
   expect_alike(path, film_of({"adjoint-brute", 1048576, wide}, scene), 0.01, 0.03);
   expect_alike(path, film_of({"photon-brute", test::by_night(64, 32), wide}, scene), 0.05, 0.15);
   if (!test::nightly()) return;
   std::vector<Override> bladed = wide;
   bladed.push_back({"/camera/thin_lens/blades", "4"});
-  expect_alike(film_of({"path", 8192, bladed}, scene), film_of({"photon-brute", 64, bladed}, scene), 0.05,
+  expect_alike(film_of({"path", 65536, bladed}, scene), film_of({"photon-brute", 64, bladed}, scene), 0.05,
                0.15);
 }
 

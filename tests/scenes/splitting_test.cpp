@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "tests/scenes/film_of_plan.h"
@@ -21,12 +22,14 @@ struct Case {
   std::uint64_t samples = 128;
 };
 
-// Of matt walls; of polished and rough metal behind a lens; of glass, fog and a Stokes sensor.
+// Of matt walls; behind lenses, one of which takes lanes to pixels of their own; of glass, fog and a Stokes
+// sensor.
 const std::vector<Case> kCases{
     {"cornell.json"},
     {"portrait.json"},
     {"glass_sphere.json", {{"/lights/0/sphere/radius", "1.2"}}, 512},
     {"materials/smoke.json"},
+    {"lens.json"},
     {"stokes.json", {}, 512},
 };
 
@@ -116,6 +119,23 @@ TEST(Splitting, LayersAddUp) {
       sum += result.layers->average(layer * 3 + channel).mean;
     EXPECT_NEAR(sum, result.film.average(channel).mean, 1e-5 * sum);
   }
+}
+
+TEST(Splitting, GoesOnAsItWouldHaveOnAnyNumberOfThreads) {
+  const Scene scene = test::load("cornell.json", {{"/sensor/resolution", "[96, 96]"}});
+  RenderOptions options;
+  options.samples = SampleRange{0, 12};
+  options.threads = 1;
+  const RenderResult whole = render(scene, options);
+  EXPECT_EQ(whole.stats.path_splitting, 4);
+  EXPECT_EQ(whole.stats.paths, 12U * 96 * 96);
+  options.threads = 3;
+  options.samples = SampleRange{0, 5};
+  RenderResult part = render(scene, options);
+  options.samples = SampleRange{0, 12};
+  const RenderResult end = render(scene, options, std::move(part));
+  EXPECT_EQ(end.film.bytes(), whole.film.bytes());
+  EXPECT_EQ(end.stats.rays, whole.stats.rays);
 }
 
 // Where pilots find it cheaper: in the box, whose noise is of light scattered twice and more, and not in a

@@ -13,7 +13,6 @@
 #include "transport/plan/emissions.h"
 #include "transport/plan/light_sampler.h"
 #include "transport/plan/power_light_sampler.h"
-#include "transport/plan/sampling_density.h"
 #include "transport/plan/techniques.h"
 
 namespace abbe {
@@ -57,7 +56,6 @@ struct Plan {
   bool photons_part = false;
   /// Each camera path goes on in 2^this where it first scatters, if light is to be found behind.
   int split_bits = 0;
-  SamplingDensity density = {};  ///< How many there are then, where path tracing has them.
 
   /// Where camera paths through a pixel draw theirs from.
   [[nodiscard]] const WavelengthDistribution& wavelengths_at(int x, int y) const {

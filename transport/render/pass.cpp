@@ -183,41 +183,37 @@ std::array<float, 4> Pass::numbers_of(std::uint64_t sample) const {
   return Sampler(seed_, Purpose::sample, 0, 0, index(sample), replicate(sample)).group(0);
 }
 
-// Those of a sample at a pixel; none where the pixel skips it. Which samples these are is chance, for each
-// pixel and replicate, so that the mean over any of them is right.
-Pass::PixelPaths Pass::paths_of(std::uint64_t sample, int x, int y) const {
+// The number of that of a sample at a pixel; none where the pixel skips it. Which samples these are is
+// chance, for each pixel and replicate, so that the mean over any of them is right.
+std::optional<std::uint32_t> Pass::path_of(std::uint64_t sample, int x, int y) const {
   // Those of progressive photon mapping are the same in all samples.
-  if (uses(plan_.techniques, Technique::ppm)) return {0, 1};
-  const std::uint32_t together = plan_.density.at(x, y);
-  if (path_interval_ == 1) return {index(sample) * together, together};
+  if (uses(plan_.techniques, Technique::ppm)) return 0;
+  if (path_interval_ == 1) return index(sample);
   const float u =
       Sampler(seed_, Purpose::camera, 0, number_of(x, y), 0, replicate(sample)).group(kPhaseGroup)[0];
   const std::uint32_t at = index(sample) + static_cast<std::uint32_t>(u * static_cast<float>(path_interval_));
-  if (at % path_interval_ != 0) return {};
-  return {at / path_interval_ * together, together};
+  return at % path_interval_ == 0 ? std::optional(at / path_interval_) : std::nullopt;
 }
 
-// Of the pixels of a tile within a crop, the paths that `paths_of` says of each.
-template <typename PathsOf>
-void Pass::take_pixels(const Tile& tile, const Crop& within, std::uint64_t sample, PathsOf paths_of,
+// Of the pixels of a tile within a crop, the path that `path_of` says of each, if any.
+template <typename PathOf>
+void Pass::take_pixels(const Tile& tile, const Crop& within, std::uint64_t sample, PathOf path_of,
                        Worker& worker) const {
   constexpr int kEdge = kTile;
   worker.pixels.clear();
   for (int y = std::max(tile.y0, within.y0); y < std::min(tile.y0 + kEdge, within.y1); ++y)
-    for (int x = std::max(tile.x0, within.x0); x < std::min(tile.x0 + kEdge, within.x1); ++x) {
-      const PixelPaths paths = paths_of(x, y);
-      for (std::uint32_t i = 0; i < paths.count; ++i)
+    for (int x = std::max(tile.x0, within.x0); x < std::min(tile.x0 + kEdge, within.x1); ++x)
+      if (const std::optional<std::uint32_t> path = path_of(x, y))
         worker.pixels.push_back(
-            {x, y, Sampler(seed_, Purpose::camera, 0, number_of(x, y), paths.first + i, replicate(sample)),
-             static_cast<double>(path_interval_) / paths.count});
-    }
+            {x, y, Sampler(seed_, Purpose::camera, 0, number_of(x, y), *path, replicate(sample)),
+             static_cast<double>(path_interval_)});
 }
 
 // One sample of each pixel of a tile: of all, where some of its lanes may fall on others that are asked for.
 void Pass::take_pixels(const Tile& tile, std::uint64_t sample, Worker& worker) const {
   const Crop within = displaces_lanes_ ? Crop{0, 0, film_.width(), film_.height()} : crop_;
   take_pixels(
-      tile, within, sample, [&](int x, int y) { return this->paths_of(sample, x, y); }, worker);
+      tile, within, sample, [&](int x, int y) { return this->path_of(sample, x, y); }, worker);
   worker.counts.paths += worker.pixels.size();
 }
 
@@ -305,11 +301,7 @@ ContributionDeposit Pass::splats_apart(std::uint64_t sample, Worker& worker) {
 void Pass::look(const Tile& tile, std::uint64_t sample, Worker& worker) {
   if (beside_.features == nullptr) return;
   take_pixels(
-      tile, crop_, sample,
-      [&](int, int) {
-        return PixelPaths{index(sample), 1};
-      },
-      worker);
+      tile, crop_, sample, [&](int, int) { return std::optional(index(sample)); }, worker);
   worker.feature_tracer->trace(worker.pixels, sample == 0,
                                [this](const PixelSample& at, std::span<const double> values) {
                                  beside_.features->add(number_of(at.x, at.y), values);

@@ -105,11 +105,6 @@ class Pass {
     std::uint32_t items;
     void (Pass::*work)(std::uint32_t item, Worker& worker);
   };
-  // Camera paths of a pixel, by their numbers in the replicate's sequence there.
-  struct PixelPaths {
-    std::uint32_t first = 0;
-    std::uint32_t count = 0;
-  };
   // Where a tile begins.
   struct Tile {
     int x0, y0;
@@ -131,8 +126,8 @@ class Pass {
   void trace_batch_brutely(std::uint32_t batch, Worker& worker);
 
   [[nodiscard]] Tile tile(std::uint32_t number) const;
-  template <typename PathsOf>
-  void take_pixels(const Tile& tile, const Crop& within, std::uint64_t sample, PathsOf paths_of,
+  template <typename PathOf>
+  void take_pixels(const Tile& tile, const Crop& within, std::uint64_t sample, PathOf path_of,
                    Worker& worker) const;
   void take_pixels(const Tile& tile, std::uint64_t sample, Worker& worker) const;
   void take_pairs(const Tile& tile, std::uint64_t sample, Worker& worker) const;
@@ -161,7 +156,7 @@ class Pass {
   [[nodiscard]] bool keeps(std::span<const double> values, Worker& worker) const;
   [[nodiscard]] Replicate replicate(std::uint64_t sample) const;
   [[nodiscard]] std::uint32_t index(std::uint64_t sample) const;
-  [[nodiscard]] PixelPaths paths_of(std::uint64_t sample, int x, int y) const;
+  [[nodiscard]] std::optional<std::uint32_t> path_of(std::uint64_t sample, int x, int y) const;
 
   const Plan& plan_;
   const Scene& scene_;

@@ -13,7 +13,6 @@
 
 #include "io/error.h"
 #include "sensor/response/stokes_channels.h"
-#include "transport/render/learn_density.h"
 #include "transport/render/learn_splitting.h"
 #include "transport/render/learnt_plan.h"
 #include "transport/render/part_films.h"
@@ -46,19 +45,12 @@ Plan balanced_plan(const Scene& scene, const RenderOptions& options, int threads
   Plan plan = make_learnt_plan(scene, threads, options.guides);
   learn_splitting(plan, threads);
   set_technique_shares(plan, threads);
-  if (options.adaptive) learn_density(plan, options.crop, threads);
   return plan;
 }
 
 // Of a sample in which all pixels have theirs.
-std::uint64_t camera_paths(const Plan& plan) {
-  const Camera& camera = plan.scene.camera;
-  if (plan.density.paths.empty())
-    return static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height);
-  std::uint64_t paths = 0;
-  for (int y = 0; y < camera.height; ++y)
-    for (int x = 0; x < camera.width; ++x) paths += plan.density.at(x, y);
-  return paths;
+std::uint64_t camera_paths(const Camera& camera) {
+  return static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height);
 }
 
 class Rendering {
@@ -70,7 +62,7 @@ class Rendering {
         plan_(balanced_plan(scene, options, threads_)),
         wanted_(options.samples.value_or(SampleRange{
             0, open_ended(options) ? kMaxSamples : static_cast<std::uint64_t>(scene.render.samples)})),
-        step_(std::max<std::uint64_t>(1, kPassPaths / std::max(camera_paths(plan_), plan_.photons))),
+        step_(std::max<std::uint64_t>(1, kPassPaths / std::max(camera_paths(scene.camera), plan_.photons))),
         result_{Film(scene.camera.width, scene.camera.height, static_cast<int>(scene.film_planes().size()),
                      replicate_count(scene, options), plan_.nominal_value, paths_to_any_pixel(plan_),
                      plan_.path_interval, options.crop),

@@ -48,9 +48,6 @@ struct RenderOptions {
   std::optional<double> target_error = {};
   int target_planes = 0;
   std::optional<Crop> crop = {};
-  /// Whether camera paths go where a pilot finds that they take most off the relMSE; the samples of the film
-  /// are then others than those of the scene.
-  bool adaptive = false;
   bool measure_error = false;  ///< Also find `error` where neither a target nor progress asks for it.
   bool measure_replay =
       false;  ///< Also find `embree_replay_share`, at the cost of rendering a few paths again.
@@ -76,8 +73,8 @@ struct RenderOptions {
 struct RenderStats {
   double wall_s = 0;
   double cpu_s = 0;
-  int threads = 1;    ///< Of each process.
-  int processes = 1;  ///< Of the crew, whose work these figures count.
+  int threads = 1;         ///< Of each process.
+  int processes = 1;       ///< Of the crew, whose work these figures count.
   int path_splitting = 1;  ///< Into how many a camera path goes on where it first scatters.
   std::uint64_t samples_per_pixel = 0;
   std::uint64_t samples_before = 0;  ///< Of an earlier run: the counts are of these too, the times are not.
