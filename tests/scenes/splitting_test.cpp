@@ -22,14 +22,12 @@ struct Case {
   std::uint64_t samples = 128;
 };
 
-// Of matt walls; behind lenses, one of which takes lanes to pixels of their own; of glass, fog and a Stokes
-// sensor.
+// Of matt walls; behind a lens that takes lanes to pixels of their own; of glass, fog and a Stokes sensor.
 const std::vector<Case> kCases{
     {"cornell.json"},
     {"portrait.json"},
     {"glass_sphere.json", {{"/lights/0/sphere/radius", "1.2"}}, 512},
     {"materials/smoke.json"},
-    {"lens.json"},
     {"stokes.json", {}, 512},
 };
 
