@@ -45,11 +45,12 @@ inline constexpr float kEndingOfJoinedPaths = 2;
   return std::min(most, std::max(0.1F, throughput));
 }
 
-/// How much more likely than `survival` by what it carries a camera path goes on that is connected to lights
-/// as it goes: for sure, while it carries a quarter. Light of n events that paths carry a share T_n of has
-/// T_n^2/N_n of the variance where N_n of a path have as many events, at a cost of N_n, so that N_n in
-/// proportion to T_n is best. That holds for any factor; the more, the less of their variance is that of
-/// long paths, and the more of their cost. From 2.5 to 6 error costs the least in scenes of many kinds.
+/// By how many times what it carries a camera path plays roulette that is connected to lights as it goes: it
+/// goes on for sure while it carries a quarter. Where a share N_n of the paths has n events and these carry
+/// T_n, their light has a variance in proportion to T_n^2/N_n and costs N_n, so that N_n is best in
+/// proportion to T_n: that is roulette by what is carried, whatever the factor. The larger it is, the less of
+/// all noise is that of long paths, and the more of all time; between 2.5 and 6 error costs least in scenes
+/// of many kinds.
 inline constexpr float kGoingOnOfCameraPaths = 4;
 
 /// The share of the paths which roulette lets have so many events, where nothing but it ends them and a is

@@ -11,8 +11,8 @@ namespace abbe {
 /// the first surface, several directions from there cost less than as many paths. Pilots trace each way 32
 /// paths through each of 512 pixels, in four replicates, by random numbers of no render, and compare their
 /// relMSE, without the worst pixels, times the rays that they cast. More must be better by a twentieth.
-/// Depends on nothing but the plan; films of fewer than 8192 pixels, which cost less than ten times their
-/// pilots, and plans without path tracing, keep 1.
+/// Depends on nothing but the plan; films of fewer than 8192 pixels, where pilots would take
+/// as long as ten samples, and plans without path tracing keep 1.
 void learn_splitting(Plan& plan, int threads);
 
 }  // namespace abbe

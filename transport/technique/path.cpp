@@ -40,7 +40,8 @@ PathTracer::PathTracer(const Plan& plan, RayCaster& caster)
 //     sum_n w_n [T_n / P_n] L_e(x_n -> x_{n-1}) + sum_n w'_n [T_n / P_n] f cos L_e / p_light,
 // T_n being the throughput up to x_n and P_n its density: light met by scattering, and light connected to,
 // each weighed by `LightWeights` over both ways and all lanes. The sums over n are kept in `found`, one value
-// per lane, and exposed at the end of a path at once.
+// per lane, and exposed at the end of a path at once. Where a path goes on in s parts, by s independent
+// directions from one vertex, each has 1/s of the throughput, and what they find is found by the path.
 void PathTracer::trace(std::span<const PixelSample> samples, const Deposit& deposit) {
   deposit_ = &deposit;
   for (first_ = 0; first_ < samples.size(); first_ += kPathsTogether)

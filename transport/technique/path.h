@@ -47,7 +47,8 @@ struct PixelSample {
 /// specular, balanced over lanes and over both ways to come to the light, and Russian roulette; directions
 /// and weights are others where the scene's PathSampling asks. Some of the directions are drawn from the
 /// plan's guide where it knows of caustics that no other technique owns, and the density is that of both ways
-/// to draw one. Serves one thread.
+/// to draw one. Where the plan says so, a path goes on in several from the first surface that scatters it
+/// [Arvo1990]. Serves one thread.
 ///
 /// Owned: every path that ends on an area, environment or sun light or by a connection. Of a traced light
 /// whose vertex next to it is specular, a camera's only if the vertex next to it is specular too, and a
