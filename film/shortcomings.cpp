@@ -104,10 +104,10 @@ std::vector<std::string> left_out(const Scene& scene, const RenderResult& result
                                stats.nonfinite_samples));
   if (stats.cut.paths > 0 && !scene.render.max_depth)
     told.push_back(
-        fmt::format("{} of {} paths were cut after {} events, with {:.3g} % of what all set out with: their "
+        fmt::format("{} paths were cut after {} events, with {:.3g} % of what all {} set out with: their "
                     "light is missing",
-                    stats.cut.paths, stats.paths, kMostEvents,
-                    100 * stats.cut.throughput() / static_cast<double>(stats.paths)));
+                    stats.cut.paths, kMostEvents,
+                    100 * stats.cut.throughput() / static_cast<double>(stats.paths), stats.paths));
   if (found_nothing(scene, result))
     told.push_back(
         fmt::format("no light was found by {} samples per pixel, although lights emit what the sensor sees: "

@@ -27,7 +27,7 @@ struct Replicate {
 /// it has, rather than less.
 class Sampler {
  public:
-  /// Indices below 2^kIndexBits have points of their own in any replicate.
+  /// Indices below 2^kIndexBits have points of their own in any replicate, those of parts counted.
   static constexpr int kIndexBits = 29;
 
   Sampler(std::uint64_t seed, Purpose purpose, std::uint32_t sequence, std::uint32_t stream,

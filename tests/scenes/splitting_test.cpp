@@ -120,13 +120,13 @@ TEST(Splitting, LayersAddUp) {
 }
 
 TEST(Splitting, GoesOnAsItWouldHaveOnAnyNumberOfThreads) {
-  const Scene scene = test::load("cornell.json", {{"/sensor/resolution", "[96, 96]"}});
+  const Scene scene = test::load("cornell.json", {{"/sensor/resolution", "[112, 112]"}});
   RenderOptions options;
   options.samples = SampleRange{0, 12};
   options.threads = 1;
   const RenderResult whole = render(scene, options);
   EXPECT_EQ(whole.stats.path_splitting, 4);
-  EXPECT_EQ(whole.stats.paths, 12U * 96 * 96);
+  EXPECT_EQ(whole.stats.paths, 12U * 112 * 112);
   options.threads = 3;
   options.samples = SampleRange{0, 5};
   RenderResult part = render(scene, options);
@@ -137,10 +137,11 @@ TEST(Splitting, GoesOnAsItWouldHaveOnAnyNumberOfThreads) {
 }
 
 // Where pilots find it cheaper: in the box, whose noise is of light scattered twice and more, and not in a
-// furnace, whose paths all find the same; nor for films that cost less than their pilots.
+// furnace, whose paths all find the same; nor for films that cost less than their pilots, nor where `path` is
+// asked for.
 TEST(Splitting, IsWhereLightFoundLaterIsTheNoise) {
-  const auto learnt = [](const char* file, const char* resolution, int threads) {
-    const Scene scene = test::load(file, {{"/sensor/resolution", resolution}});
+  const auto learnt = [](const char* file, const char* resolution, int threads, const char* by = "auto") {
+    const Scene scene = test::load(file, {{"/sensor/resolution", resolution}, {"/render/integrator", by}});
     Plan plan = make_learnt_plan(scene, 2);
     learn_splitting(plan, threads);
     return plan.split_bits;
@@ -148,7 +149,10 @@ TEST(Splitting, IsWhereLightFoundLaterIsTheNoise) {
   EXPECT_EQ(learnt("cornell.json", "[128, 128]", 1), 2);
   EXPECT_EQ(learnt("cornell.json", "[128, 128]", 3), 2);
   EXPECT_EQ(learnt("furnace.json", "[128, 128]", 2), 0);
+  EXPECT_EQ(learnt("cornell.json", "[96, 96]", 2), 1) << "four take more rays than pilots may cast";
   EXPECT_EQ(learnt("cornell.json", "[64, 64]", 2), 0);
+  EXPECT_EQ(learnt("cornell.json", "[85, 96]", 2), 0);
+  EXPECT_EQ(learnt("cornell.json", "[128, 128]", 2, "path"), 0);
 }
 
 }  // namespace

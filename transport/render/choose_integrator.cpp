@@ -12,6 +12,7 @@
 
 #include "transport/plan/plan.h"
 #include "transport/render/learnt_plan.h"
+#include "transport/render/pilot.h"
 #include "transport/render/technique_pilots.h"
 
 namespace abbe {
@@ -24,12 +25,9 @@ constexpr double kCostOfJoinedRay = 2;
 // By how much the pilots must prefer another way.
 constexpr double kLeastRatio = 1.5;
 
-// Pixels that pilots look at, and the rays that they may cast for each pixel of the film: about what path
-// tracing does in ten samples, so that a film's pilots cost little of it. The samples themselves do not
-// count, as parts of one film may state different ones.
+// Pixels that pilots look at.
 constexpr std::uint32_t kFewPixels = 512;
 constexpr std::uint32_t kManyPixels = 4096;
-constexpr double kRaysPerPixel = 64;
 
 // Films of meters have few pixels, whose mean takes many samples.
 constexpr double kRaysOfMeter = 1 << 21;
@@ -96,8 +94,7 @@ std::optional<double> cost_ratio(const Plan& apart, const Scene& other, const Ot
 OtherWay other_way(const Plan& plan) {
   if (is_meter(plan.scene.camera) && uses(plan.techniques, Technique::light))
     return {Integrator::light, cost_of_photons, kRaysOfMeter};
-  return {Integrator::bdpt, cost_of_joining,
-          kRaysPerPixel * plan.scene.camera.width * plan.scene.camera.height};
+  return {Integrator::bdpt, cost_of_joining, rays_of_pilots(plan.scene.camera)};
 }
 
 Scene with_integrator(Scene scene, Integrator integrator) {

@@ -24,8 +24,11 @@ constexpr std::uint32_t kTriedPaths = kTriedReplicates * kTriedTogether;
 constexpr int kMostSplitBits = 2;
 constexpr double kLeastGainOfMore = 1.05;
 
-// Of fewer pixels pilots cost as much as ten samples or more.
-constexpr int kLeastFilm = 1 << 13;
+// Of fewer pixels films cost too little to be tried.
+constexpr double kLeastFilm = 1 << 13;
+
+// Few pixels tell first what rays cost.
+constexpr std::uint32_t kFirstPixels = 8;
 
 /// What pilots find by one way to go on.
 struct Trial {
@@ -45,14 +48,14 @@ std::vector<PixelSample> paths_of(const Camera& camera, std::uint32_t pilot) {
   return paths;
 }
 
-Trial trace_pilots(const Plan& plan, int threads) {
+Trial trace_pilots(const Plan& plan, int threads, std::uint32_t pixels = kTriedPixels) {
   Trial trial;
   std::atomic<std::uint64_t> rays = 0;
   std::atomic<std::uint32_t> next = 0;
   run_on_threads(threads, [&] {
     RayCaster caster(plan.scene);
     PathTracer tracer(plan, caster);
-    for (std::uint32_t pilot = next++; pilot < kTriedPixels; pilot = next++) {
+    for (std::uint32_t pilot = next++; pilot < pixels; pilot = next++) {
       std::array<double, kTriedPaths> values{};
       tracer.trace(paths_of(plan.scene.camera, pilot),
                    [&values](std::uint32_t path, const FilmPoint&, std::span<const double> more) {
@@ -84,16 +87,27 @@ double cost(const Trial& trial, const Trial& means) {
 
 void learn_splitting(Plan& plan, int threads) {
   const Camera& camera = plan.scene.camera;
-  if (!uses(plan.techniques, Technique::path) || camera.width < kLeastFilm / camera.height) return;
+  if (plan.scene.render.integrator != Integrator::automatic || !uses(plan.techniques, Technique::path) ||
+      1.0 * camera.width * camera.height < kLeastFilm)
+    return;
+  double left = rays_of_pilots(camera);
+  // With 2^bits parts at most twice the rays of half as many.
+  double next = trace_pilots(plan, threads, kFirstPixels).rays * kTriedPixels / kFirstPixels;
+  if (3 * next > left) return;
   const Trial whole = trace_pilots(plan, threads);
   double least = cost(whole, whole);
-  for (int bits = 1; bits <= kMostSplitBits; ++bits) {
+  left -= whole.rays;
+  next = 2 * whole.rays;
+  for (int bits = 1; bits <= kMostSplitBits && next <= left; ++bits) {
     Plan split = plan;
     split.split_bits = bits;
-    const double now = cost(trace_pilots(split, threads), whole);
+    const Trial trial = trace_pilots(split, threads);
+    const double now = cost(trial, whole);
     if (!(now * kLeastGainOfMore < least)) return;
     least = now;
     plan.split_bits = bits;
+    left -= trial.rays;
+    next = 2 * trial.rays;
   }
 }
 

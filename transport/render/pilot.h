@@ -26,6 +26,13 @@ inline constexpr std::uint64_t kSeedOfPilots = std::uint64_t{1} << 63;
   return std::isfinite(sum) ? sum : 0;
 }
 
+/// The rays that pilots may cast to choose how a film is rendered: 64 for each of its pixels, about what path
+/// tracing does in ten samples, so that they cost little of it. The samples themselves do not count, as parts
+/// of one film may state different ones.
+[[nodiscard]] inline double rays_of_pilots(const Camera& camera) {
+  return 64.0 * camera.width * camera.height;
+}
+
 /// A pixel of the film that a pilot looks at: one of a sequence spread over all of it.
 [[nodiscard]] std::pair<int, int> pixel_of_pilot(const Camera& camera, std::uint32_t stream,
                                                  std::uint32_t pilot);
