@@ -29,10 +29,10 @@ def hartmann(columns, nm):
 
 EYE = '{"resolution": [1024, 64], "pixel_pitch_um": 28, "observer": "1931"}'  # what one would see in place of the array
 run(f"abbe render data/scenes/spectrograph.json --spp 64 -o eye.exr --display spectrum.png --quiet --set '/sensor={EYE}'")
-run("abbe render data/scenes/spectrograph.json --spp 256 -o mercury.exr --quiet")
+run("abbe render data/scenes/spectrograph.json --spp 4096 -o mercury.exr --quiet")
 pathlib.Path("cadmium.json").write_text(json.dumps({"radiance": 50, "lines": [{"nm": nm, "width_nm": 0.01, "power": 1} for nm in CADMIUM_NM]}))
 lamp = pathlib.Path("cadmium.json").read_text()
-run(f"abbe render data/scenes/spectrograph.json --spp 256 -o cadmium.exr --quiet --set '/lights/0/emission={lamp}'")
+run(f"abbe render data/scenes/spectrograph.json --spp 4096 -o cadmium.exr --quiet --set '/lights/0/emission={lamp}'")
 
 wavelength = hartmann(line_columns("mercury.exr"), MERCURY_NM)
 found = wavelength(line_columns("cadmium.exr"))

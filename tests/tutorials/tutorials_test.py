@@ -120,7 +120,8 @@ class ChooseFilters(Tutorial):
         light = spectra.lamp("D65")
         for one in choice["tried"] + choice["widths"]:
             bands = [tuple(map(float, band.split("-"))) for band in reversed(one["bands"].split(","))]  # R, G, B
-            curves = np.array([(spectra.NM >= low) & (spectra.NM < high) for low, high in bands])
+            # A sample at an edge stands for a half, which makes the sum the integral over the band.
+            curves = np.array([((spectra.NM >= low) / 2 + (spectra.NM > low) / 2) * ((spectra.NM <= high) / 2 + (spectra.NM < high) / 2) for low, high in bands])
             values = reflectances @ (curves * light).T / (curves @ light)
             seen = values @ np.array(one["columns"])
             errors = colour.delta_e_2000(colour.lab(xyz, white), colour.lab(seen, white))
