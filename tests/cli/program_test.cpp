@@ -7,7 +7,6 @@
 #include <gtest/gtest.h>
 
 #include "calibration/chart/measured_patches.h"
-#include "io/data_directory.h"
 #include "io/exr.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
@@ -351,15 +350,6 @@ TEST(Info, TellsTheSharesOfTechniquesThatARenderHas) {
     EXPECT_GT(shares[technique]["rays"], 1) << technique;
   }
   EXPECT_NE(abbe("info " + path).out.find("shares       "), std::string::npos);
-}
-
-TEST(Info, TellsIntoHowManyCameraPathsGoOn) {
-  const std::string box = (data_directory() / "scenes" / "cornell.json").string();
-  EXPECT_EQ(abbe("info " + box + " --json").json()["path_splitting"], 4);
-  EXPECT_NE(abbe("info " + box).out.find("splitting    camera paths go on in 4 "), std::string::npos);
-  const Outcome rendered = abbe("render " + box + " --spp 1 --quiet --display " + file("box.png") + " -o " +
-                                file("box.exr") + " --stats -");
-  EXPECT_EQ(rendered.json()["path_splitting"], 4);
 }
 
 TEST(Info, TellsTheMosaicAndHoldsOnePlaneForIt) {

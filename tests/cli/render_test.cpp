@@ -244,5 +244,14 @@ TEST(Render, SignalsLeaveAValidImageWithItsTrueSampleCount) {
   }
 }
 
+TEST(Render, InfoTellsIntoHowManyCameraPathsGoOn) {
+  const std::string box = (data_directory() / "scenes" / "cornell.json").string();
+  EXPECT_EQ(abbe("info " + box + " --json").json()["path_splitting"], 4);
+  EXPECT_NE(abbe("info " + box).out.find("splitting    camera paths go on in 4 "), std::string::npos);
+  const Outcome rendered = abbe("render " + box + " --spp 1 --quiet --display " + file("box.png") + " -o " +
+                                file("box.exr") + " --stats -");
+  EXPECT_EQ(rendered.json()["path_splitting"], 4);
+}
+
 }  // namespace
 }  // namespace abbe::test

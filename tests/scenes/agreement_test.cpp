@@ -274,7 +274,7 @@ INSTANTIATE_TEST_SUITE_P(
                     Agreement{"Ground", kGround, "light", 1024, 4096, 0.01},
                     Agreement{"Prism", kPrism, "auto", 4096, 1024, 0.02},
                     Agreement{"ManyLamps", kManyLamps.c_str(), "light", 1024, 4096, 0.02},
-                    Agreement{"Fog", kFog.c_str(), "light", 512, 1024, 0.02},
+                    Agreement{"Fog", kFog.c_str(), "light", 512, 65536, 0.02},
                     Agreement{"FogAroundGlass", kFogAroundGlass.c_str(), "auto", 2048, 512, 0.02}),
     name_of);
 

@@ -39,7 +39,7 @@ TEST(Techniques, TheirSharesChangeNoiseOnly) {
                            {{"/sensor/resolution", "[48, 48]"}, {"/lights/0/sphere/radius", "0.8"}});
   scene.needs.light_tracing = true;
   scene.needs.light_is_traced[0] = true;
-  const std::uint64_t samples = 8 * (test::nightly() ? 60 : 30);
+  const std::uint64_t samples = 8 * (test::nightly() ? 240 : 30);
   const auto film_with = [&scene, samples](std::uint64_t photons, std::uint32_t path_interval) {
     Plan plan = make_plan(scene);
     plan.photons = photons;
@@ -70,7 +70,7 @@ TEST(Techniques, RouletteChangesNoiseOnly) {
 
 TEST(Techniques, LightTracingAloneMakesADiffuseSceneToo) {
   const std::vector<Override> small{{"/sensor/resolution", "[48, 48]"},
-                                    {"/render/samples", test::nightly() ? "512" : "192"}};
+                                    {"/render/samples", test::nightly() ? "4096" : "192"}};
   std::vector<Override> light = small;
   light.push_back({"/render/integrator", "light"});
   const RenderResult a = render(test::load("cornell.json", small), {});
