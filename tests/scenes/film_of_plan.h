@@ -2,10 +2,13 @@
 
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "scene/scene.h"
 #include "transport/plan/plan.h"
+#include "transport/render/layers.h"
 #include "transport/render/pass.h"
+#include "transport/render/render.h"
 #include "transport/render/sample_ranges.h"
 
 namespace abbe::test {
@@ -20,6 +23,20 @@ inline Film film_of(const Scene& scene, const Plan& plan, std::uint64_t samples,
   Pass(plan, film, {}, {0, samples}, 0, seed.value_or(samples)).run(2, [] { return false; });
   film.set_samples(count_per_replicate({{0, samples}}, kReplicates));
   return film;
+}
+
+/// The same with those layers beside it, of that many samples.
+inline RenderResult layered_film_of(const Plan& plan, const Layers& layers, std::uint64_t samples) {
+  const FilmShape shape = film_of(plan.scene, plan, 0).shape();
+  RenderResult result{Film(shape), {}, {}};
+  result.layers.emplace(layered(shape, layers.names.size()));
+  Pass(plan, result.film, {}, {0, samples}, 0, 0, {nullptr, &layers, &*result.layers}).run(2, [] {
+    return false;
+  });
+  const std::vector<std::uint64_t> counts = count_per_replicate({{0, samples}}, shape.replicates);
+  result.film.set_samples(counts);
+  result.layers->set_samples(counts);
+  return result;
 }
 
 }  // namespace abbe::test

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "tests/scenes/film_of_plan.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
 #include "transport/render/part.h"
@@ -98,16 +99,7 @@ TEST(Layers, AddUpWherePixelsSkipSamples) {
   const Scene scene = small(kTold[0]);
   Plan plan = make_plan(scene);
   plan.path_interval = 4;
-  const FilmShape shape = render(scene, {}).film.shape();
-  RenderResult result{Film(shape), {}, {}};
-  const Layers layers = bounce_layers(2);
-  result.layers.emplace(layered(shape, layers.names.size()));
-  Pass(plan, result.film, {}, {0, 16}, 0, 0, {nullptr, &layers, &*result.layers}).run(2, [] {
-    return false;
-  });
-  const std::vector<std::uint64_t> samples = count_per_replicate({{0, 16}}, shape.replicates);
-  result.film.set_samples(samples);
-  result.layers->set_samples(samples);
+  const RenderResult result = test::layered_film_of(plan, bounce_layers(2), 16);
   EXPECT_LT(missing(result), 1e-5);
 }
 

@@ -101,16 +101,8 @@ TEST(Splitting, HasTheSameBitsHoweverSamplesAndThreadsArePartedAndCroppedOut) {
 TEST(Splitting, LayersAddUp) {
   const Scene scene = small(kCases[0]);
   const Plan plan = split_plan(scene, 2);
-  const FilmShape shape = render(scene, {}).film.shape();
-  RenderResult result{Film(shape), {}, {}};
   const Layers layers = bounce_layers(2);
-  result.layers.emplace(layered(shape, layers.names.size()));
-  Pass(plan, result.film, {}, {0, 16}, 0, 0, {nullptr, &layers, &*result.layers}).run(2, [] {
-    return false;
-  });
-  const std::vector<std::uint64_t> samples = count_per_replicate({{0, 16}}, shape.replicates);
-  result.film.set_samples(samples);
-  result.layers->set_samples(samples);
+  const RenderResult result = test::layered_film_of(plan, layers, 16);
   for (int channel = 0; channel < 3; ++channel) {
     double sum = 0;
     for (int layer = 0; layer < static_cast<int>(layers.names.size()); ++layer)
