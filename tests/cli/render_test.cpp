@@ -246,11 +246,11 @@ TEST(Render, SignalsLeaveAValidImageWithItsTrueSampleCount) {
 
 TEST(Render, InfoTellsIntoHowManyCameraPathsGoOn) {
   const std::string box = (data_directory() / "scenes" / "cornell.json").string();
-  EXPECT_EQ(abbe("info " + box + " --json").json()["path_splitting"], 4);
-  EXPECT_NE(abbe("info " + box).out.find("splitting    camera paths go on in 4 "), std::string::npos);
+  EXPECT_EQ(abbe("info " + box + " --json").json()["path_splitting"], 8);
+  EXPECT_NE(abbe("info " + box).out.find("splitting    camera paths go on in 8 "), std::string::npos);
   const Outcome rendered = abbe("render " + box + " --spp 1 --quiet --display " + file("box.png") + " -o " +
                                 file("box.exr") + " --stats -");
-  EXPECT_EQ(rendered.json()["path_splitting"], 4);
+  EXPECT_EQ(rendered.json()["path_splitting"], 8);
 }
 
 }  // namespace

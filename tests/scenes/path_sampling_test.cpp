@@ -258,6 +258,33 @@ TEST(PathSampling, TheGuideMixesWithAnyDirections) {
 }
 
 // Films of other settings are other films, which do not merge.
+// Within a matt ball, light scattered three times is a smooth function of two directions. Roulette that
+// begins at once ends no path here, but takes a number from each event, so that the directions no longer have
+// one group.
+TEST(PathSampling, DirectionsOfTwoMattEventsAreOnePointOfASequence) {
+  const auto scatter = [](const char* roulette_depth) {
+    const Scene scene = test::load_text(
+        R"({"abbe": 1,
+        "camera": {"pinhole": {"focal_length": 20}, "from": [0, -0.5, 0], "to": [0, 1, 0.2], "up": [0, 0, 1]},
+        "sensor": {"resolution": [24, 24], "pixel_pitch_um": 1000, "observer": "1931"},
+        "materials": {"white": {"diffuse": {"reflectance": 0.9}}},
+        "lights": [{"point": {"at": [0.2, 0.1, 0.3]}, "emission": {"spectrum": 1, "intensity": 1}}],
+        "shapes": [{"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "white"}],
+        "render": {"integrator": "path", "max_depth": 3}})",
+        {{"/render/roulette_depth", roulette_depth}});
+    const Plan plan = make_plan(scene);
+    const Film one = test::film_of(scene, plan, 64, 1);
+    const Film other = test::film_of(scene, plan, 64, 2);
+    double sum = 0;
+    for (std::size_t pixel = 0; pixel < 24 * 24; ++pixel)
+      sum += std::pow(one.mean(pixel, 1) - other.mean(pixel, 1), 2);
+    return sum;
+  };
+  const double joined = scatter("4");
+  const double apart = scatter("1");
+  EXPECT_LT(joined, 0.6 * apart) << joined << " " << apart;
+}
+
 TEST(PathSampling, IsPartOfAFilmsIdentity) {
   const auto identity = [](const Sampling& sampling) {
     return identity_of(test::load("furnace.json", with(sampling, 1)), "furnace.json", {});

@@ -50,7 +50,7 @@ TEST(Splitting, ChangesNoiseOnly) {
     SCOPED_TRACE(of.scene);
     const Scene scene = small(of);
     const Film whole = test::film_of(scene, split_plan(scene, 0), 4 * samples, 1);
-    for (const int bits : {1, 2}) {
+    for (const int bits : {1, 2, 3}) {
       const Film split =
           test::film_of(scene, split_plan(scene, bits), samples, 2 + static_cast<std::uint64_t>(bits));
       const test::Comparison c = test::compare_regions(whole, split, 4);
@@ -72,6 +72,7 @@ TEST(Splitting, LeavesLessVarianceForAsManyPaths) {
   const double whole = variance_of(0);
   EXPECT_LT(variance_of(1), 0.7 * whole);
   EXPECT_LT(variance_of(2), 0.45 * whole);
+  EXPECT_LT(variance_of(3), 0.25 * whole);
 }
 
 TEST(Splitting, HasTheSameBitsHoweverSamplesAndThreadsArePartedAndCroppedOut) {
@@ -138,10 +139,11 @@ TEST(Splitting, IsWhereLightFoundLaterIsTheNoise) {
     learn_splitting(plan, threads);
     return plan.split_bits;
   };
-  EXPECT_EQ(learnt("cornell.json", "[128, 128]", 1), 2);
-  EXPECT_EQ(learnt("cornell.json", "[128, 128]", 3), 2);
+  EXPECT_EQ(learnt("cornell.json", "[160, 160]", 1), 3);
+  EXPECT_EQ(learnt("cornell.json", "[160, 160]", 3), 3);
   EXPECT_EQ(learnt("furnace.json", "[128, 128]", 2), 0);
-  EXPECT_EQ(learnt("cornell.json", "[96, 96]", 2), 1) << "four take more rays than pilots may cast";
+  EXPECT_EQ(learnt("cornell.json", "[128, 128]", 2), 2) << "eight take more rays than pilots may cast";
+  EXPECT_EQ(learnt("cornell.json", "[96, 96]", 2), 1) << "so do four";
   EXPECT_EQ(learnt("cornell.json", "[64, 64]", 2), 0);
   EXPECT_EQ(learnt("cornell.json", "[85, 96]", 2), 0);
   EXPECT_EQ(learnt("cornell.json", "[128, 128]", 2, "path"), 0);

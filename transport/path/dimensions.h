@@ -20,7 +20,9 @@ inline constexpr std::uint32_t kGhostGroup = 2;
 /// Number of the event at a meter, where camera paths scatter before they meet the first surface.
 inline constexpr int kMeterEvent = -1;
 
-/// The group for the scattering of an event; the next one is for the connection made there.
+/// The group for the scattering of an event, its direction first, then a lobe and roulette; what a matt
+/// surface leaves of it may draw the direction of the next event. The next group is for the connection made
+/// there.
 [[nodiscard]] constexpr std::uint32_t scattering_group(int event) {
   return 2 + 2 * static_cast<std::uint32_t>(event - kMeterEvent);
 }

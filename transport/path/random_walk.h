@@ -30,10 +30,12 @@ namespace abbe {
 /// `kept` and `kept_within`.
 ///
 /// A technique may have `split_bits(path)` besides, so that a path goes on in 2^bits where it scatters at a
-/// surface, and `split(part, bits)`, told each of these; `parts_lanes()`, whether its paths are to go on lane
-/// by lane where smooth glass disperses them; and `connects_along()` with `connect_along(path, stretch, u)`,
-/// a connection from along matter that scatters evenly, before the event that ends the stretch. One that
-/// works out by itself with which density each event was drawn makes `kDrawsPolarised` false.
+/// surface, and `split(part, bits)`, told each of these; `joins_directions(path)`, whether it scatters at a
+/// matt surface by two numbers alone, so that those left over may draw its next direction; `parts_lanes()`,
+/// whether its paths are to go on lane by lane where smooth glass disperses them; and `connects_along()` with
+/// `connect_along(path, stretch, u)`, a connection from along matter that scatters evenly, before the event
+/// that ends the stretch. One that works out by itself with which density each event was drawn makes
+/// `kDrawsPolarised` false.
 template <typename T>
 concept WalkingTechnique = std::derived_from<typename T::Path, Walk> &&
     std::constructible_from<typename T::Path, const Sampler&, std::uint32_t> &&
@@ -121,7 +123,8 @@ class RandomWalks {
 
  private:
   // Scatters a path at a vertex. Whether it goes on.
-  bool scatter(Technique& technique, Path& path, const SurfaceVertex& vertex, const std::array<float, 4>& u) {
+  bool scatter(Technique& technique, Path& path, const SurfaceVertex& vertex, std::array<float, 4> u) {
+    if constexpr (requires { technique.joins_directions(path); }) join_directions(technique, path, vertex, u);
     const bool drawn = path.packet.polarisation && kDrawsPolarised<Technique> && draws_polarised(vertex.bsdf);
     const float choice =
         drawn ? polarised_choice(path.packet, vertex, path.ray.direction, Technique::kMode, u[2]) : u[2];
@@ -134,6 +137,22 @@ class RandomWalks {
         return false;
       }
     return follow(technique, path, vertex, *event, drawn, u[3]);
+  }
+
+  // What two directions after each other lead to is an integrand of four numbers, which the points of one
+  // group fill more evenly than those of two. A matt surface chooses no lobe, and early events play no
+  // roulette: their other two numbers draw the direction that follows, if that is at a matt surface too.
+  // Elsewhere the choice of a lobe would fall apart from the direction that it is for.
+  void join_directions(const Technique& technique, Path& path, const SurfaceVertex& vertex,
+                       std::array<float, 4>& u) const {
+    const std::optional<Imath::V2f> left = std::exchange(path.left_over, std::nullopt);
+    if (!std::holds_alternative<DiffuseBsdf>(vertex.bsdf)) return;
+    if (left) {
+      u[0] = left->x;
+      u[1] = left->y;
+    } else if (technique.joins_directions(path) && !plays_roulette(scene_.render, path.events + 1)) {
+      path.left_over.emplace(u[2], u[3]);
+    }
   }
 
   // Lets 2^bits paths go on from a vertex, each with its share of what that path carries.

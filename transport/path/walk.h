@@ -35,7 +35,8 @@ struct Walk {
   /// What `mis_weight` takes as `connected`, were the path's next vertex its end; 0 where no connection was
   /// possible, as after an event of a single direction.
   float connected = 0;
-  LightSampleContext last;  ///< The vertex it left.
+  LightSampleContext last;              ///< The vertex it left.
+  std::optional<Imath::V2f> left_over;  ///< Numbers of its last event that may draw the next direction.
   Surroundings around;
   Stretch stretch;  ///< In which it was scattered, after an event within matter.
 

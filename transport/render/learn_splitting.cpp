@@ -21,8 +21,8 @@ constexpr std::size_t kForgiven = kTriedPixels / 64;
 constexpr std::uint32_t kTriedReplicates = 4;
 constexpr std::uint32_t kTriedTogether = 8;
 constexpr std::uint32_t kTriedPaths = kTriedReplicates * kTriedTogether;
-constexpr int kMostSplitBits = 2;
-constexpr double kLeastGainOfMore = 1.05;
+constexpr int kMostSplitBits = 3;
+constexpr double kLeastGainOfMore = 1.02;
 
 // Of fewer pixels films cost too little to be tried.
 constexpr double kLeastFilm = 1 << 13;
@@ -103,9 +103,11 @@ void learn_splitting(Plan& plan, int threads) {
     split.split_bits = bits;
     const Trial trial = trace_pilots(split, threads);
     const double now = cost(trial, whole);
-    if (!(now * kLeastGainOfMore < least)) return;
-    least = now;
-    plan.split_bits = bits;
+    if (!(now < least * kLeastGainOfMore)) return;
+    if (now * kLeastGainOfMore < least) {
+      least = now;
+      plan.split_bits = bits;
+    }
     left -= trial.rays;
     next = 2 * trial.rays;
   }

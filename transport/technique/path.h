@@ -88,14 +88,18 @@ class PathTracer {
   }
   [[nodiscard]] float kept(CameraPath& path, const SurfaceVertex& vertex, const BsdfSample& event) const;
   [[nodiscard]] float kept_within(const CameraPath& path) const { return path.going_on * carried(path); }
+  // Where no guide chooses between its directions and others.
+  [[nodiscard]] bool joins_directions(const CameraPath& path) const { return path.caustics.empty(); }
   // Once, at a surface.
   [[nodiscard]] int split_bits(const CameraPath& path) const {
     return path.is_part || path.events == kMeterEvent ? 0 : plan_.split_bits;
   }
-  // Each carries 1/2^bits, and goes on as if that were its root.
+  // Each carries 1/2^bits of the path. It goes on as a path of its own would, but for what all parts have in
+  // common, whose noise the last of their events do not change: between the root of 2^bits times what it
+  // carries and all 2^bits times.
   void split(CameraPath& part, int bits) const {
     part.is_part = true;
-    part.going_on *= std::sqrt(std::ldexp(1.0F, bits));
+    part.going_on *= std::exp2(0.75F * static_cast<float>(bits));
   }
   // What refraction into glass takes off radiance counts as still there.
   [[nodiscard]] float carried(const CameraPath& path) const { return path.packet.carried() * path.eta_scale; }
