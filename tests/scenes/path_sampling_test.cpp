@@ -1,4 +1,5 @@
 // However path tracing draws directions, and however it combines both ways to a light, it finds the same.
+#include <array>
 #include <cmath>
 #include <ostream>
 
@@ -248,7 +249,9 @@ TEST(PathSampling, TheGuideMixesWithAnyDirections) {
   const PathTracer tracer(plan, caster);
   for (const float lobe : {0.1F, 0.3F, 0.5F, 0.9F}) {
     CameraPath path(Sampler(0, Purpose::camera, 0, 0, 0), 0);
+    EXPECT_TRUE(tracer.joins_directions(path));
     path.caustics = CausticLobes({&along_normal, 1}, 0.5F, kShare);
+    EXPECT_FALSE(tracer.joins_directions(path)) << "the choice of the guide takes a number";
     const auto event = tracer.scatter(path, vertex, {lobe, {0.3F, 0.6F}});
     ASSERT_TRUE(event);
     const float told = kShare * path.caustics.pdf(vertex.hit.point, event->wi) +
@@ -257,12 +260,12 @@ TEST(PathSampling, TheGuideMixesWithAnyDirections) {
   }
 }
 
-// Films of other settings are other films, which do not merge.
 // Within a matt ball, light scattered three times is a smooth function of two directions. Roulette that
 // begins at once ends no path here, but takes a number from each event, so that the directions no longer have
-// one group.
+// one group: they find the same with more noise.
 TEST(PathSampling, DirectionsOfTwoMattEventsAreOnePointOfASequence) {
-  const auto scatter = [](const char* roulette_depth) {
+  constexpr int kEdge = 24;
+  const auto films_of = [](const char* roulette_depth) {
     const Scene scene = test::load_text(
         R"({"abbe": 1,
         "camera": {"pinhole": {"focal_length": 20}, "from": [0, -0.5, 0], "to": [0, 1, 0.2], "up": [0, 0, 1]},
@@ -273,18 +276,37 @@ TEST(PathSampling, DirectionsOfTwoMattEventsAreOnePointOfASequence) {
         "render": {"integrator": "path", "max_depth": 3}})",
         {{"/render/roulette_depth", roulette_depth}});
     const Plan plan = make_plan(scene);
-    const Film one = test::film_of(scene, plan, 64, 1);
-    const Film other = test::film_of(scene, plan, 64, 2);
+    return std::array{test::film_of(scene, plan, 64, 1), test::film_of(scene, plan, 64, 2)};
+  };
+  const auto scatter = [](const std::array<Film, 2>& films) {
     double sum = 0;
-    for (std::size_t pixel = 0; pixel < 24 * 24; ++pixel)
-      sum += std::pow(one.mean(pixel, 1) - other.mean(pixel, 1), 2);
+    for (std::size_t pixel = 0; pixel < kEdge * kEdge; ++pixel)
+      sum += std::pow(films[0].mean(pixel, 1) - films[1].mean(pixel, 1), 2);
     return sum;
   };
-  const double joined = scatter("4");
-  const double apart = scatter("1");
-  EXPECT_LT(joined, 0.6 * apart) << joined << " " << apart;
+  EXPECT_LT(scatter(films_of("4")), 0.6 * scatter(films_of("1")));
 }
 
+// Numbers that one event leaves over for the next tell nothing of itself: neither of its direction nor, where
+// it takes one of them, of its roulette.
+TEST(PathSampling, NumbersLeftOverAreNotOnesTaken) {
+  constexpr int kLayers = 4;
+  const auto light_of_three_events = [](const char* roulette_depth) {
+    const Scene scene = test::load("cornell.json", {{"/sensor/resolution", "[16, 16]"},
+                                                    {"/materials/white/diffuse/reflectance", "0.2"},
+                                                    {"/render/integrator", "path"},
+                                                    {"/render/max_depth", "3"},
+                                                    {"/render/roulette_depth", roulette_depth}});
+    const RenderResult result = test::layered_film_of(make_plan(scene), bounce_layers(kLayers), 2048);
+    return result.layers->average(3 * 3 + 1);
+  };
+  const Film::Average joined = light_of_three_events("4");
+  const Film::Average apart = light_of_three_events("1");
+  EXPECT_NEAR(joined.mean, apart.mean, kInterval * std::hypot(joined.standard_error, apart.standard_error));
+  EXPECT_LT(joined.standard_error + apart.standard_error, 0.015 * joined.mean);
+}
+
+// Films of other settings are other films, which do not merge.
 TEST(PathSampling, IsPartOfAFilmsIdentity) {
   const auto identity = [](const Sampling& sampling) {
     return identity_of(test::load("furnace.json", with(sampling, 1)), "furnace.json", {});
