@@ -15,8 +15,8 @@
 #include "tests/cli/program.h"
 
 // What a scene does not need costs nothing. Instructions are counted under Valgrind, inside the function that
-// traces one camera path, so that the counts depend on the program alone: not on the machine, its load or its
-// clock.
+// traces a batch of camera paths, so that the counts depend on the program alone: not on the machine, its
+// load or its clock.
 
 namespace abbe {
 namespace {
@@ -74,7 +74,8 @@ Profile profile(const Room& room) {
   const std::string command = fmt::format(
       "cd {} && valgrind -q --tool=callgrind --callgrind-out-file=counts --compress-strings=no "
       "--compress-pos=no "
-      "'--toggle-collect=abbe::PathTracer::trace(*' {} render room.json -o room.exr --threads 1 --quiet",
+      "'--toggle-collect=abbe::PathTracer::trace_together(*' {} render room.json -o room.exr --threads 1 "
+      "--quiet",
       folder.string(), ABBE_BINARY);
   EXPECT_EQ(std::system(command.c_str()), 0) << command;
   Profile result;
@@ -122,7 +123,7 @@ TEST(NeedsCost, OnlyWhatIsNeededRuns) {
       profile({.sphere = R"(, {"sphere": {"center": [0.5, 0.5, 1], "radius": 0.5}, "material": "glass"})",
                .matter = kGlass});
   for (const char* name :
-       {"DielectricBsdf::sample", "RefractiveIndex::n", "RefractiveIndex::absorption_per_m", "Sphere>"}) {
+       {"DielectricBsdf::sample", "relative_index", "RefractiveIndex::absorption_per_m", "Sphere>"}) {
     EXPECT_FALSE(plain().ran(name)) << name;
     EXPECT_TRUE(glass.ran(name)) << name;
   }
