@@ -46,10 +46,10 @@ class GridLine {
     load();
   }
   // Where the line leaves the cell.
-  [[nodiscard]] double leaves() const { return leaves_[next_axis()]; }
+  [[nodiscard]] double leaves() const { return leaves_[next_axis_]; }
   // Into the cell after; false outside the grid.
   bool step() {
-    const int axis = next_axis();
+    const int axis = next_axis_;
     cell_[axis] += slope_[axis] > 0 ? 1 : -1;
     if (cell_[axis] < 0 || cell_[axis] > nodes(axis) - 2) return false;
     leaves_[axis] = crossing(axis);
@@ -57,12 +57,15 @@ class GridLine {
     return true;
   }
 
+  // Rounding takes it no further than 0: b - a is rounded to no less than -a, where both are 0 or more.
   [[nodiscard]] double density(double t) const {
     Imath::V3d f;
     for (int axis = 0; axis < 3; ++axis)
-      f[axis] = std::clamp(start_[axis] + t * slope_[axis] - cell_[axis], 0.0, 1.0);
-    const auto along_x = [&](std::size_t i) { return std::lerp(corner_[i], corner_[i + 1], f.x); };
-    return std::lerp(std::lerp(along_x(0), along_x(2), f.y), std::lerp(along_x(4), along_x(6), f.y), f.z);
+      f[axis] = std::min(std::max(start_in_cell_[axis] + t * slope_[axis], 0.0), 1.0);
+    const auto between = [](double a, double b, double share) { return a + share * (b - a); };
+    std::array<double, 4> rows{};
+    for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = low_x_[i] + f.x * rise_x_[i];
+    return between(between(rows[0], rows[1], f.y), between(rows[2], rows[3], f.y), f.z);
   }
 
  private:
@@ -70,26 +73,33 @@ class GridLine {
   [[nodiscard]] double crossing(int axis) const {
     return (cell_[axis] + (slope_[axis] > 0 ? 1 : 0) - start_[axis]) / slope_[axis];
   }
-  [[nodiscard]] int next_axis() const {
-    const int xy = leaves_.y < leaves_.x ? 1 : 0;
-    return leaves_.z < leaves_[xy] ? 2 : xy;
-  }
   void load() {
     const auto row = static_cast<std::size_t>(nodes(0));
     const std::size_t layer = row * static_cast<std::size_t>(nodes(1));
-    const std::size_t first = static_cast<std::size_t>(cell_.x) + row * static_cast<std::size_t>(cell_.y) +
-                              layer * static_cast<std::size_t>(cell_.z);
-    for (std::size_t i = 0; i < corner_.size(); ++i)
-      corner_[i] = static_cast<double>(
-          grid_.density[first + (i & 1U) + row * ((i >> 1U) & 1U) + layer * ((i >> 2U) & 1U)]);
+    const float* corner =
+        &grid_.density[static_cast<std::size_t>(cell_.x) + row * static_cast<std::size_t>(cell_.y) +
+                       layer * static_cast<std::size_t>(cell_.z)];
+    for (std::size_t i = 0; i < low_x_.size(); ++i) {
+      const float* at = corner + row * (i & 1U) + layer * (i >> 1U);
+      low_x_[i] = static_cast<double>(at[0]);
+      rise_x_[i] = static_cast<double>(at[1]) - low_x_[i];
+    }
+    start_in_cell_ = start_ - Imath::V3d(cell_);
+    const int xy = leaves_.y < leaves_.x ? 1 : 0;
+    next_axis_ = leaves_.z < leaves_[xy] ? 2 : xy;
   }
 
   const DensityGrid& grid_;
   Imath::V3d start_;
   Imath::V3d slope_;
   Imath::V3i cell_{0, 0, 0};
+  Imath::V3d start_in_cell_{0, 0, 0};
   Imath::V3d leaves_{0, 0, 0};
-  std::array<double, 8> corner_{};
+  int next_axis_ = 0;  // across which it leaves
+  // Densities at the ends of the cell with the lower x, y running faster than z, and by how much those at the
+  // other ends are above them.
+  std::array<double, 4> low_x_{};
+  std::array<double, 4> rise_x_{};
 };
 
 double simpson(double length, double first, double middle, double last) {
@@ -126,13 +136,16 @@ GridStretch PlacedGrid::march(const Imath::V3f& origin, const Imath::V3f& direct
   const auto wanted = static_cast<double>(column);
   double sum = 0;
   line.enter(t);
+  double first = line.density(t);
   while (true) {
     const double next = std::max(t, std::min(line.leaves(), end));
-    const double part = simpson(next - t, line.density(t), line.density((t + next) / 2), line.density(next));
+    const double last = line.density(next);
+    const double part = simpson(next - t, first, line.density((t + next) / 2), last);
     if (part > 0 && sum + part >= wanted)
       return {static_cast<float>(solve(line, t, next, wanted - sum)), column, true};
     sum += part;
     t = next;
+    first = last;  // density is continuous
     if (t >= end || !line.step()) return {distance, static_cast<float>(sum), false};
   }
 }
