@@ -233,11 +233,14 @@ std::vector<SurfaceHit> Geometry::all_met(const BasicRay<double>& ray, unsigned 
   return all;
 }
 
-// Embree is asked for all it meets on a stretch of the ray around the hit, on which it need not be exact. As
-// it begins there, its lengths tell how far apart surfaces are, where their points are rounded by as much.
+// Where anything may touch, Embree is asked for all it meets on a stretch of the ray around the hit, on which
+// it need not be exact. As it begins there, its lengths tell how far apart surfaces are, where their points
+// are rounded by as much.
 TouchingSurfaces Geometry::touching(const Scene& scene, const Ray& ray, const SurfaceHit& hit) const {
   TouchingSurfaces found;
   found.at[found.count++] = hit;
+  const std::optional<Imath::Box3f>& at = scene.shapes[hit.shape].at_touching;
+  if (at && !at->intersects(hit.point)) return found;
   const Imath::V3d normal(hit.normal);
   const Imath::V3d point(hit.point);
   const Imath::V3d direction(ray.direction);

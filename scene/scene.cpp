@@ -11,6 +11,7 @@
 #include "scene/geometry.h"
 #include "scene/shapes/mesh.h"
 #include "scene/shapes/solid.h"
+#include "scene/touching.h"
 
 namespace abbe {
 namespace {
@@ -141,9 +142,16 @@ void Scene::commit() {
     emitter->measure(instance.shape);
   }
   std::vector<NearWalls> walls = walls_near_shapes(*this);
-  for (std::size_t i = 0; i < shapes.size(); ++i) shapes[i].at_walls = walls[i].box;
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    shapes[i].at_walls = walls[i].box;
+    shapes[i].at_touching.reset();
+  }
   geometry_ = std::make_shared<const Geometry>(shapes, materials, std::move(walls));
   needs = analyse(*this);
+  if (needs.nesting || needs.boundaries) {
+    const std::vector<Imath::Box3f> touching = touching_regions(*this);
+    for (std::size_t i = 0; i < shapes.size(); ++i) shapes[i].at_touching = touching[i];
+  }
   if (!needs.motion) shutter = shutter.where_nothing_moves();
 }
 

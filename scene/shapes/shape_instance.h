@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "scene/shapes/shape.h"
@@ -18,6 +19,8 @@ struct ShapeInstance {
   double rounding = 0;  ///< Largest coordinate of its vertices [m], which are kept in float; 0 of curves.
   double volume = 0;    ///< Of matter [m^3], see `enclosed_volume`; 0 where no other shape holds any.
   Imath::Box3f at_walls = {};  ///< Where it lets light on and anything opaque may be as near as floats tell.
+  /// Where another surface may touch it, by `touching_regions`; nothing where that is not looked for.
+  std::optional<Imath::Box3f> at_touching = {};
 };
 
 }  // namespace abbe

@@ -4,7 +4,6 @@
 
 #include <memory>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "floor_scenes.h"
@@ -47,9 +46,6 @@ TEST(Contact, FindsWhereMatterIsAtWalls) {
 void add_lamp_surface(Scene& scene, const Shape& shape) {
   scene.lights.push_back({"lamp", AreaLight{static_cast<std::uint32_t>(scene.shapes.size())}, Curve(1.0)});
   scene.shapes.push_back({"lamp", shape, kDiffuse});
-}
-Shape placed(PlainShape shape, const Imath::M44d& at) {
-  return PlacedShape{make_prototype(std::move(shape)), std::make_shared<Placement>(placement(at))};
 }
 // What light of the lamps is lost on: a wall, which comes before them as in scene files, or "lamp"; "" of
 // none.

@@ -1,9 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "scene/shapes/placed.h"
 #include "scene/unreached.h"
 #include "scenes.h"
 
@@ -35,6 +38,10 @@ inline void add_sky(Scene& scene) {
 }
 inline void add_ball(Scene& scene, std::uint32_t material) {
   scene.shapes.push_back({"ball", Sphere{{0, 0, 1}, 0.5}, material});
+}
+
+inline Shape placed(PlainShape shape, const Imath::M44d& at) {
+  return PlacedShape{make_prototype(std::move(shape)), std::make_shared<Placement>(placement(at))};
 }
 
 inline std::vector<std::string> unreached_expressions(const Scene& scene, bool light_tracing) {
