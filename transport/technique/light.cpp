@@ -120,18 +120,13 @@ void LightTracer::run_into_meter(const LightPath& path, int events) {
 void LightTracer::connect_to(const LightPath& path, int events, const CameraConnection& lens,
                              const SampledSpectrum& scattered, const Ray& ray, const Surroundings& around,
                              const std::optional<StokesSpectrum>& arrives) {
-  const BasicRay<double> way = way_between(ray.origin, lens.lens_point, ray.time);
   SampledSpectrum contribution =
       scattered * (path.packet.throughput * (lens.weight * lane_balance(path.packet.lane_pdf)));
   const float distance = (lens.lens_point - ray.origin).length();
-  if (walks_.has_free_paths()) {
-    const std::optional<Transmission> through =
-        unblocked_transmission(scene_, caster_, way, ray, around, path.lambda_nm(), distance);
-    if (!through) return;
-    contribution *= through->transmittance;
-  } else {
+  if (walks_.has_free_paths())
+    through_.push_back({ray, around, distance});
+  else
     around.medium.attenuate(contribution, distance);
-  }
   connections_.push_back(
       {path.path,
        events,
@@ -139,15 +134,21 @@ void LightTracer::connect_to(const LightPath& path, int events, const CameraConn
        {static_cast<int>(lens.film.x), static_cast<int>(lens.film.y), lens.cos_film, ray.time}});
   if (lens.images) images_.push_back(*lens.images);
   if (arrives) arrives_.push_back(*arrives);
-  ways_.push_back(way);
+  ways_.push_back(way_between(ray.origin, lens.lens_point, ray.time));
 }
 
 void LightTracer::resolve_connections() {
-  blocked_.assign(ways_.size(), 0);
-  if (!walks_.has_free_paths()) caster_.occluded(ways_, blocked_);
+  blocked_.resize(ways_.size());
+  caster_.occluded(ways_, blocked_);
   for (std::size_t i = 0; i < ways_.size(); ++i) {
     if (blocked_[i] != 0) continue;
     Connection& found = connections_[i];
+    if (!through_.empty()) {
+      const auto& [ray, around, distance] = through_[i];
+      const SampledSpectrum& wavelengths_nm = walks_.paths()[found.path].lambda_nm();
+      found.contribution *=
+          transmission(scene_, caster_, ray, around, wavelengths_nm, distance).transmittance;
+    }
     if (!images_.empty()) found.at.images = &images_[i];
     with_seen(measures_polarisation_, found.contribution, arrives_.empty() ? nullptr : &arrives_[i],
               [&](const auto& light) { expose(found, light); });
@@ -155,6 +156,7 @@ void LightTracer::resolve_connections() {
   connections_.clear();
   images_.clear();
   arrives_.clear();
+  through_.clear();
   ways_.clear();
 }
 

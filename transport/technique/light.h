@@ -80,8 +80,14 @@ class LightTracer {
   struct Connection {
     std::uint32_t path;
     int events;
-    SampledSpectrum contribution;
+    SampledSpectrum contribution;  // but for what `ThroughMatter` takes
     FilmPoint at;
+  };
+  // The way of a connection whose matter is followed once nothing is known to block it.
+  struct ThroughMatter {
+    Ray ray;
+    Surroundings around;
+    float distance;
   };
 
   [[nodiscard]] bool owned(const LightPath& path) const { return path.events > 0 || alone_; }
@@ -116,6 +122,7 @@ class LightTracer {
   std::vector<Connection> connections_;  // of the step under way,
   std::vector<StokesSpectrum> arrives_;  // how their light is polarised, where that is carried,
   std::vector<LaneImages> images_;       // where their lanes fall, behind a lens that displaces these,
+  std::vector<ThroughMatter> through_;   // what they come through, where any matter has to be followed,
   std::vector<BasicRay<double>> ways_;   // their ways to the lens,
   std::vector<std::uint8_t> blocked_;    // and whether something stands on them
 };

@@ -213,8 +213,8 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
   if (walks_.has_free_paths()) {
     Surroundings around = path.around;
     if (crosses) around.enter(scene_, vertex.behind(scene_, around.inside), path.lambda_nm());
-    connect_through_media(path, chosen, contribution, scattering_pdf, ray, around, cos_film,
-                          pointer_to(seen));
+    connect_through_matter(path, chosen, contribution, scattering_pdf, ray, around, cos_film);
+    if (seen) seen_.push_back(*seen);
     return;
   }
   const float weight =
@@ -311,12 +311,15 @@ float PathTracer::kept(CameraPath& path, const SurfaceVertex& vertex, const Bsdf
 void PathTracer::resolve_connections() {
   blocked_.resize(ways_.size());
   caster_.occluded(ways_, blocked_);
-  for (std::size_t i = 0; i < ways_.size(); ++i)
-    if (blocked_[i] == 0)
-      add(walks_.paths()[connections_[i].path], connections_[i].of, connections_[i].contribution,
-          connections_[i].cos_film, seen_.empty() ? nullptr : &seen_[i]);
+  for (std::size_t i = 0; i < ways_.size(); ++i) {
+    if (blocked_[i] != 0 || (!through_.empty() && !pass_matter(connections_[i], through_[i]))) continue;
+    const Connection& connection = connections_[i];
+    add(walks_.paths()[connection.path], connection.of, connection.contribution, connection.cos_film,
+        seen_.empty() ? nullptr : &seen_[i]);
+  }
   connections_.clear();
   seen_.clear();
+  through_.clear();
   ways_.clear();
 }
 

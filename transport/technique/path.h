@@ -116,8 +116,17 @@ class PathTracer {
   struct Connection {
     std::uint32_t path;
     LightHistory of;
-    SampledSpectrum contribution;
+    SampledSpectrum contribution;  // where matter lies between, what sets out, not weighed
     float cos_film;
+  };
+  // What a connection whose matter is followed once nothing is known to block it is weighed by.
+  struct ThroughMatter {
+    Ray ray;
+    Surroundings around;
+    SampledSpectrum scattering_pdf;  // of each lane, times that of the path
+    float light_pdf;
+    float path_pdf;  // the sum over lanes
+    float distance;
   };
 
   void trace_together(std::span<const PixelSample> samples);
@@ -155,9 +164,10 @@ class PathTracer {
                                                const std::optional<MuellerMatrix>& matrix, const Light& light,
                                                const Imath::V3f& wi);
   [[nodiscard]] bool owned_by_others(const CameraPath& path, std::uint32_t light) const;
-  void connect_through_media(CameraPath& path, const ChosenLight& chosen, const SampledSpectrum& contribution,
-                             const SampledSpectrum& scattering_pdf, const Ray& ray,
-                             const Surroundings& around, float cos_film, const StokesSpectrum* seen);
+  void connect_through_matter(const CameraPath& path, const ChosenLight& chosen,
+                              const SampledSpectrum& contribution, const SampledSpectrum& scattering_pdf,
+                              const Ray& ray, const Surroundings& around, float cos_film);
+  bool pass_matter(Connection& connection, const ThroughMatter& way);
   void add_met(CameraPath& path, const LightVertex& met);
   void add(CameraPath& path, const LightHistory& of, const SampledSpectrum& contribution, float cos_film,
            const StokesSpectrum* seen);
@@ -189,6 +199,7 @@ class PathTracer {
   std::vector<Connection> connections_;  // of the step under way,
   std::vector<StokesSpectrum>
       seen_;  // what the sensor measures of their light, where polarisation is carried,
+  std::vector<ThroughMatter> through_;  // what they come through, where any matter has to be followed,
   std::vector<BasicRay<double>> ways_;  // their ways to the light,
   std::vector<std::uint8_t> blocked_;   // and whether something stands on them
 };

@@ -45,9 +45,10 @@ void PathTracer::connect_along(CameraPath& path, const Stretch& stretch, const I
   const float scattered = (path.packet.lane_pdf * passed * medium.extinction_per_m).sum() /
                           path.packet.lane_pdf.sum() * plan_.path_lights.probability(pick.light, {point}) *
                           towards->pdf;
-  connect_through_media(path, {pick.light, light, towards, pick.probability * part->pdf(t) + scattered},
-                        contribution, SampledSpectrum(0.0F), ray_at(point, wi, path.ray.time), path.around,
-                        path.at.cos_film, pointer_to(seen));
+  connect_through_matter(path, {pick.light, light, towards, pick.probability * part->pdf(t) + scattered},
+                         contribution, SampledSpectrum(0.0F), ray_at(point, wi, path.ray.time), path.around,
+                         path.at.cos_film);
+  if (seen) seen_.push_back(*seen);
 }
 
 void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, const std::array<float, 4>& u) {
@@ -71,25 +72,33 @@ void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, co
     seen = rows.of(polarisation_of_lamp(chosen.light, -wi), -wi);
     scattering_pdf *= rows.of_unpolarised().i;  // it is drawn as polarised light has it
   }
-  connect_through_media(path, chosen, contribution, scattering_pdf,
-                        ray_at(path.ray.origin, wi, path.ray.time), path.around, path.at.cos_film,
-                        pointer_to(seen));
+  connect_through_matter(path, chosen, contribution, scattering_pdf,
+                         ray_at(path.ray.origin, wi, path.ray.time), path.around, path.at.cos_film);
+  if (seen) seen_.push_back(*seen);
 }
 
-// Adds what is left of the light that comes along `ray`, the direction of which scattering would have drawn
-// with `scattering_pdf`.
-[[gnu::noinline]] void PathTracer::connect_through_media(CameraPath& path, const ChosenLight& chosen,
-                                                         const SampledSpectrum& contribution,
-                                                         const SampledSpectrum& scattering_pdf,
-                                                         const Ray& ray, const Surroundings& around,
-                                                         float cos_film, const StokesSpectrum* seen) {
-  const std::optional<Transmission> way = unblocked_transmission(
-      scene_, caster_, way_to(ray, *chosen.towards), ray, around, path.lambda_nm(), chosen.towards->distance);
-  if (!way) return;
-  const float weight = weights_.of_connection(path.packet.lane_pdf * scattering_pdf * way->density,
-                                              chosen.pdf, path.packet.lane_pdf.sum());
-  if (std::isfinite(weight))
-    add(path, {chosen.index, path.events + 1}, contribution * way->transmittance * weight, cos_film, seen);
+// Of the light that comes along `ray`, the direction of which scattering would have drawn with
+// `scattering_pdf`, what is left is added once all ways of the step are known to be open.
+[[gnu::noinline]] void PathTracer::connect_through_matter(const CameraPath& path, const ChosenLight& chosen,
+                                                          const SampledSpectrum& contribution,
+                                                          const SampledSpectrum& scattering_pdf,
+                                                          const Ray& ray, const Surroundings& around,
+                                                          float cos_film) {
+  connections_.push_back({path.path, {chosen.index, path.events + 1}, contribution, cos_film});
+  through_.push_back({ray, around, path.packet.lane_pdf * scattering_pdf, chosen.pdf,
+                      path.packet.lane_pdf.sum(), chosen.towards->distance});
+  ways_.push_back(way_to(ray, *chosen.towards));
+}
+
+// Follows the open way of a connection, and weighs it by what comes through. Whether there is a weight.
+[[gnu::noinline]] bool PathTracer::pass_matter(Connection& connection, const ThroughMatter& way) {
+  const SampledSpectrum& wavelengths_nm = walks_.paths()[connection.path].lambda_nm();
+  const Transmission through =
+      transmission(scene_, caster_, way.ray, way.around, wavelengths_nm, way.distance);
+  const float weight =
+      weights_.of_connection(way.scattering_pdf * through.density, way.light_pdf, way.path_pdf);
+  connection.contribution *= through.transmittance * weight;
+  return std::isfinite(weight);
 }
 
 }  // namespace abbe
