@@ -205,13 +205,8 @@ void moving_occluded(const RTCOccludedFunctionNArguments* args) {
 
 SurfaceHit surface_hit(const ShapeHit<double>& hit, const BasicRay<double>& ray, std::uint32_t shape,
                        std::uint32_t primitive) {
-  return {rounded_back(hit.point, ray.direction),
-          Imath::V3f(hit.normal),
-          static_cast<float>(hit.t),
-          shape,
-          primitive,
-          0,
-          0};
+  return {rounded_back(hit.point, ray.direction), Imath::V3f(hit.normal), static_cast<float>(hit.t), shape,
+          primitive};
 }
 
 // Where the ray crosses the plane of a triangle, of an instance that stands `at`, in its lengths. Out of
@@ -247,13 +242,8 @@ std::optional<SurfaceHit> triangle_hit(const TriangleSet& set, const RTCHit& hit
   if (std::min({hit.u, hit.v, 1 - hit.u - hit.v}) < kNearEdge)
     point += shift_in_world(set, hit, at, at == nullptr ? ray : to_prototype(*at, ray), t, Imath::V3f(point));
   if (instance == nullptr)
-    return SurfaceHit{rounded_back(point, ray.direction),
-                      set.normals[hit.primID],
-                      static_cast<float>(t),
-                      hit.geomID,
-                      hit.primID,
-                      0,
-                      0};
+    return SurfaceHit{rounded_back(point, ray.direction), set.normals[hit.primID], static_cast<float>(t),
+                      hit.geomID, hit.primID};
   const Imath::V3d normal = triangle_normal(instance->of->prototype->shape, hit.primID);
   return surface_hit({t, point, normal_to_world(*at, normal)}, ray, hit.instID[0], hit.primID);
 }

@@ -123,9 +123,9 @@ struct SurfaceHit {
   Imath::V3f normal;  ///< Geometric, unit, outward.
   float t;
   std::uint32_t shape;
-  std::uint32_t primitive;  ///< Which triangle of a mesh, in its own order.
-  float spread;             ///< How far to both sides [m] are surfaces that count as one with this.
-  float back;  ///< How far back on its way [m] a ray that leaves to the side it came from starts.
+  std::uint32_t primitive = 0;  ///< Which triangle of a mesh, in its own order.
+  float spread = 0;             ///< How far to both sides [m] are surfaces that count as one with this.
+  float back = 0;  ///< How far back on its way [m] a ray that leaves to the side it came from starts.
 };
 
 /// A ray that leaves the surface into `direction`, clear of those that count as one with it.

@@ -241,7 +241,7 @@ TEST(PathSampling, TheGuideMixesWithAnyDirections) {
   along_normal.z[0] = 1;
   along_normal.share[0] = 1;
   const Imath::V3f normal(0, 0, 1);
-  const SurfaceVertex vertex({{0, 0, 0}, normal, 0, 0, 0, 0, 0}, Basis<float>(normal), {0.6F, 0, 0.8F},
+  const SurfaceVertex vertex({{0, 0, 0}, normal, 0, 0}, Basis<float>(normal), {0.6F, 0, 0.8F},
                              DiffuseBsdf{SampledSpectrum(0.5F)});
   const Scene scene = test::load("furnace.json", with({"uniform", "mis", "balance"}, 1));
   const Plan plan = make_plan(scene);

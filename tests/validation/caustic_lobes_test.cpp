@@ -1,6 +1,7 @@
 // The directions that a guide of caustics proposes.
 #include <gtest/gtest.h>
 
+#include <cfenv>
 #include <numbers>
 #include <random>
 #include <typeinfo>
@@ -53,6 +54,16 @@ TEST(CausticLobes, AreDrawnAsTheySay) {
   }
 }
 
+// Nine lobes are two packets of eight, most of the second of which are not there.
+TEST(CausticLobes, AskNothingInvalidOfThoseThatAreNotThere) {
+  constexpr int kWatched = FE_INVALID | FE_DIVBYZERO;
+  std::feclearexcept(kWatched);
+  const CausticGuide guide(photons_from({0.5F, 3, -1}, 0.01F, 9), kRoom);
+  const V3f point(0.3F, 0, 0.1F);
+  EXPECT_GT(guide.at(point).pdf(point, V3f(0, 1, 0)), 0);
+  EXPECT_EQ(std::fetestexcept(kWatched), 0);
+}
+
 // Of the directions in which a guided path goes on a share is the guide's, the others the surface's, single
 // ones among them.
 template <typename Model>
@@ -64,7 +75,8 @@ void expect_guided(const PathTracer& tracer, const CausticGuide& guide) {
   ASSERT_FALSE(path.caustics.empty());
   const float share = path.caustics.share();
   for (const Model& model : examples<Model>()) {
-    const SurfaceVertex vertex({point, normal, 0, 0}, Basis<float>(normal), V3f(0.6F, 0, 0.8F), Bsdf(model));
+    const SurfaceVertex vertex({point, normal, 0, 0}, Basis<float>(normal), V3f(0.6F, 0, 0.8F),
+                               Bsdf(model));
     const auto density = [&](const V3f& local) {
       const bool goes_on = !vertex.f(vertex.frame.to_world(local), local, TransportMode::radiance).is_zero();
       const float guided = path.caustics.pdf(point, vertex.frame.to_world(local));

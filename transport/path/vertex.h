@@ -28,8 +28,7 @@ struct SurfaceVertex {
   /// Where a meter stands: white, diffuse, and seen along its normal, so that the radiance leaving it is the
   /// irradiance over pi.
   static SurfaceVertex meter(const Imath::V3f& point, const Imath::V3f& normal) {
-    return {
-        {point, normal, 0, 0, 0, 0, 0}, Basis<float>(normal), {0, 0, 1}, DiffuseBsdf{SampledSpectrum(1.0F)}};
+    return {{point, normal, 0, 0}, Basis<float>(normal), {0, 0, 1}, DiffuseBsdf{SampledSpectrum(1.0F)}};
   }
 
   SurfaceVertex(const SurfaceHit& surface, const Basis<float>& axes, const Imath::V3f& outgoing,

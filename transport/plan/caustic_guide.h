@@ -33,7 +33,11 @@ class CausticLobes {
     using Numbers = std::array<float, kTogether>;
     Numbers x{};
     Numbers y{};
-    Numbers z{};
+    Numbers z = [] {
+      Numbers up;
+      up.fill(1);  // so that those that are not there have an axis as well
+      return up;
+    }();
     Numbers near{};  ///< 1, or 0 of a lobe that points the same way from everywhere.
     Numbers share{};
   };
