@@ -57,6 +57,7 @@ const std::array<MeasuredTechnique, kIntegratorNames.size()>& all_measured() {
         .tests = {"T1-0.2", "T6-discs", "ball-meter", "ball-inside"},
         .never = {"T17-0", "T17-60", "T17-90", "scattered-once", "scattered-blue"}},
        {.by = Integrator::bdpt,
+        .patience = 2,
         .quick = {"T1-0.2", "T3-corner", "T5-axis", "T6-discs", "T9-outer", "T12-glass", "T13-60", "T17-60",
                   "ball-axis", "ball-inside"},
         .tests = {"T1-0.8", "T10-upper", "T11-4", "T15-R", "T16-inside", "ball-meter", "pane-thick"},
