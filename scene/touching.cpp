@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "scene/coincidence.h"
 #include "scene/extent.h"
 #include "scene/faces.h"
 
@@ -15,8 +16,8 @@ namespace {
 using Imath::Box3d;
 using Imath::V3d;
 
-// The most faces that are looked at and pairs of them, and of shapes, that are compared, which takes some
-// hundredths of a second.
+// The most faces that are looked at and pairs of them that are compared, which takes some hundredths of a
+// second.
 constexpr std::size_t kMostCompared = 2'000'000;
 
 // Least cosine between normals of what may touch: less than `TouchingSurfaces` asks for, as rays meet faces
@@ -70,14 +71,10 @@ class RegionFinder {
   }
 
   [[nodiscard]] std::vector<Imath::Box3f> find() {
-    std::ranges::stable_sort(shapes_, {}, [](const Bounded& shape) { return shape.near.min.x; });
-    for (auto a = shapes_.begin(); a != shapes_.end(); ++a) {
-      add_own(*a);
-      for (auto b = a + 1; b != shapes_.end() && b->near.min.x <= a->near.max.x; ++b) add(*a, *b);
-    }
+    const bool all_known = compare_all();
     std::vector<Imath::Box3f> found(shapes_.size());
     for (const Bounded& shape : shapes_) {
-      const Box3d& at = shape.touched;
+      const Box3d& at = all_known ? shape.touched : shape.near;
       if (!at.isEmpty()) found[shape.index] = {Imath::V3f(at.min), Imath::V3f(at.max)};
     }
     return found;
@@ -93,6 +90,20 @@ class RegionFinder {
   };
 
   [[nodiscard]] const Shape& shape_of(const Bounded& of) const { return scene_.shapes[of.index].shape; }
+
+  // In order of x. Whether there were not too many.
+  bool compare_all() {
+    std::ranges::stable_sort(shapes_, {}, [](const Bounded& shape) { return shape.near.min.x; });
+    std::size_t pairs = 0;
+    for (auto a = shapes_.begin(); a != shapes_.end(); ++a) {
+      add_own(*a);
+      for (auto b = a + 1; b != shapes_.end() && b->near.min.x <= a->near.max.x; ++b) {
+        if (++pairs > kMostPairs) return false;
+        add(*a, *b);
+      }
+    }
+    return true;
+  }
 
   // Counts what is compared: whether that may go on.
   bool may_compare(std::size_t more) {

@@ -144,6 +144,19 @@ TEST(TouchingRegions, OfManyFacesAreTheirBoxes) {
   EXPECT_TRUE(regions[0].intersects(Imath::V3f(0, 0, -1)));
 }
 
+// In a column of so many that each is above all others.
+TEST(TouchingRegions, OfManyShapesAreTheirBoxes) {
+  std::vector<Shape> column;
+  for (int i = 0; i < 12'000; ++i) column.push_back(Quad{{0, 0, 0.01 * i}, {1, 0, 0}, {0, 1, 0}});
+  Scene scene = floor_scene();
+  scene.shapes.clear();
+  for (const Shape& shape : column) scene.shapes.push_back({"card", shape, kDiffuse});
+  scene.commit();
+  const std::vector<Imath::Box3f> regions = touching_regions(scene);
+  for (const std::size_t i : {0U, 5'000U, 11'999U})
+    EXPECT_TRUE(regions[i].intersects(Imath::V3f(0.5F, 0.5F, 0.01F * static_cast<float>(i)))) << i;
+}
+
 // Where nothing may be in anything, nobody looks.
 TEST(TouchingRegions, AreLookedForWhereMatterIsNested) {
   const Mesh block = box({-1, -1, 0}, {1, 1, 1});
