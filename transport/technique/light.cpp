@@ -18,11 +18,13 @@ std::optional<Sphere> ball_around(const Camera& meter, std::optional<double> rad
   return radius ? std::optional(Sphere{middle(meter), *radius}) : std::nullopt;
 }
 
-// Where a ray comes into a ball around a meter, or starts within it, whatever its direction.
+// Where a ray comes into a ball around a meter, or starts within it, whatever its direction: then as far on
+// as rays start clear of surfaces, as a way of no length has no direction.
 std::optional<CameraConnection> connection_into(const Sphere& ball, const Camera& meter, const Ray& light) {
   const Ray seen = seen_at_rest(meter, light);
   const bool within = (Imath::V3d(seen.origin) - ball.center).length() <= ball.radius;
-  const std::optional<double> distance = within ? 0 : crossing(SphereSide{ball}, seen);
+  const std::optional<double> distance =
+      within ? static_cast<double>(offset_length(light.origin)) : crossing(SphereSide{ball}, seen);
   if (!distance) return std::nullopt;
   const Imath::V3f point(Imath::V3d(light.origin) + Imath::V3d(light.direction) * *distance);
   return CameraConnection{{0, 0}, point, 1, SampledSpectrum(1.0F), 1};
