@@ -75,8 +75,7 @@ void expect_guided(const PathTracer& tracer, const CausticGuide& guide) {
   ASSERT_FALSE(path.caustics.empty());
   const float share = path.caustics.share();
   for (const Model& model : examples<Model>()) {
-    const SurfaceVertex vertex({point, normal, 0, 0}, Basis<float>(normal), V3f(0.6F, 0, 0.8F),
-                               Bsdf(model));
+    const SurfaceVertex vertex({point, normal, 0, 0}, Basis<float>(normal), V3f(0.6F, 0, 0.8F), Bsdf(model));
     const auto density = [&](const V3f& local) {
       const bool goes_on = !vertex.f(vertex.frame.to_world(local), local, TransportMode::radiance).is_zero();
       const float guided = path.caustics.pdf(point, vertex.frame.to_world(local));
