@@ -165,18 +165,8 @@ bool stands_on_ball(const V3d& point, const Ellipsoid& ball, const Box3d& box) {
 template <typename Fits>
 std::optional<bool> any_pair(const std::vector<Face>& of_a, const std::vector<Face>& of_b, double reach,
                              const Fits& fits) {
-  std::size_t pairs = 0;
-  auto first = of_b.begin();
-  double widest = 0;  // of the faces of b along x
-  for (const Face& face : of_b) widest = std::max(widest, face.box.size().x);
-  for (const Face& face : of_a) {
-    while (first != of_b.end() && first->box.min.x + widest < face.box.min.x - reach) ++first;
-    for (auto other = first; other != of_b.end() && other->box.min.x <= face.box.max.x + reach; ++other) {
-      if (++pairs > kMostPairs) return std::nullopt;
-      if (fits(face, *other)) return true;
-    }
-  }
-  return false;
+  std::size_t left = kMostPairs;
+  return any_near_pair(of_a, of_b, reach, left, fits);
 }
 
 }  // namespace

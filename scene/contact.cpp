@@ -109,7 +109,7 @@ class WallCollector {
   }
   // What may lie anywhere in a box.
   void add_unseen(const Imath::Box3d& box) {
-    at_.extendBy(common(box));
+    at_.extendBy(common(near_, grown(box, reach_)));
     planes_.reset();
   }
 
@@ -129,7 +129,7 @@ class WallCollector {
     return std::abs((near_.center() - face.corners[0]).dot(n)) <= across;
   }
   void add_flat(const Face& face) {
-    at_.extendBy(common(face.box));
+    at_.extendBy(common(near_, grown(face.box, reach_)));
     if (!planes_) return;
     const Imath::Plane3d plane(face.corners[0], face.normal);
     const bool known = std::ranges::any_of(*planes_, [&](const Imath::Plane3d& other) {
@@ -139,15 +139,6 @@ class WallCollector {
       planes_.reset();
     else if (!known)
       planes_->push_back(plane);
-  }
-  [[nodiscard]] Imath::Box3d common(const Imath::Box3d& box) const {
-    const Imath::Box3d other = grown(box, reach_);
-    Imath::Box3d part = near_;
-    for (int axis = 0; axis < 3; ++axis) {
-      part.min[axis] = std::max(part.min[axis], other.min[axis]);
-      part.max[axis] = std::min(part.max[axis], other.max[axis]);
-    }
-    return part;
   }
 
   Imath::Box3d near_;

@@ -57,6 +57,17 @@ struct Extent {
   return {box.min - Imath::V3d(by), box.max + Imath::V3d(by)};
 }
 
+/// What two boxes have in common; empty where that is nothing.
+[[nodiscard]] inline Imath::Box3d common(const Imath::Box3d& a, const Imath::Box3d& b) {
+  Imath::Box3d both;
+  for (int axis = 0; axis < 3; ++axis) {
+    both.min[axis] = std::max(a.min[axis], b.min[axis]);
+    both.max[axis] = std::min(a.max[axis], b.max[axis]);
+    if (both.min[axis] > both.max[axis]) return {};
+  }
+  return both;
+}
+
 /// How far apart floats of this size are at most.
 [[nodiscard]] inline double float_step(double size) {
   return static_cast<double>(std::numeric_limits<float>::epsilon()) * size;

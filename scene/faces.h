@@ -1,7 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <map>
+#include <optional>
 #include <vector>
 
 #include <ImathBox.h>
@@ -41,5 +44,24 @@ class FaceFinder {
  private:
   std::map<const Mesh*, MeshBoxes> known_;
 };
+
+/// Whether a pair of faces fits that are no further from each other along x than `reach`; both are in order
+/// of x, as `FaceFinder::near` has them. Nothing where there are more pairs than `left`, which counts down.
+template <typename Fits>
+[[nodiscard]] std::optional<bool> any_near_pair(const std::vector<Face>& of_a, const std::vector<Face>& of_b,
+                                                double reach, std::size_t& left, const Fits& fits) {
+  auto first = of_b.begin();
+  double widest = 0;  // of the faces of b along x
+  for (const Face& face : of_b) widest = std::max(widest, face.box.size().x);
+  for (const Face& face : of_a) {
+    while (first != of_b.end() && first->box.min.x + widest < face.box.min.x - reach) ++first;
+    for (auto other = first; other != of_b.end() && other->box.min.x <= face.box.max.x + reach; ++other) {
+      if (left == 0) return std::nullopt;
+      --left;
+      if (fits(face, *other)) return true;
+    }
+  }
+  return false;
+}
 
 }  // namespace abbe

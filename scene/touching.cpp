@@ -16,23 +16,13 @@ namespace {
 using Imath::Box3d;
 using Imath::V3d;
 
-// The most faces that are looked at and pairs of them that are compared, which takes some hundredths of a
-// second.
+// The most faces that are looked at and pairs of them that are compared, which takes tenths of a second at
+// most.
 constexpr std::size_t kMostCompared = 2'000'000;
 
 // Least cosine between normals of what may touch: less than `TouchingSurfaces` asks for, as rays meet faces
 // in floats.
 constexpr double kNearlyParallel = TouchingSurfaces::kParallel - 0.001;
-
-Box3d common(const Box3d& a, const Box3d& b) {
-  Box3d both;
-  for (int axis = 0; axis < 3; ++axis) {
-    both.min[axis] = std::max(a.min[axis], b.min[axis]);
-    both.max[axis] = std::min(a.max[axis], b.max[axis]);
-    if (both.min[axis] > both.max[axis]) return {};
-  }
-  return both;
-}
 
 // Whether the plane of one face cuts the other, or passes it no further away than that.
 bool cuts(const Face& plane, const Face& face, double reach) {
@@ -105,10 +95,11 @@ class RegionFinder {
     return true;
   }
 
-  // Counts what is compared: whether that may go on.
+  // Whether so much may still be compared; counts it.
   bool may_compare(std::size_t more) {
-    compared_ += more;
-    return compared_ <= kMostCompared;
+    const bool may = more <= left_;
+    left_ -= std::min(more, left_);
+    return may;
   }
   // The faces of a shape that meet a box; nothing where looking at all of them would take too long.
   std::optional<std::vector<Face>> faces_near(const Shape& shape, const Box3d& box) {
@@ -171,20 +162,13 @@ class RegionFinder {
   bool add_faces(Bounded& a, const std::vector<Face>& of_a, Bounded& b, const std::vector<Face>& of_b,
                  const Turned& turned) {
     const double reach = std::max(a.reach, b.reach);
-    double widest = 0;  // of the faces of b along x
-    for (const Face& face : of_b) widest = std::max(widest, face.box.size().x);
-    auto first = of_b.begin();
-    for (const Face& face : of_a) {
-      while (first != of_b.end() && first->box.min.x + widest < face.box.min.x - 2 * reach) ++first;
-      for (auto other = first; other != of_b.end() && other->box.min.x <= face.box.max.x + 2 * reach;
-           ++other) {
-        if (!may_compare(1)) return false;
-        if (!turned(face.normal.dot(other->normal))) continue;
-        const Box3d both = common(grown(face.box, reach), grown(other->box, reach));
-        if (!both.isEmpty() && cuts(face, *other, reach) && cuts(*other, face, reach)) extend(a, b, both);
-      }
-    }
-    return true;
+    const auto add_pair = [&](const Face& face, const Face& other) {
+      if (!turned(face.normal.dot(other.normal))) return false;
+      const Box3d both = common(grown(face.box, reach), grown(other.box, reach));
+      if (!both.isEmpty() && cuts(face, other, reach) && cuts(other, face, reach)) extend(a, b, both);
+      return false;
+    };
+    return any_near_pair(of_a, of_b, 2 * reach, left_, add_pair).has_value();
   }
 
   static void extend(Bounded& a, Bounded& b, const Box3d& by) {
@@ -195,7 +179,7 @@ class RegionFinder {
   const Scene& scene_;
   FaceFinder finder_;
   std::vector<Bounded> shapes_;
-  std::size_t compared_ = 0;
+  std::size_t left_ = kMostCompared;  // to compare
 };
 
 }  // namespace

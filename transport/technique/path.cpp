@@ -213,8 +213,7 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
   if (walks_.has_free_paths()) {
     Surroundings around = path.around;
     if (crosses) around.enter(scene_, vertex.behind(scene_, around.inside), path.lambda_nm());
-    connect_through_matter(path, chosen, contribution, scattering_pdf, ray, around, cos_film);
-    if (seen) seen_.push_back(*seen);
+    connect_through_matter(path, chosen, contribution, scattering_pdf, ray, around, cos_film, seen);
     return;
   }
   const float weight =

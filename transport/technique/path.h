@@ -166,7 +166,8 @@ class PathTracer {
   [[nodiscard]] bool owned_by_others(const CameraPath& path, std::uint32_t light) const;
   void connect_through_matter(const CameraPath& path, const ChosenLight& chosen,
                               const SampledSpectrum& contribution, const SampledSpectrum& scattering_pdf,
-                              const Ray& ray, const Surroundings& around, float cos_film);
+                              const Ray& ray, const Surroundings& around, float cos_film,
+                              const std::optional<StokesSpectrum>& seen);
   bool pass_matter(Connection& connection, const ThroughMatter& way);
   void add_met(CameraPath& path, const LightVertex& met);
   void add(CameraPath& path, const LightHistory& of, const SampledSpectrum& contribution, float cos_film,

@@ -47,8 +47,7 @@ void PathTracer::connect_along(CameraPath& path, const Stretch& stretch, const I
                           towards->pdf;
   connect_through_matter(path, {pick.light, light, towards, pick.probability * part->pdf(t) + scattered},
                          contribution, SampledSpectrum(0.0F), ray_at(point, wi, path.ray.time), path.around,
-                         path.at.cos_film);
-  if (seen) seen_.push_back(*seen);
+                         path.at.cos_film, seen);
 }
 
 void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, const std::array<float, 4>& u) {
@@ -73,8 +72,7 @@ void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, co
     scattering_pdf *= rows.of_unpolarised().i;  // it is drawn as polarised light has it
   }
   connect_through_matter(path, chosen, contribution, scattering_pdf,
-                         ray_at(path.ray.origin, wi, path.ray.time), path.around, path.at.cos_film);
-  if (seen) seen_.push_back(*seen);
+                         ray_at(path.ray.origin, wi, path.ray.time), path.around, path.at.cos_film, seen);
 }
 
 // Of the light that comes along `ray`, the direction of which scattering would have drawn with
@@ -83,8 +81,10 @@ void PathTracer::connect_within(CameraPath& path, const PhaseFunction& phase, co
                                                           const SampledSpectrum& contribution,
                                                           const SampledSpectrum& scattering_pdf,
                                                           const Ray& ray, const Surroundings& around,
-                                                          float cos_film) {
+                                                          float cos_film,
+                                                          const std::optional<StokesSpectrum>& seen) {
   connections_.push_back({path.path, {chosen.index, path.events + 1}, contribution, cos_film});
+  if (seen) seen_.push_back(*seen);
   through_.push_back({ray, around, path.packet.lane_pdf * scattering_pdf, chosen.pdf,
                       path.packet.lane_pdf.sum(), chosen.towards->distance});
   ways_.push_back(way_to(ray, *chosen.towards));
