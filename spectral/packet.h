@@ -51,6 +51,7 @@ class SampledSpectrum {
     return SampledSpectrum(a.lanes_ * s);
   }
   friend SampledSpectrum operator*(float s, const SampledSpectrum& a) { return a * s; }
+  friend SampledSpectrum transmittance(const SampledSpectrum& extinction_per_m, float distance);
 
   [[nodiscard]] float sum() const {
     return fold([](float a, float b) { return a + b; });
@@ -58,6 +59,9 @@ class SampledSpectrum {
   [[nodiscard]] float mean() const { return sum() / kLanes; }
   [[nodiscard]] float max() const {
     return fold([](float a, float b) { return a < b ? b : a; });
+  }
+  [[nodiscard]] float min() const {
+    return fold([](float a, float b) { return b < a ? b : a; });
   }
   [[nodiscard]] bool is_zero() const { return !any(lanes_ != Lanes{}); }
   [[nodiscard]] bool has_nan() const { return any(lanes_ != lanes_); }
@@ -109,22 +113,26 @@ class SampledSpectrum {
   Lanes lanes_{};
 };
 
-/// e^x lane by lane for x <= 0, to a few float steps; 0 where that is below the least normal float. With n
-/// the integer nearest to x/ln 2, e^x = 2^n e^r, the latter by its series.
-[[nodiscard]] inline SampledSpectrum exp_of_negative(const SampledSpectrum& x) {
-  return SampledSpectrum::map(x, [](float v) {
-    constexpr float kLeast = -87;
-    constexpr float kLog2e = std::numbers::log2e_v<float>;
-    constexpr float kLn2Head = 0x1.62e4p-1F;  // short enough for n times it to be exact
-    constexpr auto kLn2Tail = static_cast<float>(std::numbers::ln2 - static_cast<double>(kLn2Head));
-    const float bounded = v > kLeast ? v : kLeast;
-    const auto n = static_cast<std::int32_t>(bounded * kLog2e - 0.5F);
-    const auto whole = static_cast<float>(n);
-    const float r = bounded - whole * kLn2Head - whole * kLn2Tail;
-    const float series =
-        1 + r * (1 + r * (1.0F / 2 + r * (1.0F / 6 + r * (1.0F / 24 + r * (1.0F / 120 + r * (1.0F / 720))))));
-    return v > kLeast ? series * std::bit_cast<float>((n + 127) << 23) : 0.0F;
-  });
+/// What is left of light after a distance [m], perhaps an infinite one, lane by lane: e^-(a d) by Beer's law,
+/// to a few float steps, and 0 where that is below the least normal float. Where nothing is lost an infinite
+/// distance makes no difference. With n the integer nearest to x/ln 2, e^x = 2^n e^r, the latter by its
+/// series.
+[[nodiscard]] inline SampledSpectrum transmittance(const SampledSpectrum& extinction_per_m, float distance) {
+  using Lanes = SampledSpectrum::Lanes;
+  using Integers [[gnu::vector_size(sizeof(Lanes))]] = std::int32_t;
+  constexpr float kLeast = -87;
+  constexpr float kLog2e = std::numbers::log2e_v<float>;
+  constexpr float kLn2Head = 0x1.62e4p-1F;  // short enough for n times it to be exact
+  constexpr auto kLn2Tail = static_cast<float>(std::numbers::ln2 - static_cast<double>(kLn2Head));
+  const Lanes a = extinction_per_m.lanes_;
+  const Lanes x = -a * (a > 0 ? distance - Lanes{} : Lanes{});
+  const Lanes bounded = x > kLeast ? x : kLeast - Lanes{};
+  const auto n = __builtin_convertvector(bounded * kLog2e - 0.5F, Integers);
+  const auto whole = __builtin_convertvector(n, Lanes);
+  const Lanes r = bounded - whole * kLn2Head - whole * kLn2Tail;
+  const Lanes series =
+      1 + r * (1 + r * (1.0F / 2 + r * (1.0F / 6 + r * (1.0F / 24 + r * (1.0F / 120 + r * (1.0F / 720))))));
+  return SampledSpectrum(x > kLeast ? series * std::bit_cast<Lanes>((n + 127) << 23) : Lanes{});
 }
 
 /// The wavelengths a path carries, each with the density it was drawn from.

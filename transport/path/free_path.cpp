@@ -32,12 +32,9 @@ struct Passed {
   float unit = 1;
 };
 Passed pass(const MediumAt& medium, float distance) {
-  float least = medium.extinction_per_m[0];
-  for (int lane = 1; lane < kLanes; ++lane) least = std::min(least, medium.extinction_per_m[lane]);
-  const auto depth = [distance](float extinction) { return extinction > 0 ? extinction * distance : 0; };
-  return {exp_of_negative(SampledSpectrum::map(medium.extinction_per_m,
-                                               [&](float extinction) { return -depth(extinction - least); })),
-          std::exp(depth(least))};
+  const float least = medium.extinction_per_m.min();
+  return {transmittance(medium.extinction_per_m - SampledSpectrum(least), distance),
+          least > 0 ? std::exp(least * distance) : 1};
 }
 
 // Through the boundaries that touch where one is met on the way of `ray`, and over which it then spreads: the

@@ -14,13 +14,10 @@ struct MediumAt {
   SampledSpectrum scattering_per_m = {};  ///< Where something does.
   const PlacedGrid* grid = nullptr;       ///< Multiplies both, only in matter without an interface.
 
-  /// Attenuates the lanes over a distance [m], perhaps an infinite one, by Beer's law. In a grid the distance
-  /// is the integral of density along the way.
+  /// Attenuates the lanes over a distance [m], perhaps an infinite one. In a grid the distance is the
+  /// integral of density along the way.
   void attenuate(SampledSpectrum& throughput, float distance) const {
-    if (!attenuating) return;
-    // Where nothing is lost an infinite distance makes no difference.
-    throughput *= exp_of_negative(
-        SampledSpectrum::map(extinction_per_m, [distance](float a) { return a > 0 ? -a * distance : 0; }));
+    if (attenuating) throughput *= transmittance(extinction_per_m, distance);
   }
   /// How far along a ray a column of matter lasts, within `distance`.
   [[nodiscard]] GridStretch march(const Ray& ray, float distance, float column) const {
