@@ -40,22 +40,25 @@ struct LoggedRay {
   bool shadow;
 };
 
-/// A coordinate of where a ray of that direction has come to, rounded to the side that it has come from: to
-/// the nearest float, it may lie on what the ray would have met next, or beyond, where walls along the axes
+/// Where a ray of that direction has come to, its coordinates rounded to the side that it has come from: to
+/// the nearest floats, it may lie on what the ray would have met next, or beyond, where walls along the axes
 /// meet. One that is a float but for what is left of double stays what it is. Without a branch, as none can
 /// tell to which side the next one will be rounded.
-[[nodiscard]] inline float rounded_back(double x, double direction) {
-  constexpr double kExact = 0x1p-44;
-  const auto nearest = static_cast<float>(x);
-  const double past = static_cast<double>(nearest) - x;
-  const int away = (nearest > 0) == (direction > 0) ? -1 : 1;
-  const int beyond = static_cast<int>(past * direction > 0) &
-                     static_cast<int>(std::abs(past) > kExact * std::abs(x)) & static_cast<int>(nearest != 0);
-  return std::bit_cast<float>(std::bit_cast<std::int32_t>(nearest) + beyond * away);
-}
 [[nodiscard]] inline Imath::V3f rounded_back(const Imath::V3d& point, const Imath::V3d& direction) {
-  return {rounded_back(point.x, direction.x), rounded_back(point.y, direction.y),
-          rounded_back(point.z, direction.z)};
+  using Doubles [[gnu::vector_size(32)]] = double;
+  using Floats [[gnu::vector_size(16)]] = float;
+  using Integers [[gnu::vector_size(16)]] = std::int32_t;
+  constexpr double kExact = 0x1p-44;
+  const Doubles x{point.x, point.y, point.z, 0};
+  const Doubles along{direction.x, direction.y, direction.z, 0};
+  const auto nearest = __builtin_convertvector(x, Floats);
+  const Doubles past = __builtin_convertvector(nearest, Doubles) - x;
+  const Doubles exact = kExact * (x < 0 ? -x : x);
+  const auto beyond = ((past > exact) & (along > 0)) | ((past < -exact) & (along < 0));
+  const Integers outwards = (nearest > 0) == __builtin_convertvector(along > 0, Integers);
+  const Integers steps = __builtin_convertvector(beyond, Integers) & (nearest != 0) & (outwards | 1);
+  const auto back = std::bit_cast<Floats>(std::bit_cast<Integers>(nearest) + steps);
+  return {back[0], back[1], back[2]};
 }
 
 /// The largest of the coordinates of a point, which says how far apart floats are there.
