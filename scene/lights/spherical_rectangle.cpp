@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace abbe {
 namespace {
@@ -39,27 +40,36 @@ std::optional<SphericalRectangle> SphericalRectangle::seen_from(const Rectangle&
   r.x1_ = r.x0_ + size_u;
   r.y0_ = to_corner.dot(y);
   r.y1_ = r.y0_ + size_v;
-  r.start_ = r.angle_at(r.x0_);
-  r.solid_angle_ = r.angle_at(r.x1_) - r.start_;
+  r.start_ = r.turn_at(r.x0_);
+  const Imath::V2d end = r.turn_at(r.x1_);
+  const double angle = std::atan2(r.start_.cross(end), r.start_.dot(end));
+  r.solid_angle_ = angle < 0 ? angle + 2 * std::numbers::pi : angle;
   return r;
 }
 
 // The solid angle between (0, 0) and (x, y) in a plane at height h is atan(x y/(h r)), r the distance of that
-// corner; the difference for y1 and y0 is the argument of (h r1 + i x y1)(h r0 - i x y0).
-double SphericalRectangle::angle_at(double x) const {
+// corner; the difference for y1 and y0 is the argument of (h r1 + i x y1)(h r0 - i x y0), the magnitude of
+// which is (x^2 + h^2) sqrt((h^2 + y0^2)(h^2 + y1^2)).
+Imath::V2d SphericalRectangle::turn_at(double x) const {
   const double d2 = x * x + height_ * height_;
   const double r0 = std::sqrt(d2 + y0_ * y0_);
   const double r1 = std::sqrt(d2 + y1_ * y1_);
-  return std::atan2(x * height_ * (y1_ * r0 - y0_ * r1), height_ * height_ * r0 * r1 + x * x * y0_ * y1_);
+  return {height_ * height_ * r0 * r1 + x * x * y0_ * y1_, x * height_ * (y1_ * r0 - y0_ * r1)};
 }
 
 Imath::V2d SphericalRectangle::sample(Imath::V2f u) const {
   // Normals of the planes through the point and the edges y = y0 and y = y1, by their z.
-  const double b0 = -y0_ / std::sqrt(height_ * height_ + y0_ * y0_);
-  const double b1 = y1_ / std::sqrt(height_ * height_ + y1_ * y1_);
+  const double far0 = std::sqrt(height_ * height_ + y0_ * y0_);
+  const double far1 = std::sqrt(height_ * height_ + y1_ * y1_);
+  const double b0 = -y0_ / far0;
+  const double b1 = y1_ / far1;
   // The plane x = const through the point that has the share u.x of the solid angle on its left.
-  const double angle = static_cast<double>(u.x) * solid_angle_ + start_;
-  const double f = (std::cos(angle) * b0 + b1) / std::sin(angle);
+  const double angle = static_cast<double>(u.x) * solid_angle_;
+  const Imath::V2d turn(std::cos(angle), std::sin(angle));
+  const double real = start_.x * turn.x - start_.y * turn.y;
+  const double imaginary = start_.x * turn.y + start_.y * turn.x;
+  const double magnitude = (x0_ * x0_ + height_ * height_) * far0 * far1;
+  const double f = (real * b0 + magnitude * b1) / imaginary;
   const double c = std::clamp(std::copysign(1 / std::sqrt(f * f + b0 * b0), f), -1.0, 1.0);
   const double x = std::clamp(c * height_ / std::sqrt(std::max((1 - c) * (1 + c), 1e-300)), x0_, x1_);
   // On that line equal steps of sine are equal solid angles.

@@ -33,14 +33,14 @@ class SphericalRectangle {
 
  private:
   SphericalRectangle() = default;
-  // Seen along the line x = const between the edges y0_ and y1_, so that those of two lines differ by the
-  // solid angle between them.
-  [[nodiscard]] double angle_at(double x) const;
+  // A complex number for the line x = const between the edges y0_ and y1_: the arguments of those of two
+  // lines differ by the solid angle between them.
+  [[nodiscard]] Imath::V2d turn_at(double x) const;
 
   // Local axes along the edges, origin at the point: the rectangle is [x0_, x1_] x [y0_, y1_] at distance
   // height_.
   double x0_, x1_, y0_, y1_, height_;
-  double start_;  // angle_at(x0_)
+  Imath::V2d start_;  // turn_at(x0_)
   double solid_angle_;
 };
 

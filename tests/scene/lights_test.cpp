@@ -200,22 +200,24 @@ TEST(AreaLights, DensityIntegratesToOne) {
   }
 }
 
+// From three heights, and from beside it.
 TEST(SphericalRectangle, IsUniformInSolidAngle) {
   const Quad quad{{-1, -0.5, 0.3}, {3, 0, 0}, {0, 2, 0}};
-  const V3d from(0.4, 0.1, 0);
-  const auto rectangle = SphericalRectangle::seen_from(Rectangle::of(quad).value(), from);
-  ASSERT_TRUE(rectangle);
-  EXPECT_NEAR(rectangle->solid_angle(), solid_angle(quad, from), 1e-12);
-  const Quad part{quad.corner, quad.edge_u * 0.3, quad.edge_v * 0.6};
-  int inside = 0;
-  constexpr int kSide = 1000;
-  for (int i = 0; i < kSide; ++i)
-    for (int j = 0; j < kSide; ++j) {
-      const Imath::V2d uv =
-          rectangle->sample({(static_cast<float>(i) + 0.5F) / kSide, (static_cast<float>(j) + 0.5F) / kSide});
-      inside += uv.x < 0.3 && uv.y < 0.6;
-    }
-  EXPECT_NEAR(inside / double(kSide * kSide), solid_angle(part, from) / solid_angle(quad, from), 3e-4);
+  for (const V3d& from : {V3d(0.4, 0.1, 0), V3d(0.4, 0.1, 0.29), V3d(0.4, 0.1, 1.9), V3d(-1.3, 0.7, 0.5)}) {
+    const auto rectangle = SphericalRectangle::seen_from(Rectangle::of(quad).value(), from);
+    ASSERT_TRUE(rectangle);
+    EXPECT_NEAR(rectangle->solid_angle(), solid_angle(quad, from), 1e-12);
+    const Quad part{quad.corner, quad.edge_u * 0.3, quad.edge_v * 0.6};
+    int inside = 0;
+    constexpr int kSide = 1000;
+    for (int i = 0; i < kSide; ++i)
+      for (int j = 0; j < kSide; ++j) {
+        const Imath::V2d uv = rectangle->sample(
+            {(static_cast<float>(i) + 0.5F) / kSide, (static_cast<float>(j) + 0.5F) / kSide});
+        inside += uv.x < 0.3 && uv.y < 0.6;
+      }
+    EXPECT_NEAR(inside / double(kSide * kSide), solid_angle(part, from) / solid_angle(quad, from), 3e-4);
+  }
 }
 
 TEST(SphericalRectangle, LeavesTheRestToArea) {
