@@ -71,6 +71,26 @@ TEST(FreePath, WaysWithoutAnEndStayStraight) {
   EXPECT_EQ(point_along(ray, 0.5F, infinity, Imath::V3f(0)), Imath::V3f(1, 2, 3.5F));
 }
 
+// An optical depth of x is passed with probability e^-x, however small what is left of that.
+TEST(FreePath, LastsForTheDepthThatItsNumbersDraw) {
+  const Scene scene{};
+  RayCaster caster(scene);
+  const Medium matter{.scattering_per_m = Curve(4.0)};
+  constexpr float kMost = 1 - 0x1p-24F;
+  for (const auto& [u, left] :
+       {std::pair(Imath::V2f(0.5F, 0), 0.5), std::pair(Imath::V2f(0, 0), 1 - 0x1p-49),
+        std::pair(Imath::V2f(0, 0.5F), 1 - 0x1p-25 - 0x1p-49),
+        std::pair(Imath::V2f(kMost, 0), 0x1p-24 - 0x1p-49), std::pair(Imath::V2f(kMost, kMost), 0x1p-49)}) {
+    Walk walk(Sampler(0, Purpose::camera, 0, 0, 0), 0);
+    walk.ray = {{0, 0, 0}, {0, 0, 1}};
+    walk.around.medium = {true, SampledSpectrum(4.0F), &matter, SampledSpectrum(4.0F)};
+    std::optional<SurfaceHit> hit;
+    ASSERT_EQ(propagate(scene, caster, u, walk, hit), Arrival::matter);
+    const double expected = -std::log(left) / 4;
+    EXPECT_NEAR(walk.ray.origin.z, expected, 2e-7 * expected) << u;
+  }
+}
+
 std::vector<std::uint32_t> around(const Scene& scene, const Imath::V3f& point) {
   const MediumStack inside = enclosing(scene, point);
   return {inside.shapes().begin(), inside.shapes().end()};

@@ -30,7 +30,8 @@ inline constexpr int kMeterEvent = -1;
 [[nodiscard]] constexpr std::uint32_t absorption_group(int event) {
   return 0x40000000 + static_cast<std::uint32_t>(event);
 }
-/// The group for how far a path comes in matter that scatters, before an event.
+/// The group for how far a path comes in matter that scatters, before an event; but after one within matter,
+/// numbers which that leaves say so. The last two are for a connection from along the way.
 [[nodiscard]] constexpr std::uint32_t free_path_group(int event) {
   return 0x80000000 + static_cast<std::uint32_t>(event);
 }

@@ -117,8 +117,10 @@ Imath::V3f point_along(const Ray& ray, float distance, float end, const Imath::V
 
 Arrival propagate(const Scene& scene, RayCaster& caster, const Imath::V2f& u, Walk& walk,
                   std::optional<SurfaceHit>& hit, const StretchVisitor& visitor) {
-  constexpr float kDigits = 0x1p-24F;  // of a random number
-  float depth = -std::log1p(-std::min(u.x + (u.y + 0.5F * kDigits) * kDigits, 1 - kDigits));
+  // A double has room for the digits of both numbers, and for those of what they are short of one.
+  constexpr double kDigits = 0x1p-24;
+  const double drawn = static_cast<double>(u.x) + (static_cast<double>(u.y) + kDigits / 2) * kDigits;
+  auto depth = static_cast<float>(-std::log(1 - drawn));
   Ray ray = walk.ray;
   float gone = 0;  // to its origin
   while (true) {

@@ -233,13 +233,19 @@ class RandomWalks {
 
   // Along its ray, the nearest hit of which is `hit`.
   Arrival arrive(Technique& technique, Path& path, std::optional<SurfaceHit>& hit) {
-    if (has_free_paths_) {
-      const std::array<float, 4> u = path.sampler.group(free_path_group(path.events));
-      return propagate(scene_, caster_, {u[0], u[1]}, path, hit, visitor(technique, path, {u[2], u[3]}));
-    }
+    if (has_free_paths_)
+      return propagate(scene_, caster_, free_path(path), path, hit, visitor(technique, path));
     if (!hit) return Arrival::outside;
     path.around.medium.attenuate(path.packet.throughput, hit->t);
     return Arrival::surface;
+  }
+
+  // The numbers that draw how far it comes: directions and ways of paths within matter are an integrand of
+  // three, which one group fills.
+  [[nodiscard]] static Imath::V2f free_path(Path& path) {
+    if (const auto left = std::exchange(path.free_path, std::nullopt)) return *left;
+    const std::array<float, 4> u = path.sampler.group(free_path_group(path.events));
+    return {u[0], u[1]};
   }
 
   // From its last vertex, its ray's nearest hit being `hit`, to its next one and on. Whether it goes on.
@@ -260,10 +266,13 @@ class RandomWalks {
   }
 
   // What a technique does along matter that scatters, if anything.
-  StretchVisitor visitor(Technique& technique, Path& path, const Imath::V2f& u) const {
+  StretchVisitor visitor(Technique& technique, Path& path) const {
     if constexpr (requires { technique.connects_along(); })
       if (technique.connects_along() && path.events < most_events_)
-        return [&technique, &path, u](const Stretch& stretch) { technique.connect_along(path, stretch, u); };
+        return [&technique, &path](const Stretch& stretch) {
+          const std::array<float, 4> u = path.sampler.group(free_path_group(path.events));
+          technique.connect_along(path, stretch, {u[2], u[3]});
+        };
     return {};
   }
 
@@ -272,6 +281,7 @@ class RandomWalks {
     const PhaseFunction& phase = path.around.medium.scattering->phase;
     const auto [u, v] = path.sampler.two_groups(scattering_group(path.events));
     technique.connect_within(path, phase, v);
+    path.free_path.emplace(u[2], v[3]);  // of the second no more than digits beyond the first's
     path.last = {path.ray.origin, std::nullopt};
     path.ray.direction = turn(path, phase, {u[0], u[1]});
     return survives(path, technique.kept_within(path), kEndingOfPaths, u[3]);

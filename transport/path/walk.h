@@ -37,6 +37,7 @@ struct Walk {
   float connected = 0;
   LightSampleContext last;              ///< The vertex it left.
   std::optional<Imath::V2f> left_over;  ///< Numbers of its last event that may draw the next direction.
+  std::optional<Imath::V2f> free_path;  ///< Those of one within matter that draw how far it comes from there.
   Surroundings around;
   Stretch stretch;  ///< In which it was scattered, after an event within matter.
 
