@@ -1,11 +1,16 @@
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "tests/scene/scenes.h"
 #include "transport/path/free_path.h"
 #include "transport/path/medium_at.h"
+#include "transport/path/path_recorder.h"
+#include "transport/plan/plan.h"
+#include "transport/technique/subpaths.h"
 
 namespace abbe {
 namespace {
@@ -89,6 +94,44 @@ TEST(FreePath, LastsForTheDepthThatItsNumbersDraw) {
     const double expected = -std::log(left) / 4;
     EXPECT_NEAR(walk.ray.origin.z, expected, 2e-7 * expected) << u;
   }
+}
+
+// Where light is scattered alike into all directions, a direction and how far the path comes along it are one
+// point of a sequence in three dimensions, four of whose first 256 lie in each of 64 boxes.
+TEST(FreePath, FillsDirectionsAndWaysTogether) {
+  constexpr double kScatteringPerM = 2;
+  constexpr std::size_t kEdge = 4;  // boxes along one
+  Scene scene{};
+  const CameraFrame frame{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  scene.camera = {Pinhole{frame, 0.05, 0.005}, 1, 1, 1e-8};
+  scene.channels = {energy_channel("all", band(450, 650))};
+  MediumMaterial fog;
+  fog.filling.scattering_per_m = Curve(kScatteringPerM);
+  scene.materials = {{"fog", fog}};
+  scene.shapes.push_back({"fog", Sphere{{0, 0, 0}, 1000}, 0});
+  scene.render.roulette_depth = -1;
+  scene.render.max_depth = 3;
+  scene.commit();
+  const Plan plan = make_plan(scene);
+  RayCaster caster(scene);
+  PathRecorder<TransportMode::radiance> recorder(scene, caster);
+  for (std::uint32_t i = 0; i < 256; ++i) {
+    RecordedPath& path = recorder.paths().emplace_back(Sampler(5, Purpose::camera, 0, 0, i), i);
+    LaneImages none;
+    start_from_camera(plan, 0, 0, 0, path, none);
+  }
+  recorder.run();
+  std::array<int, kEdge * kEdge * kEdge> found{};
+  for (const RecordedPath& path : recorder.paths()) {
+    ASSERT_GE(path.vertices.size(), 3U);
+    const auto point = [&](std::size_t i) { return std::get<MediumVertex>(path.vertices[i].at).point; };
+    const Imath::V3d way(point(2) - point(1));
+    const double turn = std::atan2(way.y, way.x) / (2 * std::numbers::pi) + 0.5;
+    const auto box = [](double u) { return static_cast<std::size_t>(u * kEdge); };
+    ++found.at((box(way.z / way.length() / 2 + 0.5) * kEdge + box(turn)) * kEdge +
+               box(-std::expm1(-kScatteringPerM * way.length())));
+  }
+  for (const int of : found) EXPECT_EQ(of, 4);
 }
 
 std::vector<std::uint32_t> around(const Scene& scene, const Imath::V3f& point) {
