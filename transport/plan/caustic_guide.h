@@ -9,6 +9,8 @@
 #include <ImathBox.h>
 #include <ImathVec.h>
 
+#include "spectral/packet.h"
+
 namespace abbe {
 
 /// A photon that came through specular matter alone to where it may scatter.
@@ -53,6 +55,12 @@ class CausticLobes {
   [[nodiscard]] Imath::V3f sample(const Imath::V3f& point, float lobe, Imath::V2f u) const;
   /// Its density [1/sr], of any unit direction.
   [[nodiscard]] float pdf(const Imath::V3f& point, const Imath::V3f& direction) const;
+  /// That of a direction, lane by lane, of which `share` are drawn from the lobes and the others with the
+  /// density `others`.
+  [[nodiscard]] SampledSpectrum mixed_pdf(const SampledSpectrum& others, const Imath::V3f& point,
+                                          const Imath::V3f& direction) const {
+    return others * (1 - share_) + SampledSpectrum(share_ * pdf(point, direction));
+  }
 
  private:
   std::span<const Lobes> lobes_;

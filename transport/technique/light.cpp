@@ -1,6 +1,5 @@
 #include "transport/technique/light.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -16,18 +15,6 @@ std::optional<Opening> opening_of_meter(const Camera& camera) {
 
 std::optional<Sphere> ball_around(const Camera& meter, std::optional<double> radius) {
   return radius ? std::optional(Sphere{middle(meter), *radius}) : std::nullopt;
-}
-
-// Where a ray comes into a ball around a meter, or starts within it, whatever its direction: then as far on
-// as rays start clear of surfaces, as a way of no length has no direction.
-std::optional<CameraConnection> connection_into(const Sphere& ball, const Camera& meter, const Ray& light) {
-  const Ray seen = seen_at_rest(meter, light);
-  const bool within = (Imath::V3d(seen.origin) - ball.center).length() <= ball.radius;
-  const std::optional<double> distance =
-      within ? static_cast<double>(offset_length(light.origin)) : crossing(SphereSide{ball}, seen);
-  if (!distance) return std::nullopt;
-  const Imath::V3f point(Imath::V3d(light.origin) + Imath::V3d(light.direction) * *distance);
-  return CameraConnection{{0, 0}, point, 1, SampledSpectrum(1.0F), 1};
 }
 
 }  // namespace
@@ -102,18 +89,6 @@ StokesSpectrum LightTracer::arriving(const LightPath& path, const std::optional<
   const Polarisation light =
       path.packet.polarisation->through(matrix, light_travels(path.ray.direction, kMode), kMode);
   return polarisation_of_film(scene_, towards, path.ray.time, images_of(lens)).of(light, towards);
-}
-
-std::optional<CameraConnection> LightTracer::into_meter(const LightPath& path) const {
-  return ball_ ? connection_into(*ball_, scene_.camera, path.ray)
-               : connection_through(scene_.camera, *meter_, path.ray, path.lambda_nm());
-}
-
-void LightTracer::run_into_meter(const LightPath& path, int events) {
-  const auto lens = into_meter(path);
-  if (!lens) return;
-  connect_to(path, events, *lens, SampledSpectrum(1.0F), path.ray, path.around,
-             seen_on_film(scene_, path.packet, path.ray.direction, path.ray.time, images_of(*lens)));
 }
 
 // After so many events `scattered` is the share of the photon's power that leaves along `ray`, towards the

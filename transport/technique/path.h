@@ -130,6 +130,7 @@ class PathTracer {
   };
 
   void trace_together(std::span<const PixelSample> samples);
+  void start(std::span<const PixelSample> samples);
   void start_together(std::span<const PixelSample> samples);
   [[nodiscard]] std::optional<BsdfSample> scatter_unguided(const CameraPath& path,
                                                            const SurfaceVertex& vertex,
@@ -175,6 +176,7 @@ class PathTracer {
   template <typename Contribution>
   void add_to(Contribution& found, CameraPath& path, const LightHistory& of, const Contribution& contribution,
               float cos_film);
+  void expose(const CameraPath& path);
   template <typename Contribution>
   void expose(const CameraPath& path, const Contribution& found);
 
