@@ -58,7 +58,7 @@ def address(log: str) -> str:
 def cpu_seconds(program: str, scene: str, scratch: str, watched: bool) -> float:
     log = f"{scratch}/log.txt"
     with open(log, "w") as file:
-        render = subprocess.Popen([program, "render", scene, "--spp", "200", "--threads", "2", "-o", f"{scratch}/film.exr", "--stats",
+        render = subprocess.Popen([program, "render", scene, "--spp", "50", "--threads", "2", "-o", f"{scratch}/film.exr", "--stats",
                                    f"{scratch}/stats.json", *(["--preview", "0"] if watched else [])], stderr=file, cwd=scratch)
     clients = []
     if watched:

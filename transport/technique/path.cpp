@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "scene/polarisation_need.h"
+#include "transport/path/polarised_ends.h"
 
 namespace abbe {
 
