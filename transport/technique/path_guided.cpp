@@ -1,6 +1,7 @@
 #include "transport/technique/path.h"
 
 #include <algorithm>
+#include <cmath>
 
 // Path tracing that looks for caustics where photons have shown them.
 
