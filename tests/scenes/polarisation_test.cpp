@@ -63,8 +63,8 @@ TEST(Polarisation, TwoMirrorsAtAnyAngle) {
 }
 
 // A polarised lamp and a poor, rough metal at right angles to itself, with other shapes, in mist as fine as
-// air. The camera stands outside: photons that matter scatters near a lens bring it by one over their squared
-// distance, which has no finite variance.
+// air. The camera stands outside: what photons that matter scatters near a lens bring to it goes by one over
+// their squared distance, which has no finite variance.
 std::string hall(const std::string& others) {
   return R"({"abbe": 1,
     "camera": {"pinhole": {"fov_deg": 40, "f_number": 4}, "from": [0, -4, 1], "to": [0, 0, 0.9], "up": [0, 0, 1]},
