@@ -1,5 +1,6 @@
 #include "cli/interrupt.h"
 
+#include <array>
 #include <csignal>
 
 namespace abbe::cli {
@@ -10,16 +11,22 @@ std::atomic<bool> stop_asked{false};
 std::atomic<int> signal_seen{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
+// Requests of users: a second one ends the program at once.
+constexpr std::array kRequests{SIGINT, SIGTERM};
+// Announcements of an end to come, which may arrive several times. A terminal closes (SIGHUP), or the power
+// fails (SIGPWR). Batch systems send what their users choose (SIGUSR1, SIGUSR2). A limit of CPU time is
+// reached (SIGXCPU, each second from then on), or a timer ends (SIGALRM).
+constexpr std::array kAnnouncements{SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU, SIGALRM, SIGPWR};
+
 void use_default() {
-  std::signal(SIGINT, SIG_DFL);
-  std::signal(SIGTERM, SIG_DFL);
+  for (const int number : kRequests) std::signal(number, SIG_DFL);
 }
 
 void remember(int number) {
   signal_seen = number;
   stop_asked = true;
   use_default();
-  std::signal(SIGHUP, SIG_IGN);  // a closing terminal sends it once and its shell once more
+  for (const int announcement : kAnnouncements) std::signal(announcement, SIG_IGN);
 }
 
 }  // namespace
@@ -27,14 +34,15 @@ void remember(int number) {
 InterruptWatch::InterruptWatch() {
   signal_seen = 0;
   stop_asked = false;
-  std::signal(SIGINT, remember);
-  std::signal(SIGTERM, remember);
-  if (std::signal(SIGHUP, remember) == SIG_IGN) std::signal(SIGHUP, SIG_IGN);  // as nohup wants it
+  for (const int number : kRequests) std::signal(number, remember);
+  for (const int number : kAnnouncements)
+    if (std::signal(number, remember) == SIG_IGN) std::signal(number, SIG_IGN);  // as nohup wants it
 }
 
 InterruptWatch::~InterruptWatch() {
   use_default();
-  if (std::signal(SIGHUP, SIG_IGN) == remember) std::signal(SIGHUP, SIG_DFL);
+  for (const int number : kAnnouncements)
+    if (std::signal(number, SIG_IGN) == remember) std::signal(number, SIG_DFL);
 }
 
 const std::atomic<bool>& InterruptWatch::stop() const {

@@ -7,8 +7,10 @@ namespace abbe::cli {
 /// What is added to a signal's number where it ends a command early.
 inline constexpr int kSignalExit = 128;
 
-/// While it lives, the first SIGINT, SIGTERM or SIGHUP is remembered, and another SIGINT or SIGTERM kills as
-/// usual. A SIGHUP that was ignored stays so. One at a time.
+/// Remembers the first signal that asks the program to end or announces that it will be ended: SIGINT,
+/// SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU, SIGALRM or SIGPWR. After it another SIGINT or SIGTERM kills as
+/// usual, and the others are ignored. A signal of these others that was ignored before stays so. One watch at
+/// a time.
 class InterruptWatch {
  public:
   InterruptWatch();

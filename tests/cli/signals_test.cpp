@@ -1,3 +1,7 @@
+#include <csignal>
+#include <string>
+#include <vector>
+
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -23,19 +27,33 @@ std::string started(const std::string& options) {
   return ABBE_BINARY " render " + ball() + " --quiet " + options + " & pid=$!";
 }
 
-TEST(Signals, AClosedTerminalLeavesAllAsARequestToEndDoes) {
-  const std::string film = file("hup.exr");
-  const Outcome run = shell(started("--spp 10000000 -o " + film + " --checkpoint " + file("hup.abbepart") +
-                                    " --checkpoint-every 0.01s") +
-                            until("[ -e " + file("hup.abbepart") + " ]") + "kill -HUP $pid; wait $pid");
-  EXPECT_EQ(run.code, 129) << run.err;
-  const std::string samples = read_part_file(file("hup.abbepart")).header.at("samples");
-  EXPECT_EQ("0:" + read_exr(film).metadata.at("samples_per_pixel"), samples);
+struct Announcement {
+  std::string name;  ///< As `kill` takes it.
+  int number;
+};
+const std::vector<Announcement> kAnnouncements{{"HUP", SIGHUP},   {"USR1", SIGUSR1}, {"USR2", SIGUSR2},
+                                               {"XCPU", SIGXCPU}, {"ALRM", SIGALRM}, {"PWR", SIGPWR}};
+
+// Terminals, batch systems and limits of CPU time announce the end so, some of them more than once.
+TEST(Signals, AnnouncementsOfTheEndLeaveAllAsARequestToEndDoes) {
+  for (const auto& [name, number] : kAnnouncements) {
+    const std::string film = file(name + ".exr");
+    const std::string saved = file(name + ".abbepart");
+    const Outcome run =
+        shell(started("--spp 10000000 -o " + film + " --checkpoint " + saved + " --checkpoint-every 0.01s") +
+              until("[ -e " + saved + " ]") + fmt::format("kill -{0} $pid; kill -{0} $pid; wait $pid", name));
+    ASSERT_EQ(run.code, 128 + number) << name << '\n' << run.err;
+    const std::string samples = read_part_file(saved).header.at("samples");
+    EXPECT_EQ("0:" + read_exr(film).metadata.at("samples_per_pixel"), samples) << name;
+  }
 }
 
-TEST(Signals, NohupIsHeard) {
-  const Outcome run = shell("trap '' HUP; " + started("--time 1s -o " + file("nohup.exr")) +
-                            until("[ -e " + file(".nohup.exr.lock") + " ]") + "kill -HUP $pid; wait $pid");
+TEST(Signals, AnnouncementsThatTheCallerIgnoresAreIgnored) {
+  std::string names;
+  for (const auto& [name, number] : kAnnouncements) names += " " + name;
+  const Outcome run = shell("trap ''" + names + "; " + started("--time 1s -o " + file("nohup.exr")) +
+                            until("[ -e " + file(".nohup.exr.lock") + " ]") + "for name in" + names +
+                            "; do kill -$name $pid; done; wait $pid");
   EXPECT_EQ(run.code, 0) << run.err;
 }
 
