@@ -9,9 +9,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <chrono>
 #include <csignal>
 #include <exception>
+#include <optional>
+#include <string_view>
 #include <thread>
 #include <utility>
 
@@ -19,40 +22,33 @@
 #include <httplib.h>
 
 #include "io/error.h"
+#include "preview/question_reader.h"
 
 namespace abbe {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kMaxQuestion = 8192;
-constexpr std::chrono::seconds kAskWithin{2};
 constexpr std::chrono::seconds kTakeWithin{5};
 constexpr int kWaiting = 128;
-constexpr std::size_t kThreads = 16;  // nearly all of which wait for slow clients
+constexpr std::size_t kThreads = 16;  // nearly all of which wait for clients that take their answers slowly
 
-// When the connection that this thread serves was made.
-thread_local Clock::time_point connected{};
-
-// Serves connections in their order, and lets each know how long it has waited.
-class ConnectionQueue : public httplib::TaskQueue {
+// Calls on the thread that accepts connections, which hands them over at once.
+class HandOver : public httplib::TaskQueue {
  public:
-  void enqueue(std::function<void()> serve) override {
-    threads_.enqueue([serve = std::move(serve), now = Clock::now()] {
-      connected = now;
-      serve();
-    });
-  }
-  void shutdown() override { threads_.shutdown(); }
+  explicit HandOver(std::function<void()> shut_down) : shut_down_(std::move(shut_down)) {}
+  void enqueue(std::function<void()> hand_over) override { hand_over(); }
+  void shutdown() override { shut_down_(); }
 
  private:
-  httplib::ThreadPool threads_{kThreads};
+  std::function<void()> shut_down_;
 };
 
-// A connection that has so many bytes and so much time and no more, however it deals them out.
+// A connection whose question has been read. Its client has so much time to take the answer and no more,
+// however it deals it out.
 class Connection : public httplib::Stream {
  public:
-  explicit Connection(int socket) : socket_(socket) {}
+  Connection(int socket, std::string question) : socket_(socket), question_(std::move(question)) {}
   ~Connection() override {
     (void)::shutdown(socket_, SHUT_RDWR);
     (void)::close(socket_);
@@ -60,22 +56,16 @@ class Connection : public httplib::Stream {
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  bool is_readable() const override { return begin_ != end_ || ready(POLLIN, kAskWithin); }
-  bool is_writable() const override { return ready(POLLOUT, kTakeWithin); }
+  bool is_readable() const override { return at_ < question_.size(); }
+  bool is_writable() const override {
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until_ - Clock::now()).count();
+    pollfd descriptor{socket_, POLLOUT, 0};
+    return left > 0 && ::poll(&descriptor, 1, static_cast<int>(left)) > 0;
+  }
 
   ssize_t read(char* to, std::size_t size) override {
-    if (begin_ == end_) {
-      const std::size_t room = std::min(buffer_.size(), kMaxQuestion - taken_);
-      if (room == 0 || !ready(POLLIN, kAskWithin)) return -1;
-      const ssize_t got = ::recv(socket_, buffer_.data(), room, 0);
-      if (got <= 0) return got;
-      taken_ += static_cast<std::size_t>(got);
-      begin_ = 0;
-      end_ = static_cast<std::size_t>(got);
-    }
-    const std::size_t count = std::min(size, end_ - begin_);
-    std::copy_n(buffer_.data() + begin_, count, to);
-    begin_ += count;
+    const std::size_t count = question_.copy(to, size, at_);
+    at_ += count;
     return static_cast<ssize_t>(count);
   }
 
@@ -90,18 +80,10 @@ class Connection : public httplib::Stream {
   socket_t socket() const override { return socket_; }
 
  private:
-  [[nodiscard]] bool ready(short event, std::chrono::seconds within) const {
-    const auto left =
-        std::chrono::duration_cast<std::chrono::milliseconds>(connected + within - Clock::now()).count();
-    pollfd descriptor{socket_, event, 0};
-    return left > 0 && ::poll(&descriptor, 1, static_cast<int>(left)) > 0;
-  }
-
   int socket_;
-  std::array<char, 2048> buffer_{};
-  std::size_t begin_ = 0;
-  std::size_t end_ = 0;
-  std::size_t taken_ = 0;
+  Clock::time_point until_ = Clock::now() + kTakeWithin;
+  std::string question_;
+  std::size_t at_ = 0;
 };
 
 // Another program that listens there is to be noticed, so the port is not shared; but one that a program has
@@ -146,10 +128,26 @@ bool is_own(const std::string& host, const std::string& listens_at) {
          is_same_name(host, listens_at);
 }
 
-// The host of "host:port", "[host]:port" or either without a port.
-std::string host_of(const std::string& text) {
-  if (text.starts_with('[')) return text.substr(1, text.find(']') - 1);
-  return text.substr(0, text.rfind(':'));
+// The host of "host", "host:port" or either with an address of IPv6 in brackets [RFC9110, sec. 7.2; RFC3986,
+// sec. 3.2]. Nothing for a text of another form.
+std::optional<std::string> host_of(std::string_view text) {
+  const bool bracketed = text.starts_with('[');
+  const std::size_t end = bracketed ? text.find(']') : std::min(text.find(':'), text.size());
+  if (end == std::string_view::npos) return std::nullopt;
+  const std::string host(text.substr(bracketed ? 1 : 0, end - (bracketed ? 1 : 0)));
+  const std::string_view port = text.substr(end + (bracketed ? 1 : 0));
+  const bool has_port = port.empty() || port.starts_with(':');
+  if (!has_port || port.find_first_not_of("0123456789", 1) != std::string_view::npos) return std::nullopt;
+  if (bracketed) {
+    in6_addr ignored{};
+    return ::inet_pton(AF_INET6, host.c_str(), &ignored) == 1 ? std::optional(host) : std::nullopt;
+  }
+  static constexpr std::string_view kNameMarks = "-._~!$&'()*+,;=%";
+  const bool is_name = std::ranges::all_of(host, [](unsigned char c) {
+    return c < 0x80 &&
+           (std::isalnum(c) != 0 || kNameMarks.find(static_cast<char>(c)) != std::string_view::npos);
+  });
+  return is_name ? std::optional(host) : std::nullopt;
 }
 
 void fill(const PageAnswer& answer, httplib::Response& response) {
@@ -174,17 +172,44 @@ struct PageServer::Listener {
     // The library lets five connections wait to be accepted, and others try again after a second.
     void let_more_wait() { (void)::listen(svr_sock_, kWaiting); }
 
+    // What accepted connections are handed over by. The library owns it.
+    httplib::TaskQueue* hand_over() {
+      return new HandOver([this] { end(); });
+    }
+    ~HttpServer() override { end(); }
+
    private:
     bool process_and_close_socket(socket_t socket) override {
-      Connection connection(socket);
+      reader_.add(socket);
+      return true;
+    }
+
+    void end() {
+      reader_.stop();
+      if (!std::exchange(ended_, true)) threads_.shutdown();
+    }
+
+    void serve(int socket, std::string question) {
+      process(socket, std::move(question));
+      reader_.served();
+    }
+
+    void process(int socket, std::string question) {
+      Connection connection(socket, std::move(question));
       bool closed = false;
       // Answers on one machine are not worth compressing, and whoever asks for parts is given the whole.
-      return process_request(connection, true, closed, [](httplib::Request& request) {
+      (void)process_request(connection, true, closed, [](httplib::Request& request) {
         request.headers.erase("Accept-Encoding");
         request.headers.erase("Range");
         request.ranges.clear();
       });
     }
+
+    bool ended_ = false;
+    httplib::ThreadPool threads_{kThreads};
+    QuestionReader reader_{[this](int socket, std::string question) {
+      threads_.enqueue([this, socket, question = std::move(question)] { serve(socket, question); });
+    }};
   };
 
   HttpServer server = {};
@@ -195,8 +220,11 @@ struct PageServer::Listener {
 
   [[nodiscard]] PageAnswer reply(const httplib::Request& request) const {
     if (request.method != "GET" && request.method != "HEAD") return failure(405, "allowed: GET, HEAD");
-    if (request.get_header_value_count("Host") > 1) return failure(400, "asked by several names");
-    if (!is_own(host_of(request.get_header_value("Host")), host))
+    const std::size_t names = request.get_header_value_count("Host");
+    if (names != 1) return failure(400, names == 0 ? "asked by no name" : "asked by several names");
+    const std::optional<std::string> name = host_of(request.get_header_value("Host"));
+    if (!name) return failure(400, "asked by a malformed name");
+    if (!is_own(*name, host))
       return failure(403, "asked by the name of another host: ask by the address of this one");
     PageRequest question{request.path, {}};
     for (const auto& [key, value] : request.params) question.parameters.emplace(key, value);
@@ -215,7 +243,7 @@ PageServer::PageServer(const ServerAddress& address, std::function<PageAnswer(co
   listener_->host = address.host;
   listener_->answer = std::move(answer);
   Listener::HttpServer& server = listener_->server;
-  server.new_task_queue = [] { return new ConnectionQueue; };  // owned by the library
+  server.new_task_queue = [&server] { return server.hand_over(); };
   server.set_socket_options(set_options);
   server.set_default_headers(
       {{"Cache-Control", "no-store"},

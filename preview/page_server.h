@@ -35,11 +35,13 @@ struct PageAnswer {
 }
 
 /// Answers GET and HEAD of HTTP/1.1 while it lives, each connection one question, on threads of its own. A
-/// connection whose question is longer than 8 KiB or not there within two seconds, or whose answer is not
-/// taken within five, is dropped. Whoever asks for parts of an answer is given the whole. It refuses names of
-/// other hosts, by which pages of strangers could read its answers: on an address of this machine alone all
-/// but "localhost" and such addresses, on others all but addresses, "localhost", this machine's own name and
-/// the one that it listens at.
+/// `QuestionReader` drops connections that ask too slowly, too much, or are too many, and an answer that is
+/// not taken within five seconds is dropped. Whoever asks for parts of an answer is given the whole.
+///
+/// A question without one well-formed Host header is answered by 400. Names of other hosts, by which pages of
+/// strangers could read the answers, are refused by 403: on an address of this machine alone all but
+/// "localhost" and such addresses, on others all but addresses, "localhost", this machine's own name and the
+/// one that it listens at.
 class PageServer {
  public:
   /// `answer` is called by several threads at once; what it throws is answered as a failure of the server.
