@@ -323,6 +323,7 @@ void add_commands(CLI::App& app, Command& command) {
   add_validate(app, command);
   add_bench(app, command);
   add_help(app, command);
+  refuse_empty_values(app);
 }
 
 }  // namespace abbe::cli

@@ -12,10 +12,21 @@
 namespace abbe::cli {
 namespace {
 
-void check_option(const CLI::App& app, const std::string& name) {
+std::string no_value(const CLI::Option& option) {
+  return fmt::format("got an empty text, allowed {}", option.get_type_name());
+}
+
+// `argument` is "--name" or "--name=value".
+void check_option(const CLI::App& app, const std::string& argument) {
+  const std::size_t equals = argument.find('=');
+  const std::string name = argument.substr(0, equals);
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options())
-    for (const std::string& known : option->get_lnames()) names.push_back("--" + known);
+    for (const std::string& known : option->get_lnames()) {
+      names.push_back("--" + known);
+      if (names.back() == name && equals + 1 == argument.size() && option->get_items_expected_max() > 0)
+        throw Error(ErrorCode::usage, name, no_value(*option));
+    }
   if (std::find(names.begin(), names.end(), name) == names.end())
     throw Error(ErrorCode::usage, "", unknown_name("option", name, names));
 }
@@ -57,10 +68,17 @@ void check_names(const CLI::App& app, const std::vector<std::string>& arguments)
   for (const std::string& argument : arguments) {
     if (argument == "--") return;
     if (argument.starts_with("--"))
-      check_option(*at, argument.substr(0, argument.find('=')));
+      check_option(*at, argument);
     else if (!argument.starts_with('-') && !at->get_subcommands({}).empty())
       at = &find_command(*at, argument);
   }
+}
+
+void refuse_empty_values(CLI::App& app) {
+  for (CLI::Option* option : app.get_options())
+    if (option->get_items_expected_min() > 0)
+      option->check([option](const std::string& value) { return value.empty() ? no_value(*option) : ""; });
+  for (CLI::App* command : app.get_subcommands({})) refuse_empty_values(*command);
 }
 
 // Not `app.help()`, which would show the help of the subcommand that was given.

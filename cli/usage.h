@@ -16,8 +16,13 @@ namespace abbe::cli {
 /// The command of that name. Throws Error{usage} with the nearest name, which CLI11 does not know.
 [[nodiscard]] const CLI::App& find_command(const CLI::App& app, const std::string& name);
 
-/// Throws the same for any command or long option among the arguments that does not exist.
+/// Throws the same for any command or long option among the arguments that does not exist, and for
+/// `--option=` that nothing follows, for which CLI11 would take the next argument.
 void check_names(const CLI::App& app, const std::vector<std::string>& arguments);
+
+/// Makes every option and argument that takes a value refuse an empty one, those of subcommands included: it
+/// comes from an unset variable of a script, and would be taken for an option that is not given.
+void refuse_empty_values(CLI::App& app);
 
 /// Help on one command, which is called `name` in it.
 [[nodiscard]] std::string help_of(const CLI::App& app, const std::string& name);

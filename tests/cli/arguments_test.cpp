@@ -1,9 +1,18 @@
 #include "cli/arguments.h"
 
+#include <exception>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <CLI/CLI.hpp>
 
+#include "cli/commands.h"
+#include "cli/usage.h"
 #include "description/render_limits.h"
 
 namespace abbe::cli {
@@ -113,6 +122,55 @@ TEST(Arguments, OverridesArePointerAndValue) {
   EXPECT_EQ(set.value, "a=b");
   EXPECT_NE(refusal([] { return parse_override("--set", "samples=3"); }), "accepted");
   EXPECT_NE(refusal([] { return parse_override("--set", "/samples"); }), "accepted");
+}
+
+// The fault that the command line has; empty if there is none.
+std::string fault_of(CLI::App& app, const std::vector<std::string>& words) {
+  try {
+    app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
+  } catch (const std::exception& fault) {
+    return fault.what();
+  }
+  return "";
+}
+
+// Gives every option and argument of a command, and of those within it, an empty text; counts them.
+int expect_refused_empty(CLI::App& app, const CLI::App& command, const std::vector<std::string>& words) {
+  int count = 0;
+  bool first = true;
+  for (const CLI::Option* option : command.get_options()) {
+    if (option->get_items_expected_min() == 0) continue;
+    if (!option->nonpositional() && !std::exchange(first, false)) continue;  // others come behind the first
+    ++count;
+    std::vector<std::string> line = words;
+    if (option->nonpositional()) line.push_back(option->get_name());
+    line.emplace_back();
+    EXPECT_NE(fault_of(app, line).find("got an empty text, allowed "), std::string::npos)
+        << fmt::format("{}", fmt::join(line, " "));
+  }
+  for (const CLI::App* within : command.get_subcommands([](const CLI::App*) { return true; })) {
+    std::vector<std::string> line = words;
+    line.push_back(within->get_name());
+    count += expect_refused_empty(app, *within, line);
+  }
+  return count;
+}
+
+TEST(Arguments, NoOptionTakesAnEmptyText) {
+  CLI::App app;
+  Command command;
+  add_commands(app, command);
+  EXPECT_GT(expect_refused_empty(app, app, {}), 100);
+  for (const std::string argument : {"--output=", "--checkpoint=", "--set="}) {
+    try {
+      check_names(app, {"render", argument, "scene.json"});
+      FAIL() << argument << " takes the next argument";
+    } catch (const Error& error) {
+      EXPECT_EQ(error.code, ErrorCode::usage);
+      EXPECT_NE(std::string(error.what()).find("got an empty text"), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_NO_THROW(check_names(app, {"render", "--set=/render/samples=1", "scene.json"}));
 }
 
 }  // namespace

@@ -61,12 +61,31 @@ TEST(Program, HelpTellsTheKeysOfScenes) {
 }
 
 TEST(Program, UsageErrorsExitWith2) {
-  for (const char* text :
-       {"", "rendr", "render", "--frobnicate", "help rendr", "info", "compare one.exr",
-        "render x.json --spp 0", "render x.json --spp 1.5", "render x.json --spp 4 --time 3s",
-        "render x.json --integrator photon", "render x.json --seed -1", "render x.json --threads 5000",
-        "render x.json --integrator 1", "help --list", "query --json ior N-BK7 --at 550",
-        "render x.json --set samples=3", "render x.json --crop 3,3,2,2", "render x.json --error 0"}) {
+  for (const char* text : {"",
+                           "rendr",
+                           "render",
+                           "--frobnicate",
+                           "help rendr",
+                           "info",
+                           "compare one.exr",
+                           "render x.json --spp 0",
+                           "render x.json --spp 1.5",
+                           "render x.json --spp 4 --time 3s",
+                           "render x.json --integrator photon",
+                           "render x.json --seed -1",
+                           "render x.json --threads 5000",
+                           "render x.json --integrator 1",
+                           "help --list",
+                           "query --json ior N-BK7 --at 550",
+                           "render x.json --set samples=3",
+                           "render x.json --crop 3,3,2,2",
+                           "render x.json --error 0",
+                           "render x.json -o ''",
+                           "render x.json --checkpoint ''",
+                           "render x.json --checkpoint= --resume",
+                           "render ''",
+                           "query --list ''",
+                           "validate -o ''"}) {
     const Outcome run = abbe(text);
     EXPECT_EQ(run.code, 2) << text << '\n' << run.err;
     EXPECT_TRUE(run.err.starts_with("abbe: ")) << text << '\n' << run.err;
