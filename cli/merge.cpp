@@ -39,7 +39,7 @@ Headers read_headers(const MergeOptions& options) {
   std::vector<std::string> absent;
   std::error_code ignored;
   for (const fs::path& part : options.parts)
-    if (!fs::is_regular_file(part, ignored)) absent.push_back(part.string());
+    if (!fs::exists(part, ignored)) absent.push_back(part.string());
   if (!absent.empty())
     throw Error(ErrorCode::input, fmt::format("{}", fmt::join(absent, ", ")), "no such file");
   std::optional<Headers> all;

@@ -154,7 +154,7 @@ Image pixels_of(Imf::MultiPartInputFile& file, int number, const std::string& na
 
 std::vector<ExrPart> read(const std::filesystem::path& path, Inputs* inputs) {
   const std::string name = path.string();
-  if (!std::filesystem::is_regular_file(path)) throw Error(ErrorCode::input, name, "no such regular file");
+  require_file(path);
   Imf::MultiPartInputFile file(name.c_str());
   std::size_t bytes = 0;
   for (int i = 0; i < file.parts(); ++i) {

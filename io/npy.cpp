@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "io/error.h"
+#include "io/text.h"
 
 namespace abbe {
 namespace {
@@ -99,6 +100,7 @@ std::vector<float> read_values(std::istream& file, std::size_t count) {
 }  // namespace
 
 NumberArray read_npy(const fs::path& path, Inputs* inputs) {
+  require_file(path);
   std::ifstream file(path, std::ios::binary);
   if (!file) refuse_array(path, "cannot be read");
   const ArrayHeader header = read_array_header(file, path);

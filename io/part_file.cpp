@@ -4,7 +4,6 @@
 
 #include <fstream>
 #include <sstream>
-#include <system_error>
 #include <vector>
 
 #include "io/atomic_file.h"
@@ -89,8 +88,7 @@ std::size_t rest_of(std::ifstream& file) {
 }
 
 OpenPartFile open_part_file(const fs::path& path) {
-  std::error_code ignored;
-  if (!fs::is_regular_file(path, ignored)) refuse(path, "no such file");
+  require_file(path);
   OpenPartFile open{std::ifstream(path, std::ios::binary), {}, {}};
   if (!open.file) refuse(path, "cannot open the file");
   open.header = read_header(open.file, path);

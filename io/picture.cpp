@@ -10,6 +10,7 @@
 #include "io/extension.h"
 #include "io/picture_codec.h"
 #include "io/png.h"
+#include "io/text.h"
 
 namespace abbe {
 namespace {
@@ -106,9 +107,7 @@ void write_raw_picture(const std::filesystem::path& path, const Image& image) {
 }
 
 Image read_picture(const std::filesystem::path& path, Inputs* inputs) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored))
-    throw Error(ErrorCode::input, path.string(), "no such regular file");
+  require_file(path);
   PictureHeader header;
   std::vector<float> values;
   HeldMemory held(inputs, 0);

@@ -4,6 +4,7 @@
 #include "io/error.h"
 #include "io/extension.h"
 #include "io/picture_codec.h"
+#include "io/text.h"
 
 namespace abbe {
 
@@ -27,9 +28,7 @@ bool is_raw_picture(const std::filesystem::path& path) {
 }
 
 RawPicture read_raw_picture(const std::filesystem::path& path) {
-  std::error_code ignored;
-  if (!std::filesystem::is_regular_file(path, ignored))
-    throw Error(ErrorCode::input, path.string(), "no such regular file");
+  require_file(path);
   return extension_of(path) == ".dng" ? picture_codec().read_dng(path.string())
                                       : picture_codec().read_fits(path.string());
 }

@@ -3,10 +3,13 @@
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <iconv.h>
+#include <linux/magic.h>
 #include <openssl/evp.h>
 #include <sys/stat.h>
+#include <sys/vfs.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <boost/locale/utf.hpp>
@@ -23,6 +26,8 @@
 
 namespace abbe {
 namespace {
+
+constexpr const char* kNoRegularFile = "not a regular file";
 
 std::string reason(int error) {
   return std::generic_category().message(error);
@@ -43,6 +48,14 @@ class Descriptor {
  private:
   int value_;
 };
+
+/// True for a file system whose files the kernel makes up when they are read; its regular files may block.
+bool is_made_by_kernel(const struct statfs& system) {
+  constexpr std::array<std::uint64_t, 10> kMadeByKernel{
+      PROC_SUPER_MAGIC,   SYSFS_MAGIC,    DEBUGFS_MAGIC,       TRACEFS_MAGIC, SECURITYFS_MAGIC,
+      CGROUP_SUPER_MAGIC, PSTOREFS_MAGIC, CGROUP2_SUPER_MAGIC, BPF_FS_MAGIC,  SELINUX_MAGIC};
+  return std::ranges::find(kMadeByKernel, static_cast<std::uint64_t>(system.f_type)) != kMadeByKernel.end();
+}
 
 /// Appends up to `limit` bytes to `bytes`; gives the error number, or 0 at the end of the file or the limit.
 int read_bytes(int descriptor, std::size_t limit, std::string& bytes) {
@@ -103,7 +116,7 @@ std::shared_ptr<SourceText> read_source(const std::filesystem::path& path, Diagn
   struct stat status {};
   if (file.value() < 0 || ::fstat(file.value(), &status) != 0)
     return refuse(source, kFile, fmt::format("cannot open the file ({})", reason(errno)), code, diagnostics);
-  if (!S_ISREG(status.st_mode)) return refuse(source, kFile, "not a regular file", code, diagnostics);
+  if (!S_ISREG(status.st_mode)) return refuse(source, kFile, kNoRegularFile, code, diagnostics);
   if (status.st_size > 0 && static_cast<std::size_t>(status.st_size) > limit_bytes)
     return refuse_length(source, limit_bytes, diagnostics);
   if (!read_source(file.value(), source, diagnostics, code, limit_bytes)) return nullptr;
@@ -223,11 +236,22 @@ std::shared_ptr<const SourceText> read_standard_input(Diagnostics& diagnostics, 
   return checked(source, diagnostics, code);
 }
 
+std::optional<std::string> file_fault(const std::filesystem::path& path) {
+  struct stat status {};
+  struct statfs system {};
+  if (::stat(path.c_str(), &status) != 0 || ::statfs(path.c_str(), &system) != 0) return "no such file";
+  if (!S_ISREG(status.st_mode) || is_made_by_kernel(system)) return kNoRegularFile;
+  return std::nullopt;
+}
+
+void require_file(const std::filesystem::path& path) {
+  if (const auto fault = file_fault(path)) throw Error(ErrorCode::input, path.string(), *fault);
+}
+
 bool is_file(const std::filesystem::path& path, const SourcePosition& where, Diagnostics& diagnostics) {
-  std::error_code ignored;
-  if (std::filesystem::is_regular_file(path, ignored)) return true;
-  diagnostics.error(where, fmt::format("no such file \"{}\"", path.string()), ErrorCode::input);
-  return false;
+  const auto fault = file_fault(path);
+  if (fault) diagnostics.error(where, fmt::format("{} \"{}\"", *fault, path.string()), ErrorCode::input);
+  return !fault;
 }
 
 std::size_t valid_prefix(std::string_view text) {

@@ -33,7 +33,13 @@ inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 /// a file.
 [[nodiscard]] std::shared_ptr<const SourceText> read_standard_input(Diagnostics& diagnostics, ErrorCode code);
 
-/// Whether `path` is a regular file; another is reported at `where`, as what names it.
+/// The reason why `path` is not read: "no such file", or "not a regular file" for what may block its reader
+/// or has no end. These are folders, devices, FIFOs, sockets, and what the kernel shows as files in /proc,
+/// /sys and the like. Nothing for a file that a disk holds.
+[[nodiscard]] std::optional<std::string> file_fault(const std::filesystem::path& path);
+/// Throws Error{input} with that reason, if there is one.
+void require_file(const std::filesystem::path& path);
+/// True if there is none; else the path is reported at `where`, as what names it.
 [[nodiscard]] bool is_file(const std::filesystem::path& path, const SourcePosition& where,
                            Diagnostics& diagnostics);
 

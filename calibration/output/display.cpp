@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
 #include <sstream>
+#include <system_error>
 #include <utility>
 
 #include <OpenColorIO/OpenColorIO.h>
@@ -19,6 +21,7 @@
 #include "io/error.h"
 #include "io/exr.h"
 #include "io/picture_codec.h"
+#include "io/text.h"
 #include "sensor/film/recorded_crop.h"
 #include "spectral/film_observer.h"
 
@@ -101,8 +104,15 @@ struct ChosenView {
   std::string view;
 };
 
+// OpenColorIO would wait for the writer of a FIFO; names of its own, such as "ocio://default", are no files.
+void require_no_device(const std::filesystem::path& config) {
+  std::error_code ignored;
+  if (std::filesystem::exists(config, ignored)) require_file(config);
+}
+
 ChosenView choose_view(const ViewOptions& options) {
   const bool own = options.config.empty();
+  if (!own) require_no_device(options.config);
   std::istringstream text(own ? ocio_config_text({}) : "");
   const OCIO::ConstConfigRcPtr config =
       own ? OCIO::Config::CreateFromStream(text) : OCIO::Config::CreateFromFile(options.config.c_str());

@@ -13,6 +13,7 @@
 #include "description/meshes/gzip.h"
 #include "description/meshes/mesh_formats.h"
 #include "io/extension.h"
+#include "io/text.h"
 #include "scene/shapes/mesh.h"
 
 namespace abbe {
@@ -72,8 +73,8 @@ bool brings_materials(const std::filesystem::path& path) {
 
 std::optional<std::string> read_mesh_bytes(const std::filesystem::path& path, std::string& bytes,
                                            HeldMemory& held) {
+  if (auto fault = file_fault(path)) return fault;
   std::error_code error;
-  if (!std::filesystem::is_regular_file(path, error)) return error ? "no such file" : "not a regular file";
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error || size > kMaxFileBytes) return "file too large";
   if (is_packed_ply(path)) return read_gzip_bytes(path, kMaxFileBytes, bytes, held);

@@ -1,3 +1,5 @@
+#include <sys/stat.h>
+
 #include <cstring>
 
 #include <fmt/format.h>
@@ -199,6 +201,66 @@ TEST_F(InputFiles, TakeNoMoreMemoryThanAllowed) {
   ASSERT_EQ(here(ABBE_BINARY " render wall.json --quiet -o a.abbepart").code, 0);
   refused("merge a.abbepart -o b.exr --max-memory 1k", "a.abbepart");
   refused("develop a.exr -o b.exr --max-memory 1k", "a.exr");
+}
+
+/// Files that no disk holds, by name: to read them would wait for ever, or never end.
+std::vector<std::pair<std::string, fs::path>> special_files() {
+  const fs::path fifo = scratch() / "special_fifo";
+  fs::remove(fifo);
+  EXPECT_EQ(::mkfifo(fifo.c_str(), 0600), 0);
+  return {{"fifo", fifo}, {"zero", "/dev/zero"}, {"kernel", "/proc/kmsg"}};
+}
+
+TEST_F(InputFiles, SpecialFilesAreRefusedAtOnce) {
+  for (const char* scene : {"render wall.json --quiet --spp 1 -o film.exr", "convert wall.json -o copy.json"})
+    ASSERT_EQ(here(ABBE_BINARY + std::string(" ") + scene).code, 0);
+  const std::string image = " --set /materials/wall/diffuse/reflectance/image=";
+  const std::vector<std::pair<std::string, std::string>> uses{
+      {".json", "info {}"},
+      {".xml", "convert {}"},
+      {".pbrt", "convert {}"},
+      {".gltf", "convert {}"},
+      {".exr", "info wall.json" + image + "{}"},
+      {".png", "info wall.json" + image + "{}"},
+      {".hdr", "info wall.json" + image + "{}"},
+      {".ply", "info wall.json --set /shapes/0/mesh={} --set /shapes/0/material=wall"},
+      {".obj", "info wall.json --set /shapes/0/mesh={}"},
+      {".csv", "info wall.json --set /lights/0/emission/spectrum={}"},
+      {".npy",
+       R"(info wall.json --set '/materials/fog={"medium":{"grid":{"densities":"{}","from":[0,0,0],"to":[1,1,1]}}}')"},
+      {".abbepart", "merge {} -o merged.exr"},
+      {".exr", "develop {} --display a.png"},
+      {".ocio", "develop film.exr --display a.png --ocio {}"},
+      {".dng", "mtf {}"},
+      {".csv", "calibrate --camera {}"},
+      {".json", "calibrate --series {}"},
+      {".zmx", "lens {}"},
+      {".yml", "query ior {} --at 500"},
+      {".exr", "compare {} film.exr"},
+      {".tif", "mtf {}"}};
+  for (const auto& [name, special] : special_files())
+    for (const auto& [extension, use] : uses) {
+      fs::remove(folder_ / (name + extension));
+      fs::create_symlink(special, folder_ / (name + extension));
+      std::string command = use;
+      command.replace(command.find("{}"), 2, name + extension);
+      const Outcome run = here("timeout 5 " ABBE_BINARY " " + command);
+      const std::string said = command + '\n' + run.err.substr(0, 400);
+      if (name == "kernel") {  // texts of it are read as far as they do not block
+        EXPECT_TRUE(run.code == 3 || run.code == 4) << run.code << ": " << said;
+        continue;
+      }
+      EXPECT_EQ(run.code, 4) << said;
+      EXPECT_NE(run.err.find("not a regular file"), std::string::npos) << said;
+    }
+}
+
+// From a pipe, by "-", and from a file by the name of the stream.
+TEST_F(InputFiles, StandardInputIsReadAsBefore) {
+  EXPECT_EQ(here("cat wall.json | " ABBE_BINARY " info -").code, 0);
+  EXPECT_EQ(here(ABBE_BINARY " info /dev/stdin < wall.json").code, 4) << "it names files beside itself";
+  const fs::path alone = scratch().write("alone.json", ball_scene());
+  EXPECT_EQ(shell(ABBE_BINARY " info /dev/stdin < " + alone.string()).code, 0);
 }
 
 TEST(Memory, AmountsAreToldInUnitsThatTell) {

@@ -111,7 +111,7 @@ TEST(Exr, MissingAndForeignFilesAreInputErrors) {
   const auto folder = test_folder();
   std::string message;
   EXPECT_EQ(reading_error(folder / "none.exr", &message), ErrorCode::input);
-  EXPECT_EQ(message, (folder / "none.exr").string() + ": no such regular file");
+  EXPECT_EQ(message, (folder / "none.exr").string() + ": no such file");
   EXPECT_EQ(reading_error(folder), ErrorCode::input);
   put(folder / "text.exr", "no image");
   EXPECT_EQ(reading_error(folder / "text.exr"), ErrorCode::input);

@@ -98,7 +98,7 @@ TEST(PartFile, AHugeHeaderIsRefused) {
 TEST(PartFile, OtherFilesAreRefusedByName) {
   const auto path = test_folder() / "a.abbepart";
   EXPECT_EQ(complaint_about(path), path.string() + ": no such file");
-  EXPECT_EQ(complaint_about(path.parent_path()), path.parent_path().string() + ": no such file");
+  EXPECT_EQ(complaint_about(path.parent_path()), path.parent_path().string() + ": not a regular file");
   put(path, "v/1\x01 not ours");
   EXPECT_EQ(complaint_about(path), path.string() + ": not a part file (\"abbepart 1\")");
   put(path, "abbepart 1\nbytes: 99999999999999\nsha256: 00\n\n");  // nothing of that size is allocated

@@ -1,7 +1,10 @@
 #include "io/text.h"
 
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
+#include <sys/un.h>
+#include <unistd.h>
 
 #include "test_files.h"
 
@@ -45,6 +48,33 @@ TEST(ReadText, RefusesWhatIsNoRegularFileWithoutWaiting) {
   ASSERT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);
   EXPECT_EQ(refusal(folder / "fifo", ErrorCode::scene), ": error: not a regular file\n");
   EXPECT_EQ(refusal("/dev/zero", ErrorCode::scene), ": error: not a regular file\n");
+}
+
+TEST(FileFault, NamesWhatNoDiskHolds) {
+  const auto folder = test_folder();
+  put(folder / "file", "text");
+  EXPECT_FALSE(file_fault(folder / "file"));
+  std::filesystem::create_symlink("file", folder / "link");
+  EXPECT_FALSE(file_fault(folder / "link"));
+  EXPECT_EQ(file_fault(folder / "none"), "no such file");
+  ASSERT_EQ(::mkfifo((folder / "fifo").c_str(), 0600), 0);
+  const int listening = ::socket(AF_UNIX, SOCK_STREAM, 0);
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string name = (folder / "socket").string();
+  ASSERT_LT(name.size(), sizeof address.sun_path);
+  name.copy(address.sun_path, name.size());
+  ASSERT_EQ(::bind(listening, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+  ::close(listening);
+  for (const std::filesystem::path& path :
+       {folder, folder / "fifo", folder / "socket", std::filesystem::path("/dev/zero"),
+        std::filesystem::path("/proc/kmsg"), std::filesystem::path("/sys/kernel/notes")})
+    if (std::filesystem::exists(path)) {
+      EXPECT_EQ(file_fault(path), "not a regular file") << path;
+    }
+  Diagnostics diagnostics;
+  EXPECT_FALSE(is_file("/dev/zero", {}, diagnostics));
+  EXPECT_EQ(diagnostics.all().front().message, "not a regular file \"/dev/zero\"");
 }
 
 TEST(ReadText, LimitIsInclusive) {
