@@ -31,9 +31,9 @@ std::vector<Case> cases_by() {
   return chosen;
 }
 
-/// Runs a case and expects it to pass; skips what its technique does not reach.
-inline void expect_passes(const Case& item, const CaseSettings& settings) {
-  const CaseResult result = run_case(item, settings);
+/// Runs a case and expects it to pass; skips what its technique does not reach. `result` is what it measured.
+inline void expect_passes(const Case& item, const CaseSettings& settings, CaseResult& result) {
+  result = run_case(item, settings);
   if (!result.measured()) GTEST_SKIP() << result.unreached.front();
   ASSERT_FALSE(result.figures.empty());
   const Figure& worst = result.figures[result.worst];
@@ -47,6 +47,11 @@ inline void expect_passes(const Case& item, const CaseSettings& settings) {
     if (!result.passed() && std::abs(figure.deviation()) > result.allowed(figure))
       ADD_FAILURE() << fmt::format("{}: {:.10g} against {:.10g}", figure.what, figure.measured.mean,
                                    figure.reference);
+}
+
+inline void expect_passes(const Case& item, const CaseSettings& settings) {
+  CaseResult result{};
+  expect_passes(item, settings, result);
 }
 
 /// The name of a case as GoogleTest allows it.

@@ -15,7 +15,7 @@ struct Planted {
   Case good{Suite::optics, "good", "a < b", "[Born1999]", "mm", {0.5}, Computed{}};
   Case bad{Suite::colour, "bad", "off", "[CIE15]", "", {0.01, Margin::Kind::relative}, Computed{}};
   ValidationReport report{
-      {"cpu", 2, "compiler", "-O3", "2026-01-01T00:00:00Z"}, "9.9", "abc", true, {}, {}, 3};
+      {"cpu", 2, "compiler", "-O3", "2026-01-01T00:00:00Z"}, "9.9", "abc", true, {}, {}, {3, 9}};
 
   Planted() {
     CaseResult right{{{"x", 1, {1.25, 0}}}, good.margin, Verdict::pass, 0, 0, 2};
@@ -31,7 +31,8 @@ TEST(Report, JsonHoldsEveryFigureAndWhatIsNotCovered) {
   const nlohmann::json json = nlohmann::json::parse(json_text(planted.report));
   EXPECT_EQ(json["cases"], 2);
   EXPECT_EQ(json["failures"], 1);
-  EXPECT_EQ(json["cpu_s"], 7);
+  EXPECT_EQ(json["cpu_s"], 9) << "the whole run, not the cases alone";
+  EXPECT_EQ(json["wall_s"], 3);
   EXPECT_EQ(json["version"], "9.9");
   EXPECT_EQ(json["data_sha256"], "abc");
   const auto& bad = json["outcomes"].at(1);
@@ -52,6 +53,48 @@ TEST(Report, TextNamesTheFailure) {
   EXPECT_NE(text.find("not covered"), std::string::npos);
 }
 
+// Deviation and margin of a figure, as text and page tell them.
+TEST(Report, DeviationsAreToldInTheUnitOfTheirMargin) {
+  const auto told = [](const Margin& margin, double reference, double measured, const std::string& unit) {
+    const Case item{Suite::optics, "a", "", "", unit, margin, Computed{}};
+    const Figure figure{"", reference, {measured, 0}};
+    const auto [deviation, allowed] =
+        deviation_text({&item, {{figure}, margin, Verdict::pass, 0, 0, 0}}, figure);
+    return deviation + " of ± " + allowed;
+  };
+  EXPECT_EQ(told({0.01, Margin::Kind::relative}, 250, 251, "lx s"), "0.4 % of ± 1 %");
+  EXPECT_EQ(told({0.002, Margin::Kind::relative}, -4, -4.002, ""), "-0.05 % of ± 0.2 %");
+  EXPECT_EQ(told({1e-9, Margin::Kind::relative}, 1e6, 1e6 + 1e-4, ""), "1e-10 of ± 1e-09 of it");
+  EXPECT_EQ(told({0.15}, 0, 0.016, "ΔE"), "0.016 of ± 0.15 ΔE");
+  const std::string text = readable_text(Planted().report);
+  EXPECT_NE(text.find("       50 %             ± 1 %     5000%"), std::string::npos) << text;
+  EXPECT_NE(text.find("0.25          ± 0.5 mm       50%"), std::string::npos) << text;
+  const std::string html = html_text(Planted().report);
+  EXPECT_NE(html.find("50 %<div class=\"source close\">of ± 1 %"), std::string::npos);
+  EXPECT_NE(html.find("<td class=\"n\">50 %</td><td class=\"n\">± 1 %</td>"), std::string::npos);
+}
+
+TEST(Report, CpuSecondsAreThoseOfTheWholeRun) {
+  const Planted planted;
+  EXPECT_NE(readable_text(planted.report).find("; 9.0 CPU s in all\n"), std::string::npos);
+  EXPECT_NE(html_text(planted.report).find("3.0 s; 9.0 CPU s in all"), std::string::npos);
+}
+
+TEST(Report, RenderedChartsAreATable) {
+  const Case first{Suite::colour, "chart-A", "", "", "ΔE", {0.15}, RenderedChart{"A", 1, 0.05}};
+  const Case second{Suite::colour, "chart-D65", "", "", "ΔE", {0.15}, RenderedChart{"D65", 1, 0.05}};
+  const auto result = [](double mean, double low, double high) {
+    return CaseResult{
+        {{"mean", 0, {mean, 0}}, {"a", 0, {high, 0}}, {"b", 0, {low, 0}}}, {0.15}, Verdict::pass, 0, 0, 0};
+  };
+  const std::string table =
+      chart_table({{&first, result(0.00651, 0.004, 0.0159)}, {&second, result(0.005, 0, 0.0111)}});
+  EXPECT_EQ(table,
+            "| ΔE2000 | A | D65 |\n| --- | --- | --- |\n| mean of 24 patches | 0.007 | 0.005 |\n"
+            "| worst patch | 0.016 | 0.011 |\n");
+  EXPECT_EQ(chart_table({}), "");
+}
+
 TEST(Report, HtmlIsSelfContainedAndEscaped) {
   const Planted planted;
   const std::string html = html_text(planted.report);
@@ -69,7 +112,7 @@ TEST(Report, HtmlIsSelfContainedAndEscaped) {
 // A film by a technique that passes, by one that loses its light, and by one that fails.
 struct PlantedCells {
   std::array<Case, 3> cells{cell(Integrator::path), cell(Integrator::light), cell(Integrator::bdpt)};
-  ValidationReport report{{}, "9.9", "abc", true, {}, {}, 3};
+  ValidationReport report{{}, "9.9", "abc", true, {}, {}, {3, 9}};
 
   PlantedCells() {
     CaseResult lost{{}, {0.01, Margin::Kind::relative}, Verdict::pass, 0, 0, 0};

@@ -1,7 +1,10 @@
+#include <sys/resource.h>
+
 #include <gtest/gtest.h>
 
 #include "io/data_directory.h"
 #include "tests/cli/program.h"
+#include "tests/tier.h"
 
 namespace abbe::test {
 namespace {
@@ -16,6 +19,24 @@ TEST(ValidateProgram, WritesJsonAndReport) {
   EXPECT_TRUE(json["quick"]);
   EXPECT_TRUE(read_file(folder / "report.html").ends_with("</html>\n"));
   EXPECT_EQ(run.json()["outcomes"].size(), json["outcomes"].size());
+}
+
+double children_cpu_seconds() {
+  rusage usage{};
+  EXPECT_EQ(getrusage(RUSAGE_CHILDREN, &usage), 0);
+  const auto seconds = [](const timeval& time) {
+    return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+  };
+  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
+// Hashing the data, loading scenes and planning their renders too; at night of renders.
+TEST(ValidateProgram, CountsTheCpuSecondsOfAllThatItDoes) {
+  const double before = children_cpu_seconds();
+  const std::string suite = nightly() ? "sensor" : "camera";
+  const nlohmann::json json = abbe("validate --quick --suite " + suite + " --json").json();
+  const double used = children_cpu_seconds() - before;
+  EXPECT_NEAR(json["cpu_s"].get<double>(), used, 0.05 * used + 0.2);  // the program has to start as well
 }
 
 // The data folder by links, but for one known answer that is off by a thousandth.

@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ctime>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "io/data_directory.h"
 #include "transport/plan/techniques.h"
+#include "transport/render/cost.h"
 #include "transport/render/render.h"
 #include "validation/cases/suites.h"
 #include "validation/picture/color_map.h"
@@ -40,10 +40,7 @@ std::optional<Image> film_map(const Film& film, int channel, double expected) {
 }
 
 CaseResult measure(const Case& item, const Computed& method, const CaseSettings&) {
-  const std::clock_t start = std::clock();
-  CaseResult result{method.figures(), item.margin, Verdict::pass, 0, 0, 0};
-  result.cpu_s = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
-  return result;
+  return {method.figures(), item.margin, Verdict::pass, 0, 0, 0};
 }
 
 const FilmMean& film_mean(const Case& item) {
@@ -63,7 +60,6 @@ CaseResult measure_film(const Case& item, FilmSetup film, const CaseSettings& se
     const Film::Average measured = rendered.film.average(film.channel);
     result.figures = {{"", film.expected, {measured.mean, measured.standard_error}}};
     result.samples = scene.render.samples;
-    result.cpu_s += rendered.stats.cpu_s;
     result.picture = film_map(rendered.film, film.channel, film.expected);
     if (equivalence(result.figures[0].measured, film.expected, result.margin.value) != Verdict::inconclusive)
       break;
@@ -148,9 +144,11 @@ double Margin::of(double reference) const {
 }
 
 CaseResult run_case(const Case& item, const CaseSettings& settings) {
+  const CostMeter meter;
   CaseResult result =
       std::visit([&](const auto& method) { return measure(item, method, settings); }, item.method);
   judge(result);
+  result.cpu_s = meter.spent().cpu_s;
   return result;
 }
 

@@ -124,7 +124,7 @@ struct CaseResult {
   Verdict verdict;    ///< An inconclusive end counts as a failure.
   std::size_t worst;  ///< Of the figures, the one furthest from its reference in margins.
   int samples;        ///< Per pixel; 0 where nothing was rendered.
-  double cpu_s;
+  double cpu_s;       ///< Of the case as a whole, loading its scene included.
   std::vector<Remark> remarks = {};
   /// The classes of paths that the technique loses: nothing was measured where there is one.
   std::vector<PathClass> unreached = {};

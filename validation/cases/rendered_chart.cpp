@@ -65,7 +65,6 @@ CaseResult measure(const Case& item, const RenderedChart& method, const CaseSett
   for (std::size_t i = 0; i < labs.size(); ++i)
     result.figures.push_back({truth.names[i], 0, {difference.patches[i], 0}, {}});
   result.samples = method.samples;
-  result.cpu_s = rendered.stats.cpu_s;
   result.remarks = editions(labs, method.illuminant);
   result.picture = make_display(scene.channels, light)(film, 1 / kWhite).image;
   return result;

@@ -106,7 +106,8 @@ std::string number(double value) {
 }
 
 // The figures themselves, those furthest from their references first.
-std::string figure_details(const CaseResult& result) {
+std::string figure_details(const Outcome& outcome) {
+  const CaseResult& result = outcome.result;
   constexpr std::size_t kMost = 24;
   if (result.figures.size() < 2) return "";
   std::vector<const Figure*> figures;
@@ -117,14 +118,17 @@ std::string figure_details(const CaseResult& result) {
   const std::size_t shown = std::min(kMost, figures.size());
   std::string all = fmt::format(
       "<details><summary>{}</summary><table><tr><th></th><th class=\"n\">value</th>"
-      "<th class=\"n\">reference</th><th class=\"n\">deviation</th></tr>",
+      "<th class=\"n\">reference</th><th class=\"n\">deviation</th><th class=\"n\">margin</th></tr>",
       shown == figures.size() ? fmt::format("all {} figures", shown)
                               : fmt::format("the {} of {} figures furthest off", shown, figures.size()));
-  for (std::size_t i = 0; i < shown; ++i)
+  for (std::size_t i = 0; i < shown; ++i) {
+    const auto [deviation, margin] = deviation_text(outcome, *figures[i]);
     all += fmt::format(
-        "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{:.2e}</td></tr>",
+        "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
+        "<td class=\"n\">± {}</td></tr>",
         escaped(figures[i]->what), number(figures[i]->measured.mean), number(figures[i]->reference),
-        figures[i]->deviation());
+        deviation, escaped(margin));
+  }
   return all + "</table></details>";
 }
 
@@ -136,23 +140,19 @@ std::string remark_details(const CaseResult& result) {
   return all + "</table></details>";
 }
 
-std::string margin_text(const Margin& margin) {
-  if (margin.kind == Margin::Kind::absolute) return fmt::format("{:.2g}", margin.value);
-  return margin.value < 1e-4 ? fmt::format("{:.2g} rel.", margin.value)
-                             : fmt::format("{:g} %", 100 * margin.value);
-}
-
-std::string worst_cells(const Case& item, const CaseResult& result) {
+std::string worst_cells(const Outcome& outcome) {
+  const CaseResult& result = outcome.result;
   if (result.figures.empty()) return "<td></td><td></td><td>no figures</td>";
   const Figure& worst = result.figures[result.worst];
   const std::string cost =
       result.samples > 0 ? fmt::format("<br>{} spp, {:.1f} CPU s", result.samples, result.cpu_s) : "";
+  const auto [deviation, margin] = deviation_text(outcome, worst);
   return fmt::format(
       "<td class=\"n\">{}<div class=\"source\">{}</div></td>"
       "<td class=\"n\">{}<div class=\"source\">{}</div></td>"
-      "<td class=\"n\">{:.1e}<div class=\"source close\">of ± {}{}</div></td>",
-      number(worst.measured.mean), escaped(worst.what), number(worst.reference), escaped(item.unit),
-      worst.deviation(), margin_text(worst.margin.value_or(result.margin)), cost);
+      "<td class=\"n\">{}<div class=\"source close\">of ± {}{}</div></td>",
+      number(worst.measured.mean), escaped(worst.what), number(worst.reference), escaped(outcome.item->unit),
+      deviation, escaped(margin), cost);
 }
 
 std::string case_row(const Outcome& outcome) {
@@ -161,9 +161,9 @@ std::string case_row(const Outcome& outcome) {
   return fmt::format(
       "<tr><td class=\"case\"><b>{}</b> {}<div class=\"source\">{}</div>{}{}</td>{}<td>{}</td>"
       "<td class=\"{}\">{}</td></tr>\n",
-      escaped(item.id), escaped(item.title), escaped(item.source), figure_details(result),
-      remark_details(result), worst_cells(item, result), margin_bar(result),
-      result.passed() ? "pass" : "fail", verdict_name(result.verdict));
+      escaped(item.id), escaped(item.title), escaped(item.source), figure_details(outcome),
+      remark_details(result), worst_cells(outcome), margin_bar(result), result.passed() ? "pass" : "fail",
+      verdict_name(result.verdict));
 }
 
 std::string picture(const Image& image, const std::string& caption) {
@@ -174,11 +174,9 @@ std::string picture(const Image& image, const std::string& caption) {
 }
 
 std::string chart_caption(const RenderedChart& chart, const CaseResult& result) {
-  double worst = 0;  // of the patches, behind their mean
-  for (std::size_t i = 1; i < result.figures.size(); ++i)
-    worst = std::max(worst, result.figures[i].measured.mean);
-  return fmt::format("{}: ΔE2000 {:.3f} in mean, {:.3f} at most", chart.illuminant,
-                     result.figures.at(0).measured.mean, worst);
+  const ChartSummary summary = chart_summary(result);
+  return fmt::format("{}: ΔE2000 {:.3f} in mean, {:.3f} at most", chart.illuminant, summary.mean,
+                     summary.worst);
 }
 
 std::string suite_pictures(const ValidationReport& report, Suite suite) {
@@ -243,11 +241,11 @@ std::string run_details(const ValidationReport& report) {
   const Machine& machine = report.machine;
   return fmt::format(
       "<dl><dt>run</dt><dd>{}</dd><dt>machine</dt><dd>{}, {} processors</dd><dt>compiler</dt><dd>{} {}</dd>"
-      "<dt>date</dt><dd>{}</dd><dt>run time</dt><dd>{:.1f} s; {:.1f} CPU s in the cases</dd>"
+      "<dt>date</dt><dd>{}</dd><dt>run time</dt><dd>{:.1f} s; {:.1f} CPU s in all</dd>"
       "<dt>data</dt><dd>SHA-256 {}</dd></dl>\n",
       report.quick ? "quick, films at the margins of the tests" : "full, films at their fine margins",
       escaped(machine.cpu), machine.cores, escaped(machine.compiler), escaped(machine.flags), machine.date,
-      report.wall_s, report.cpu_s(), report.data_sha256);
+      report.cost.wall_s, report.cost.cpu_s, report.data_sha256);
 }
 
 std::string summary(const ValidationReport& report) {

@@ -1,9 +1,7 @@
 #include "validation/report/report.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <numeric>
 
 #include <fmt/format.h>
 
@@ -68,14 +66,49 @@ double worst_share(const CaseResult& result) {
   return std::abs(worst.deviation()) / result.allowed(worst);
 }
 
+DeviationText deviation_text(const Outcome& outcome, const Figure& figure) {
+  constexpr double kMinPercent = 1e-4;  // smaller margins are told as fractions
+  const Margin margin = figure.margin.value_or(outcome.result.margin);
+  if (margin.kind == Margin::Kind::absolute)
+    return {
+        fmt::format("{:.2g}", figure.deviation()),
+        fmt::format("{:.2g}{}{}", margin.value, outcome.item->unit.empty() ? "" : " ", outcome.item->unit)};
+  const double relative = figure.deviation() / std::abs(figure.reference);
+  if (margin.value < kMinPercent)
+    return {fmt::format("{:.2g}", relative), fmt::format("{:.2g} of it", margin.value)};
+  return {fmt::format("{:.2g} %", 100 * relative), fmt::format("{:g} %", 100 * margin.value)};
+}
+
+// The first figure is the mean of those behind it.
+ChartSummary chart_summary(const CaseResult& result) {
+  ChartSummary summary{result.figures.at(0).measured.mean, 0};
+  for (std::size_t i = 1; i < result.figures.size(); ++i)
+    summary.worst = std::max(summary.worst, result.figures[i].measured.mean);
+  return summary;
+}
+
+std::string chart_table(const std::vector<Outcome>& outcomes) {
+  std::string head = "| ΔE2000 |";
+  std::string rule = "| --- |";
+  std::string means = "| mean of 24 patches |";
+  std::string worst = "| worst patch |";
+  bool empty = true;
+  for (const Outcome& outcome : outcomes) {
+    const auto* chart = std::get_if<RenderedChart>(&outcome.item->method);
+    if (chart == nullptr) continue;
+    empty = false;
+    const ChartSummary summary = chart_summary(outcome.result);
+    head += fmt::format(" {} |", chart->illuminant);
+    rule += " --- |";
+    means += fmt::format(" {:.3f} |", summary.mean);
+    worst += fmt::format(" {:.3f} |", summary.worst);
+  }
+  return empty ? "" : fmt::format("{}\n{}\n{}\n{}\n", head, rule, means, worst);
+}
+
 std::size_t ValidationReport::failures() const {
   return static_cast<std::size_t>(
       std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return !o.result.passed(); }));
-}
-
-double ValidationReport::cpu_s() const {
-  return std::accumulate(outcomes.begin(), outcomes.end(), 0.0,
-                         [](double sum, const Outcome& o) { return sum + o.result.cpu_s; });
 }
 
 std::size_t ValidationReport::unreached() const {
@@ -84,8 +117,8 @@ std::size_t ValidationReport::unreached() const {
 }
 
 ValidationReport validate(const ValidationSettings& settings) {
-  const auto start = std::chrono::steady_clock::now();
-  ValidationReport report{this_machine(), settings.version, data_sha256(), settings.quick, {}, {}, 0};
+  const CostMeter meter;
+  ValidationReport report{this_machine(), settings.version, data_sha256(), settings.quick, {}, {}, {}};
   for (const Case& item : all_cases()) {
     if (!runs(item, settings)) continue;
     if (settings.say) settings.say(fmt::format("{} {}: {}", suite_name(item.suite), item.id, item.title));
@@ -93,7 +126,7 @@ ValidationReport validate(const ValidationSettings& settings) {
         {&item, run_case(item, {.thorough = !settings.quick, .threads = settings.threads})});
   }
   if (settings.specimens) report.specimens = render_specimens(settings);
-  report.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  report.cost = meter.spent();
   return report;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "transport/render/cost.h"
 #include "validation/bench/machine.h"
 #include "validation/cases/case.h"
 
@@ -29,11 +30,10 @@ struct ValidationReport {
   bool quick;
   std::vector<Outcome> outcomes;
   std::vector<Specimen> specimens;
-  double wall_s;
+  Cost cost;  ///< Of the whole run, loading and specimens included.
 
   [[nodiscard]] std::size_t failures() const;
   [[nodiscard]] std::size_t unreached() const;  ///< Outcomes of techniques that lose the film's light.
-  [[nodiscard]] double cpu_s() const;           ///< Of the cases.
 };
 
 /// What to validate.
@@ -64,5 +64,24 @@ struct ValidationSettings {
 [[nodiscard]] std::string verdict_name(Verdict verdict);
 /// How far the worst figure is from its reference, as a share of what is allowed; infinite without figures.
 [[nodiscard]] double worst_share(const CaseResult& result);
+
+/// A figure's deviation and its margin in one unit: per cent or a fraction of the reference for a relative
+/// margin, the figure's own unit for an absolute one.
+struct DeviationText {
+  std::string deviation;  ///< "0.31 %", "2.1e-12" or "0.016".
+  std::string margin;     ///< "1 %", "1e-09 of it" or "0.15 ΔE".
+};
+[[nodiscard]] DeviationText deviation_text(const Outcome& outcome, const Figure& figure);
+
+/// Colour differences ΔE2000 of a rendered chart.
+struct ChartSummary {
+  double mean;   ///< Of its patches.
+  double worst;  ///< Of one patch.
+};
+/// For a case measured by `RenderedChart`.
+[[nodiscard]] ChartSummary chart_summary(const CaseResult& result);
+/// All rendered charts as the table of README.md in Markdown: a column for each illuminant. Empty without
+/// any.
+[[nodiscard]] std::string chart_table(const std::vector<Outcome>& outcomes);
 
 }  // namespace abbe

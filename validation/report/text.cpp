@@ -16,9 +16,10 @@ std::string line_of(const Outcome& outcome) {
   const CaseResult& result = outcome.result;
   if (result.figures.empty()) return fmt::format("{:<18} no figures  FAIL\n", outcome.item->id);
   const Figure& worst = result.figures[result.worst];
-  return fmt::format("{:<18} {:>5} {:>15.8g} {:>15.8g} {:>10.2e} {:>8.0f}% {:>7.2f}  {}\n", outcome.item->id,
-                     result.figures.size(), worst.measured.mean, worst.reference, worst.deviation(),
-                     100 * worst_share(result), result.cpu_s, verdict_name(result.verdict));
+  const auto [deviation, margin] = deviation_text(outcome, worst);
+  return fmt::format("{:<18} {:>5} {:>15.8g} {:>15.8g} {:>10} {:>17} {:>8.0f}% {:>7.2f}  {}\n",
+                     outcome.item->id, result.figures.size(), worst.measured.mean, worst.reference, deviation,
+                     "± " + margin, 100 * worst_share(result), result.cpu_s, verdict_name(result.verdict));
 }
 
 Json figure_json(const CaseResult& result, const Figure& figure) {
@@ -65,21 +66,23 @@ std::string readable_text(const ValidationReport& report) {
     if (outcome.item->suite == Suite::techniques) continue;  // as a table, below
     if (suite != outcome.item->suite) {
       suite = outcome.item->suite;
-      all += fmt::format("{}{:<18} {:>5} {:>15} {:>15} {:>10} {:>9} {:>7}\n", all.empty() ? "" : "\n",
-                         suite_name(*suite), "of", "worst figure", "reference", "deviation", "of margin",
-                         "CPU s");
+      all += fmt::format("{}{:<18} {:>5} {:>15} {:>15} {:>10} {:>17} {:>9} {:>7}\n", all.empty() ? "" : "\n",
+                         suite_name(*suite), "of", "worst figure", "reference", "deviation", "margin",
+                         "of margin", "CPU s");
     }
     all += line_of(outcome);
   }
   if (const std::string matrix = matrix_text(technique_matrix(report.outcomes)); !matrix.empty())
     all += fmt::format("{}{}: deviations [%]\n\n{}", all.empty() ? "" : "\n", suite_name(Suite::techniques),
                        matrix);
+  if (const std::string charts = chart_table(report.outcomes); !charts.empty())
+    all += "\nrendered charts\n\n" + charts;
   all += "\nnot covered\n";
   for (const Uncovered& gap : uncovered())
     all += fmt::format("  {}: {} ({})\n", suite_name(gap.suite), gap.what, gap.reason);
   const std::size_t measured = report.outcomes.size() - report.unreached();
-  return all + fmt::format("\n{} of {} cases pass; {:.1f} CPU s\n", measured - report.failures(), measured,
-                           report.cpu_s());
+  return all + fmt::format("\n{} of {} cases pass; {:.1f} CPU s in all\n", measured - report.failures(),
+                           measured, report.cost.cpu_s);
 }
 
 std::string json_text(const ValidationReport& report) {
@@ -95,8 +98,8 @@ std::string json_text(const ValidationReport& report) {
             {"quick", report.quick},
             {"cases", report.outcomes.size() - report.unreached()},
             {"failures", report.failures()},
-            {"cpu_s", report.cpu_s()},
-            {"wall_s", report.wall_s},
+            {"cpu_s", report.cost.cpu_s},
+            {"wall_s", report.cost.wall_s},
             {"outcomes", Json::array()},
             {"not_covered", Json::array()}};
   for (const Outcome& outcome : report.outcomes) json["outcomes"].push_back(outcome_json(outcome));
