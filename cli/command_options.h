@@ -97,7 +97,8 @@ inline void add_json(CLI::App& app, bool& json) {
 template <typename Options>
 void add_max_memory(CLI::App& app, const std::shared_ptr<Options>& options) {
   add_parsed(app, "--max-memory", options->max_memory_bytes, parse_bytes,
-             "Memory that images, meshes and films may take, as 4G (default: 80 % of the machine's)", "SIZE");
+             "Memory that scenes, images, meshes and films may take, as 4G (default: 80 % of the machine's)",
+             "SIZE");
 }
 
 /// `--set`, which may be repeated.

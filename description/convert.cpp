@@ -14,7 +14,8 @@ std::optional<std::string> canonical_scene(const std::filesystem::path& path,
   std::string text = to_lines(schema::write(said), kJsonWidth);
   // Overrides may nest what they put together deeper than a file may be.
   const auto source = std::make_shared<const SourceText>(SourceText{path.string(), text});
-  if (!parse_json(source, diagnostics)) return std::nullopt;
+  HeldMemory tree(inputs, 0);
+  if (!parse_json(source, diagnostics, &tree)) return std::nullopt;
   return text;
 }
 

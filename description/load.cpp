@@ -42,15 +42,17 @@ std::string hash(const SourceText& source, std::span<const Override> overrides, 
   return sha256(all);
 }
 
-// The text of a scene, from a file or from standard input.
+// The text of a scene, from a file or from standard input; its memory counts from now on.
 std::shared_ptr<const SourceText> read_source(const std::filesystem::path& path, Diagnostics& diagnostics,
                                               Inputs* inputs) {
   // Words that cannot be read are the scene's fault; a file that is not there is the caller's.
   std::error_code error;
   const bool there = std::filesystem::is_regular_file(path, error);
+  if (there && inputs) inputs->take_memory(path.string(), std::filesystem::file_size(path, error));
   auto source = path == kStandardStream
                     ? read_standard_input(diagnostics, ErrorCode::scene)
                     : read_text(path, diagnostics, there ? ErrorCode::scene : ErrorCode::input);
+  if (source && inputs && path == kStandardStream) inputs->take_memory(source->file, source->text.size());
   if (source && inputs && path != kStandardStream) inputs->add_file(path);
   return source;
 }
@@ -58,7 +60,8 @@ std::shared_ptr<const SourceText> read_source(const std::filesystem::path& path,
 // What a text says, in so far as it is sound; false for what is no scene at all.
 bool read(const std::shared_ptr<const SourceText>& source, std::span<const Override> overrides,
           LoadContext& context, spec::Scene& said) {
-  std::optional<JsonValue> root = parse_json(source, context.diagnostics);
+  HeldMemory tree(context.inputs, 0);
+  std::optional<JsonValue> root = parse_json(source, context.diagnostics, &tree);
   if (!root) return false;
   for (const Override& o : overrides) set_json(*root, o.pointer, o.value, context.diagnostics, o.said_by);
   if (!check_version(*root, context.diagnostics)) return false;

@@ -91,6 +91,10 @@ std::optional<Mesh> build(const spec::InlineMesh& mesh, const LoadContext& conte
     return std::nullopt;
   }
   Mesh built;
+  context.take_memory(
+      "triangles of the scene",
+      mesh.vertices.size() * sizeof(Imath::V3d) +
+          mesh.triangles.size() * (sizeof mesh.triangles[0] + (mesh.uv ? 3 * sizeof(Imath::V2f) : 0)));
   for (const auto& [x, y, z] : mesh.vertices) built.vertices.emplace_back(x, y, z);
   built.triangles = mesh.triangles;
   if (!check_mesh(built, mesh.where, context.diagnostics)) return std::nullopt;

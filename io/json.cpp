@@ -150,10 +150,11 @@ void report(const rapidjson::ParseResult& result, SourcePosition where, Diagnost
 }
 
 std::optional<JsonValue> parse(const std::shared_ptr<const SourceText>& source, const std::string& pointer,
-                               Diagnostics& diagnostics) {
+                               Diagnostics& diagnostics, HeldMemory* memory = nullptr) {
+  if (memory != nullptr) memory->take_more(source->file, source->text.size());
   std::string scratch = source->text;
   rapidjson::InsituStringStream stream(scratch.data());
-  ValueTree tree(source, pointer, ErrorCode::scene, diagnostics);
+  ValueTree tree(source, pointer, ErrorCode::scene, diagnostics, memory);
   JsonTreeBuilder builder(stream, tree);
   rapidjson::Reader reader;
   const rapidjson::ParseResult result = reader.Parse<kFlags>(stream, builder);
@@ -306,9 +307,9 @@ JsonValue* JsonValue::find(std::string_view key) {
   return const_cast<JsonValue*>(std::as_const(*this).find(key));
 }
 
-std::optional<JsonValue> parse_json(const std::shared_ptr<const SourceText>& source,
-                                    Diagnostics& diagnostics) {
-  return parse(source, "", diagnostics);
+std::optional<JsonValue> parse_json(const std::shared_ptr<const SourceText>& source, Diagnostics& diagnostics,
+                                    HeldMemory* memory) {
+  return parse(source, "", diagnostics, memory);
 }
 
 void set_json(JsonValue& root, std::string_view pointer, std::string_view text, Diagnostics& diagnostics,

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "io/diagnostics.h"
+#include "io/inputs.h"
 
 namespace abbe {
 
@@ -40,8 +41,9 @@ struct JsonValue::Member {
 /// Parses JSON with `//` and `/* */` comments and trailing commas. Reports (and gives nothing for) truncated
 /// or empty text, bytes after the value, duplicate keys, NaN and infinities, numbers beyond double, strings
 /// holding NUL or half a surrogate pair, nesting deeper than 256, and JSON pointers beyond 1024 bytes.
+/// `memory`, if any, counts what the values take, and throws when it is too much.
 [[nodiscard]] std::optional<JsonValue> parse_json(const std::shared_ptr<const SourceText>& source,
-                                                  Diagnostics& diagnostics);
+                                                  Diagnostics& diagnostics, HeldMemory* memory = nullptr);
 
 /// The value as JSON in one line, numbers with the fewest digits that read back as the same.
 [[nodiscard]] std::string to_text(const JsonValue& value);

@@ -25,8 +25,12 @@ std::string escaped(std::string_view key) {
 }  // namespace
 
 ValueTree::ValueTree(std::shared_ptr<const SourceText> source, std::string pointer, ErrorCode code,
-                     Diagnostics& diagnostics)
-    : source_(std::move(source)), pointer_(std::move(pointer)), code_(code), diagnostics_(diagnostics) {}
+                     Diagnostics& diagnostics, HeldMemory* memory)
+    : source_(std::move(source)),
+      pointer_(std::move(pointer)),
+      code_(code),
+      diagnostics_(diagnostics),
+      memory_(memory) {}
 
 void ValueTree::key(std::string name, std::size_t offset) {
   key_ = std::move(name);
@@ -40,8 +44,17 @@ bool ValueTree::add(decltype(JsonValue::value) value, std::size_t offset) {
         offset,
         fmt::format("keys too long (got a path of {} bytes, allowed {})", pointer.size(), kMaxPointer),
         this->pointer());
+  if (memory_ != nullptr) count(value, pointer);
   last_ = place({std::move(value), {source_, offset, std::move(pointer)}});
   return true;
+}
+
+// Lists have up to twice the room that they need.
+void ValueTree::count(const decltype(JsonValue::value)& value, const std::string& pointer) {
+  const bool in_object = !open_.empty() && std::holds_alternative<JsonValue::Object>(open_.back()->value);
+  const auto* text = std::get_if<std::string>(&value);
+  memory_->take_more(source_->file, 2 * (in_object ? sizeof(JsonValue::Member) : sizeof(JsonValue)) +
+                                        pointer.size() + key_.size() + (text != nullptr ? text->size() : 0));
 }
 
 bool ValueTree::open(decltype(JsonValue::value) container, std::size_t offset) {

@@ -17,9 +17,9 @@ class ValueTree {
   static constexpr std::size_t kMaxPointer =
       1024;  // every value stores its pointer: long keys would multiply
 
-  /// `pointer` is that of the root; complaints carry `code`.
+  /// `pointer` is that of the root; complaints carry `code`. `memory`, if any, counts the values.
   ValueTree(std::shared_ptr<const SourceText> source, std::string pointer, ErrorCode code,
-            Diagnostics& diagnostics);
+            Diagnostics& diagnostics, HeldMemory* memory = nullptr);
 
   /// The key of the next value.
   void key(std::string name, std::size_t offset);
@@ -44,12 +44,14 @@ class ValueTree {
  private:
   [[nodiscard]] std::string next_pointer() const;
   JsonValue* place(JsonValue value);
+  void count(const decltype(JsonValue::value)& value, const std::string& pointer);
   void report_duplicates(const JsonValue::Object& object);
 
   std::shared_ptr<const SourceText> source_;
   std::string pointer_;
   ErrorCode code_;
   Diagnostics& diagnostics_;
+  HeldMemory* memory_;
   JsonValue root_;
   std::vector<JsonValue*> open_;
   JsonValue* last_ = nullptr;

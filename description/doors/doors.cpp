@@ -70,10 +70,12 @@ bool is_other_scene(const std::filesystem::path& path) {
 
 std::optional<std::string> convert_scene(const std::filesystem::path& path, const Conversion& conversion,
                                          Diagnostics& diagnostics, Inputs* inputs) {
-  doors::Door door{diagnostics, inputs, conversion.folder};
+  doors::Door door{diagnostics, inputs, conversion.folder, path.string()};
   if (!format_of(path)->read(path, door)) return std::nullopt;
   if (conversion.materials) doors::replace_materials(*conversion.materials, door);
   if (diagnostics.has_errors()) return std::nullopt;
+  HeldMemory written(inputs, 0);
+  written.take_more(door.file, door.bytes_to_write());
   const std::string text = tell_notes(path, door) + to_lines(schema::write(door.scene), kJsonWidth);
   // What is written must be a scene: what is wrong with it is told as of it.
   const auto source = std::make_shared<const SourceText>(

@@ -2,6 +2,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include "io/exr.h"
@@ -109,6 +110,103 @@ TEST(Convert, ScenesOfOtherRenderers) {
   EXPECT_EQ(abbe("convert " + out + " --materials " + file("map.json")).code, 2);
   EXPECT_EQ(abbe("convert " + file("ball.pbrt") + " --set /units=mm").code, 2);
   EXPECT_EQ(abbe("convert /nowhere/scene.pbrt").code, 4);
+}
+
+/// A text that small scenes repeat often.
+std::string repeated(const std::string& text, int times) {
+  std::string all;
+  for (int i = 0; i < times; ++i) all += text;
+  return all;
+}
+
+// Within 4 GB of addresses and ten seconds: none of these scenes may take more.
+void expect_too_much(const std::string& name, const std::string& scene, const std::string& limit) {
+  (void)scratch().write(name, scene);
+  const Outcome run = shell("ulimit -v 4000000; timeout 10 " ABBE_BINARY " convert " + file(name) + " -o " +
+                            file("too_much.json") + " --max-memory " + limit);
+  EXPECT_EQ(run.code, 6) << name << '\n' << run.err.substr(0, 500);
+  EXPECT_NE(run.err.find(name), std::string::npos) << run.err.substr(0, 500);
+}
+
+const std::string kMitsubaView =
+    R"(<sensor type="perspective"><float name="fov" value="40"/></sensor><integrator type="path"/>)";
+const std::string kPbrtView =
+    "LookAt 0 0 -3  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 40\nWorldBegin\n";
+
+// Each default is ten of the one before.
+std::string nested_defaults(int levels) {
+  std::string scene = R"(<scene version="3.0.0"><default name="a0" value="xxxxxxxxxx"/>)";
+  for (int i = 1; i <= levels; ++i)
+    scene += fmt::format(R"(<default name="a{}" value="{}"/>)", i, repeated(fmt::format("$a{}", i - 1), 10));
+  return scene + fmt::format(R"(<string name="s" value="$a{}"/></scene>)", levels);
+}
+
+TEST(Convert, DefaultsOfMitsubaDoNotMultiplyWithoutEnd) {
+  expect_too_much("bomb.xml", nested_defaults(9), "50M");
+  expect_too_much("bomb.xml", nested_defaults(9), "3G");
+  const Outcome run = abbe("convert " + scratch().write("defaults.xml", nested_defaults(4)).string());
+  EXPECT_EQ(run.code, 3) << run.err;  // 100,000 letters are no fault of their own
+  EXPECT_NE(run.err.find("a scene without a sensor"), std::string::npos) << run.err;
+}
+
+std::string mitsuba_scene(const std::string& elements) {
+  return R"(<scene version="3.0.0">)" + kMitsubaView + elements + "</scene>";
+}
+
+// Texts, what is made of them, and what is written.
+TEST(Convert, ScenesOfMitsubaTakeNoMoreMemoryThanAllowed) {
+  expect_too_much("values.xml",
+                  mitsuba_scene(R"(<default name="a" value=")" + std::string(1000000, 'x') + R"("/>)" +
+                                repeated(R"(<string name="s" value="$a"/>)", 1000)),
+                  "50M");
+  expect_too_much("comment.xml", mitsuba_scene("<!--" + std::string(10000000, 'x') + "-->"), "5M");
+  expect_too_much("elements.xml", mitsuba_scene(repeated("<a/>", 1000000)), "50M");
+  expect_too_much(
+      "spheres.xml",
+      mitsuba_scene(R"(<emitter type="constant"/>)" + repeated(R"(<shape type="sphere"/>)", 20000)), "20M");
+  (void)scratch().write("part_of_includes.xml", mitsuba_scene(repeated(R"(<shape type="cube"/>)", 1000)));
+  expect_too_much("includes.xml", mitsuba_scene(repeated(R"(<include filename="part_of_includes.xml"/>)", 9000)),
+                  "50M");
+}
+
+TEST(Convert, ScenesOfPbrtTakeNoMoreMemoryThanAllowed) {
+  const std::string many = R"("float many" [)" + repeated("0 ", 100000) + "]\n";
+  std::string materials;
+  for (int i = 0; i < 500; ++i)
+    materials += fmt::format("MakeNamedMaterial \"m{}\" \"string type\" \"diffuse\"\n", i);
+  std::string spectrum;
+  for (int i = 0; i < 20000; ++i) spectrum += fmt::format("{} 1 ", 400 + i * 0.01);
+  struct Example {
+    const char* name;
+    const char* limit;  ///< Above the length of the text, but for the first.
+    std::string text;
+  };
+  const std::vector<Example> examples{
+      {"comment.pbrt", "5M", repeated("# nothing\n", 1000000)},
+      {"numbers.pbrt", "20M", R"(Shape "trianglemesh" "point3 P" [)" + repeated("0 ", 3000000) + "]\n"},
+      {"begins.pbrt", "50M", R"(Attribute "shape" )" + many + repeated("AttributeBegin\n", 20000)},
+      {"materials.pbrt", "50M", R"(Attribute "material" )" + many + materials},
+      {"cylinders.pbrt", "50M", repeated("Shape \"cylinder\"\n", 5000)},
+      {"lights.pbrt", "50M",
+       R"(Attribute "light" "spectrum L" [)" + spectrum + "]\n" +
+           repeated("AreaLightSource \"diffuse\"\nShape \"sphere\"\n", 500)}};
+  for (const auto& [name, limit, text] : examples) expect_too_much(name, kPbrtView + text, limit);
+}
+
+TEST(Convert, SceneFilesTakeNoMoreMemoryThanAllowed) {
+  const std::string values = repeated("0,", 1000000);
+  expect_too_much("values.json", scene_text("", "") + "// " + std::string(10000000, 'x'), "5M");
+  expect_too_much("tree.json", R"({"abbe": 1, "a": [)" + values + "]}", "50M");
+}
+
+TEST(Convert, TakesScenesThatFit) {
+  const std::string meshes = kPbrtView + "LightSource \"infinite\"\n" +
+                             repeated(
+                                 "Shape \"trianglemesh\" \"integer indices\" [0 1 2] \"point3 P\" "
+                                 "[0 0 0 1 0 0 0 1 0]\n",
+                                 100);
+  const Outcome run = abbe("convert " + scratch().write("meshes.pbrt", meshes).string() + " --max-memory 5M");
+  EXPECT_EQ(run.code, 0) << run.err;
 }
 
 }  // namespace

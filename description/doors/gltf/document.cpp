@@ -30,7 +30,7 @@ bool read_document(Document& document) {
   }
   auto root =
       parse_json(std::make_shared<const SourceText>(SourceText{document.file.string(), std::string(*json)}),
-                 door.diagnostics);
+                 door.diagnostics, &document.memory);
   if (!root) return false;
   document.root = *std::move(root);
   return true;

@@ -18,6 +18,7 @@ struct Document {
   Door& door;
   std::filesystem::path file;
   JsonValue root{};
+  HeldMemory memory{door.inputs, 0};  ///< Of the root.
 };
 
 /// Reads the JSON of a .gltf or .glb file; places in the latter are those in its JSON. False, after an error,

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <map>
 #include <memory>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 #include <pugixml.hpp>
@@ -13,6 +15,15 @@ namespace abbe::doors::mitsuba {
 namespace {
 
 constexpr std::size_t kMaxDepth = 64;  // of elements within one another, included ones too
+/// Longest value of an attribute once names are replaced [bytes]; defaults that name others may multiply.
+constexpr std::size_t kMaxValueBytes = std::size_t{1} << 20;
+
+// What pugixml takes for a text: a copy of it, nodes of 64 bytes for elements and what they hold, and
+// attributes of 40.
+std::size_t document_bytes(const std::string& text) {
+  const auto count = [&text](char c) { return static_cast<std::size_t>(std::ranges::count(text, c)); };
+  return text.size() + 2 * 64 * count('<') + 40 * count('=');
+}
 
 /// Copies the elements of files.
 class XmlReader {
@@ -21,9 +32,10 @@ class XmlReader {
 
   // Adds the elements within the file's root to `to`, which becomes that root.
   bool read(const std::filesystem::path& file, Element& to, std::size_t depth) {
-    const auto source = read_text(file, door_.diagnostics);
+    const auto source = door_.read(file);
     if (!source) return false;
-    if (door_.inputs != nullptr) door_.inputs->add_file(file);
+    HeldMemory parsed(door_.inputs, 0);
+    parsed.take_more(file.string(), document_bytes(source->text));
     pugi::xml_document document;
     const auto result = document.load_buffer(source->text.data(), source->text.size());
     if (!result)
@@ -40,6 +52,11 @@ class XmlReader {
   }
 
  private:
+  // Counts an element of a list, which has up to twice the room that it needs, and the text that it owns.
+  void take_twice(std::size_t element_bytes, std::size_t text_bytes) const {
+    door_.take_memory(2 * element_bytes + text_bytes);
+  }
+
   static SourcePosition place(const pugi::xml_node& node, const std::shared_ptr<const SourceText>& source) {
     return {source, static_cast<std::size_t>(std::max<std::ptrdiff_t>(node.offset_debug(), 0)), ""};
   }
@@ -51,10 +68,12 @@ class XmlReader {
                           fmt::format("elements or files nested deeper than {}", kMaxDepth));
     for (const pugi::xml_node& child : node) {
       if (child.type() != pugi::node_element) continue;
+      take_twice(sizeof(Element), 0);
       Element element{child.name(), {}, {}, place(child, source), ++count_};
       for (const pugi::xml_attribute& attribute : child.attributes()) {
         auto value = replaced(attribute.value(), element.where);
         if (!value) return false;
+        take_twice(sizeof element.attributes[0], value->size());
         element.attributes.emplace_back(attribute.name(), *std::move(value));
       }
       if (!add(child, source, std::move(element), to, depth)) return false;
@@ -79,22 +98,40 @@ class XmlReader {
     return true;
   }
 
-  // The text with the values of names behind $, the longest name that fits first.
-  std::optional<std::string> replaced(std::string text, const SourcePosition& where) {
-    for (std::size_t at = text.find('$'); at != std::string::npos; at = text.find('$', at)) {
-      const std::pair<const std::string, std::string>* best = nullptr;
-      for (const auto& entry : defaults_)
-        if (text.compare(at + 1, entry.first.size(), entry.first) == 0 && !entry.first.empty() &&
-            (best == nullptr || entry.first.size() > best->first.size()))
-          best = &entry;
-      if (best == nullptr) {
-        door_.refuse(where, fmt::format("no <default> gives a value to \"{}\"", text.substr(at)));
+  // The value of the longest <default> name that the text begins with, nullptr without one.
+  const std::pair<const std::string, std::string>* default_at(std::string_view text) const {
+    const std::pair<const std::string, std::string>* best = nullptr;
+    for (const auto& entry : defaults_)
+      if (!entry.first.empty() && text.starts_with(entry.first) &&
+          (best == nullptr || entry.first.size() > best->first.size()))
+        best = &entry;
+    return best;
+  }
+
+  // The text with the values of names behind $.
+  std::optional<std::string> replaced(std::string_view text, const SourcePosition& where) {
+    std::string value;
+    for (std::size_t from = 0; from < text.size();) {
+      const std::size_t dollar = std::min(text.find('$', from), text.size());
+      value += text.substr(from, dollar - from);
+      if (dollar == text.size()) break;
+      const auto* named = default_at(text.substr(dollar + 1));
+      if (named == nullptr) {
+        door_.refuse(where, fmt::format("no <default> gives a value to \"{}\"", text.substr(dollar)));
         return std::nullopt;
       }
-      text.replace(at, best->first.size() + 1, best->second);
-      at += best->second.size();
+      if (value.size() + named->second.size() > kMaxValueBytes) {
+        door_.diagnostics.error(
+            where,
+            fmt::format("a value is longer than {} with those of \"${}\" and others in it",
+                        bytes_text(kMaxValueBytes), named->first),
+            ErrorCode::resource);
+        return std::nullopt;
+      }
+      value += named->second;
+      from = dollar + 1 + named->first.size();
     }
-    return text;
+    return value;
   }
 
   std::filesystem::path folder_;

@@ -22,6 +22,12 @@ namespace {
 
 const std::vector<std::string> kAttributeTargets{"light", "material", "medium", "shape", "texture"};
 
+std::size_t bytes_of_samples(const TextureValue& value) {
+  const auto* spectrum = std::get_if<Spectrum>(&value);
+  const auto* samples = spectrum != nullptr ? std::get_if<Samples>(spectrum) : nullptr;
+  return samples != nullptr ? (samples->nm.capacity() + samples->values.capacity()) * sizeof(double) : 0;
+}
+
 }  // namespace
 
 bool Reader::transform(const Token& word) {
@@ -246,7 +252,9 @@ bool Reader::texture(const Token& word) {
   if (kind == nullptr || !parameters) return false;
   parameters->complete(state_.attributes["texture"]);
   const Made thing{names[2], *std::move(parameters), word.where};
-  world_.textures[*kind][names[0]] = texture_of(thing, *kind, world_);
+  TextureValue value = texture_of(thing, *kind, world_);
+  door_.take_memory(bytes_of_samples(value));
+  world_.textures[*kind][names[0]] = std::move(value);
   thing.parameters.note_unused(fmt::format("texture \"{}\"", thing.type), door_);
   return true;
 }

@@ -25,6 +25,7 @@ struct State {
   std::string inside{};
   std::string outside{};
   std::map<std::string, Parameters> attributes{};  // by what has them
+  OwnedMemory memory{};                            ///< Counts the state itself, each copy again.
 };
 
 /// What an imported file leaves as it is, whatever it says.
@@ -38,7 +39,9 @@ struct Kept {
 class Reader {
  public:
   Reader(const std::filesystem::path& file, Door& door)
-      : world_{door, file.parent_path()}, tokens_(file, door), door_(door) {}
+      : world_{door, file.parent_path()}, tokens_(file, door), door_(door) {
+    state_.memory = OwnedMemory(door, 2 * sizeof(State));
+  }
 
   bool read();
 

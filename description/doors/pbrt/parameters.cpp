@@ -96,16 +96,23 @@ bool read_head(const Token& token, Parameter& parameter, Door& door) {
   return door.refuse(token.where, unknown_name("type of parameter", parameter.type, type_names()));
 }
 
+std::size_t bytes_of_lists(const Parameter& parameter) {
+  return parameter.numbers.capacity() * sizeof(double) + parameter.texts.capacity() * sizeof(std::string);
+}
+
 bool read_values(Tokens& tokens, Parameter& parameter, Door& door) {
+  parameter.memory = OwnedMemory(door, sizeof(Parameter));
   const Type& type = *type_of(parameter.type);
   const auto take = [&](const std::optional<Token>& token) {
     if (!token)
       return tokens.failed() ||
              door.refuse(tokens.end(), fmt::format("the file ends before a value of \"{}\"", parameter.name));
-    return add(*token, type.values, parameter) ||
-           door.refuse(token->where,
-                       fmt::format("expected {} of \"{} {}\" (got \"{}\")", expected(type.values),
-                                   parameter.type, parameter.name, token->text));
+    const std::size_t before = bytes_of_lists(parameter);
+    const bool added = add(*token, type.values, parameter);
+    parameter.memory.grow_by(bytes_of_lists(parameter) - before + (token->quoted ? token->text.size() : 0));
+    return added || door.refuse(token->where,
+                                fmt::format("expected {} of \"{} {}\" (got \"{}\")", expected(type.values),
+                                            parameter.type, parameter.name, token->text));
   };
   std::optional<Token> token = tokens.next();
   if (!token || !token->is("[")) {

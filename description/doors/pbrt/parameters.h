@@ -20,6 +20,7 @@ struct Parameter {
   std::vector<std::string> texts;  ///< Quoted, or true and false.
   SourcePosition where;
   mutable bool used = false;
+  OwnedMemory memory{};  ///< Counts the parameter, wherever it is copied to.
 };
 
 /// The parameters of one directive.

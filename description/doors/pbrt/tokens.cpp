@@ -21,12 +21,11 @@ Tokens::Tokens(const std::filesystem::path& file, Door& door) : door_(door) {
 }
 
 void Tokens::open(const std::filesystem::path& file) {
-  auto source = read_text(file, door_.diagnostics);
+  auto source = door_.read(file);
   if (!source) {
     failed_ = true;
     return;
   }
-  if (door_.inputs != nullptr) door_.inputs->add_file(file);
   files_.push_back({std::move(source)});
 }
 

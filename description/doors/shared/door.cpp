@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdint>
 #include <string_view>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "io/json.h"
 #include "io/text.h"
 
 namespace abbe::doors {
@@ -15,10 +18,12 @@ namespace fs = std::filesystem;
 
 void Door::note(const SourcePosition& where, const std::string& text) {
   const auto known = std::ranges::find(notes, text, &Note::text);
-  if (known == notes.end())
-    notes.push_back({where, text});
-  else
+  if (known != notes.end()) {
     ++known->count;
+    return;
+  }
+  take_memory(2 * (sizeof(Note) + text.size()));  // as a warning too
+  notes.push_back({where, text});
 }
 
 bool Door::refuse(const SourcePosition& where, std::string what) {
@@ -37,6 +42,32 @@ void Door::note_medium(const SourcePosition& where) {
        fmt::format("the integrator \"{}\" leaves media out there: here light is scattered and absorbed in "
                    "them",
                    surface_integrator));
+}
+
+void Door::take_memory(std::size_t bytes) const {
+  if (inputs != nullptr) inputs->take_memory(file, bytes);
+}
+
+std::shared_ptr<const SourceText> Door::read(const fs::path& path) const {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (inputs != nullptr && !error)
+    inputs->take_memory(path.string(), std::min<std::uintmax_t>(size, kMaxTextBytes));
+  auto source = read_text(path, diagnostics);
+  if (source && inputs != nullptr) inputs->add_file(path);
+  return source;
+}
+
+void Door::add_values(std::size_t count, std::size_t bytes_of_texts) {
+  take_memory(count * 2 * sizeof(double) + bytes_of_texts);  // lists have up to twice the room that they need
+  values += count;
+  text_bytes += bytes_of_texts;
+}
+
+std::size_t Door::bytes_to_write() const {
+  constexpr std::size_t kTextOfValue = 25;  // the digits of a number and its separator
+  const std::size_t written = values * kTextOfValue + text_bytes;
+  return values * 2 * sizeof(JsonValue) + text_bytes + 2 * written;
 }
 
 std::string Door::name_of(const fs::path& file) const {
@@ -78,6 +109,7 @@ std::string Door::free_material_name(const std::string& name) const {
 
 std::string Door::add_material(const std::string& name, spec::Material material) {
   std::string free = free_material_name(name);
+  add_values(kValuesOfOne, free.size());
   scene.materials.push_back({free, std::move(material), {}});
   return free;
 }

@@ -9,6 +9,7 @@ namespace abbe::doors {
 /// Adds a light of one kind.
 template <typename Lamp>
 void add_lamp(Lamp lamp, const SourcePosition& where, Door& door) {
+  door.add_values(kValuesOfOne);
   spec::Light light;
   light.kind = std::move(lamp);
   light.where = where;

@@ -106,10 +106,10 @@ std::string without_images(const std::string& name, Door& door) {
 }
 
 void replace_materials(const std::filesystem::path& map, Door& door) {
-  const auto source = read_text(map, door.diagnostics);
+  const auto source = door.read(map);
   if (!source) return;
-  if (door.inputs != nullptr) door.inputs->add_file(map);
-  const auto json = parse_json(source, door.diagnostics);
+  HeldMemory tree(door.inputs, 0);
+  const auto json = parse_json(source, door.diagnostics, &tree);
   if (!json) return;
   const auto chosen = schema::read<spec::Materials>(*json, spec::materials(), door.diagnostics);
   if (!chosen) return;

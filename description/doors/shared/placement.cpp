@@ -232,6 +232,21 @@ bool lacks_coordinates(const GivenShape& given, const Door& door) {
          });
 }
 
+// JSON values of triangles in the scene file; none of other surfaces.
+std::size_t values_of(const GivenShape& given) {
+  const auto* mesh = std::get_if<spec::InlineMesh>(&given.surface);
+  if (mesh == nullptr) return 0;
+  constexpr std::size_t kTriple = 4;  // a list of three numbers
+  return kTriple * (mesh->vertices.size() + mesh->triangles.size() + (mesh->uv ? mesh->uv->value.size() : 0));
+}
+
+// The texts of a shape: its name and those of its material and file.
+std::size_t bytes_of_texts(const GivenShape& given) {
+  const auto* file = std::get_if<MeshFileSurface>(&given.surface);
+  return given.material.size() + given.name.value_or("").size() +
+         (file != nullptr ? file->file.native().size() : 0);
+}
+
 void place_as_object(const GivenShape& given, Door& door) {
   GivenShape plain = given;
   plain.to_world = M44d();
@@ -291,6 +306,7 @@ void heed_normals(const Mesh& mesh, GivenShape& given, Door& door) {
 }
 
 void place(GivenShape given, Among among, std::vector<spec::Shape>& shapes, Door& door) {
+  door.add_values(kValuesOfOne + values_of(given), bytes_of_texts(given));
   bool textured = is_textured(given.material, door);
   if (textured && lacks_coordinates(given, door)) {
     door.note(given.where, "triangles without texture coordinates take no image: a reflectance of 0.5");
@@ -310,11 +326,13 @@ void place(GivenShape given, Among among, std::vector<spec::Shape>& shapes, Door
   if (!std::holds_alternative<MeshFileSurface>(given.surface))
     door.note(given.where, "a curved shape that is stretched, or has an image, becomes flat triangles");
   given.surface = *std::move(triangles);
+  door.add_values(values_of(given));
   (void)Placer{given, textured, shapes, door}(std::get<spec::InlineMesh>(given.surface));
 }
 
 void place_instance(const std::string& object, const M44d& to_world, const SourcePosition& where,
                     Door& door) {
+  door.add_values(kValuesOfOne, object.size());
   spec::Instance instance;
   instance.of = {{object}, where};
   instance.where = where;

@@ -36,7 +36,8 @@ spec::Curve curve(decltype(spec::Curve::value) value, const SourcePosition& wher
   return curve;
 }
 
-spec::CurveFormula table_of(const Samples& samples, const SourcePosition& where) {
+spec::CurveFormula table_of(const Samples& samples, const SourcePosition& where, Door& door) {
+  door.add_values(2 * samples.nm.size());
   return {spec::TableCurve{samples.nm, samples.values, samples.outside, where}};
 }
 
@@ -80,7 +81,7 @@ Spectrum part_of_index(const Spectrum& given, const SourcePosition& where, Door&
 }
 
 // Numbers or samples of n and k at all wavelengths that either has.
-spec::TableIor index_table(const Spectrum& n, const Spectrum& k) {
+spec::TableIor index_table(const Spectrum& n, const Spectrum& k, Door& door) {
   spec::TableIor table;
   std::vector<double>& all = table.wavelength_nm;
   for (const Spectrum* part : {&n, &k})
@@ -88,6 +89,7 @@ spec::TableIor index_table(const Spectrum& n, const Spectrum& k) {
       all.insert(all.end(), samples->nm.begin(), samples->nm.end());
   std::ranges::sort(all);
   all.erase(std::unique(all.begin(), all.end()), all.end());
+  door.add_values(3 * all.size());
   const auto at_all = [&all](const Spectrum& of) {
     const auto* samples = std::get_if<Samples>(&of);
     const Curve curve = samples ? table_curve(samples->nm, samples->values, Outside::clamp)
@@ -110,7 +112,7 @@ LampSpectrum coloured_lamp(const LinearRgb& rgb, double y, const SourcePosition&
   }
   note_colour(where, door);
   const std::vector<spec::Curve> factors{curve(std::string("D65"), where),
-                                         curve(table_of(samples_of(rgb), where), where)};
+                                         curve(table_of(samples_of(rgb), where, door), where)};
   lamp.emission.spectrum = spectrum(curve(spec::CurveFormula{spec::Product{{factors}}}, where));
   return lamp;
 }
@@ -150,9 +152,9 @@ spec::Curve curve_of(const Spectrum& given, const SourcePosition& where, Door& d
       [&](const LinearRgb& rgb) {
         if (is_grey(rgb)) return curve(rgb[0], where);
         note_colour(where, door);
-        return curve(table_of(samples_of(rgb), where), where);
+        return curve(table_of(samples_of(rgb), where, door), where);
       },
-      [&](const Samples& samples) { return curve(table_of(samples, where), where); },
+      [&](const Samples& samples) { return curve(table_of(samples, where, door), where); },
       [&](const Temperature& body) { return curve(spec::CurveFormula{spec::Blackbody{{body.K}}}, where); },
       [&](const Shipped& table) {
         spec::Curve named = curve(table.name, where);
@@ -164,6 +166,7 @@ spec::Curve curve_of(const Spectrum& given, const SourcePosition& where, Door& d
 }
 
 spec::Texture colours_of(spec::TextureFile file, bool linear, const SourcePosition& where, Door& door) {
+  door.add_values(kValuesOfOne, file.image.value.size());
   if (!linear || !holds_codes(file.image.value)) return {std::move(file), spec::Rgb{{{true}, where}}};
   note_colour(where, door);
   const Samples red = samples_of({1, 0, 0});
@@ -172,9 +175,9 @@ spec::Texture colours_of(spec::TextureFile file, bool linear, const SourcePositi
   for (std::size_t i = 0; i < blue.values.size(); ++i) blue.values[i] = 1 - red.values[i] - green.values[i];
   spec::Weights weights;
   weights.where = where;
-  weights.value = {{"R", curve(table_of(red, where), where), where},
-                   {"G", curve(table_of(green, where), where), where},
-                   {"B", curve(table_of(blue, where), where), where}};
+  weights.value = {{"R", curve(table_of(red, where, door), where), where},
+                   {"G", curve(table_of(green, where, door), where), where},
+                   {"B", curve(table_of(blue, where, door), where), where}};
   return {std::move(file), std::move(weights)};
 }
 
@@ -211,12 +214,12 @@ std::optional<spec::Curve> mapped_curve_of(const Spectrum& given,
                                            const SourcePosition& where, Door& door) {
   if (const auto* value = std::get_if<double>(&given)) return curve(function(*value), where);
   if (const auto* samples = std::get_if<Samples>(&given))
-    return curve(table_of(mapped(*samples, function), where), where);
+    return curve(table_of(mapped(*samples, function), where, door), where);
   const auto* rgb = std::get_if<LinearRgb>(&given);
   if (rgb == nullptr) return std::nullopt;
   if (is_grey(*rgb)) return curve(function((*rgb)[0]), where);
   note_colour(where, door);
-  return curve(table_of(mapped(samples_of(*rgb), function), where), where);
+  return curve(table_of(mapped(samples_of(*rgb), function), where, door), where);
 }
 
 Spectrum scaled(Spectrum spectrum, double factor) {
@@ -257,7 +260,7 @@ spec::Ior index_of(const Spectrum& said_n, const Spectrum& said_k, const SourceP
   if (reflects_all || (n_samples == nullptr && k_samples == nullptr))
     ior.value = spec::MetalIor{{number_of(n).value_or(1), number_of(k).value_or(0)}};
   else
-    ior.value = index_table(n, k);
+    ior.value = index_table(n, k, door);
   return ior;
 }
 

@@ -28,7 +28,7 @@ std::vector<std::string> words_of(std::string line) {
 std::optional<Samples> read_spectrum_file(const std::filesystem::path& file, const SourcePosition& where,
                                           Door& door) {
   if (!door.take_file(file, where)) return std::nullopt;
-  const auto source = read_text(file, door.diagnostics);
+  const auto source = door.read(file);
   if (!source) return std::nullopt;
   Samples samples;
   for (std::size_t from = 0; from < source->text.size();) {
