@@ -37,9 +37,9 @@ bool sound(std::string_view bytes, MeshReading& reading) {
     return reading.refuse("file too large");
   if (valid_prefix(*json) != json->size()) return reading.refuse("its JSON is no UTF-8 text");
   Diagnostics diagnostics;
-  const auto root = parse_json(
-      std::make_shared<const SourceText>(SourceText{reading.path.string(), std::string(*json)}), diagnostics,
-      &reading.held);
+  const auto root =
+      parse_json(std::make_shared<const SourceText>(SourceText{reading.path.string(), std::string(*json)}),
+                 diagnostics, &reading.held);
   if (!root) return reading.refuse("malformed JSON: " + diagnostics.all()[0].message);
   const JsonValue* list = root->find("buffers");
   const auto* buffers = list ? std::get_if<JsonValue::Array>(&list->value) : nullptr;

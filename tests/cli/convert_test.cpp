@@ -165,8 +165,8 @@ TEST(Convert, ScenesOfMitsubaTakeNoMoreMemoryThanAllowed) {
       "spheres.xml",
       mitsuba_scene(R"(<emitter type="constant"/>)" + repeated(R"(<shape type="sphere"/>)", 20000)), "20M");
   (void)scratch().write("part_of_includes.xml", mitsuba_scene(repeated(R"(<shape type="cube"/>)", 1000)));
-  expect_too_much("includes.xml", mitsuba_scene(repeated(R"(<include filename="part_of_includes.xml"/>)", 9000)),
-                  "50M");
+  expect_too_much("includes.xml",
+                  mitsuba_scene(repeated(R"(<include filename="part_of_includes.xml"/>)", 9000)), "50M");
 }
 
 TEST(Convert, ScenesOfPbrtTakeNoMoreMemoryThanAllowed) {
