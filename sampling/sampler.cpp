@@ -5,6 +5,8 @@
 #include <bit>
 #include <cstddef>
 
+#include "sampling/mix.h"
+
 namespace abbe {
 namespace {
 
@@ -130,21 +132,6 @@ constexpr SobolBytes sobol_bytes(std::size_t digits) {
 // By the digits that number a replicate.
 alignas(Quad) constexpr std::array<SobolBytes, kMostDigits + 1> kSobol{sobol_bytes(0), sobol_bytes(1),
                                                                        sobol_bytes(2), sobol_bytes(3)};
-
-template <typename T>
-constexpr T mix(T x) {  // a bijection with full avalanche [Wellons2018]
-  x ^= x >> 16;
-  x *= 0x7feb352dU;
-  x ^= x >> 15;
-  x *= 0x846ca68bU;
-  x ^= x >> 16;
-  return x;
-}
-
-template <typename T>
-constexpr T combine(T a, T b) {
-  return mix(a ^ (mix(b) + 0x9e3779b9U));
-}
 
 // A permutation in which each bit depends only on itself and lower bits [Laine2011]: between two bit
 // reversals it is an Owen scrambling of a point.

@@ -18,19 +18,24 @@ bool isotropic(const Microfacets<float>& facets) {
   return facets.alpha_x == facets.alpha_y;
 }
 
-// How many facets a quadrature takes, per direction: of many directions, few.
-int facets_taken(const Microfacets<float>& facets) {
-  return isotropic(facets) ? 1024 : 512;
-}
+// A Fibonacci lattice [Sloan1994]: `count` and `step` are consecutive Fibonacci numbers.
+struct Lattice {
+  int count, step;
 
-// Point i of the first `count`, a power of two, of Hammersley's set: beside i, its bits reversed; both in the
-// middle of their strata.
-Imath::V2f hammersley(int i, int count) {
-  std::uint32_t bits = 0;
-  for (int b = 0; b < 24; ++b) bits |= (static_cast<std::uint32_t>(i) >> b & 1U) << (23 - b);
-  const float half = 0.5F / static_cast<float>(count);
-  return {static_cast<float>(i) / static_cast<float>(count) + half,
-          static_cast<float>(bits) * 0x1p-24F + half};
+  [[nodiscard]] Imath::V2f point(int i) const {
+    const auto fraction = [this](std::int64_t number) {
+      return (static_cast<float>(number % count) + 0.5F) / static_cast<float>(count);
+    };
+    return {fraction(std::int64_t{i} * step), fraction(i)};
+  }
+};
+// The facets of each direction: of brushed ones fewer, as their tables have many more directions. Dielectrics
+// need more, for total reflection makes their energies less smooth.
+Lattice mirror_lattice(const Microfacets<float>& facets) {
+  return isotropic(facets) ? Lattice{987, 610} : Lattice{610, 377};
+}
+Lattice dielectric_lattice(const Microfacets<float>& facets) {
+  return isotropic(facets) ? Lattice{2584, 1597} : Lattice{1597, 987};
 }
 
 // The width of slopes, all azimuths alike.
@@ -74,6 +79,14 @@ Cell cell_of(float coordinate, int cells) {
   return {number, scaled - static_cast<float>(number)};
 }
 
+// Slope of a cubic spline at a node between the rises of two cells: their mean, limited so that the spline is
+// monotone where the nodes are. [Fritsch1980]
+float monotone_slope(float before, float after) {
+  if (!(before * after > 0)) return 0;
+  const float least = 3 * std::min(std::abs(before), std::abs(after));
+  return std::clamp((before + after) / 2, -least, least);
+}
+
 }  // namespace
 
 EnergyCompensation::Place EnergyCompensation::place(const Microfacets<float>& facets, const Imath::V3f& w) {
@@ -104,13 +117,22 @@ std::vector<EnergyCompensation> EnergyCompensation::tabulate(const Microfacets<f
 }
 
 float EnergyCompensation::at(const Place& place) const {
+  // The rows are continued about the normal as the even function of the angle that they are, and about the
+  // horizon in a straight line.
+  const auto turn = static_cast<std::size_t>(place.turn_cell);
   const auto row = [&](int number) {
     const auto& values = lost_[static_cast<std::size_t>(number)];
-    const auto turn = static_cast<std::size_t>(place.turn_cell);
     return values[turn] + place.turn * (values[turn + 1] - values[turn]);
   };
-  const float low = row(place.tilt_cell);
-  return low + place.tilt * (row(place.tilt_cell + 1) - low);
+  const int cell = place.tilt_cell;
+  const float low = row(cell);
+  const float high = row(cell + 1);
+  const float rise = high - low;
+  const float slope_low = cell > 0 ? monotone_slope(low - row(cell - 1), rise) : rise;
+  const float slope_high = cell + 1 < kCells ? monotone_slope(rise, row(cell + 2) - high) : 0;
+  const float t = place.tilt;
+  return low + t * (slope_low +
+                    t * (3 * rise - 2 * slope_low - slope_high + t * (slope_low + slope_high - 2 * rise)));
 }
 
 void EnergyCompensation::prepare_density(const Microfacets<float>& facets) {
@@ -157,23 +179,23 @@ float EnergyCompensation::pdf(const Place& place, float cos) const {
 
 double mirror_energy(const Microfacets<float>& facets, const Imath::V3f& w) {
   const float lambda = facets.lambda(w);
-  const int count = facets_taken(facets);
+  const Lattice taken = mirror_lattice(facets);
   double sum = 0;
-  for (int i = 0; i < count; ++i) {
-    const Imath::V3f h = facets.sample_visible(w, hammersley(i, count));
+  for (int i = 0; i < taken.count; ++i) {
+    const Imath::V3f h = facets.sample_visible(w, taken.point(i));
     const Imath::V3f out = h * (2 * w.dot(h)) - w;
     if (out.z > 0) sum += static_cast<double>((1 + lambda) / (1 + lambda + facets.lambda(out)));
   }
-  return sum / count;
+  return sum / taken.count;
 }
 
 void dielectric_energies(const Microfacets<float>& facets, const Imath::V3f& w, std::span<const float> etas,
                          std::span<double> energies) {
   const float lambda = facets.lambda(w);
-  const int count = facets_taken(facets);
+  const Lattice taken = dielectric_lattice(facets);
   std::fill(energies.begin(), energies.end(), 0.0);
-  for (int i = 0; i < count; ++i) {
-    const Imath::V3f h = facets.sample_visible(w, hammersley(i, count));
+  for (int i = 0; i < taken.count; ++i) {
+    const Imath::V3f h = facets.sample_visible(w, taken.point(i));
     const float cos = std::min(w.dot(h), 1.0F);
     const Imath::V3f mirrored = h * (2 * cos) - w;
     const float reflected = mirrored.z > 0 ? (1 + lambda) / (1 + lambda + facets.lambda(mirrored)) : 0.0F;
@@ -181,7 +203,7 @@ void dielectric_energies(const Microfacets<float>& facets, const Imath::V3f& w, 
       const FresnelPower<float> f = fresnel_dielectric(cos, etas[k]);
       const Imath::V3f through = h * (cos / etas[k] - f.cos_t) - w / etas[k];
       const float transmitted = f.cos_t > 0 && through.z < 0 ? facets.G1(through) : 0.0F;
-      energies[k] += static_cast<double>(f.R() * reflected + f.transmitted() * transmitted) / count;
+      energies[k] += static_cast<double>(f.R() * reflected + f.transmitted() * transmitted) / taken.count;
     }
   }
 }

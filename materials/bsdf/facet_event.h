@@ -1,10 +1,13 @@
 #pragma once
 
+#include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "materials/bsdf/event.h"
 #include "materials/interface/fresnel.h"
 #include "materials/interface/microfacet.h"
+#include "sampling/mix.h"
 
 namespace abbe {
 
@@ -20,6 +23,21 @@ namespace abbe {
 [[nodiscard]] inline SampledSpectrum share_of(const SampledSpectrum& part, const SampledSpectrum& all) {
   return SampledSpectrum::map(part, all,
                               [](float x, float y) { return y > 0 ? std::min(x / y, 1.0F) : 0.0F; });
+}
+
+/// The fraction of the light that a facet sends from o into i that no other facet stops, by the lambda of
+/// both. Masking is correlated by height in reflection, where o and i are on the same side [Heitz2014, eq.
+/// 99], and independent in transmission.
+[[nodiscard]] inline float unmasked(float lambda_o, float lambda_i, bool reflected) {
+  return reflected ? (1 + lambda_o) / (1 + lambda_o + lambda_i) : 1 / (1 + lambda_i);
+}
+
+/// Random numbers for a second draw: hashes of those of the first, as good as independent of them.
+[[nodiscard]] inline BsdfRandom redrawn(const BsdfRandom& u) {
+  const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
+  const std::uint32_t key = combine(combine(bits(u.lobe), bits(u.direction.x)), bits(u.direction.y));
+  const auto number = [key](std::uint32_t i) { return static_cast<float>(combine(key, i) >> 8U) * 0x1p-24F; };
+  return {number(0), {number(1), number(2)}};
 }
 
 /// The cosine at which facets are met that mirror o into i.

@@ -17,7 +17,7 @@ RoughMetal::RoughMetal(const Microfacets<float>& of) : facets(of), lost(lost_by_
 
 RoughInterface::RoughInterface(const Microfacets<float>& of, float low, float high)
     : facets(of), low_n(low), high_n(high) {
-  const std::array<float, kIndices> n{low, (low + high) / 2, high};
+  const std::array<float, kIndices> n{low, crosses_one() ? 1 : (low + high) / 2, high};
   const std::array<float, 2 * kIndices> etas{n[0], n[1], n[2], 1 / n[0], 1 / n[1], 1 / n[2]};
   const std::vector<EnergyCompensation> tables =
       EnergyCompensation::tabulate(facets, etas.size(), [&](const Imath::V3f& w, std::span<double> energies) {

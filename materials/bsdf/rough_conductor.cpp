@@ -9,7 +9,7 @@ namespace abbe {
 namespace {
 
 // Reflection from o into i by facets that reflect everything, times the cosine of i [1/sr]; as many times as
-// it takes in `multiple`.
+// it takes in `multiple`. Directions are drawn as those of `RoughDielectricBsdf`.
 struct Reflection {
   float single = 0;
   float multiple = 0;
@@ -20,13 +20,12 @@ struct Reflection {
 Reflection reflection(const RoughMetal& surface, const Imath::V3f& o, const Imath::V3f& i) {
   const Microfacets<float>& facets = surface.facets;
   const float lambda_o = facets.lambda(o);
-  const float seen = 1 / ((1 + lambda_o) * o.z);
-  const FacetMirror mirror = facet_mirror(facets, seen, o, i);
+  const FacetMirror mirror = facet_mirror(facets, 1 / ((1 + lambda_o) * o.z), o, i);
+  const float single = mirror.density * unmasked(lambda_o, facets.lambda(i), true);
   const EnergyCompensation::Place place = EnergyCompensation::place(facets, i);
   const float lost = surface.lost.at(EnergyCompensation::place(facets, o));
-  return {mirror.density * (1 + lambda_o) / (1 + lambda_o + facets.lambda(i)),
-          lost * surface.lost.at(place) * i.z / surface.lost.total(), mirror.cos,
-          (1 - lost) * mirror.density + lost * surface.lost.pdf(place, i.z)};
+  return {single, lost * surface.lost.at(place) * i.z / surface.lost.total(), mirror.cos,
+          single + lost * surface.lost.pdf(place, i.z)};
 }
 
 // f cos of each lane.
@@ -54,15 +53,11 @@ std::optional<BsdfSample> RoughConductorBsdf::sample(const Imath::V3f& wo, const
                                                      TransportMode /*mode*/) const {
   if (wo.z == 0) return std::nullopt;
   const Imath::V3f o = from_side_of(wo, wo);
-  const float lost = surface->lost.at(EnergyCompensation::place(surface->facets, o));
-  Imath::V3f i;
-  if (u.lobe < lost) {
-    i = surface->lost.sample(u.direction);
-  } else {
-    const Imath::V3f h = surface->facets.sample_visible(o, u.direction);
-    i = (h * (2 * o.dot(h)) - o).normalized();
-  }
-  if (!(i.z > 0)) return std::nullopt;
+  const Microfacets<float>& facets = surface->facets;
+  const Imath::V3f h = facets.sample_visible(o, u.direction);
+  Imath::V3f i = (h * (2 * o.dot(h)) - o).normalized();
+  if (!(i.z > 0 && u.lobe < unmasked(facets.lambda(o), facets.lambda(i), true)))
+    i = surface->lost.sample(redrawn(u).direction);
   const Reflection r = reflection(*surface, o, i);
   if (!(r.pdf > 0)) return std::nullopt;
   return BsdfSample{

@@ -8,10 +8,17 @@
 namespace abbe {
 namespace {
 
-using Quadratic = std::array<SampledSpectrum, RoughInterface::kIndices>;
+using Weights = std::array<SampledSpectrum, RoughInterface::kIndices>;
 
-// Of each lane, the weights of the three indices that a surface is tabulated at.
-Quadratic weights(const RoughInterface& surface, const SampledSpectrum& n) {
+// Per lane: the weights of the three indices that a surface is tabulated at.
+Weights weights(const RoughInterface& surface, const SampledSpectrum& n) {
+  if (surface.crosses_one()) {
+    const SampledSpectrum below = SampledSpectrum::map(
+        n, [&](float lane_n) { return std::clamp((1 - lane_n) / (1 - surface.low_n), 0.0F, 1.0F); });
+    const SampledSpectrum above = SampledSpectrum::map(
+        n, [&](float lane_n) { return std::clamp((lane_n - 1) / (surface.high_n - 1), 0.0F, 1.0F); });
+    return {below, SampledSpectrum(1) - below - above, above};
+  }
   const float range = surface.high_n - surface.low_n;
   const SampledSpectrum one(1);
   const SampledSpectrum w = SampledSpectrum::map(n, [&](float lane_n) {
@@ -22,63 +29,62 @@ Quadratic weights(const RoughInterface& surface, const SampledSpectrum& n) {
 
 // Lane by lane, the value of the tables of one side by `read`.
 template <typename F>
-SampledSpectrum at_lanes(const RoughInterface& surface, bool inside, const Quadratic& weights, F read) {
+SampledSpectrum at_lanes(const RoughInterface& surface, bool inside, const Weights& weights, F read) {
   const auto& tables = surface.lost[inside ? 1 : 0];
   SampledSpectrum sum;
   for (std::size_t k = 0; k < weights.size(); ++k) sum += weights[k] * read(tables[k]);
   return SampledSpectrum::map(sum, [](float x) { return std::max(x, 0.0F); });
 }
-SampledSpectrum lost_energy(const RoughInterface& surface, bool inside, const Quadratic& weights,
+SampledSpectrum lost_energy(const RoughInterface& surface, bool inside, const Weights& weights,
                             const EnergyCompensation::Place& place) {
   return at_lanes(surface, inside, weights, [&](const EnergyCompensation& table) { return table.at(place); });
 }
 
-// Power sent from o into i, lane by lane, times the cosine of i [1/sr], and the density of i were each lane
-// the hero; of the power what a single facet has sent there.
+// Per lane: the power sent from o into i times the cosine of i [1/sr], by a single facet and in all. The pdf
+// is the density of i if that lane is the hero.
 struct Scattered {
-  SampledSpectrum power, pdf, single;
+  SampledSpectrum single, power, pdf;
 };
 
-// That of facets alone. Masking goes by the height in reflection, where o and i see the same side.
-Scattered by_facets(const Microfacets<float>& facets, const SampledSpectrum& eta, const Imath::V3f& o,
-                    const Imath::V3f& i) {
+// The power scattered by single facets.
+SampledSpectrum by_facets(const Microfacets<float>& facets, const SampledSpectrum& eta, const Imath::V3f& o,
+                          const Imath::V3f& i) {
   const float lambda_o = facets.lambda(o);
-  const float lambda_i = facets.lambda(i);
-  const float seen = 1 / ((1 + lambda_o) * o.z);
+  const float passed = unmasked(lambda_o, facets.lambda(i), i.z > 0);
+  const float visible = 1 / ((1 + lambda_o) * o.z);
   if (i.z > 0) {
-    const FacetMirror mirror = facet_mirror(facets, seen, o, i);
-    const SampledSpectrum there = mirror.density * SampledSpectrum::map(eta, [&](float lane_eta) {
-                                    return fresnel_dielectric(mirror.cos, lane_eta).R();
-                                  });
-    const SampledSpectrum power = there * ((1 + lambda_o) / (1 + lambda_o + lambda_i));
-    return {power, there, power};
+    const FacetMirror mirror = facet_mirror(facets, visible, o, i);
+    return mirror.density * passed * SampledSpectrum::map(eta, [&](float lane_eta) {
+             return fresnel_dielectric(mirror.cos, lane_eta).R();
+           });
   }
-  const SampledSpectrum there = SampledSpectrum::map(
-      eta, [&](float lane_eta) { return facet_refraction(facets, seen, o, i, lane_eta); });
-  const SampledSpectrum power = there * (1 / (1 + lambda_i));
-  return {power, there, power};
+  return passed * SampledSpectrum::map(
+                      eta, [&](float lane_eta) { return facet_refraction(facets, visible, o, i, lane_eta); });
 }
 
-// Including what is scattered more than once: with A_s the integral of what side s loses over projected solid
-// angle, (1 - E(o)) (1 - E(i)) n_i^2 / (A_outside + n^2 A_inside).
+// Single and multiple scattering. With A_s the integral of 1 - E over the projected solid angle of side s,
+// multiple scattering sends (1 - E(o)) (1 - E(i)) n_i^2 / (A_outside + n^2 A_inside).
+//
+// `sample` draws one facet, and a direction of multiple scattering if other facets stop the light of that
+// one. The first happens with the density of the power of single scattering, the second with the probability
+// 1 - E(o), for which the pdf takes the table's value.
 Scattered scattered(const RoughDielectricBsdf& bsdf, bool inside, const Imath::V3f& o, const Imath::V3f& i) {
   const RoughInterface& surface = *bsdf.surface;
   const SampledSpectrum& n = bsdf.n;
-  const Scattered once = by_facets(surface.facets, inside ? SampledSpectrum(1) / n : n, o, i);
-  if (!bsdf.compensated) return once;
-  const Quadratic w = weights(surface, n);
+  const SampledSpectrum once = by_facets(surface.facets, inside ? SampledSpectrum(1) / n : n, o, i);
+  const Weights w = weights(surface, n);
   const bool into_inside = inside == (i.z > 0);
   const EnergyCompensation::Place place_i = EnergyCompensation::place(surface.facets, i);
   const SampledSpectrum lost = lost_energy(surface, inside, w, EnergyCompensation::place(surface.facets, o));
   const auto total = [](const EnergyCompensation& table) { return table.total(); };
-  const SampledSpectrum leaves =
+  const SampledSpectrum total_of_both =
       at_lanes(surface, false, w, total) + n * n * at_lanes(surface, true, w, total);
-  SampledSpectrum share = lost_energy(surface, into_inside, w, place_i) * std::abs(i.z) / leaves;
-  if (into_inside) share *= n * n;
+  SampledSpectrum fraction = lost_energy(surface, into_inside, w, place_i) * std::abs(i.z) / total_of_both;
+  if (into_inside) fraction *= n * n;
 
   const float density = (into_inside ? surface.inside_share : 1 - surface.inside_share) *
                         surface.lost[into_inside ? 1 : 0][1].pdf(place_i, std::abs(i.z));
-  return {once.power + lost * share, (SampledSpectrum(1) - lost) * once.pdf + lost * density, once.power};
+  return {once, once + lost * fraction, once + lost * density};
 }
 
 // What refraction does to the quantity carried into `wi`, lane by lane.
@@ -89,23 +95,25 @@ SampledSpectrum scale(const SampledSpectrum& n, const Imath::V3f& wo, const Imat
       n, [&](float lane_n) { return refraction_scale(wo.z < 0 ? 1 / lane_n : lane_n, mode); });
 }
 
-// By a facet, drawn by `direction`; reflected if `choice` is below its reflectance. Nothing where it would
-// have to be scattered again to leave that way.
+// The direction into which one facet, drawn by `u`, sends light from o. Nothing if another facet stops it: at
+// once, if the direction is on the wrong side of the surface, or with the probability of masking.
 std::optional<Imath::V3f> off_facet(const Microfacets<float>& facets, const Imath::V3f& o, float eta,
-                                    const Imath::V2f& direction, float choice) {
-  const Imath::V3f h = facets.sample_visible(o, direction);
+                                    const BsdfRandom& u) {
+  const Imath::V3f h = facets.sample_visible(o, u.direction);
   const float cos = std::min(o.dot(h), 1.0F);
   const FresnelPower<float> f = fresnel_dielectric(cos, eta);
-  const bool reflected = choice < f.R();
+  const float R = f.R();
+  const bool reflected = u.lobe < R;
   const Imath::V3f i = (reflected ? h * (2 * cos) - o : h * (cos / eta - f.cos_t) - o / eta).normalized();
-  return i.z != 0 && reflected == (i.z > 0) ? std::optional(i) : std::nullopt;
+  if (i.z == 0 || reflected != (i.z > 0)) return std::nullopt;
+  const float rest = reflected ? u.lobe / R : (u.lobe - R) / (1 - R);
+  return rest < unmasked(facets.lambda(o), facets.lambda(i), reflected) ? std::optional(i) : std::nullopt;
 }
 
-// Scattered more than once: the side first, by `choice`.
-Imath::V3f off_surface(const RoughInterface& surface, bool inside, const Imath::V2f& direction,
-                       float choice) {
-  const bool into_inside = choice < surface.inside_share;
-  const Imath::V3f i = surface.lost[into_inside ? 1 : 0][1].sample(direction);
+// A direction of multiple scattering: the lobe number selects the side.
+Imath::V3f off_surface(const RoughInterface& surface, bool inside, const BsdfRandom& u) {
+  const bool into_inside = u.lobe < surface.inside_share;
+  const Imath::V3f i = surface.lost[into_inside ? 1 : 0][1].sample(u.direction);
   return {i.x, i.y, into_inside == inside ? i.z : -i.z};
 }
 
@@ -116,23 +124,17 @@ std::optional<BsdfSample> RoughDielectricBsdf::sample(const Imath::V3f& wo, cons
   if (wo.z == 0) return std::nullopt;
   const bool inside = wo.z < 0;
   const Imath::V3f o = from_side_of(wo, wo);
-  const float lost = compensated ? lost_energy(*surface, inside, weights(*surface, n),
-                                               EnergyCompensation::place(surface->facets, o))[hero]
-                                 : 0.0F;
-  const std::optional<Imath::V3f> i = u.lobe < lost
-                                          ? off_surface(*surface, inside, u.direction, u.lobe / lost)
-                                          : off_facet(surface->facets, o, inside ? 1 / n[hero] : n[hero],
-                                                      u.direction, (u.lobe - lost) / (1 - lost));
-  if (!i) return std::nullopt;
-  const Scattered all = scattered(*this, inside, o, *i);
+  const std::optional<Imath::V3f> once = off_facet(surface->facets, o, inside ? 1 / n[hero] : n[hero], u);
+  const Imath::V3f i = once ? *once : off_surface(*surface, inside, redrawn(u));
+  const Scattered all = scattered(*this, inside, o, i);
   const float pdf = all.pdf[hero];
   if (!(pdf > 0)) return std::nullopt;
-  const Imath::V3f wi = from_side_of(wo, *i);
+  const Imath::V3f wi = from_side_of(wo, i);
   return BsdfSample{.wi = wi,
                     .weight = all.power * scale(n, wo, wi, mode) * (1 / pdf),
                     .lane_pdf = all.pdf * (1 / pdf),
                     .pdf = pdf,
-                    .transmitted = i->z < 0};
+                    .transmitted = i.z < 0};
 }
 
 SampledSpectrum RoughDielectricBsdf::eval(const Imath::V3f& wo, const Imath::V3f& wi,

@@ -16,16 +16,26 @@ float apart_from_one(float n) {
   return std::abs(n - 1) < kLeastContrast ? 1 + std::copysign(kLeastContrast, n - 1) : n;
 }
 
-std::shared_ptr<const RoughInterface> boundary(const RefractiveIndex& index,
-                                               const Microfacets<float>& facets) {
-  auto low = static_cast<float>(index.n(double{kMinWavelengthNm}));
-  float high = low;
-  for (int nm = kMinWavelengthNm; index.dispersive() && nm <= kMaxWavelengthNm; ++nm) {
-    const auto n = static_cast<float>(index.n(double(nm)));
-    low = std::min(low, n);
-    high = std::max(high, n);
+// The least and greatest relative index of a material, against a medium or, for nullptr, air.
+struct IndexRange {
+  float low, high;
+};
+IndexRange range_of(const RefractiveIndex& index, const RefractiveIndex* medium) {
+  const auto relative = [&](double nm) {
+    return static_cast<float>(index.n(nm) / (medium != nullptr ? medium->n(nm) : 1));
+  };
+  IndexRange range{relative(kMinWavelengthNm), relative(kMinWavelengthNm)};
+  const bool dispersive = index.dispersive() || (medium != nullptr && medium->dispersive());
+  for (int nm = kMinWavelengthNm; dispersive && nm <= kMaxWavelengthNm; ++nm) {
+    const float n = relative(nm);
+    range = {std::min(range.low, n), std::max(range.high, n)};
   }
-  return std::make_shared<RoughInterface>(facets, apart_from_one(low), apart_from_one(high));
+  return {apart_from_one(range.low), apart_from_one(range.high)};
+}
+
+std::shared_ptr<const RoughInterface> make_interface(const Microfacets<float>& facets,
+                                                     const IndexRange& range) {
+  return std::make_shared<RoughInterface>(facets, range.low, range.high);
 }
 
 Curve mean_reflectance_of(const RefractiveIndex& metal) {
@@ -43,11 +53,26 @@ RoughDielectricMaterial::RoughDielectricMaterial(std::string name, RefractiveInd
     : index_name(std::move(name)),
       index(std::move(inside)),
       filling(std::move(scattering)),
-      surface(boundary(index, facets)) {}
+      surface(make_interface(facets, range_of(index, nullptr))) {}
+
+const RoughInterface& RoughDielectricMaterial::nearest_surface(float low_n, float high_n) const {
+  const RoughInterface* nearest = surface.get();
+  for (const auto& other : surfaces_in_media)
+    if (other->distance_to(low_n, high_n) < nearest->distance_to(low_n, high_n)) nearest = other.get();
+  return *nearest;
+}
+
+void RoughDielectricMaterial::tabulate_in(const RefractiveIndex& medium) {
+  const IndexRange range = range_of(index, &medium);
+  if (nearest_surface(range.low, range.high).distance_to(range.low, range.high) > 0)
+    surfaces_in_media.push_back(make_interface(surface->facets, range));
+}
 
 Bsdf RoughDielectricMaterial::bsdf(const SurfaceLookup& at) const {
-  const SampledSpectrum n = relative_index(index, at.outside, at.wavelengths_nm).n;
-  return RoughDielectricBsdf{SampledSpectrum::map(n, apart_from_one), surface.get(), at.outside == nullptr};
+  const SampledSpectrum n =
+      SampledSpectrum::map(relative_index(index, at.outside, at.wavelengths_nm).n, apart_from_one);
+  if (at.outside == nullptr) return RoughDielectricBsdf{n, surface.get()};
+  return RoughDielectricBsdf{n, &nearest_surface(n.min(), n.max())};
 }
 
 RoughConductorMaterial::RoughConductorMaterial(std::string name, RefractiveIndex metal,

@@ -3,6 +3,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "materials/bsdf/bsdf.h"
 #include "materials/bsdf/lookup.h"
@@ -16,9 +17,13 @@ namespace abbe {
 /// closer to 1 is taken as that far away.
 class RoughDielectricMaterial {
  public:
-  /// Tabulates what it scatters more than once: some ms.
+  /// Tabulates multiple scattering in air, within some tens of ms.
   RoughDielectricMaterial(std::string index_name, RefractiveIndex index, const Microfacets<float>& facets,
                           std::optional<Medium> filling = {});
+
+  /// Tabulates multiple scattering in a medium of that index too, unless a table holds for it. A medium for
+  /// which this was not called takes the table of the nearest relative index.
+  void tabulate_in(const RefractiveIndex& medium);
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
@@ -32,8 +37,12 @@ class RoughDielectricMaterial {
 
   std::string index_name;
   RefractiveIndex index;
-  std::optional<Medium> filling;  ///< Scatters inside.
-  std::shared_ptr<const RoughInterface> surface;
+  std::optional<Medium> filling;                  ///< Scatters inside.
+  std::shared_ptr<const RoughInterface> surface;  ///< In air.
+  std::vector<std::shared_ptr<const RoughInterface>> surfaces_in_media;
+
+ private:
+  [[nodiscard]] const RoughInterface& nearest_surface(float low_n, float high_n) const;
 };
 
 /// Rough conductor, in the same way.
