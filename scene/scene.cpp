@@ -39,6 +39,32 @@ struct VolumeMeter {
   }
 };
 
+// Per material: a box around all of its shapes.
+std::vector<Imath::Box3d> boxes_of_materials(const Scene& scene) {
+  std::vector<Imath::Box3d> boxes(scene.materials.size());
+  for (const ShapeInstance& instance : scene.shapes)
+    boxes[instance.material].extendBy(bounds(instance.shape));
+  return boxes;
+}
+
+// Tabulates multiple scattering of rough dielectrics in each medium of the scene that may surround them.
+void tabulate_in_media(Scene& scene) {
+  std::vector<Imath::Box3d> boxes;
+  for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+    auto* rough = std::get_if<RoughDielectricMaterial>(&scene.materials[i].model);
+    if (rough == nullptr) continue;
+    if (boxes.empty()) boxes = boxes_of_materials(scene);
+    Imath::Box3d box = boxes[i];
+    if (box.isEmpty()) continue;
+    const Imath::V3d margin(scene.touch_distance());
+    box = {box.min - margin, box.max + margin};
+    for (std::size_t j = 0; j < scene.materials.size(); ++j) {
+      const RefractiveIndex* medium = interior(scene.materials[j]);
+      if (j != i && medium != nullptr && box.intersects(boxes[j])) rough->tabulate_in(*medium);
+    }
+  }
+}
+
 }  // namespace
 
 std::vector<std::string> Scene::channel_names() const {
@@ -131,6 +157,7 @@ bool Scene::is_far(const Light& light) const {
 void Scene::commit() {
   measure_extent();
   measure_matter();
+  tabulate_in_media(*this);
   background_.clear();
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (lights[i].at_infinity() && !lights[i].is_delta())

@@ -231,8 +231,9 @@ class Scene {
   /// Whether the light has a place that is far, from where its rays are as good as parallel.
   [[nodiscard]] bool is_far(const Light& light) const;
 
-  /// Builds the acceleration structure, `bounds`, what is far, the volumes of matter, the lights' areas and
-  /// `needs`; call once, after filling the lists. Throws Error{resource} when there is no memory.
+  /// Builds the acceleration structure, `bounds`, what is far, the volumes of media, the tables of rough
+  /// dielectrics in media, the lights' areas and `needs`; call once, after filling the lists. Throws
+  /// Error{resource} when there is no memory.
   void commit();
 
   [[nodiscard]] std::size_t triangle_count() const;  ///< As rendered: a quad is two.

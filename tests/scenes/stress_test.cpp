@@ -1,5 +1,7 @@
 // Renders where numbers are at their worst. docs/validation.md lists all stress tests.
+#include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -81,6 +83,56 @@ TEST(Stress, RoughSphereInAFurnaceIsHardlySeen) {
     EXPECT_NEAR(whole.mean / one, 1, 1e-2) << matter;
     EXPECT_GT(furthest_from_one(film, empty_furnace()), 1e-6) << "not a rough sphere: " << matter;
   }
+}
+
+// A ball of one index, rough, in a ball of another.
+Scene rough_ball_within(double index, double index_around, double alpha, int samples) {
+  return furnace(fmt::format(R"("materials": {{"rough": {{"dielectric": {{"ior": {}, "roughness": {}}}}},
+             "around": {{"dielectric": {{"ior": {}}}}}}},
+           "shapes": [{{"sphere": {{"center": [0, 0, 0], "radius": 0.5}}, "material": "rough"}},
+             {{"sphere": {{"center": [0, 0, 0], "radius": 1}}, "material": "around"}}],)",
+                             index, alpha, index_around),
+                 "0, 0, -4", samples);
+}
+// The mean of the film over what radiance 1 exposes, without the noise of polarisation.
+double mean_in_furnace(Scene scene) {
+  scene.render.polarisation = false;
+  return test::region(render(scene, {}).film, 0, 0, 0, 16, 16).mean /
+         test::region(empty_furnace(), 0, 0, 0, 16, 16).mean;
+}
+
+TEST(Stress, RoughSphereInAMediumInAFurnaceIsHardlySeen) {
+  for (const double around : {1.0, 1.33, 1.7, 2.4})
+    for (const double alpha : {0.1, 0.2, 0.5, 1.0}) {
+      EXPECT_NEAR(mean_in_furnace(rough_ball_within(1.5, around, alpha, 8)), 1, 1e-2)
+          << around << " around, alpha " << alpha;
+      EXPECT_NEAR(mean_in_furnace(rough_ball_within(around, 1.5, alpha, 8)), 1, 1e-2)
+          << "a cavity of " << around << ", alpha " << alpha;
+    }
+}
+
+// Of the media of the scene, those whose shapes are near.
+TEST(Stress, RoughGlassHasTablesOfTheMediaAroundIt) {
+  const Scene scene = furnace(
+      R"("materials": {"rough": {"dielectric": {"ior": 1.5, "roughness": 0.5}}, "water": {"dielectric": {"ior": 1.33}},
+             "diamond": {"dielectric": {"ior": 2.4}}},
+           "shapes": [{"sphere": {"center": [0, 0, 0], "radius": 0.5}, "material": "rough"},
+             {"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "water"},
+             {"sphere": {"center": [0, 9, 0], "radius": 1}, "material": "diamond"}],)");
+  const auto rough = std::ranges::find(scene.materials, "rough", &Material::name);
+  ASSERT_NE(rough, scene.materials.end());
+  const auto& tables = std::get<RoughDielectricMaterial>(rough->model).surfaces_in_media;
+  ASSERT_EQ(tables.size(), 1U);
+  EXPECT_FLOAT_EQ(tables[0]->low_n, 1.5F / 1.33F);
+}
+
+// A path leaves the ball after some twenty events.
+TEST(Stress, RoughSphereOfIndexFourInAFurnaceIsHardlySeen) {
+  Scene scene = furnace(
+      R"("materials": {"rough": {"dielectric": {"ior": 4, "roughness": 1}}},
+         "shapes": [{"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "rough"}],)",
+      "0, 0, -4", 16);
+  EXPECT_NEAR(mean_in_furnace(std::move(scene)), 1, 1e-2);
 }
 
 // From smooth surfaces to rough ones, a sphere that mirrors a lamp of some size and a sphere of glass before
