@@ -173,7 +173,8 @@ std::optional<std::uint32_t> add_surface(const spec::AreaLamp<Surface>& said, co
   const auto material =
       said.material ? find_material(*said.material, context, scene) : black_material(context, scene);
   if (!surface || !material) return std::nullopt;
-  scene.shapes.push_back({name, in_motion(*surface, true, moving, context), *material});
+  scene.shapes.push_back(
+      {name, in_motion(*surface, true, scene.materials[*material], moving, context), *material});
   return static_cast<std::uint32_t>(scene.shapes.size() - 1);
 }
 

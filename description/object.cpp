@@ -62,6 +62,7 @@ void add_instance(const spec::Instance& instance, const Moving& moving, const st
   const auto at = std::make_shared<Placement>(
       placement(Imath::M44d().setTranslation(object.center) * *matrix * moving.opening));
   at->motion = moving.motion;
+  at->described_origin = object.center;
   context.placements.push_back(at);
   for (const Object::Member& member : object.parts)
     scene.shapes.push_back({object.parts.size() == 1 ? name : name + "/" + member.name,

@@ -127,9 +127,8 @@ void check_exposures(const spec::Scene& said, const LoadContext& context, const 
 }
 
 void set_placement(Placement& at, const Imath::M44d& to_world) {
-  const auto motion = at.motion;
-  at = placement(to_world);
-  at.motion = motion;
+  at.to_world = to_world;
+  at.to_prototype = to_world.inverse();
 }
 
 // Moves what there is so that (0, 0, 0), where floats are finest, is where they are to be; everything up to
@@ -138,8 +137,10 @@ void recentre(Scene& scene, const LoadContext& context) {
   scene.origin_m = extent_of(scene.camera, scene.shapes).origin;
   for (ShapeInstance& instance : scene.shapes)
     std::visit([&](auto& shape) { shift(shape, -scene.origin_m); }, instance.shape);
-  for (const auto& at : context.placements)
+  for (const auto& at : context.placements) {
     set_placement(*at, at->to_world * Imath::M44d().setTranslation(-scene.origin_m));
+    at->described_origin -= scene.origin_m;
+  }
   for (const auto& motion : context.motions) motion->recentre(scene.origin_m);
   for (Material& material : scene.materials)
     if (auto* medium = std::get_if<MediumMaterial>(&material.model); medium && medium->filling.grid) {

@@ -279,7 +279,8 @@ void add_shape(const spec::Shape& shape, const std::string& name, LoadContext& c
     context.diagnostics.error(emission->where, "a shape that emits needs a material of its own");
   for (NamedShape& part : parts) {
     scene.shapes.push_back({std::move(part.name),
-                            in_motion(std::move(part.shape), emission != nullptr, moving, context),
+                            in_motion(std::move(part.shape), emission != nullptr,
+                                      scene.materials[part.material], moving, context),
                             part.material});
     if (emission)
       add_area_light(*emission, emits_from_both_sides(shape),
@@ -287,8 +288,11 @@ void add_shape(const spec::Shape& shape, const std::string& name, LoadContext& c
   }
 }
 
-// Whether a shape, moved there, no longer tells how its axes are turned.
-bool loses_axes(const PlainShape& shape, const Imath::M44d& to) {
+// True if the moved shape alone no longer shows where the axes of its description are: it is round and
+// turned, or it holds a grid of densities.
+bool loses_axes(const PlainShape& shape, const Material& material, const Imath::M44d& to) {
+  const Medium* medium = abbe::medium(material);
+  if (medium != nullptr && medium->grid) return to != Imath::M44d();
   const bool round = std::holds_alternative<Sphere>(shape) || std::holds_alternative<Disc>(shape);
   return round && to != Imath::M44d().setTranslation(to.translation());
 }
@@ -297,8 +301,9 @@ bool loses_axes(const PlainShape& shape, const Imath::M44d& to) {
 
 // What moves is a prototype around its middle, where floats are finest; so is what has been turned and could
 // not tell it otherwise.
-abbe::Shape in_motion(PlainShape shape, bool emits, const Moving& moving, LoadContext& context) {
-  if (!moving.motion && (emits || !loses_axes(shape, moving.opening))) {
+abbe::Shape in_motion(PlainShape shape, bool emits, const Material& material, const Moving& moving,
+                      LoadContext& context) {
+  if (!moving.motion && (emits || !loses_axes(shape, material, moving.opening))) {
     if (moving.opening != Imath::M44d())
       std::visit([&](auto& s) { move(s, Transform{moving.opening}); }, shape);
     return std::visit([](auto& s) { return abbe::Shape(std::move(s)); }, shape);
@@ -308,6 +313,7 @@ abbe::Shape in_motion(PlainShape shape, bool emits, const Moving& moving, LoadCo
   const auto at =
       std::make_shared<Placement>(placement(Imath::M44d().setTranslation(center) * moving.opening));
   at->motion = moving.motion;
+  at->described_origin = center;
   context.placements.push_back(at);
   return PlacedShape{make_prototype(std::move(shape)), at};
 }

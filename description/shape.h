@@ -104,7 +104,8 @@ void add_instance(const spec::Instance& instance, const Moving& moving, const st
                   LoadContext& context, Scene& scene);
 /// The shape where it is when the shutter opens; one that moves, or keeps axes, is the one of a prototype.
 /// What `emits` and stands still is a shape by itself, since places on it are drawn.
-[[nodiscard]] abbe::Shape in_motion(PlainShape shape, bool emits, const Moving& moving, LoadContext& context);
+[[nodiscard]] abbe::Shape in_motion(PlainShape shape, bool emits, const Material& material,
+                                    const Moving& moving, LoadContext& context);
 
 void shift(Mesh& mesh, const Imath::V3d& by);
 void shift(Sphere& sphere, const Imath::V3d& by);

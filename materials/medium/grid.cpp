@@ -127,9 +127,9 @@ double solve(const GridLine& line, double a, double b, double column) {
 
 }  // namespace
 
-GridStretch PlacedGrid::march(const Imath::V3f& origin, const Imath::V3f& direction, float distance,
+GridStretch PlacedGrid::march(const Imath::V3d& origin, const Imath::V3d& direction, float distance,
                               float column) const {
-  GridLine line(*this, Imath::V3d(origin), Imath::V3d(direction));
+  GridLine line(*this, origin, direction);
   double t = 0;
   auto end = static_cast<double>(distance);
   if (!line.clip(t, end)) return {distance, 0, false};

@@ -28,10 +28,10 @@ struct PlacedGrid {
   Imath::V3d from;
   Imath::V3d to;
 
-  /// Goes along a ray of unit `direction` until the integral of density is `column` [m] or the way `distance`
-  /// [m]; both may be infinite. Exact: within a cell the density along a line is a cubic, whose integral
-  /// Simpson's rule gives.
-  [[nodiscard]] GridStretch march(const Imath::V3f& origin, const Imath::V3f& direction, float distance,
+  /// Goes along the ray until the integral of density is `column` or the distance `distance`; both may be
+  /// infinite, and both count in lengths of `direction`, which stands for 1 m. Exact: within a cell the
+  /// density along a line is a cubic, whose integral Simpson's rule gives.
+  [[nodiscard]] GridStretch march(const Imath::V3d& origin, const Imath::V3d& direction, float distance,
                                   float column) const;
 };
 

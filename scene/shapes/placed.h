@@ -24,7 +24,8 @@ namespace abbe {
 [[nodiscard]] inline Placement placement_at(const Placement& placement, double time) {
   if (!placement.motion) return placement;
   const Imath::M44d since_opening = placement.motion->since_opening(time);
-  return {placement.to_world * since_opening, rigid_inverse(since_opening) * placement.to_prototype};
+  return {placement.to_world * since_opening, rigid_inverse(since_opening) * placement.to_prototype, nullptr,
+          placement.described_origin};
 }
 
 /// The ray in the prototype's coordinates. Its direction keeps what the map does to lengths, so that t means
@@ -35,6 +36,16 @@ template <typename T>
   BasicRay<T> moved{ray.origin * map, {}, ray.t_max};
   map.multDirMatrix(ray.direction, moved.direction);
   return moved;
+}
+
+/// The ray in the coordinates that the scene file describes the shape in, recentred as the scene is, at the
+/// ray's time. Its t means the same distance in the world.
+[[nodiscard]] inline BasicRay<double> to_description(const Shape& shape, const BasicRay<double>& ray) {
+  const auto* placed = std::get_if<PlacedShape>(&shape);
+  if (placed == nullptr) return ray;
+  BasicRay<double> described = to_prototype(placement_at(*placed->at, static_cast<double>(ray.time)), ray);
+  described.origin += placed->at->described_origin;
+  return described;
 }
 
 /// A prototype's normal in the world, by the inverse transpose, which turns an outward normal into an outward

@@ -69,6 +69,9 @@ struct Placement {
   Imath::M44d to_world;
   Imath::M44d to_prototype;
   std::shared_ptr<const Motion> motion = nullptr;  ///< Of what moves.
+  /// Position of the prototype's origin in the coordinates that the scene file describes the shape in, those
+  /// of the scene or of an object, recentred as the scene is.
+  Imath::V3d described_origin{0, 0, 0};
 };
 /// One instance: a prototype, and where it stands. A shape that moves is one too.
 struct PlacedShape {

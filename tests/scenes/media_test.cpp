@@ -9,6 +9,7 @@
 #include "tests/angles.h"
 #include "tests/scene/meshes.h"
 #include "tests/scenes/scene_fixture.h"
+#include "transport/path/medium_at.h"
 #include "validation/cases/radiative_transfer.h"
 
 // Films of matter that absorbs and scatters, held against what radiative transfer says of it.
@@ -358,12 +359,15 @@ TEST(Media, LanesAgreeWithFilmsOfOneBand) {
   }
 }
 
+// The box that `GridFile` fills, without its braces.
+constexpr const char* kFogBox =
+    R"("mesh": {"vertices": [[-1, -1, -1], [1, -1, -1], [-1, 1, -1], [1, 1, -1], [-1, -1, 1], [1, -1, 1], [-1, 1, 1], [1, 1, 1]],
+    "triangles": [[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4], [2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5]]}, "material": "fog")";
+
 // An even grid in the box it fills is a box of even matter.
 TEST(Media, AnEvenGridIsEvenMatter) {
   const GridFile grid(std::vector<float>(27, 2.0F), {3, 3, 3});
-  const char* box =
-      R"({"mesh": {"vertices": [[-1, -1, -1], [1, -1, -1], [-1, 1, -1], [1, 1, -1], [-1, -1, 1], [1, -1, 1], [-1, 1, 1], [1, 1, 1]],
-    "triangles": [[0, 2, 3], [0, 3, 1], [4, 5, 7], [4, 7, 6], [0, 1, 5], [0, 5, 4], [2, 6, 7], [2, 7, 3], [0, 4, 6], [0, 6, 2], [1, 3, 7], [1, 7, 5]]}, "material": "fog"})";
+  const std::string box = fmt::format("{{{}}}", kFogBox);
   const auto bench = [&](const std::string& scale, const std::string& shape, const std::string& gridded) {
     return radiances(
         {.materials = fmt::format(
@@ -381,6 +385,45 @@ TEST(Media, AnEvenGridIsEvenMatter) {
     EXPECT_LT(error, 0.05 * even[i].value);
     EXPECT_NEAR(even[i].value, gridded[i].value, kLargestZ * error) << i;
   }
+}
+
+// The density integrated along all of a ray [m], which is given in the scene file's coordinates.
+double column_along(const Scene& scene, const Imath::V3d& within, const Imath::V3d& direction, float time) {
+  const Imath::V3f at(within - scene.origin_m);
+  const MediumStack inside = enclosing(scene, at, time);
+  EXPECT_FALSE(inside.empty());
+  const MediumAt medium = medium_at(scene, inside, SampledSpectrum(550));
+  constexpr float kFar = 100;
+  const Imath::V3f along(direction);
+  constexpr float kForever = std::numeric_limits<float>::infinity();
+  return static_cast<double>(medium.march(ray_at(at - along * kFar, along, time), kForever, kForever).column);
+}
+
+// A density of 1 + x in a box of half-width 1, wherever a box of an object or of the scene is placed.
+TEST(Media, AGridMovesWithWhatHoldsIt) {
+  const GridFile grid({0, 2, 0, 2, 0, 2, 0, 2}, {2, 2, 2});
+  const Scene scene = test::load_text(fmt::format(
+      R"({{"abbe": 1, "camera": {{"pinhole": {{"fov_deg": 1}}, "from": [0, -5, 0], "to": [0, 0, 0], "up": [0, 0, 1]}},
+      "sensor": {{"resolution": [4, 4], "channels": {{"all": 1}}}},
+      "materials": {{"fog": {{"medium": {{"absorption_per_m": 1, {1}}}}}}},
+      "objects": {{"cloud": {{"shapes": [{{{0}}}]}}}},
+      "lights": [{{"environment": {{}}, "emission": {{"spectrum": 1}}}}],
+      "shapes": [{{{0}}}, {{"instance": {{"of": "cloud", "transform": {{"translate": [5, 0, 0]}}}}}},
+        {{"instance": {{"of": "cloud", "transform": {{"scale": 2, "rotate": {{"axis": [0, 0, 1], "deg": 90}}, "translate": [-9, 0, 0]}}}}}},
+        {{{0}, "motion": {{"keyframes": [{{"time_s": 0, "translate": [0, 9, 0]}}]}}}},
+        {{"instance": {{"of": "cloud"}}, "motion": {{"keyframes": [{{"time_s": 0, "translate": [0, -9, 0]}}, {{"time_s": 1, "translate": [0, -9, 4]}}]}}}}],
+      "render": {{}}}})",
+      kFogBox, grid.json()));
+  const auto column = [&](const Imath::V3d& within, const Imath::V3d& direction, float time = 0) {
+    return column_along(scene, within, direction, time);
+  };
+  EXPECT_NEAR(column({0.5, 0, 0}, {1, 0, 0}), 2, 1e-5) << "of the scene";
+  EXPECT_NEAR(column({5.5, 0, 0}, {0, 1, 0}), 3, 1e-5) << "translated";
+  EXPECT_NEAR(column({4.5, 0, 0}, {0, 0, 1}), 1, 1e-5) << "translated";
+  EXPECT_NEAR(column({-9, 1, 0}, {1, 0, 0}), 6, 1e-5) << "turned and scaled";
+  EXPECT_NEAR(column({-9, -1, 0}, {0, 0, -1}), 2, 1e-5) << "turned and scaled";
+  EXPECT_NEAR(column({0.5, 9, 0}, {0, 0, 1}), 3, 1e-5) << "in a pose";
+  EXPECT_NEAR(column({0.5, -9, 2}, {0, 1, 0}, 0.5F), 3, 1e-5) << "in motion";
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "transport/path/interface.h"
+#include "transport/path/medium_at.h"
 #include "transport/path/ray_turn.h"
 
 namespace abbe {
@@ -70,29 +71,29 @@ Meeting meet(const Scene& scene, const BasicRay<double>& ray, const ExactHit& fi
   return {met[boundary.acting.value_or(0)], boundary, spread};
 }
 
-// The matter that a ray within `inside` ran through to where it meets something. A shape left that was never
-// entered counts as entered before.
-const Material* matter_before(const Scene& scene, const BasicRay<double>& ray,
-                              const std::optional<ExactHit>& hit, MediumStack inside) {
+// The media that a ray within `inside` is in up to its hit. A shape left that was never entered counts as
+// entered before.
+MediumStack media_before(const Scene& scene, const BasicRay<double>& ray, const std::optional<ExactHit>& hit,
+                         MediumStack inside) {
   if (hit && hit->hit.normal.dot(ray.direction) > 0 && !inside.entry_of(scene, hit->shape))
     inside.cross(scene, hit->shape, true);
-  return inside.empty() ? nullptr : &material_of(scene, inside.innermost());
+  return inside;
 }
 
-// What the matter on the way leaves of a ray's power, by Beer's law.
-double transmittance(const Material* matter, const BasicRay<double>& ray, double distance,
-                     double wavelength_nm) {
-  if (matter == nullptr) return 1;
-  const RefractiveIndex* index = interior(*matter);
+// The fraction of a ray's power that the innermost medium transmits, by Beer's law.
+double transmittance(const Scene& scene, const MediumStack& inside, const BasicRay<double>& ray,
+                     double distance, double wavelength_nm) {
+  if (inside.empty()) return 1;
+  const Material& material = material_of(scene, inside.innermost());
+  const RefractiveIndex* index = interior(material);
   double extinction_per_m = index != nullptr ? index->absorption_per_m(wavelength_nm) : 0;
-  const Medium* filling = medium(*matter);
+  const Medium* filling = medium(material);
   if (filling != nullptr)
     extinction_per_m += filling->absorption_per_m(wavelength_nm) + filling->scattering_per_m(wavelength_nm);
   if (!(extinction_per_m > 0)) return 1;
   if (filling != nullptr && filling->grid)
-    distance = filling->grid
-                   ->march(Imath::V3f(ray.origin), Imath::V3f(ray.direction), static_cast<float>(distance),
-                           std::numeric_limits<float>::infinity())
+    distance = march_grid(*filling->grid, scene.shapes[inside.innermost()].shape, ray,
+                          static_cast<float>(distance), std::numeric_limits<float>::infinity())
                    .column;
   return std::exp(-extinction_per_m * distance);
 }
@@ -158,7 +159,7 @@ class Follower {
     std::vector<TraceEvent>& events = tree_.branches.back().trace.events;
     const std::optional<ExactHit> hit = intersect_exact(scene_, now.ray, now.nearest);
     const double left =
-        transmittance(matter_before(scene_, now.ray, hit, now.inside), now.ray,
+        transmittance(scene_, media_before(scene_, now.ray, hit, now.inside), now.ray,
                       hit ? hit->hit.t : std::numeric_limits<double>::infinity(), wavelength_nm_);
     now.share *= left;
     now.way.mueller *= left;
