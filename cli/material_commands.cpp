@@ -49,11 +49,9 @@ void add_material_queries(CLI::App& query, Command& command) {
                       command, query_ior);
   add_parsed(*ior.app, "--thickness", ior->thickness_mm, number_in(0, kAnyNumber),
              "Also tell the internal transmittance of that many millimetres", "MM");
-  add_index_query(query, "critical",
-                  "Critical angle from inside, in air or in what else the index is relative to", command,
-                  query_critical);
+  add_index_query(query, "critical", "Critical angle from inside, in air", command, query_critical);
   add_index_query(query, "brewster",
-                  "Brewster's angle from outside, or of metals the pseudo-Brewster angle, where Rp is least",
+                  "Brewster's angle from air, or of metals the pseudo-Brewster angle, where Rp is least",
                   command, query_brewster);
 
   const Sub<ReflectanceOptions> reflectance(
@@ -70,10 +68,8 @@ void add_material_queries(CLI::App& query, Command& command) {
       ->type_name("MATERIAL:NM[,MATERIAL:NM...]");
   add_json_with_arrays(*reflectance.app, reflectance->json, reflectance->arrays);
 
-  const Sub<PrismOptions> prism(
-      query, "prism",
-      "Deviation by a prism in air, or in what else its index is relative to, least or at one incidence",
-      command, query_prism);
+  const Sub<PrismOptions> prism(query, "prism", "Deviation by a prism in air, least or at one incidence",
+                                command, query_prism);
   prism.app->add_option("name", prism->name, kMaterialHelp)->required()->type_name("MATERIAL");
   add_at(*prism.app, prism->at_nm);
   add_parsed(*prism.app, "--apex", prism->apex_deg, number_in(1e-6, 180 - 1e-6), "Apex angle", "DEG")

@@ -13,10 +13,11 @@
 
 namespace abbe::cli {
 
-/// Questions about data and closed forms. Indices are the numbers as catalogued, at wavelengths the table
-/// covers; a name that is not found throws Error{input} with the nearest one, a wavelength outside the table
-/// Error{usage}, as does one at which k is not measured where an answer hangs on it. Each prints its answer
-/// and returns the exit code.
+/// Questions about data and closed forms. `query ior` prints indices as catalogued; all answers about
+/// surfaces are for a surface in air, as in scenes, by indices relative to air. Wavelengths are those the
+/// table covers; a name that is not found throws Error{input} with the nearest one, a wavelength outside the
+/// table Error{usage}, as does one at which k is not measured where an answer hangs on it. Each prints its
+/// answer and returns the exit code.
 
 /// `query ior`, `query critical`, `query brewster`.
 struct IndexOptions {
@@ -29,16 +30,16 @@ struct IndexOptions {
 /// Prints the index n + ik as catalogued. With a thickness d, also the share of the light between two faces
 /// that reaches the second: exp(-4 pi k d / lambda). That and k are null where k is not measured.
 int query_ior(const IndexOptions& options);
-/// Angle of total reflection against an index of 1 outside; null where n <= 1, and where the material absorbs
+/// Angle of total reflection against air; null where n <= 1, and where the material absorbs
 /// so much, 4 pi k >= 1, that no wave goes on within for a wavelength, as in metals.
 int query_critical(const IndexOptions& options);
 /// Angle of least R_p for light from outside, with that R_p: Brewster's, atan(n), where it is none; of what
 /// absorbs the pseudo-Brewster angle, where it is not.
 int query_brewster(const IndexOptions& options);
 
-/// `query reflectance`: of a polished surface for light from what its index is relative to, or, under thin
-/// films, which may differ in that, from air; with the phases of the reflected fields, which go as
-/// exp(-i omega t) and of which that in the plane of incidence has the sign of `FresnelAmplitudes`.
+/// `query reflectance`: of a polished surface, perhaps under thin films, for light from air; with the phases
+/// of the reflected fields, which go as exp(-i omega t) and of which that in the plane of incidence has the
+/// sign of `FresnelAmplitudes`.
 struct ReflectanceOptions {
   std::string name;
   std::vector<double> at_nm;
@@ -49,7 +50,7 @@ struct ReflectanceOptions {
 };
 int query_reflectance(const ReflectanceOptions& options);
 
-/// `query prism`: minimum deviation, or the deviation at one incidence.
+/// `query prism`: minimum deviation in air, or the deviation at one incidence.
 struct PrismOptions {
   std::string name;
   double apex_deg = 60;

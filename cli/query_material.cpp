@@ -12,7 +12,6 @@
 #include "materials/interface/film_thickness.h"
 #include "materials/interface/fresnel.h"
 #include "materials/interface/prism.h"
-#include "materials/interface/surface_index.h"
 #include "sampling/angle.h"
 
 namespace abbe::cli {
@@ -47,21 +46,23 @@ int print_material_answer(const Json& answer, const Options& options) {
   return 0;
 }
 
-// What its catalogued index is relative to, and what therefore surrounds it.
+// The medium that the catalogued index of a material is relative to.
 const char* medium_of(const NamedIndex& material) {
   return material.index.medium() == IndexMedium::vacuum ? "vacuum" : "air";
 }
+
+// The medium around every surface that is asked about, as in scenes.
+constexpr const char* kSurroundings = "air";
 
 // An angle of n and k at each wavelength.
 template <typename F>
 Json angles(const NamedIndex& material, const IndexOptions& options, F angle) {
   Json answer;
   answer["name"] = material.name;
-  answer["medium"] = medium_of(material);
+  answer["medium"] = kSurroundings;
   answer["wavelength_nm"] = options.at_nm;
-  answer["angle_deg"] = each(options.at_nm, [&](double nm) {
-    return angle(material.index.catalogued_n(nm), material.index.catalogued_k(nm));
-  });
+  answer["angle_deg"] =
+      each(options.at_nm, [&](double nm) { return angle(material.index.n(nm), material.index.k(nm)); });
   return answer;
 }
 
@@ -116,7 +117,8 @@ struct ReflectedFromAir {
 ReflectedFromAir reflect_from_air(const RefractiveIndex& index, const Coating& coating, double nm,
                                   double angle_deg) {
   const double cos_i = angle_deg == 90 ? 0 : std::cos(angle_deg * kDegree);
-  const auto [n, k] = surface_index(index, coating, nm);
+  const double n = index.n(nm);
+  const double k = index.k(nm);
   return {coated_power(coating, nm, n, k, cos_i, false), coated_reflection(coating, nm, n, k, cos_i, false)};
 }
 
@@ -188,7 +190,7 @@ int query_reflectance(const ReflectanceOptions& options) {
   };
   Json answer;
   answer["name"] = material.name;
-  answer["medium"] = coating.layers.empty() ? medium_of(material) : "air";
+  answer["medium"] = kSurroundings;
   answer["angle_deg"] = options.angles_deg;
   answer["wavelength_nm"] = options.at_nm;
   answer["Rs"] = rows([](const auto& f) { return f.power.Rs; });
@@ -204,8 +206,8 @@ int query_prism(const PrismOptions& options) {
   const NamedIndex material = find_surface(options.name, options.at_nm);
   const auto column = [&](auto quantity) {
     return each(options.at_nm, [&](double nm) {
-      if (material.index.catalogued_k(nm) > kLargestGlassK) return Json();
-      const double n = material.index.catalogued_n(nm);
+      if (material.index.k(nm) > kLargestGlassK) return Json();
+      const double n = material.index.n(nm);
       const auto passage = options.incidence_deg ? prism_passage(n, options.apex_deg, *options.incidence_deg)
                                                  : prism_minimum(n, options.apex_deg);
       return passage ? Json(quantity(*passage)) : Json();
@@ -213,10 +215,10 @@ int query_prism(const PrismOptions& options) {
   };
   Json answer;
   answer["name"] = material.name;
-  answer["medium"] = medium_of(material);
+  answer["medium"] = kSurroundings;
   answer["apex_deg"] = options.apex_deg;
   answer["wavelength_nm"] = options.at_nm;
-  answer["n"] = each(options.at_nm, [&](double nm) { return material.index.catalogued_n(nm); });
+  answer["n"] = each(options.at_nm, [&](double nm) { return material.index.n(nm); });
   answer["deviation_deg"] = column([](const PrismPassage& p) { return p.deviation_deg; });
   answer["incidence_deg"] = column([](const PrismPassage& p) { return p.incidence_deg; });
   answer["Ts"] = column([](const PrismPassage& p) { return p.Ts; });

@@ -9,7 +9,6 @@
 #include "materials/interface/coating.h"
 #include "materials/interface/film_thickness.h"
 #include "materials/interface/prism.h"
-#include "materials/interface/surface_index.h"
 #include "python/arrays.h"
 #include "python/errors.h"
 #include "python/lock.h"
@@ -78,7 +77,7 @@ Coating coating_of(const std::vector<std::pair<std::string, Real>>& layers, cons
   return coating;
 }
 
-// Rs and Rp for light from what its index is relative to, under a coating from air.
+// Rs and Rp for light from air.
 py::tuple reflectance(const std::string& name, const Numbers& wavelengths_nm, const Numbers& angles_deg,
                       const std::vector<std::pair<std::string, Real>>& layers) {
   const NamedIndex matter = find_surface(name, wavelengths_nm);
@@ -96,8 +95,8 @@ py::tuple reflectance(const std::string& name, const Numbers& wavelengths_nm, co
     for (std::size_t i = 0; i < all(nm).size(); ++i) {
       const double at = all(nm)[i];
       const double cos_i = all(angle)[i] == 90 ? 0 : std::cos(all(angle)[i] * kDegree);
-      const auto [n, k] = surface_index(matter.index, coating, at);
-      const FresnelPower<double> power = coated_power(coating, at, n, k, cos_i, false);
+      const FresnelPower<double> power =
+          coated_power(coating, at, matter.index.n(at), matter.index.k(at), cos_i, false);
       s[i] = power.Rs;
       p[i] = power.Rp;
     }
@@ -114,8 +113,8 @@ py::object prism_deviation(const std::string& name, const Numbers& wavelengths_n
                 fmt::format("got {}, allowed (-90, 90)", incidence_deg->value));
   const NamedIndex matter = find_surface(name, wavelengths_nm);
   return each(wavelengths_nm, [&](double nm) {
-    if (matter.index.catalogued_k(nm) > kLargestGlassK) return kNan;
-    const double n = matter.index.catalogued_n(nm);
+    if (matter.index.k(nm) > kLargestGlassK) return kNan;
+    const double n = matter.index.n(nm);
     const auto passage =
         incidence_deg ? prism_passage(n, apex_deg, *incidence_deg) : prism_minimum(n, apex_deg);
     return passage ? passage->deviation_deg : kNan;
@@ -143,15 +142,15 @@ void add_matter(py::module_& module) {
   module.def(
       "reflectance", reflectance, py::arg("name"), py::arg("wavelengths_nm"), py::arg("angle_deg") = 0.0,
       py::arg("coating") = std::vector<std::pair<std::string, double>>(),
-      "Returns (Rs, Rp), the reflectance of a smooth surface for light from air, or from vacuum where the "
-      "index is relative to that as `material(name)` tells, polarised across and in the plane of incidence, "
-      "by Fresnel's formulas.\n\nWavelengths and angles of incidence are broadcast against one another. "
-      "`coating` lists films (material, thickness in nm) from outside inwards, for light from air. Raises as "
+      "Returns (Rs, Rp), the reflectance of a smooth surface for light from air, polarised across and in the "
+      "plane of incidence, by Fresnel's formulas.\n\nWavelengths and angles of incidence are broadcast "
+      "against one another. `coating` lists films (material, thickness in nm) from outside inwards. Raises "
+      "as "
       "`ior` does, and UsageError too where k is not measured and the reflectance hangs on it.");
   module.def("prism_deviation", prism_deviation, py::arg("name"), py::arg("wavelengths_nm"),
              py::arg("apex_deg") = 60.0, py::arg("incidence_deg") = py::none(),
-             "Returns by how many degrees a prism in air, or in vacuum where its index is relative to that, "
-             "deviates light: the least deviation, or that at one angle of incidence; NaN where the light is "
+             "Returns by how many degrees a prism in air deviates light: the least deviation, or that at one "
+             "angle of incidence; NaN where the light is "
              "totally reflected or the matter lets none through (k above 1e-3). Raises as `ior` does.");
 }
 

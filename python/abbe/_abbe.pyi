@@ -264,7 +264,7 @@ def observer(name: str = '1931', *, wavelengths_nm: ArrayLike) -> dict:
 
 
 def prism_deviation(name: str, wavelengths_nm: ArrayLike, apex_deg: float = 60.0, incidence_deg: typing.Optional[float] = None) -> typing.Any:
-    """Returns by how many degrees a prism in air, or in vacuum where its index is relative to that, deviates light: the least deviation, or that at one angle of incidence; NaN where the light is totally reflected or the matter lets none through (k above 1e-3). Raises as `ior` does."""
+    """Returns by how many degrees a prism in air deviates light: the least deviation, or that at one angle of incidence; NaN where the light is totally reflected or the matter lets none through (k above 1e-3). Raises as `ior` does."""
 
 
 def recover_response(series: str | os.PathLike[str]) -> dict:
@@ -274,9 +274,9 @@ def recover_response(series: str | os.PathLike[str]) -> dict:
 
 
 def reflectance(name: str, wavelengths_nm: ArrayLike, angle_deg: ArrayLike = 0.0, coating: typing.List[typing.Tuple[str, float]] = []) -> tuple:
-    """Returns (Rs, Rp), the reflectance of a smooth surface for light from air, or from vacuum where the index is relative to that as `material(name)` tells, polarised across and in the plane of incidence, by Fresnel's formulas.
+    """Returns (Rs, Rp), the reflectance of a smooth surface for light from air, polarised across and in the plane of incidence, by Fresnel's formulas.
 
-    Wavelengths and angles of incidence are broadcast against one another. `coating` lists films (material, thickness in nm) from outside inwards, for light from air. Raises as `ior` does, and UsageError too where k is not measured and the reflectance hangs on it."""
+    Wavelengths and angles of incidence are broadcast against one another. `coating` lists films (material, thickness in nm) from outside inwards. Raises as `ior` does, and UsageError too where k is not measured and the reflectance hangs on it."""
 
 
 def render(scene: Scene, *, spp: typing.Optional[int] = None, seed: typing.Optional[int] = None, threads: int = 0, error: typing.Optional[float] = None, time: typing.Optional[float] = None, progress: typing.Any = None, sample_range: typing.Optional[typing.Union[typing.Tuple[int, int], range]] = None) -> Film:

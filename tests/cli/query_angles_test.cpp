@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include "cli/query.h"
+#include "materials/index/library.h"
+#include "materials/index/relative_index.h"
 #include "spectral/air.h"
 #include "tests/cli/json_output.h"
 #include "tests/cli/program.h"
@@ -44,14 +46,25 @@ TEST(QueryAngles, NothingComesThroughAPrismOfMetal) {
     EXPECT_TRUE(gold[figure].is_null()) << figure;
 }
 
-TEST(QueryAngles, AreInTheMediumThatIsTold) {
-  const auto expect_medium = [](const char* id, const char* medium) {
-    EXPECT_EQ(json_output(cli::query_prism, {id, 60, {550}, {}})["medium"], medium);
-    EXPECT_EQ(json_output(cli::query_critical, {id, {550}})["medium"], medium);
-    EXPECT_EQ(json_output(cli::query_reflectance, {id, {550}, {0}})["medium"], medium);
-  };
-  expect_medium("N-BK7", "air");
-  expect_medium("water_20.0C", "vacuum");
+TEST(QueryAngles, AreInAirAsInScenes) {
+  for (const char* id : {"N-BK7", "water_20.0C"}) {
+    EXPECT_EQ(json_output(cli::query_prism, {id, 60, {550}, {}})["medium"], "air");
+    EXPECT_EQ(json_output(cli::query_critical, {id, {550}})["medium"], "air");
+    EXPECT_EQ(json_output(cli::query_brewster, {id, {550}})["medium"], "air");
+    EXPECT_EQ(json_output(cli::query_reflectance, {id, {550}, {0}})["medium"], "air");
+  }
+  // The catalogued index of water is relative to vacuum.
+  constexpr double kWavelengthNm = 587.5618;
+  EXPECT_NEAR(json_output(cli::query_critical, {"water_20.0C", {kWavelengthNm}})["angle_deg"].get<double>(),
+              48.605, 5e-4);
+  Diagnostics diagnostics;
+  const NamedIndex water = *load_index("water_20.0C", {}, diagnostics);
+  const double in_scenes =
+      relative_index(water.index, nullptr, SampledSpectrum(static_cast<float>(kWavelengthNm))).n[0];
+  EXPECT_NEAR(json_output(cli::query_brewster, {"water_20.0C", {kWavelengthNm}})["angle_deg"].get<double>(),
+              std::atan(in_scenes) * 180 / std::numbers::pi, 1e-5);
+  EXPECT_NEAR(json_output(cli::query_prism, {"water_20.0C", 60, {kWavelengthNm}, {}})["n"].get<double>(),
+              in_scenes, 1e-6);
 }
 
 // The characteristic matrix of one clear layer along the normal, [Born1999, sec. 1.6].
@@ -67,7 +80,8 @@ TEST(QueryAngles, UnderACoatingAllIndicesAreRelativeToAir) {
   const std::complex<double> c(water * std::cos(phase), -film * std::sin(phase));
   EXPECT_NEAR(coated["R"].get<double>(), std::norm((b - c) / (b + c)), 1e-12);
   options.coating = "";
-  EXPECT_EQ(json_output(cli::query_reflectance, options)["medium"], "vacuum");
+  const double r = (water - 1) / (water + 1);
+  EXPECT_NEAR(json_output(cli::query_reflectance, options)["R"].get<double>(), r * r, 1e-12);
 }
 
 TEST(QueryIor, ExtinctionThatIsNotMeasuredIsUnknownAndForbidsNoIndex) {
