@@ -2,10 +2,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "sensor/response/channel.h"
+#include "sensor/response/incidence.h"
 #include "spectral/sources.h"
 
 namespace abbe {
@@ -99,12 +101,45 @@ TEST(InterferenceFilter, NothingExceedsItsReachAndTheReachIsNoWider) {
   EXPECT_GT(envelope(channel)(640.29), 0);
 }
 
+// Light that fills a cone of numerical aperture sin u evenly has sin^2(theta) uniform in [0, sin^2 u]. A step
+// at 600 nm lets light of a wavelength through where sin^2(theta) < n^2 (1 - (lambda/600)^2).
+TEST(InterferenceFilter, TheMeanOverAConeSmoothsAStep) {
+  constexpr double kSine2 = 0.25;
+  constexpr int kAngles = 400;
+  std::vector<Incidence> cone;
+  for (int i = 0; i < kAngles; ++i)
+    cone.push_back({std::sqrt(1 - kSine2 * (i + 0.5) / kAngles), 1.0 / kAngles});
+  const Curve step({{300, 1}, {600, 1}, {600, 0}, {1100, 0}});
+  const Channel channel = exposed(behind(energy_channel("step", Curve(0.8)), {Curve(0.5), {{step, 1.7}}}), 2);
+  const Channel mean = averaged(channel, cone);
+  EXPECT_FALSE(mean.angular);
+  EXPECT_EQ(mean.exposure_ratio, 2);
+  for (double nm = 560; nm < 605; nm += 1.3) {
+    const double open = 1.7 * 1.7 * (1 - nm * nm / (600 * 600)) / kSine2;
+    EXPECT_NEAR(mean.weight(nm), 0.8 * std::clamp(open, 0.0, 1.0), 0.8 * 1.5 / kAngles) << nm;
+  }
+}
+
+TEST(InterferenceFilter, TheMeanOverAnglesIsThatOfWeightAt) {
+  const Channel channel = stacked();
+  const std::vector<Incidence> angles{{1, 0.2}, {cosine(17), 0.5}, {cosine(33), 0.3}};
+  const Channel mean = averaged(channel, angles);
+  for (double nm = 501.3; nm < 690; nm += 3.7) {
+    double expected = 0;
+    for (const Incidence& angle : angles)
+      expected += angle.fraction *
+                  static_cast<double>(weight_at(channel, at(nm), static_cast<float>(angle.cos_film))[0]);
+    EXPECT_NEAR(mean.weight(nm), expected, 5e-4 * channel.weight.max()) << nm;
+  }
+}
+
 TEST(InterferenceFilter, ChannelsWithoutOneReachTheirWeight) {
   Channel channel = behind(energy_channel("plain", band(400, 500)), {Curve(0.5), {}});
   limit_angles(channel, 0.5);
   EXPECT_FALSE(channel.angular);
   EXPECT_EQ(&envelope(channel), &channel.weight);
   EXPECT_EQ(weight_at(channel, at(450), 0.1F)[0], 0.5F);
+  EXPECT_EQ(averaged(channel, std::vector<Incidence>{{0.5, 1}}).weight(450), channel.weight(450));
 }
 
 }  // namespace
