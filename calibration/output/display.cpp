@@ -5,7 +5,6 @@
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
-#include <limits>
 #include <map>
 #include <numeric>
 #include <sstream>
@@ -253,13 +252,13 @@ DisplayPicture DisplayTransform::operator()(const Image& film, std::optional<dou
   picture.outside = {film.width, film.height, {std::move(outside)}, film.metadata};
   picture.image = split_planes(packed, film, channels_.size() == 1);
   for (const auto& [key, text] : told) picture.image.metadata[key] = text;
+  picture.image.metadata[kDisplayExposureKey] = fmt::format("{}", 1 / picture.scale);
   return picture;
 }
 
 double DisplayTransform::automatic_scale(const Image& film) const {
   const std::vector<const ImageChannel*> film_planes = planes(film, channels_);
-  Gamut gamut = processor_->gamut;
-  gamut.top = std::numeric_limits<double>::infinity();
+  const Gamut gamut(kRec709);
   const Matrix3 to_gamut = gamut.from_xyz_d65 * to_xyz_d65_;
   std::vector<double> brightness;
   for (const std::size_t i : recorded_pixels(film)) {

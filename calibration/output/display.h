@@ -15,11 +15,14 @@
 
 namespace abbe {
 
+/// The attribute of films and pictures with the film value that is shown as white.
+inline constexpr const char* kDisplayExposureKey = "display_exposure";
+
 /// A film made fit for a display.
 struct DisplayPicture {
   /// Channels R, G, B (or Y for a film of one channel): code values in [0, 1]. Its attributes `kColorSpace`
   /// and `kPrimariesKey` tell how Abbe's own displays read them; those of a user's configuration it does not
-  /// know.
+  /// know. `kDisplayExposureKey` is 1/scale.
   Image image;
   Image outside;             ///< Channel Y: 1 where the colour lay outside the gamut, 0 elsewhere.
   double scale = 1;          ///< What the film values were multiplied by.
@@ -60,8 +63,8 @@ class DisplayTransform {
   [[nodiscard]] DisplayPicture operator()(const Image& film, std::optional<double> scale = {}) const;
 
   /// The scale that brings the 99th percentile, over the pixels that the film has (`recorded_areas`), of the
-  /// brightest primary to 1, colours having been brought into the gamut; where that is not positive, the
-  /// brightest pixel; 1 for a film without any light.
+  /// brightest primary of Rec.709 to 1, colours having been brought into its gamut; where that is not
+  /// positive, the brightest pixel; 1 for a film without any light. No display or view changes it.
   [[nodiscard]] double automatic_scale(const Image& film) const;
 
   /// Film values to XYZ relative to D65.

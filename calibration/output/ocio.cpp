@@ -6,6 +6,7 @@
 #include <cmath>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <OpenColorIO/OpenColorIO.h>
@@ -27,6 +28,7 @@ constexpr const char* kRec709Space = "Linear Rec.709 (sRGB)";
 constexpr const char* kAcesSpace = "ACES2065-1";
 constexpr const char* kAcesCgSpace = "ACEScg";
 constexpr const char* kRawSpace = "Raw";
+constexpr const char* kDiffuserWords = "the perfect diffuser, which becomes Y = 1, has ";  // in camera spaces
 constexpr const char* kDisplayReferenceSpace = "CIE-XYZ-D65";
 struct DisplaySpace {
   const char* name;
@@ -77,8 +79,8 @@ double cube_end(const CameraProfile& profile) {
 std::string described(const CameraProfile& profile) {
   const Raw white = white_values(profile);
   return fmt::format(
-      "{}. Input: {}; the perfect diffuser, which becomes Y = 1, has {}{} {:.6g}, {} {:.6g}, {} {:.6g}.{}",
-      profile.description, has_curve(profile) ? "code values, 1 at full scale" : "linear camera values",
+      "{}. Input: {}; {}{}{} {:.6g}, {} {:.6g}, {} {:.6g}.{}", profile.description,
+      has_curve(profile) ? "code values, 1 at full scale" : "linear camera values", kDiffuserWords,
       has_curve(profile) ? "after the curve " : "", profile.channels[0], white[0], profile.channels[1],
       white[1], profile.channels[2], white[2],
       has_cube(profile) ? fmt::format(" Linear values are cut to [0, {:.6g}].", cube_end(profile)) : "");
@@ -282,6 +284,32 @@ double bake_error(const OCIO::ConstConfigRcPtr& config, const CameraProfile& pro
   return worst;
 }
 
+Matrix3 matrix_of(const OCIO::MatrixTransform& transform) {
+  std::array<double, 16> values{};
+  transform.getMatrix(values.data());
+  Matrix3 m;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) m[i][j] = values[static_cast<std::size_t>(4 * i + j)];
+  return m;
+}
+
+// The matrix of a camera space without its response curve; nothing where there is another transform.
+std::optional<Matrix3> camera_matrix(const OCIO::ConstTransformRcPtr& transform) {
+  if (const auto* matrix = dynamic_cast<const OCIO::MatrixTransform*>(transform.get()))
+    return matrix_of(*matrix);
+  const auto* group = dynamic_cast<const OCIO::GroupTransform*>(transform.get());
+  std::optional<Matrix3> found;
+  for (int i = 0; group != nullptr && i < group->getNumTransforms(); ++i) {
+    const OCIO::ConstTransformRcPtr child = group->getTransform(i);
+    const auto* file = dynamic_cast<const OCIO::FileTransform*>(child.get());
+    if (file != nullptr && std::string_view(file->getSrc()).ends_with(".spi1d")) continue;
+    const auto* matrix = dynamic_cast<const OCIO::MatrixTransform*>(child.get());
+    if (matrix == nullptr || found) return std::nullopt;
+    found = matrix_of(*matrix);
+  }
+  return found;
+}
+
 void require_well_formed(const CameraProfile& profile) {
   const std::size_t size = profile.linearisation[0].size();
   for (const std::vector<double>& curve : profile.linearisation)
@@ -308,7 +336,7 @@ const DisplayCodes& codes_of_display(const std::string& display) {
 }
 
 std::string camera_space(const CameraProfile& profile) {
-  return valid_utf8("Camera " + profile.light);
+  return valid_utf8(kCameraPrefix + profile.light);
 }
 
 std::string camera_file(const CameraProfile& profile, const std::string& extension) {
@@ -324,6 +352,22 @@ std::string ocio_config_text(std::span<const CameraProfile> profiles) {
     std::ostringstream text;
     build_config(profiles)->serialize(text);
     return text.str();
+  });
+}
+
+std::vector<CameraSpace> camera_spaces(const std::filesystem::path& config_file) {
+  return with_ocio_errors(ErrorCode::input, [&] {
+    const OCIO::ConstConfigRcPtr config = OCIO::Config::CreateFromFile(config_file.c_str());
+    std::vector<CameraSpace> spaces;
+    for (int i = 0; i < config->getNumColorSpaces(); ++i) {
+      const char* name = config->getColorSpaceNameByIndex(i);
+      const OCIO::ConstColorSpaceRcPtr space = config->getColorSpace(name);
+      if (!std::string_view(name).starts_with(kCameraPrefix) ||
+          std::string_view(space->getDescription()).find(kDiffuserWords) == std::string_view::npos)
+        continue;
+      spaces.push_back({name, camera_matrix(space->getTransform(OCIO::COLORSPACE_DIR_TO_REFERENCE))});
+    }
+    return spaces;
   });
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "calibration/output/camera_profile.h"
+#include "spectral/matrix3.h"
 #include "spectral/rgb.h"
 
 namespace abbe {
@@ -15,6 +17,7 @@ inline constexpr const char* kReferenceSpace = "Linear XYZ-D65";
 inline constexpr const char* kSrgbDisplay = "sRGB - Display";
 inline constexpr const char* kRec1886Display = "Rec.1886 Rec.709 - Display";
 inline constexpr const char* kP3Display = "P3-D65 - Display";
+inline constexpr const char* kCameraPrefix = "Camera ";  ///< Of camera spaces, before their light.
 inline constexpr const char* kPlainView = "Un-tone-mapped";
 inline constexpr const char* kAcesView = "ACES 1.0 - SDR Video";
 
@@ -41,6 +44,17 @@ struct DisplayCodes {
 /// Displays sRGB, Rec.1886 and P3-D65, each with a view that neither tone-maps nor clips and with the
 /// ACES 1.0 view, from OpenColorIO's built-in transforms. Throws Error{internal} with OpenColorIO's words.
 [[nodiscard]] std::string ocio_config_text(std::span<const CameraProfile> profiles);
+
+/// A camera's colour space in a configuration that `write_ocio_config` wrote.
+struct CameraSpace {
+  std::string name;  ///< E.g. "Camera D65".
+  /// From linear values of R, G and B to XYZ relative to D65; nothing for a root polynomial. A response curve
+  /// before it is left out.
+  std::optional<Matrix3> to_xyz_d65;
+};
+/// The camera spaces of a configuration; none for one of another origin. Throws Error{input} for a file that
+/// OpenColorIO cannot read.
+[[nodiscard]] std::vector<CameraSpace> camera_spaces(const std::filesystem::path& config);
 
 /// Creates a folder unless it is there. Throws Error{output}.
 void make_folder(const std::filesystem::path& folder);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -8,11 +10,15 @@
 
 namespace abbe {
 
+/// Film values of the brightest neutral that a sensor holds: t r_k for channel k, with r the film values of a
+/// neutral, which `to_xyz_d65` takes to D65, and t = min_k saturation_k / r_k, where the first channel fills
+/// up in neutral light. Nothing where no neutral is positive in every channel below saturation.
+[[nodiscard]] std::optional<std::array<double, 3>> brightest_neutral(const Matrix3& to_xyz_d65,
+                                                                     const std::vector<double>& saturation);
+
 /// Makes white of what saturated: channels fill up at values that are no neutral, so that too much white
-/// light would look cyan or magenta. With r the film values of a neutral, which `to_xyz_d65` takes to D65,
-/// every channel k is cut at t r_k, t = min_k saturation_k / r_k being where the first of them fills up in
-/// neutral light. Channels are in the order of `channels`, which are all there. Does nothing where no neutral
-/// is positive in every channel below saturation.
+/// light would look cyan or magenta. Every channel is cut at the `brightest_neutral`. Channels are in the
+/// order of `channels`, which are all there. Does nothing where there is no such neutral.
 void clip_to_white(Image& planes, const std::vector<std::string>& channels, const Matrix3& to_xyz_d65,
                    const std::vector<double>& saturation);
 

@@ -158,6 +158,16 @@ TEST(Display, ScalesTheNinetyNinthPercentileToOne) {
   EXPECT_NEAR(display.automatic_scale(film_of({"X", "Y", "Z"}, spark)), 0.25, 1e-7);
 }
 
+// A colour that Rec.709 holds and AP1 holds as well, but with another brightest primary.
+TEST(Display, TheAutomaticScaleIsThatOfEveryView) {
+  const Image film = film_of({"X", "Y", "Z"}, {{0.6, 0.4, 0.1}, {0.3, 0.3, 0.3}});
+  const DisplayTransform plain({"X", "Y", "Z"}, Matrix3());
+  for (const ViewOptions& view : {ViewOptions{{}, kSrgbDisplay, kAcesView}, ViewOptions{{}, kP3Display, ""}})
+    EXPECT_EQ(DisplayTransform({"X", "Y", "Z"}, Matrix3(), {}, view).automatic_scale(film),
+              plain.automatic_scale(film))
+        << view.display << ' ' << view.view;
+}
+
 TEST(Display, WhatAFilmHasNotIsNeitherExposedForNorCounted) {
   const XYZ white = unit_xyz(kD65);
   Image film = film_of({"X", "Y", "Z"}, std::vector<std::array<double, 3>>(1000, {0, 0, 0}));
