@@ -77,6 +77,8 @@ void require_effect(const DevelopOptions& options) {
   if (options.iso) one_of_two("--iso", kIsoPointer);
   if (options.white) one_of_two("--white", kWhitePointer);
   const char* shows = options.display_exposure       ? "--exposure"
+                      : !options.exposure_of.empty() ? "--exposure-of"
+                      : options.flattens_field       ? "--field"
                       : options.white                ? "--white"
                       : sets(options, kWhitePointer) ? kWhitePointer
                                                      : "";
@@ -216,7 +218,14 @@ ExposedFilm load(const DevelopOptions& options, Inputs& inputs) {
   return {std::move(film), std::move(sensor)};
 }
 
-Json report(const FilmSensor& sensor, const std::vector<PlaneFigures>& planes) {
+/// What `develop` reports of the first exposure.
+struct Report {
+  std::vector<PlaneFigures> planes;
+  std::optional<double> shown_as_white;  ///< Nothing where no display can show the film.
+};
+
+Json json_of(const FilmSensor& sensor, const Report& report) {
+  const std::vector<PlaneFigures>& planes = report.planes;
   Json answer;
   answer["planes"] = sensor.planes;
   for (const PlaneFigures& plane : planes) {
@@ -238,18 +247,34 @@ Json report(const FilmSensor& sensor, const std::vector<PlaneFigures>& planes) {
   }
   if (sensor.readout && sensor.electrons_per_lx_s)
     answer["iso_speed"] = saturation_speed(*sensor.readout, *sensor.electrons_per_lx_s);
+  if (!sensor.camera_space.empty()) answer["camera_space"] = sensor.camera_space;
+  if (report.shown_as_white) answer[kDisplayExposureKey] = *report.shown_as_white;
   return answer;
 }
 
-// Changes what was exposed as the options ask.
-void expose_anew(ExposedFilm& exposed, const DevelopOptions& options) {
-  Diagnostics diagnostics;
+// Changes what was exposed as the options ask. `diagnostics` gets the warnings about the film's own scene.
+void expose_anew(ExposedFilm& exposed, const DevelopOptions& options, Diagnostics& diagnostics) {
   if (options.exposure_s) expose_for(exposed, *options.exposure_s, diagnostics);
-  if (options.frame)
-    expose_to(exposed, *options.frame);
-  else
-    check(diagnostics);  // which are about what a frame does not see
+  if (options.frame) expose_to(exposed, *options.frame);
   if (options.display_exposure) exposed.sensor.display_exposure = options.display_exposure;
+}
+
+// Warns of neutrals that are tinted, and flattens the field if that was requested.
+void set_field(FilmSensor& sensor, const DevelopOptions& options) {
+  sensor.flattens_field = options.flattens_field;
+  if (!sensor.white_field || !sensor.display || options.frame) {
+    if (options.flattens_field)
+      say("warning: --field: without effect, as the response of the film's channels to white does not change "
+          "over the field, or the film does not record it");
+    return;
+  }
+  const std::string remedy =
+      options.outputs.empty() ? "--field balances pictures over the field"
+                              : "--field balances pictures over the field, and raw files need a flat field";
+  const double shift = neutral_shift(*sensor.white_field, sensor.display->to_xyz_d65());
+  const auto warning = tinted_corners(shift, remedy);
+  const bool is_flat = options.flattens_field && options.outputs.empty();
+  if (warning && !is_flat) say("warning: " + *warning);
 }
 
 void take_profile(FilmSensor& sensor, const DevelopOptions& options, Inputs& inputs) {
@@ -275,40 +300,60 @@ void require_noise(const FilmSensor& sensor, const DevelopOptions& options) {
                 "the film has no read-out whose noise it could draw (allowed: --set '/readout={...}')");
 }
 
+Report report_of(const FilmSensor& sensor, const DevelopedFilm& developed, const Image& planes) {
+  Report report{plane_figures(sensor, developed), {}};
+  if (sensor.display) report.shown_as_white = shown_as_white(sensor, planes);
+  return report;
+}
+
 // Develops one exposure into all its files, each whatever becomes of the others.
-DevelopedFilm develop_frame(const ExposedFilm& exposed, const DevelopOptions& options, std::uint32_t frame) {
+Report develop_frame(const ExposedFilm& exposed, const DevelopOptions& options, std::uint32_t frame) {
   const FilmSensor& sensor = exposed.sensor;
   const std::uint64_t seed = options.seed.value_or(render_seed(exposed.film));
-  DevelopedFilm developed = abbe::develop(exposed, seed, frame);
+  const DevelopedFilm developed = abbe::develop(exposed, seed, frame);
   const Image planes = display_planes(sensor, developed.calibrated);
-  const std::optional<double> scale =
-      sensor.display_exposure ? std::optional(1 / *sensor.display_exposure) : std::nullopt;
   std::vector<std::function<void()>> writers;
   for (const fs::path& output : options.outputs)
     writers.emplace_back([&, path = numbered(output, frame, options)] {
       if (is_raw_file(path))
         write_raw(path, developed, sensor);
       else
-        write_parts(path, developed, planes, sensor, scale);
+        write_parts(path, developed, planes, sensor);
     });
   if (!options.display.empty())
     writers.emplace_back([&] { write_display(numbered(options.display, frame, options), planes, sensor); });
   write_all(writers);
-  return developed;
+  return frame == 0 ? report_of(sensor, developed, planes) : Report{};
 }
 
 // The figures of the first exposure; of all, the files are written, and the first failure is thrown in the
 // end.
-std::vector<PlaneFigures> develop_frames(const ExposedFilm& exposed, const DevelopOptions& options) {
-  std::vector<PlaneFigures> figures;
+Report develop_frames(const ExposedFilm& exposed, const DevelopOptions& options) {
+  Report report;
   std::vector<std::function<void()>> writers;
   for (std::uint32_t frame = 0; frame < options.frames; ++frame)
     writers.emplace_back([&, frame] {
-      const DevelopedFilm developed = develop_frame(exposed, options, frame);
-      if (frame == 0) figures = plane_figures(exposed.sensor, developed);
+      Report of_frame = develop_frame(exposed, options, frame);
+      if (frame == 0) report = std::move(of_frame);
     });
   write_all(writers);
-  return figures;
+  return report;
+}
+
+// The display exposure that this command would find for the film of --exposure-of.
+double exposure_of_film(const DevelopOptions& options, Inputs& inputs) {
+  DevelopOptions other = options;
+  other.film = options.exposure_of;
+  other.polarisation.clear();
+  other.frame.reset();
+  Diagnostics warnings;  // of the film that is developed, which are given for that one
+  ExposedFilm exposed = load(other, inputs);
+  require_display(exposed.sensor);
+  expose_anew(exposed, other, warnings);
+  exposed.sensor.flattens_field = options.flattens_field;
+  const std::uint64_t seed = options.seed.value_or(render_seed(exposed.film));
+  return shown_as_white(exposed.sensor,
+                        display_planes(exposed.sensor, abbe::develop(exposed, seed).calibrated));
 }
 
 }  // namespace
@@ -320,6 +365,7 @@ int develop(const DevelopOptions& options) {
   Inputs inputs(options.max_memory_bytes);
   ExposedFilm exposed = load(options, inputs);
   take_profile(exposed.sensor, options, inputs);
+  if (!options.exposure_of.empty()) exposed.sensor.display_exposure = exposure_of_film(options, inputs);
   require_distinct(outputs, inputs.files());
   const FilmSensor& sensor = exposed.sensor;
   if (sensor.display) require_distinct(outputs, sensor.display->files());
@@ -329,12 +375,15 @@ int develop(const DevelopOptions& options) {
                 "the film has no read-out to make codes with (allowed: --set '/readout={...}', or a .exr)");
   require_noise(sensor, options);
   if (!options.display.empty()) require_display(sensor);
-  expose_anew(exposed, options);
+  Diagnostics warnings;
+  expose_anew(exposed, options, warnings);
+  if (!options.frame) check(warnings);  // of what a frame does not see
+  set_field(exposed.sensor, options);
   if (const auto dark = wants_raw ? own_dark_signals(sensor) : std::nullopt) say("warning: " + *dark);
 
   // At most three planes beside each of the film and of its variance.
   inputs.take_memory("developing", 3 * exposed.film.memory_bytes());
-  print(report(sensor, develop_frames(exposed, options)), options.json);
+  print(json_of(sensor, develop_frames(exposed, options)), options.json);
   return 0;
 }
 

@@ -13,7 +13,7 @@
 
 namespace abbe::cli {
 
-/// What `abbe develop` was asked for.
+/// Options of `abbe develop`.
 struct DevelopOptions {
   std::filesystem::path film;
   std::vector<std::filesystem::path> outputs;  ///< Raw pictures and multi-part images.
@@ -28,9 +28,11 @@ struct DevelopOptions {
   std::optional<CalibrationFrame> frame;       ///< What the camera sees instead of the scene.
   std::uint32_t frames = 1;                ///< Exposures of one film, numbered in the files' names if more.
   std::optional<double> display_exposure;  ///< Film value shown as white.
-  ViewOptions view;                        ///< Of the display.
-  std::filesystem::path profile;           ///< Matrices of a calibration for a DNG; else empty.
-  std::optional<std::uint64_t> seed;       ///< Of the noise; that of the render when absent.
+  std::filesystem::path exposure_of;  ///< Film whose display exposure pictures take; empty for their own.
+  bool flattens_field = false;        ///< True to balance white over the field, not for its centre alone.
+  ViewOptions view;                   ///< Of the display.
+  std::filesystem::path profile;      ///< Matrices of a calibration for a DNG; else empty.
+  std::optional<std::uint64_t> seed;  ///< Of the noise; that of the render when absent.
   std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;
 };

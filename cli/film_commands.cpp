@@ -45,6 +45,16 @@ void add_showing(CLI::App& options, DevelopOptions& how) {
   add_parsed(options, "--exposure", how.display_exposure, number_in(1e-30, 1e30),
              "Film value shown as white (default: the scene's, else chosen from the image)", "X");
   options
+      .add_option(
+          "--exposure-of", how.exposure_of,
+          "Show pictures with the exposure that this command chooses for another film, as the first of "
+          "several frames")
+      ->excludes("--exposure")
+      ->type_name("FILE.exr");
+  options.add_flag("--field", how.flattens_field,
+                   "Balance white over the whole field, where filters respond otherwise to oblique light "
+                   "(default: for its centre)");
+  options
       .add_option("--white", how.white,
                   "What pictures show as white, as output/white of a scene (default: the film's)")
       ->type_name("NAME|[X,Y]");

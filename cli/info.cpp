@@ -11,6 +11,7 @@
 #include "cli/answer.h"
 #include "cli/warnings.h"
 #include "description/load.h"
+#include "film/field_response.h"
 #include "film/rendered_film.h"
 #include "film/white.h"
 #include "io/inputs.h"
@@ -113,6 +114,7 @@ Json answer_for(const Scene& scene, const IntegratorChoice& choice) {
     answer["white"] = {{"name", scene.output.white->name},
                        {"xy", scene.output.white->xy},
                        {"because", scene.output.white->reason}};
+  if (const auto shift = neutral_shift(scene)) answer["neutral_shift_dE00"] = *shift;
   if (render.wavelengths_nm) answer["wavelength_range_nm"] = *render.wavelengths_nm;
   answer["memory_bytes"] = scene.memory_bytes() + film_bytes(scene) + bytes_of_light_paths(scene);
   return answer;
@@ -203,6 +205,7 @@ int info(const InfoOptions& options) {
     fmt::print("{}", describe(scene, choice));
   if (const auto refused = refusal(scene)) say(fmt::format("warning: {}", refused->what()));
   warn_of_unpolarised_measurement(scene, false);
+  warn_of_tinted_corners(scene);
   warn_of_dark_camera(scene, false);
   warn_of_hidden_sheet(scene, false);
   warn_of_hidden_lamp(scene, false);

@@ -20,6 +20,7 @@
 #include "cli/render_stats.h"
 #include "cli/same_render.h"
 #include "cli/warnings.h"
+#include "develop/film_file.h"
 #include "film/rendered_film.h"
 #include "film/sensor_identity.h"
 #include "film/shortcomings.h"
@@ -77,6 +78,9 @@ Outputs choose_outputs(const RenderOptions& options, const Scene& scene, const I
   if (outputs.display.empty() && !part) outputs.display = scene.output.display;
   if (outputs.display.empty() && outputs.gamut.empty() && !options.preview)
     require_no_view(options.view, "--display, --gamut or --preview");
+  if (outputs.display.empty() && outputs.gamut.empty() && !options.exposure_of.empty())
+    throw Error(ErrorCode::usage, "--exposure-of",
+                "only a picture takes it (allowed with --display or --gamut)");
   require_film_output(outputs.film);
   for (const fs::path& picture : {outputs.display, outputs.gamut}) {
     if (picture.empty()) continue;
@@ -89,6 +93,8 @@ Outputs choose_outputs(const RenderOptions& options, const Scene& scene, const I
     require_writable(options.checkpoint);
   }
   require_distinct(files_of(outputs, options), inputs.files());
+  if (!options.exposure_of.empty())
+    require_distinct(files_of(outputs, options), std::array{options.exposure_of});
   return outputs;
 }
 
@@ -280,31 +286,61 @@ void write_stats(const fs::path& path, const std::string& stats) {
     write_atomically(path, stats);
 }
 
-void write_pictures(const Outputs& outputs, const DisplayTransform& display, const Scene& scene,
-                    const Image& film, bool quiet) {
-  const std::optional<double> white = scene.output.display_exposure;
-  const DisplayPicture picture = display(film, white ? std::optional(1 / *white) : std::nullopt);
+/// A display, and the film value that it shows as white; nothing for the automatic one.
+struct Showing {
+  DisplayTransform display;
+  std::optional<double> shown_as_white;
+};
+
+// The display exposure that the film of --exposure-of records, else the one chosen from that film.
+double exposure_of_film(const fs::path& path, const Scene& scene, const DisplayTransform& display,
+                        Inputs& inputs) {
+  const Image film = read_film(path, &inputs);
+  if (const auto recorded = recorded_display_exposure(film, path)) return *recorded;
+  for (const std::string& plane : scene.spectral ? std::vector<std::string>{} : scene.film_planes())
+    if (film.find(plane) == nullptr)
+      throw Error(ErrorCode::input, path.string(),
+                  fmt::format("--exposure-of needs a film of the same sensor: has no channel \"{}\"", plane));
+  return 1 / display.automatic_scale(shown_film(scene, film));
+}
+
+Showing showing_of(const Scene& scene, const RenderOptions& options, Inputs& inputs) {
+  Showing showing{display_of(scene, chosen_view(options)), scene.output.display_exposure};
+  if (!options.exposure_of.empty())
+    showing.shown_as_white = exposure_of_film(options.exposure_of, scene, showing.display, inputs);
+  return showing;
+}
+
+// The film value that the pictures show as white.
+double write_pictures(const Outputs& outputs, const Showing& showing, const Image& film, bool quiet) {
+  const std::optional<double>& white = showing.shown_as_white;
+  const DisplayPicture picture = showing.display(film, white ? std::optional(1 / *white) : std::nullopt);
   if (!outputs.display.empty()) write_picture(outputs.display, picture.image);
   if (!outputs.gamut.empty()) write_picture(outputs.gamut, picture.outside);
   if (!quiet && picture.outside_share + picture.clipped_share > 0)
     say(fmt::format("{:.1f} % of the pixels lay outside the display's gamut, {:.1f} % were too bright for it",
                     100 * picture.outside_share, 100 * picture.clipped_share));
+  if (!quiet && !white)
+    say(fmt::format("the picture shows the film value {:.4g} as white", 1 / picture.scale));
+  return 1 / picture.scale;
 }
 
 void write_results(const RenderOptions& options, const Outputs& outputs,
-                   const std::optional<DisplayTransform>& display, const Scene& scene, const RenderPart& part,
+                   const std::optional<Showing>& showing, const Scene& scene, const RenderPart& part,
                    Costs& costs) {
+  std::optional<double> shown_as_white;
   const auto write_display = [&] {
-    write_pictures(outputs, *display, scene, shown_film(scene, film_image(part)), options.quiet);
+    shown_as_white = write_pictures(outputs, *showing, shown_film(scene, film_image(part)), options.quiet);
   };
   std::vector<std::function<void()>> writers;
   if (!options.checkpoint.empty())
     writers.emplace_back(
         metered(costs.write, [&] { write_part(options.checkpoint, part.identity, part.result); }));
   writers.emplace_back(metered(costs.write, [&] { write_film(outputs.film, part); }));
-  if (display) writers.emplace_back(metered(costs.display, write_display));
+  if (showing) writers.emplace_back(metered(costs.display, write_display));
   if (!options.stats.empty())
-    writers.emplace_back([&] { write_stats(outputs.stats, stats_text(scene, part.result, costs)); });
+    writers.emplace_back(
+        [&] { write_stats(outputs.stats, stats_text(scene, part.result, costs, shown_as_white)); });
   write_all(writers);
 }
 
@@ -349,10 +385,10 @@ int render(const RenderOptions& options) {
   scene.render.integrator = choice.integrator;
   settle_white(scene, options.scene, threads, choice.guides);
   costs.plan = planning.spent();
-  std::optional<DisplayTransform> display;
+  std::optional<Showing> showing;
   if (!outputs.display.empty() || !outputs.gamut.empty())
-    metered(costs.display, [&] { display = display_of(scene, chosen_view(options)); })();
-  if (display) require_distinct(files_of(outputs, options), display->files());
+    metered(costs.display, [&] { showing = showing_of(scene, options, inputs); })();
+  if (showing) require_distinct(files_of(outputs, options), showing->display.files());
   if (options.explain) tell(describe(scene, choice));
   if (!options.quiet) note_polarisation(scene);
   warn_of_unpolarised_measurement(scene, options.strict);
@@ -368,7 +404,7 @@ int render(const RenderOptions& options) {
   Watchers watchers;
   call_watchers(watchers, scene, options, inputs);
   const RenderPart part = develop(scene, options, choice.guides, watch, watchers);
-  write_results(options, outputs, display, scene, part, costs);
+  write_results(options, outputs, showing, scene, part, costs);
   watchers.end(part.result);
   const RenderStats& stats = part.result.stats;
   tell_results(options, outputs.film, scene, part.result, costs.plan);

@@ -22,9 +22,10 @@ struct RenderOptions : SamplingOptions {
   std::filesystem::path scene;  ///< "-" is standard input.
   std::filesystem::path output;
   std::filesystem::path display;
-  ViewOptions view;             ///< Of the display; without a configuration here that of $OCIO, if it is set.
-  std::filesystem::path gamut;  ///< Picture of what the display could not show as it is.
-  std::filesystem::path stats;  ///< "-" is standard output.
+  ViewOptions view;  ///< Of the display; without a configuration here that of $OCIO, if it is set.
+  std::filesystem::path exposure_of;  ///< Film whose display exposure pictures take; empty for their own.
+  std::filesystem::path gamut;        ///< Picture of what the display could not show as it is.
+  std::filesystem::path stats;        ///< "-" is standard output.
   std::optional<SampleRange> sample_range;
   std::filesystem::path checkpoint;
   double checkpoint_interval_s = 60;

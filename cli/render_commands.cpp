@@ -90,6 +90,12 @@ void add_pictures(CLI::App& render, RenderOptions& asked) {
                   "OpenColorIO configuration of the picture (default: $OCIO, else Abbe's own)")
       ->type_name("FILE.ocio");
   render
+      .add_option(
+          "--exposure-of", asked.exposure_of,
+          "Show the picture with the exposure of another film of the same sensor, as the first of several "
+          "frames")
+      ->type_name("FILE.exr");
+  render
       .add_option("--gamut", asked.gamut,
                   "Also write, in white, which colours lay outside the display's gamut")
       ->type_name("FILE.png");

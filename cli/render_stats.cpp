@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "calibration/output/display.h"
 #include "cli/answer.h"
 #include "film/spectral.h"
 #include "io/data_directory.h"
@@ -31,7 +32,8 @@ Json film_figures(const Scene& scene, const Film& film) {
 
 }  // namespace
 
-std::string stats_text(const Scene& scene, const RenderResult& result, const Costs& costs) {
+std::string stats_text(const Scene& scene, const RenderResult& result, const Costs& costs,
+                       std::optional<double> shown_as_white) {
   const RenderStats& stats = result.stats;
   Json answer;
   answer["wall_s"] = stats.wall_s;
@@ -58,6 +60,7 @@ std::string stats_text(const Scene& scene, const RenderResult& result, const Cos
   answer["cut_paths"] = stats.cut.paths;
   answer["cut_throughput"] = stats.cut.throughput();
   answer["film"] = film_figures(scene, result.film);
+  answer[kDisplayExposureKey] = shown_as_white ? Json(*shown_as_white) : Json();
   answer["version"] = ABBE_VERSION;
   answer["seed"] = scene.render.seed;
   answer["scene_sha256"] = scene.sha256;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "scene/scene.h"
@@ -17,7 +18,9 @@ struct Costs {
   Cost write;    ///< Writing the film and the last checkpoint.
 };
 
-/// What `abbe render --stats` writes, as JSON; its command's cost is what was spent until now.
-[[nodiscard]] std::string stats_text(const Scene& scene, const RenderResult& result, const Costs& costs);
+/// What `abbe render --stats` writes, as JSON; its command's cost is what was spent until now. Without a
+/// picture there is no film value that it shows as white.
+[[nodiscard]] std::string stats_text(const Scene& scene, const RenderResult& result, const Costs& costs,
+                                     std::optional<double> shown_as_white);
 
 }  // namespace abbe::cli

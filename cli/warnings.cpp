@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
+#include "film/field_response.h"
 #include "film/shortcomings.h"
 #include "io/error.h"
 
@@ -25,6 +26,11 @@ void warn_of_lost_light(const Scene& scene, bool strict) {
 
 void warn_of_dark_camera(const Scene& scene, bool strict) {
   if (const auto dark = dark_camera(scene)) warn(*dark, strict);
+}
+
+void warn_of_tinted_corners(const Scene& scene) {
+  const std::string remedy = "develop --field balances pictures over the field";
+  if (const auto tinted = tinted_corners(neutral_shift(scene).value_or(0), remedy)) warn(*tinted, false);
 }
 
 std::optional<std::string> held_index(const Material& material, double wavelength_nm) {

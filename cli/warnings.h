@@ -25,6 +25,9 @@ void warn_of_dark_camera(const Scene& scene, bool strict);
 [[nodiscard]] std::optional<std::string> held_index(const Scene& scene, const RayTree& tree,
                                                     double wavelength_nm);
 
+/// Warns of neutrals that interference filters tint towards the corners of the picture.
+void warn_of_tinted_corners(const Scene& scene);
+
 /// Warns of a thin sheet that is lost where it lies on something: Error{scene} when `strict`.
 void warn_of_hidden_sheet(const Scene& scene, bool strict);
 

@@ -1,6 +1,7 @@
 #include "develop/develop.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -20,7 +21,7 @@ namespace {
 
 // How pictures show the film: the white is the film's own unless another was asked for.
 void tell_showing(const FilmSensor& sensor, std::map<std::string, std::string>& told) {
-  if (sensor.display_exposure) told["display_exposure"] = fmt::format("{}", *sensor.display_exposure);
+  if (sensor.display_exposure) told[kDisplayExposureKey] = fmt::format("{}", *sensor.display_exposure);
   if (sensor.white_name.empty() || !sensor.white || !sensor.display) return;
   const bool asked = told.contains(kWhiteAskedKey) && told[kWhiteKey] == sensor.white_name;
   record_white(sensor.white_name, *sensor.white, asked, told);
@@ -112,6 +113,32 @@ void tell_codes(const FilmSensor& sensor, std::map<std::string, std::string>& to
   told[kGainKey] = fmt::format("{}", readout.gain_e_per_dn);
 }
 
+// The film values at which the channels of a picture saturate; nothing for a sensor without a read-out, or
+// without colours.
+std::optional<std::vector<double>> picture_saturation(const FilmSensor& sensor) {
+  if (!sensor.readout || !sensor.display || sensor.channels.size() != 3) return std::nullopt;
+  const double full_e = electrons_of(*sensor.readout, white_level(*sensor.readout));
+  std::vector<double> saturation;
+  for (const double seconds : sensor.exposure_s) saturation.push_back(exposure_of(sensor, full_e, seconds));
+  if (!sensor.flattens_field || !sensor.white_field) return saturation;
+  const std::vector<double> responses = largest_response(*sensor.white_field);
+  for (std::size_t k = 0; k < saturation.size(); ++k) saturation[k] /= responses[k];
+  return saturation;
+}
+
+// True if a pixel has these values, or more, in all channels.
+bool has_pixel_at(const Image& planes, const std::vector<std::string>& channels,
+                  const std::array<double, 3>& values) {
+  std::array<const ImageChannel*, 3> found{};
+  for (std::size_t k = 0; k < found.size(); ++k) found[k] = planes.find(channels[k]);
+  const std::vector<std::size_t> pixels = recorded_pixels(planes);
+  return std::any_of(pixels.begin(), pixels.end(), [&](std::size_t pixel) {
+    for (std::size_t k = 0; k < found.size(); ++k)
+      if (found[k]->values[pixel] < static_cast<float>(values[k])) return false;
+    return true;
+  });
+}
+
 template <typename Value>
 double mean(const Image& film, const std::vector<Crop>& areas, const std::vector<Value>& values) {
   double sum = 0;
@@ -170,13 +197,21 @@ Image display_planes(const FilmSensor& sensor, const Image& calibrated) {
   Image planes = sensor.mosaic ? demosaic(calibrated, sensor.planes.front(), *sensor.mosaic, sensor.channels)
                                : calibrated;
   forget_layers_and_features(planes.metadata);
-  if (!sensor.readout || !sensor.display || sensor.channels.size() != 3) return planes;
-  const Readout& readout = *sensor.readout;
-  const double full_e = electrons_of(readout, white_level(readout));
-  std::vector<double> saturation;
-  for (std::size_t k = 0; k < 3; ++k) saturation.push_back(exposure_of(sensor, full_e, sensor.exposure_s[k]));
-  clip_to_white(planes, sensor.channels, sensor.display->to_xyz_d65(), saturation);
+  if (sensor.flattens_field && sensor.white_field) flatten(planes, sensor.channels, *sensor.white_field);
+  if (const auto saturation = picture_saturation(sensor))
+    clip_to_white(planes, sensor.channels, sensor.display->to_xyz_d65(), *saturation);
   return planes;
+}
+
+double shown_as_white(const FilmSensor& sensor, const Image& planes) {
+  require_display(sensor);
+  if (sensor.display_exposure) return *sensor.display_exposure;
+  const double automatic = 1 / sensor.display->automatic_scale(planes);
+  const auto saturation = picture_saturation(sensor);
+  const Matrix3& to_xyz = sensor.display->to_xyz_d65();
+  const auto white = saturation ? brightest_neutral(to_xyz, *saturation) : std::nullopt;
+  if (!white || !has_pixel_at(planes, sensor.channels, *white)) return automatic;
+  return std::min(automatic, multiply(to_xyz, *white)[1]);
 }
 
 std::vector<PlaneFigures> plane_figures(const FilmSensor& sensor, const DevelopedFilm& developed) {

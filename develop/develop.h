@@ -39,8 +39,14 @@ struct DevelopedFilm {
 /// The seed of the render that made the film; 0 for one that does not tell.
 [[nodiscard]] std::uint64_t render_seed(const Image& film);
 
-/// What a display is given: every channel in every pixel, and what saturated as white.
+/// What a display is given: every channel in every pixel, divided by the `WhiteField` if the sensor says so,
+/// and what saturated as white.
 [[nodiscard]] Image display_planes(const FilmSensor& sensor, const Image& calibrated);
+
+/// The film value that pictures of the planes of `display_planes` show as white: the sensor's if it has one,
+/// else the automatic one. Where pixels saturated in all three channels, the automatic value is no more than
+/// theirs, so that they are white. Throws what `require_display` does.
+[[nodiscard]] double shown_as_white(const FilmSensor& sensor, const Image& planes);
 
 /// A plane's mean over the pixels that have been rendered, and errors as the roots of their mean squares: in
 /// electrons with a read-out, else in film values.

@@ -69,23 +69,22 @@ Image read_film(const std::filesystem::path& path, Inputs* inputs) {
 }
 
 void write_parts(const std::filesystem::path& path, const DevelopedFilm& developed, const Image& planes,
-                 const FilmSensor& sensor, std::optional<double> scale) {
+                 const FilmSensor& sensor) {
   std::vector<ExrPart> parts{{kExposurePart, developed.exposure}, {kVariancePart, developed.variance}};
   if (sensor.readout) {
     parts.push_back({"electrons", developed.electrons});
     parts.push_back({"dn", developed.codes});
   }
   if (sensor.display) {
-    const double factor = scale ? *scale : sensor.display->automatic_scale(planes);
-    parts.push_back({"preview", preview(planes, sensor.display->to_xyz_d65() * factor)});
+    const double white = shown_as_white(sensor, planes);
+    parts.push_back({"preview", preview(planes, sensor.display->to_xyz_d65() * (1 / white))});
   }
   write_exr(path, parts);
 }
 
 void write_display(const std::filesystem::path& path, const Image& planes, const FilmSensor& sensor) {
-  require_display(sensor);
-  const std::optional<double> white = sensor.display_exposure;
-  write_picture(path, (*sensor.display)(planes, white ? std::optional(1 / *white) : std::nullopt).image);
+  const double white = shown_as_white(sensor, planes);
+  write_picture(path, (*sensor.display)(planes, 1 / white).image);
 }
 
 void require_developed_extension(const std::filesystem::path& path) {

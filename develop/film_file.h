@@ -1,7 +1,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 
 #include "develop/develop.h"
 #include "io/inputs.h"
@@ -19,10 +18,10 @@ void require_finite(const Image& film, const std::filesystem::path& path);
 [[nodiscard]] Image read_film(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
 /// Writes an .exr of parts: the exposure and its variance, with a read-out the electrons and the codes, and
-/// where a display can show them the `planes` of `display_planes` as linear Rec.709, `scale` being what they
-/// are multiplied by (chosen from the image when absent). Throws Error{output}.
+/// where a display can show them the `planes` of `display_planes` as linear Rec.709, where 1 is what
+/// `shown_as_white` says. Throws Error{output}.
 void write_parts(const std::filesystem::path& path, const DevelopedFilm& developed, const Image& planes,
-                 const FilmSensor& sensor, std::optional<double> scale);
+                 const FilmSensor& sensor);
 
 /// Writes a picture of the `planes` of `display_planes` for displays. Throws what `require_display` does, and
 /// Error{output}.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "calibration/output/camera_matrix.h"
 #include "io/error.h"
 #include "io/text.h"
 #include "sensor/film/recorded_white.h"
@@ -122,7 +123,15 @@ std::optional<Readout> read_readout_of(const Metadata& data, FilmSensor& sensor,
   return read_readout(*readout, data.find_number("electrons_per_lx_s"), diagnostics);
 }
 
-std::optional<DisplayTransform> read_display(const Metadata& data, const FilmSensor& sensor,
+std::optional<WhiteField> read_white_field(const Metadata& data, const FilmSensor& sensor) {
+  const auto text = data.find(kWhiteFieldKey);
+  if (!text) return std::nullopt;
+  std::optional<WhiteField> field = parse_white_field(*text, sensor.channels.size());
+  if (!field) data.refuse(kWhiteFieldKey);
+  return field;
+}
+
+std::optional<DisplayTransform> read_display(const Metadata& data, FilmSensor& sensor,
                                              const ViewOptions& view, std::optional<Chromaticity> white) {
   const auto text = data.find("to_xyz_d65");
   if (!text) return std::nullopt;
@@ -130,6 +139,11 @@ std::optional<DisplayTransform> read_display(const Metadata& data, const FilmSen
   if (!matrix || (sensor.channels.size() != 1 && sensor.channels.size() != 3) ||
       (sensor.channels.size() == 3 && !is_invertible(*matrix)))
     data.refuse("to_xyz_d65");
+  const std::string own_white = data.find(kWhiteKey).value_or("");
+  if (auto calibrated = camera_matrix(view, sensor.channels, own_white, recorded_white(data.film))) {
+    matrix = calibrated->to_xyz_d65;
+    sensor.camera_space = std::move(calibrated->space);
+  }
   if (white) {
     const auto own = recorded_white(data.film);
     if (!own) throw Error(ErrorCode::usage, kWhitePointer, "the film tells no white that this could replace");
@@ -156,12 +170,13 @@ std::optional<FilmSensor> film_sensor(const Image& film, const std::filesystem::
   sensor.display = read_display(data, sensor, view, white);
   sensor.no_picture = data.find(kNoPictureKey).value_or("");
   sensor.white = white ? white : recorded_white(film);
+  sensor.white_field = read_white_field(data, sensor);
   sensor.display_exposure = recorded_display_exposure(film, path);
   return sensor;
 }
 
 std::optional<double> recorded_display_exposure(const Image& film, const std::filesystem::path& path) {
-  return Metadata{film, path}.find_number("display_exposure");
+  return Metadata{film, path}.find_number(kDisplayExposureKey);
 }
 
 std::optional<double> common_exposure(const FilmSensor& sensor) {

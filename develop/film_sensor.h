@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "calibration/output/display.h"
+#include "develop/white_field.h"
 #include "io/diagnostics.h"
 #include "io/image.h"
 #include "io/json.h"
@@ -40,9 +41,12 @@ struct FilmSensor {
   std::string camera;       ///< Name of its model, else of the measured camera; empty where it has none.
   std::string measured_camera;  ///< That whose curves it has; empty where its channels are of its own.
   std::optional<DisplayTransform> display;
-  std::string no_picture;                  ///< Why there is no display; empty where no reason is known.
+  std::string camera_space;  ///< Of the configuration of its pictures; empty for its own colours.
+  std::string no_picture;    ///< Why there is no display; empty where no reason is known.
   std::optional<double> display_exposure;  ///< Film value shown as white.
   std::optional<Chromaticity> white;       ///< Shown as white: what was asked for, else the film's own.
+  std::optional<WhiteField> white_field;   ///< Of filters that depend on the angle; else none.
+  bool flattens_field = false;             ///< True if pictures are divided by it.
   std::string white_name;                  ///< Of what was asked for; empty for the film's own.
   std::vector<RawLight> lights;            ///< Of a calibration, for raw converters; else none.
 };

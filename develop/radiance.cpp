@@ -107,8 +107,8 @@ void forget_sensor(std::map<std::string, std::string>& metadata) {
     return entry.first.starts_with(kAnalyserKey) || entry.first.starts_with("exposure_s");
   });
   for (const char* key : {"sensor", "sensor_channels", "mosaic", "mosaic_channels", "gathering_area_m2",
-                          "electrons_per_lx_s", "to_xyz_d65", kNoPictureKey, "display_exposure", kWhiteKey,
-                          kWhiteXyKey, kWhiteAskedKey, kLightsXyKey, kHandednessKey})
+                          "electrons_per_lx_s", "to_xyz_d65", kNoPictureKey, kDisplayExposureKey, kWhiteKey,
+                          kWhiteFieldKey, kWhiteXyKey, kWhiteAskedKey, kLightsXyKey, kHandednessKey})
     metadata.erase(key);
 }
 

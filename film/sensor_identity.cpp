@@ -5,7 +5,9 @@
 
 #include <fmt/format.h>
 
+#include "calibration/output/camera_matrix.h"
 #include "develop/radiance.h"
+#include "film/field_response.h"
 #include "film/spectral.h"
 #include "film/white.h"
 #include "io/error.h"
@@ -110,9 +112,10 @@ FilmIdentity sensor_identity(const Scene& scene) {
   }
   add_speed(scene, area_m2, identity);
   add_display(scene, identity);
+  if (const auto field = white_field(scene)) identity[kWhiteFieldKey] = to_text(*field);
   add_white(scene, identity);
   if (const auto exposure = scene.output.display_exposure)
-    identity["display_exposure"] = fmt::format("{}", *exposure);
+    identity[kDisplayExposureKey] = fmt::format("{}", *exposure);
   if (scene.spectral) add_spectral_identity(scene, identity);
   return identity;
 }
@@ -120,7 +123,12 @@ FilmIdentity sensor_identity(const Scene& scene) {
 DisplayTransform display_of(const Scene& scene, const ViewOptions& view) {
   if (scene.spectral) return display_of_radiance(view, white_of(scene).xy);
   const White white = has_colors(scene) ? white_of(scene) : White{"", "", {}, Curve(1.0)};
-  return make_display(intensities(scene.channels), *white.spectrum, view, white.xy);
+  const std::vector<Channel> channels = intensities(channels_at_center(scene));
+  std::vector<std::string> names;
+  for (const Channel& channel : channels) names.push_back(channel.name);
+  if (const auto calibrated = camera_matrix(view, names, white.name, white.xy))
+    return {std::move(names), calibrated->to_xyz_d65, {}, view};
+  return make_display(channels, *white.spectrum, view, white.xy);
 }
 
 Image film_image(Image planes) {

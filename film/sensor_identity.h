@@ -10,7 +10,8 @@ namespace abbe {
 /// What a scene's sensor adds to the metadata of its films.
 [[nodiscard]] FilmIdentity sensor_identity(const Scene& scene);
 
-/// Takes what `shown_film` gives to pictures. Throws what `make_display` throws.
+/// Takes what `shown_film` gives to pictures, by the channels at the centre of the field. Throws what
+/// `make_display` throws.
 [[nodiscard]] DisplayTransform display_of(const Scene& scene, const ViewOptions& view = {});
 
 /// The planes of a film as its file holds them, told by their metadata: of a spectral sensor, radiances in

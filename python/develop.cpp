@@ -106,7 +106,7 @@ void write_developed(const Developed& developed, const fs::path& path) {
   require_developed_extension(path);
   if (extension_of(path) == ".exr")
     return write_parts(path, developed.planes, display_planes(developed.sensor, developed.planes.calibrated),
-                       developed.sensor, display_scale(developed.sensor));
+                       developed.sensor);
   if (!developed.sensor.readout)
     throw Error(ErrorCode::usage, path.string(), "the film has no read-out to make codes with");
   if (const auto dark = own_dark_signals(developed.sensor)) warn(*dark);

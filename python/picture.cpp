@@ -39,13 +39,10 @@ py::object png(const FilmHandle& film) {
 
 }  // namespace
 
-std::optional<double> display_scale(const FilmSensor& sensor) {
-  return sensor.display_exposure ? std::optional(1 / *sensor.display_exposure) : std::nullopt;
-}
-
 Image display_picture(const FilmSensor& sensor, const Image& calibrated) {
   require_display(sensor);
-  return (*sensor.display)(display_planes(sensor, calibrated), display_scale(sensor)).image;
+  const Image planes = display_planes(sensor, calibrated);
+  return (*sensor.display)(planes, 1 / shown_as_white(sensor, planes)).image;
 }
 
 Image display_picture(const FilmHandle& film) {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include <pybind11/pybind11.h>
 
@@ -10,9 +9,6 @@
 #include "python/film.h"
 
 namespace abbe::python {
-
-/// By what a display multiplies what a sensor sees; nothing where that hangs on the picture.
-[[nodiscard]] std::optional<double> display_scale(const FilmSensor& sensor);
 
 /// What a sensor sees as the display of `abbe render` shows it, for sRGB. Throws Error{usage} where none can.
 [[nodiscard]] Image display_picture(const FilmSensor& sensor, const Image& calibrated);

@@ -1,7 +1,9 @@
 #include "develop/develop.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
@@ -109,6 +111,38 @@ TEST(Develop, WhatIsSaturatedIsShownAsWhite) {
   const Image shown = display_planes(saturated.sensor, develop(saturated, 7).calibrated);
   for (const ImageChannel& plane : shown.channels)
     EXPECT_EQ(plane.values, std::vector<float>(kPixels, plane.values[0])) << plane.name;
+}
+
+// A third is white light beyond saturation, a third orange light that fills the red channel alone, a third
+// grey. The orange is brighter in red than any neutral.
+TEST(Develop, SaturatedWhiteIsWhiteBesideBrightColours) {
+  constexpr std::size_t kPixels = 300;
+  Image film = counting_film();
+  film.width = kPixels;
+  film.channels.clear();
+  const std::array<std::array<float, 3>, 3> thirds{
+      {{1e14F, 1e14F, 1e14F}, {1e14F, 4e12F, 1e12F}, {3e12F, 3e12F, 3e12F}}};
+  for (std::size_t k = 0; k < 3; ++k) {
+    ImageChannel plane{std::string(1, "RGB"[k]), {}};
+    for (std::size_t i = 0; i < kPixels; ++i) plane.values.push_back(thirds[i / 100][k]);
+    film.metadata["channel." + plane.name] = film.metadata["channel.V"];
+    film.channels.push_back(std::move(plane));
+  }
+  film.metadata["sensor_channels"] = "R,G,B";
+  film.metadata["to_xyz_d65"] = "0.85 -0.05 0.15 0.35 0.75 -0.1 0.05 -0.15 1.19";
+  film.metadata["sensor"] = R"({"readout": {"gain_e_per_dn": 1, "bits": 12, "full_well_e": 1000}})";
+  film.metadata.erase("display_exposure");
+  const ExposedFilm shot = exposed({}, film);
+  const Image planes = display_planes(shot.sensor, develop(shot, 7).calibrated);
+  const double white = shown_as_white(shot.sensor, planes);
+  const Image picture = (*shot.sensor.display)(planes, 1 / white).image;
+  for (const ImageChannel& plane : picture.channels) {
+    EXPECT_NEAR(plane.values[50], 1, 2e-3) << plane.name;
+    EXPECT_LE(plane.values[150], 1) << plane.name;
+    EXPECT_LT(plane.values[250], 0.9) << plane.name;
+  }
+  EXPECT_EQ(picture.metadata.at("display_exposure"), fmt::format("{}", 1 / (1 / white)));
+  EXPECT_LT(white, 1 / shot.sensor.display->automatic_scale(planes)) << "which the orange decides";
 }
 
 TEST(Develop, AFrameOfNoSceneHasNoErrorOfARender) {
@@ -261,7 +295,7 @@ TEST(Develop, ThePreviewIsOfNoSensor) {
   const ExposedFilm shot = exposed({}, film);
   const DevelopedFilm developed = develop(shot, 7);
   const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "preview_parts.exr";
-  write_parts(path, developed, display_planes(shot.sensor, developed.calibrated), shot.sensor, {});
+  write_parts(path, developed, display_planes(shot.sensor, developed.calibrated), shot.sensor);
   const ExrPart part = read_exr_parts(path).back();
   std::filesystem::remove(path);
   ASSERT_EQ(part.name, "preview");
