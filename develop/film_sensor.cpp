@@ -127,7 +127,7 @@ std::optional<WhiteField> read_white_field(const Metadata& data, const FilmSenso
   const auto text = data.find(kWhiteFieldKey);
   if (!text) return std::nullopt;
   std::optional<WhiteField> field = parse_white_field(*text, sensor.channels.size());
-  if (!field) data.refuse(kWhiteFieldKey);
+  if (!field || sensor.channels.size() != 3) data.refuse(kWhiteFieldKey);
   return field;
 }
 
