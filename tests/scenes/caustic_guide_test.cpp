@@ -4,6 +4,7 @@
 #include "tests/tier.h"
 #include "transport/plan/emissions.h"
 #include "transport/render/learnt_plan.h"
+#include "transport/render/replay.h"
 #include "transport/technique/caustic_photons.h"
 
 namespace abbe {
@@ -203,6 +204,78 @@ TEST(CausticGuide, IsTheSameOnAnyNumberOfThreads) {
     lobes += a.empty() ? 0 : 1;
   }
   EXPECT_GT(lobes, 50);
+}
+
+// The room of the bench with a ball of that material and walls of that albedo; an open one has a black
+// ceiling and a black wall behind the camera.
+Scene bright_room(const char* ball, double albedo, bool open) {
+  std::vector<Override> settings{{"/sensor/resolution", "[12, 12]"},
+                                 {"/materials/ball", ball},
+                                 {"/materials/white/diffuse/reflectance", std::to_string(albedo)},
+                                 {"/render/integrator", "path"}};
+  if (open)
+    for (const char* wall : {"/shapes/0/material", "/shapes/1/material"}) settings.push_back({wall, "black"});
+  return test::load_file(data_directory() / "bench" / "bright_room.json", settings);
+}
+
+// Mean over the pixels of the relative variance of a render, from several seeds, times its CPU time.
+struct Noise {
+  double variance = 0;
+  double cpu_s = 0;
+  double mean = 0;
+  [[nodiscard]] double cost() const { return variance * cpu_s; }
+};
+Noise noise_of(const Plan& plan, std::uint64_t samples) {
+  constexpr std::uint64_t kSeeds = 12;
+  const double before = process_cpu_seconds();
+  std::vector<Film> films;
+  for (std::uint64_t seed = 1; seed <= kSeeds; ++seed)
+    films.push_back(test::film_of(plan.scene, plan, samples, seed));
+  Noise noise{0, process_cpu_seconds() - before};
+  const auto pixels = static_cast<std::size_t>(plan.scene.camera.width * plan.scene.camera.height);
+  for (std::size_t pixel = 0; pixel < pixels; ++pixel) {
+    double sum = 0;
+    double squares = 0;
+    for (const Film& film : films) {
+      sum += film.mean(pixel, 1);
+      squares += film.mean(pixel, 1) * film.mean(pixel, 1);
+    }
+    const double mean = sum / kSeeds;
+    noise.mean += mean / static_cast<double>(pixels);
+    noise.variance += (squares / kSeeds - mean * mean) * kSeeds / (kSeeds - 1) / (mean * mean);
+  }
+  return noise;
+}
+
+// What scattering finds as well is not made noisier by looking for caustics, however deep the paths are.
+TEST(CausticGuide, MakesNoBrightRoomNoisier) {
+  std::vector<std::pair<const char*, const char*>> balls{
+      {"silver", R"({"conductor": {"ior": "Ag_Johnson"}})"}, {"glass", R"({"dielectric": {"ior": 1.5}})"}};
+  std::vector<double> albedos{0.9};
+  if (test::nightly()) {
+    balls.emplace_back("gold", R"({"conductor": {"ior": "Au_Johnson"}})");
+    balls.emplace_back("mirror", R"({"mirror": {"reflectance": 1}})");
+    albedos = {0.5, 0.8, 0.9, 0.95};
+  }
+  for (const auto& [name, ball] : balls)
+    for (const double albedo : albedos)
+      for (const bool open : {false, true}) {
+        if (open && !test::nightly()) continue;
+        const Scene scene = bright_room(ball, albedo, open);
+        const Plan guided = make_learnt_plan(scene, 1);
+        ASSERT_FALSE(guided.guides.caustics_of_paths.empty());
+        const std::uint64_t samples = test::nightly() ? 256 : 32;
+        const Noise without = noise_of(make_plan(scene), samples);
+        const Noise with = noise_of(guided, samples);
+        std::printf(
+            "%s, albedo %.2f, %s: variance %.2f, CPU time %.2f, both %.2f of those without (%.4f %.4f)\n",
+            name, albedo, open ? "open" : "closed", with.variance / without.variance,
+            with.cpu_s / without.cpu_s, with.cost() / without.cost(), with.mean, without.mean);
+        EXPECT_LT(with.variance, 1.2 * without.variance) << name << " " << albedo << " " << open;
+        if (test::nightly()) {
+          EXPECT_LT(with.cost(), 1.2 * without.cost()) << name << " " << albedo << " " << open;
+        }
+      }
 }
 
 }  // namespace

@@ -234,8 +234,8 @@ TEST(PathSampling, TheGuideShowsCausticsToAll) {
   }
 }
 
-// A direction is drawn from the guide or without it, and has the density of both, whichever it came by.
-TEST(PathSampling, TheGuideMixesWithAnyDirections) {
+// Directions drawn without the guide keep their density beside it, and one that the guide adds has both.
+TEST(PathSampling, TheGuideAddsToAnyDirections) {
   constexpr float kShare = 0.4F;
   CausticLobes::Lobes along_normal;
   along_normal.z[0] = 1;
@@ -247,16 +247,18 @@ TEST(PathSampling, TheGuideMixesWithAnyDirections) {
   const Plan plan = make_plan(scene);
   RayCaster caster(scene);
   const PathTracer tracer(plan, caster);
-  for (const float lobe : {0.1F, 0.3F, 0.5F, 0.9F}) {
-    CameraPath path(Sampler(0, Purpose::camera, 0, 0, 0), 0);
-    EXPECT_TRUE(tracer.joins_directions(path));
+  for (std::uint32_t i = 0; i < 8; ++i) {
+    CameraPath path(Sampler(0, Purpose::camera, 0, 0, i), 0);
     path.caustics = CausticLobes({&along_normal, 1}, 0.5F, kShare);
-    EXPECT_FALSE(tracer.joins_directions(path)) << "the choice of the guide takes a number";
-    const auto event = tracer.scatter(path, vertex, {lobe, {0.3F, 0.6F}});
+    const auto event = tracer.scatter(path, vertex, {0.5F, {0.3F, 0.6F}});
     ASSERT_TRUE(event);
-    const float told = kShare * path.caustics.pdf(vertex.hit.point, event->wi) +
-                       (1 - kShare) * pdf_of_directions(DirectionSampling::uniform, vertex, event->wi)[0];
-    EXPECT_NEAR(event->pdf, told, 1e-5F * told);
+    EXPECT_EQ(event->pdf, pdf_of_directions(DirectionSampling::uniform, vertex, event->wi)[0]);
+    const auto added = tracer.scatter_added(path, vertex);
+    ASSERT_TRUE(added);
+    EXPECT_TRUE(path.seeks_caustic);
+    const float both = kShare * path.caustics.pdf(vertex.hit.point, added->wi) +
+                       pdf_of_directions(DirectionSampling::uniform, vertex, added->wi)[0];
+    EXPECT_NEAR(added->pdf, both, 1e-5F * both);
   }
 }
 

@@ -35,6 +35,11 @@ inline constexpr int kMeterEvent = -1;
 [[nodiscard]] constexpr std::uint32_t free_path_group(int event) {
   return 0x80000000 + static_cast<std::uint32_t>(event);
 }
+/// The group for the second direction that a camera path may leave an event in, by its caustic guide: the
+/// direction, then a lobe and whether there is one.
+[[nodiscard]] constexpr std::uint32_t guide_group(int event) {
+  return 0xA0000000 + static_cast<std::uint32_t>(event - kMeterEvent);
+}
 /// The group for which samples have a path through a pixel, where not all have one.
 inline constexpr std::uint32_t kPhaseGroup = 0xC0000000;
 /// The group for which vertices of a long path are joined to those of another.

@@ -34,8 +34,10 @@ namespace abbe {
 /// matt surface by two numbers alone, so that those left over may draw its next direction; `parts_lanes()`,
 /// whether its paths are to go on lane by lane where smooth glass disperses them; and `connects_along()` with
 /// `connect_along(path, stretch, u)`, a connection from along matter that scatters evenly, before the event
-/// that ends the stretch. One that works out by itself with which density each event was drawn makes
-/// `kDrawsPolarised` false.
+/// that ends the stretch; and `adds_path(path)`, which returns a random number in [0, 1) for roulette if a
+/// second path leaves the vertex that `path` has come to, with `scatter_added(path, vertex)`, which turns a
+/// copy of `path` into that second one and returns its event there. One that works out by itself with which
+/// density each event was drawn makes `kDrawsPolarised` false.
 template <typename T>
 concept WalkingTechnique = std::derived_from<typename T::Path, Walk> &&
     std::constructible_from<typename T::Path, const Sampler&, std::uint32_t> &&
@@ -103,6 +105,7 @@ class RandomWalks {
   /// Takes the paths that go on to their ends.
   void run(Technique& technique) {
     static_assert(WalkingTechnique<Technique>);
+    take_parted();
     while (!going_.empty()) step(technique);
   }
 
@@ -124,6 +127,7 @@ class RandomWalks {
  private:
   // Scatters a path at a vertex. Whether it goes on.
   bool scatter(Technique& technique, Path& path, const SurfaceVertex& vertex, std::array<float, 4> u) {
+    add_path(technique, path, vertex);
     if constexpr (requires { technique.joins_directions(path); }) join_directions(technique, path, vertex, u);
     const bool drawn = path.packet.polarisation && kDrawsPolarised<Technique> && draws_polarised(vertex.bsdf);
     const float choice =
@@ -137,6 +141,17 @@ class RandomWalks {
         return false;
       }
     return follow(technique, path, vertex, *event, drawn, u[3]);
+  }
+
+  // Starts a second path from a vertex if the technique requests one.
+  void add_path(Technique& technique, const Path& path, const SurfaceVertex& vertex) {
+    if constexpr (requires { technique.adds_path(path); }) {
+      const std::optional<float> u = technique.adds_path(path);
+      if (!u) return;
+      Path added = path;
+      const std::optional<BsdfSample> event = technique.scatter_added(added, vertex);
+      if (event && follow(technique, added, vertex, *event, false, *u)) parted_.push_back(std::move(added));
+    }
   }
 
   // What two directions after each other lead to is an integrand of four numbers, which the points of one
@@ -223,12 +238,17 @@ class RandomWalks {
     for (std::size_t k = 0; k < going_.size(); ++k)
       if (advance_path(technique, paths_[going_[k]], hits_[k])) going_[left++] = going_[k];
     going_.resize(left);
+    take_parted();
+    technique.resolve_connections();
+  }
+
+  // Appends the paths split off from others to those under way.
+  void take_parted() {
     for (Path& path : parted_) {
       going_.push_back(static_cast<std::uint32_t>(paths_.size()));
       paths_.push_back(std::move(path));
     }
     parted_.clear();
-    technique.resolve_connections();
   }
 
   // Along its ray, the nearest hit of which is `hit`.
@@ -336,7 +356,7 @@ class RandomWalks {
   bool has_free_paths_;
   int most_events_;
   std::vector<Path> paths_;
-  std::vector<Path> parted_;  // that the step under way has added
+  std::vector<Path> parted_;  // split off from others, in the current step or before the first
   std::vector<std::uint32_t> going_;
   std::vector<Ray> rays_;  // of those
   std::vector<std::optional<SurfaceHit>> hits_;

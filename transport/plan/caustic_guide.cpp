@@ -141,13 +141,14 @@ float area_of(Photons photons) {
   return area * (n + 1) * (n + 1) / ((n - 1) * (n - 1));
 }
 
-// What is found in lobes has the variance C^2/q and what scattering finds B^2/(1 - q), where C is the
-// irradiance of caustics and B stands for how far the rest scatters: least for q = C/(C + B). Lights are
-// connected to, so that the rest is what comes by way of other surfaces: a quarter of what all lights would
-// give unhindered. It is taken for a quarter of that, as lobes that do not fit their caustic multiply C^2,
-// and as what is missed of a caustic is the worst of it.
+// With q paths added per vertex, light from the lobes has the variance C^2/q and other light B^2. C is the
+// irradiance of caustics and B that of the other light. Let k be the cost of an added path over that of one
+// vertex: (B^2 + C^2/q)(1 + k q) is least for q = C/(B sqrt(k)). C/(C + B) is that for k near 1 and small C,
+// and remains below one path. Lights are connected to, so that B is what comes by other surfaces, a quarter
+// of the unoccluded irradiance. A quarter of that is used: lobes that do not fit their caustic multiply C^2,
+// and what they miss of a caustic is the worst of it.
 float share_of(Photons photons) {
-  constexpr float kSteps = 64;  // so that shares of numbers in [0, 1) are exact
+  constexpr float kSteps = 64;
   constexpr float kMost = 48;
   float power = 0;
   float unhindered = 0;

@@ -49,17 +49,21 @@ class CausticLobes {
       : lobes_(lobes), width_(width), share_(share) {}
 
   [[nodiscard]] bool empty() const { return lobes_.empty(); }
-  /// Of the directions of a path, how many are to be drawn from the lobes.
+  /// Probability that a path draws an additional direction from the lobes.
   [[nodiscard]] float share() const { return share_; }
+  /// The same lobes, drawn from `factor` times as often.
+  [[nodiscard]] CausticLobes scaled(float factor) const { return {lobes_, width_, share_ * factor}; }
   /// A direction to look in from a point, by `lobe` and `u` in [0, 1).
   [[nodiscard]] Imath::V3f sample(const Imath::V3f& point, float lobe, Imath::V2f u) const;
   /// Its density [1/sr], of any unit direction.
   [[nodiscard]] float pdf(const Imath::V3f& point, const Imath::V3f& direction) const;
-  /// That of a direction, lane by lane, of which `share` are drawn from the lobes and the others with the
-  /// density `others`.
-  [[nodiscard]] SampledSpectrum mixed_pdf(const SampledSpectrum& others, const Imath::V3f& point,
-                                          const Imath::V3f& direction) const {
-    return others * (1 - share_) + SampledSpectrum(share_ * pdf(point, direction));
+  /// Density of a direction [1/sr], wavelength by wavelength, among all directions that a path is followed
+  /// in: one of the density `scattering`, and `share()` on average from the lobes. The lobes count only for
+  /// wavelengths that scattering can send there.
+  [[nodiscard]] SampledSpectrum combined_pdf(const SampledSpectrum& scattering, const Imath::V3f& point,
+                                             const Imath::V3f& direction) const {
+    const float added = share_ * pdf(point, direction);
+    return SampledSpectrum::map(scattering, [added](float s) { return s > 0 ? s + added : 0; });
   }
 
  private:

@@ -68,12 +68,12 @@ void PathTracer::meet(CameraPath& path, const SurfaceHit& hit) {
 // Light that the path has come to by itself.
 void PathTracer::add_met(CameraPath& path, const LightVertex& met) {
   const std::uint32_t light = met.light;
-  if (owned_by_others(path, light)) return;
+  if (owned_by_others(path, light) || (path.seeks_caustic && path.connected > 0)) return;
   const float pdf = connection_pdf(path, met);
   const Imath::V3f& towards = path.ray.direction;
   const SampledSpectrum contribution = path.packet.throughput *
                                        emission_from(scene_.lights[light], towards, path.lambda_nm()) *
-                                       weights_.of_met(path.packet.lane_pdf, pdf, path.connected);
+                                       weights_.of_met(pdf_with_guide(path), pdf, path.connected);
   add(path, {light, path.events}, contribution, path.at.cos_film,
       pointer_to(seen_of(scene_.lights[light], path.packet, towards)));
 }
@@ -89,7 +89,7 @@ PathTracer::ChosenLight PathTracer::choose_light(const LightSampleContext& place
 }
 
 void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u) {
-  if (!connects()) return;
+  if (!connects() || path.seeks_caustic) return;
   const ChosenLight chosen = choose_light(vertex.place(), u, path.ray.time);
   if (!chosen.towards) return;
   const Imath::V3f& world = chosen.towards->wi;
@@ -102,8 +102,6 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
   if (path.packet.polarisation) seen = measured(path, vertex.mueller(wi, false), chosen.light, world);
   SampledSpectrum scattering_pdf = chosen.light.is_delta() ? SampledSpectrum(0.0F) : unguided_pdf(vertex, wi);
   if (path.events == kMeterEvent && !accepted(world, vertex.hit.normal, contribution, scattering_pdf)) return;
-  if (!path.caustics.empty() && !chosen.light.is_delta())
-    scattering_pdf = path.caustics.mixed_pdf(scattering_pdf, vertex.hit.point, world);
   const Ray ray = vertex.leave(world, path.ray.time);
   const float cos_film = path.events == kMeterEvent ? wi.z : path.at.cos_film;
   if (walks_.has_free_paths()) {
@@ -127,12 +125,12 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
 
 bool PathTracer::follows(CameraPath& path, const BsdfSample& event) const {
   if (path.events == 0) path.owns_caustics = event.delta != camera_.meter_acceptance.has_value();
-  return true;
+  return event.delta || !path.seeks_caustic;
 }
 
 float PathTracer::kept(CameraPath& path, const SurfaceVertex& vertex, const BsdfSample& event) const {
   path.eta_scale *= vertex.squared_eta(event, path.packet.hero);
-  return path.going_on * carried(path);
+  return path.going_on * roulette_throughput(path);
 }
 
 void PathTracer::resolve_connections() {

@@ -21,6 +21,15 @@
 
 namespace abbe {
 
+/// The last scattering of a path at a surface where the caustic guide has lobes: the arguments of the density
+/// with which the guide draws the same direction.
+struct GuidedScattering {
+  CausticLobes lobes;
+  Imath::V3f point{0, 0, 0};
+  Imath::V3f direction{0, 0, 1};
+  SampledSpectrum pdf;  ///< Density of scattering, per wavelength [1/sr].
+};
+
 /// A path from the camera, under way.
 struct CameraPath : Walk {
   using Walk::Walk;
@@ -32,6 +41,8 @@ struct CameraPath : Walk {
   float going_on = kGoingOnOfCameraPaths;  ///< What roulette goes by, over what it carries.
   bool owns_caustics = false;  ///< Whether what it finds of traced lights through specular matter is its own.
   CausticLobes caustics;       ///< Where to look for them from the vertex it has come to.
+  GuidedScattering guided;     ///< Its lobes are empty if the guide could not have drawn the last scattering.
+  bool seeks_caustic = false;  ///< True if its direction is from the guide: only specular events continue it.
   LensRoute route = 0;         ///< By which it left the film.
 };
 
@@ -45,10 +56,11 @@ struct PixelSample {
 
 /// Path tracing [Kajiya1986]: from the camera, with a connection to a light at every vertex that is not
 /// specular, balanced over lanes and over both ways to come to the light, and Russian roulette; directions
-/// and weights are others where the scene's PathSampling asks. Some of the directions are drawn from the
-/// plan's guide where it knows of caustics that no other technique owns, and the density is that of both ways
-/// to draw one. Where the plan says so, a path goes on in several from the first surface that scatters it
-/// [Arvo1990]. Serves one thread.
+/// and weights are others where the scene's PathSampling asks. Where the plan's guide knows of caustics that
+/// no other technique owns, a second path may leave a surface in a direction of the guide. It ends at the
+/// first event that is not specular, and the light that it meets is balanced with what scattering finds.
+/// Where the plan says so, a path goes on in several from the first surface that scatters it [Arvo1990].
+/// Serves one thread.
 ///
 /// Owned: every path that ends on an area, environment or sun light or by a connection. Of a traced light
 /// whose vertex next to it is specular, a camera's only if the vertex next to it is specular too, and a
@@ -79,20 +91,26 @@ class PathTracer {
   [[nodiscard]] std::optional<BsdfSample> scatter(CameraPath& path, const SurfaceVertex& vertex,
                                                   const BsdfRandom& u) const {
     if (narrow_ && path.events == kMeterEvent) return leave_meter(u.direction);
-    return path.caustics.empty() ? scatter_unguided(path, vertex, u) : scatter_guided(path, vertex, u);
+    std::optional<BsdfSample> event = scatter_unguided(path, vertex, u);
+    if (event && !event->delta) remember_guide(path, vertex, *event);
+    return event;
   }
+  [[nodiscard]] std::optional<float> adds_path(const CameraPath& path) const;
+  [[nodiscard]] std::optional<BsdfSample> scatter_added(CameraPath& path, const SurfaceVertex& vertex) const;
   [[nodiscard]] bool follows(CameraPath& path, const BsdfSample& event) const;
   [[nodiscard]] bool follows_within(CameraPath& path) const {
     if (path.events == 0) path.owns_caustics = camera_.meter_acceptance.has_value();
-    return true;
+    path.guided.lobes = {};
+    return !path.seeks_caustic;
   }
   [[nodiscard]] float kept(CameraPath& path, const SurfaceVertex& vertex, const BsdfSample& event) const;
-  [[nodiscard]] float kept_within(const CameraPath& path) const { return path.going_on * carried(path); }
-  // Where no guide chooses between its directions and others.
-  [[nodiscard]] bool joins_directions(const CameraPath& path) const { return path.caustics.empty(); }
+  [[nodiscard]] float kept_within(const CameraPath& path) const {
+    return path.going_on * roulette_throughput(path);
+  }
+  [[nodiscard]] bool joins_directions(const CameraPath& path) const { return !path.seeks_caustic; }
   // Once, at a surface.
   [[nodiscard]] int split_bits(const CameraPath& path) const {
-    return path.is_part || path.events == kMeterEvent ? 0 : plan_.split_bits;
+    return path.is_part || path.seeks_caustic || path.events == kMeterEvent ? 0 : plan_.split_bits;
   }
   // Each carries 1/2^bits of the path. It goes on as a path of its own would, but for what all parts have in
   // common, whose noise the last of their events do not change: between the root of 2^bits times what it
@@ -101,11 +119,17 @@ class PathTracer {
     part.is_part = true;
     part.going_on *= std::exp2(0.75F * static_cast<float>(bits));
   }
-  // What refraction into glass takes off radiance counts as still there.
-  [[nodiscard]] float carried(const CameraPath& path) const { return path.packet.carried() * path.eta_scale; }
+  // A path drawn from the guide is counted nowhere when it is cut: scattering finds the same light.
+  [[nodiscard]] float carried(const CameraPath& path) const {
+    return path.seeks_caustic ? 0 : roulette_throughput(path);
+  }
   void resolve_connections();
 
  private:
+  // Throughput without the loss of radiance by refraction into glass.
+  [[nodiscard]] static float roulette_throughput(const CameraPath& path) {
+    return path.packet.carried() * path.eta_scale;
+  }
   // A light, a direction towards it from a point, if it can reach that, and the density of both.
   struct ChosenLight {
     std::uint32_t index;
@@ -139,8 +163,14 @@ class PathTracer {
                ? vertex.scatter(u, path.packet.hero, kMode)
                : sample_directions(directions_, vertex, u, path.packet.hero, kMode);
   }
-  [[nodiscard]] std::optional<BsdfSample> scatter_guided(CameraPath& path, const SurfaceVertex& vertex,
-                                                         BsdfRandom u) const;
+  // Stores the arguments of the guide's density for the direction of this event.
+  void remember_guide(CameraPath& path, const SurfaceVertex& vertex, const BsdfSample& event) const {
+    path.guided.lobes = path.caustics;
+    if (path.caustics.empty()) return;
+    path.guided.point = vertex.hit.point;
+    path.guided.direction = vertex.frame.to_world(event.wi);
+    path.guided.pdf = event.lane_pdf * event.pdf;
+  }
   // With which `scatter_unguided` draws a local direction, were each lane the hero [1/sr].
   [[nodiscard]] SampledSpectrum unguided_pdf(const SurfaceVertex& vertex, const Imath::V3f& wi) const {
     return directions_ == DirectionSampling::bsdf ? pdf(vertex.bsdf, vertex.wo, wi)
@@ -171,6 +201,7 @@ class PathTracer {
                               const std::optional<StokesSpectrum>& seen);
   bool pass_matter(Connection& connection, const ThroughMatter& way);
   void add_met(CameraPath& path, const LightVertex& met);
+  [[nodiscard]] SampledSpectrum pdf_with_guide(const CameraPath& path) const;
   void add(CameraPath& path, const LightHistory& of, const SampledSpectrum& contribution, float cos_film,
            const StokesSpectrum* seen);
   template <typename Contribution>

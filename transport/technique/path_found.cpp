@@ -28,11 +28,11 @@ void PathTracer::add(CameraPath& path, const LightHistory& of, const SampledSpec
   });
 }
 
-// Light that a meter sees directly comes in under an angle of its own.
+// Light that a meter sees directly, or finds by its guide, comes in under an angle of its own.
 template <typename Contribution>
 void PathTracer::add_to(Contribution& found, CameraPath& path, const LightHistory& of,
                         const Contribution& contribution, float cos_film) {
-  const bool with_others = !response_.angular() || cos_film == path.at.cos_film;
+  const bool with_others = !response_.angular() || cos_film == walks_.paths()[path.path].at.cos_film;
   if (with_others) found += contribution;
   if (with_others && !apart_) return;
   FilmPoint at = path.at;

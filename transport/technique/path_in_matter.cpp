@@ -23,6 +23,7 @@ float PathTracer::pdf_along(const Stretch& stretch, float distance, std::uint32_
 //     w sum_j [T_j / P_hero] s'_j e^(-s_j t) f_phase L_e / (q p),
 // balanced with what comes of scattering there, of the density s_k e^(-s_k t), and connecting then.
 void PathTracer::connect_along(CameraPath& path, const Stretch& stretch, const Imath::V2f& u) {
+  if (path.seeks_caustic) return;
   const PowerLightSampler::SampledLight pick = plan_.lights_along.pick(u.x);
   const Light& light = scene_.lights[pick.light];
   const auto part = Equiangular::along(stretch.ray, stretch.length, light);
