@@ -45,6 +45,7 @@ BenchSettings settings_of(const BenchOptions& options) {
 int list_suites(bool as_json) {
   Json answer;
   for (const BenchSuite& suite : bench_suites()) answer[suite.name] = suite.description;
+  for (const BenchSuite& suite : bright_rooms()) answer[suite.name] = suite.description;
   print(answer, as_json);
   return 0;
 }

@@ -1,6 +1,9 @@
 #include "validation/bench/suite.h"
 
 #include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "io/atomic_file.h"
 #include "io/data_directory.h"
@@ -24,6 +27,20 @@ void make_landscape(const fs::path& folder) {
 void make_rings(const fs::path& folder) {
   constexpr std::uint32_t kSides = 2048;
   write_ply(folder / "ring.ply", make_ring(kSides));
+}
+
+constexpr const char* kBrightRooms = "bright-rooms";
+
+BenchSuite bright_room(const std::string& name, const char* ball, const char* albedo, bool open) {
+  BenchSuite suite{
+      fmt::format("bright-room-{}-{}-{}", name, albedo, open ? "open" : "closed"),
+      fmt::format("a ball of {} in a room of albedo {}{}", name, albedo, open ? ", open on two sides" : ""),
+      "bench/bright_room.json",
+      {{"/materials/ball", ball}, {"/materials/white/diffuse/reflectance", albedo}}};
+  if (open)
+    for (const char* wall : {"/shapes/0/material", "/shapes/1/material"})
+      suite.settings.push_back({wall, "black"});
+  return suite;
 }
 
 // Where the scene file is: in the data, or copied beside the meshes it names.
@@ -91,18 +108,38 @@ const std::vector<BenchSuite>& bench_suites() {
   return suites;
 }
 
+const std::vector<BenchSuite>& bright_rooms() {
+  static const std::vector<BenchSuite> rooms = [] {
+    std::vector<BenchSuite> all;
+    for (const auto& [name, ball] : {std::pair("silver", R"({"conductor": {"ior": "Ag_Johnson"}})"),
+                                     std::pair("gold", R"({"conductor": {"ior": "Au_Johnson"}})"),
+                                     std::pair("glass", R"({"dielectric": {"ior": "N-BK7"}})"),
+                                     std::pair("mirror", R"({"mirror": {"reflectance": 1}})")})
+      for (const char* albedo : {"0.5", "0.8", "0.9", "0.95"})
+        for (const bool open : {false, true}) all.push_back(bright_room(name, ball, albedo, open));
+    return all;
+  }();
+  return rooms;
+}
+
 std::vector<BenchSuite> choose_suites(const std::vector<std::string>& names) {
-  const std::vector<BenchSuite>& all = bench_suites();
-  if (names.empty()) return all;
-  std::vector<std::string> known;
+  if (names.empty()) return bench_suites();
+  std::vector<BenchSuite> all = bench_suites();
+  all.insert(all.end(), bright_rooms().begin(), bright_rooms().end());
+  std::vector<std::string> known{kBrightRooms};
   for (const BenchSuite& suite : all) known.push_back(suite.name);
   std::vector<BenchSuite> chosen;
+  const auto choose = [&chosen](const BenchSuite& suite) {
+    const auto same = [&suite](const BenchSuite& other) { return suite.name == other.name; };
+    if (std::none_of(chosen.begin(), chosen.end(), same)) chosen.push_back(suite);
+  };
   for (const std::string& name : names) {
     const auto found = std::find(known.begin(), known.end(), name);
     if (found == known.end()) throw Error(ErrorCode::usage, "", unknown_name("suite", name, known));
-    const auto same = [&name](const BenchSuite& suite) { return suite.name == name; };
-    if (std::none_of(chosen.begin(), chosen.end(), same))
-      chosen.push_back(all[static_cast<std::size_t>(found - known.begin())]);
+    if (found == known.begin())
+      std::for_each(bright_rooms().begin(), bright_rooms().end(), choose);
+    else
+      choose(all[static_cast<std::size_t>(found - known.begin()) - 1]);
   }
   return chosen;
 }

@@ -22,7 +22,12 @@ struct BenchSuite {
 /// All suites, in the order they run.
 [[nodiscard]] const std::vector<BenchSuite>& bench_suites();
 
-/// The suites of those names in their order, each once; all for none. Throws Error{usage} for another name.
+/// Rooms of high albedo with a smooth ball, whose paths are deep: by the name `bright-rooms` all, or each by
+/// its own. They run only where they are named.
+[[nodiscard]] const std::vector<BenchSuite>& bright_rooms();
+
+/// The suites of those names in their order, each once; `bench_suites` for none. Throws Error{usage} for
+/// another name.
 [[nodiscard]] std::vector<BenchSuite> choose_suites(const std::vector<std::string>& names);
 
 /// The scene of a suite, any mesh it needs written to a folder of `cache` first; with `quick` a film of a
