@@ -142,6 +142,18 @@ TEST(ChooseIntegrator, BelievesInJoiningByManyPixelsAlone) {
   EXPECT_DOUBLE_EQ(choice.cost_ratio.value_or(0), cost_ratio_of(scene, 4096));
 }
 
+// A few paths that meet the lamp through glass by chance hold nearly all of the variance, so that its
+// estimate is uncertain; in the Cornell box no path does.
+TEST(TechniquePilots, ReportTheErrorOfAVarianceThatFewPathsHold) {
+  const Scene rare = load("scenes/glass_sphere.json", {{"/render/integrator", "path"}});
+  const Scene common = load("scenes/cornell.json", {{"/render/integrator", "path"}});
+  const PilotFindings by_few = try_techniques(make_plan(rare), 2, 512);
+  const PilotFindings by_many = try_techniques(make_plan(common), 2, 512);
+  EXPECT_GT(by_few.path_variance_error, 0.3 * by_few.path_variance);
+  EXPECT_GT(by_many.path_variance_error, 0);
+  EXPECT_LT(by_many.path_variance_error, 0.2 * by_many.path_variance);
+}
+
 TEST(ChooseIntegrator, IsTheSameOfAnySeedOnAnyNumberOfThreads) {
   const Scene scene = load("scenes/glass_sphere.json");
   const Scene other = load("scenes/glass_sphere.json", {{"/render/seed", "7"}});

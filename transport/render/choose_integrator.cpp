@@ -67,6 +67,14 @@ double cost_apart(const PilotFindings& apart, const PilotFindings& joined) {
       std::sqrt(path_variance * apart.path_rays) + std::sqrt(apart.photon_variance * apart.photon_rays), 2);
 }
 
+// The findings with a variance of camera paths two standard errors larger: few samples more often miss the
+// rare paths of high variance than contain them.
+PilotFindings with_tail(PilotFindings apart) {
+  apart.path_variance += 2 * apart.path_variance_error;
+  apart.path_square += 2 * apart.path_variance_error;
+  return apart;
+}
+
 // By few pilots first, as in most scenes it is plain enough, and by very few for what they cost. None where
 // the film is too small for them to be worth that, or has no light that would tell.
 std::optional<double> cost_ratio(const Plan& apart, const Scene& other, const OtherWay& way, int threads) {
@@ -84,7 +92,7 @@ std::optional<double> cost_ratio(const Plan& apart, const Scene& other, const Ot
     const double cost = way.cost(by_other);
     if (pixels == kFirst || !(cost > 0)) continue;
     ratio = cost_apart(by_paths, by_other) / cost;
-    if (!(*ratio > kPlain)) break;
+    if (!(cost_apart(with_tail(by_paths), by_other) / cost > kPlain)) break;
   }
   return ratio && std::isfinite(*ratio) ? ratio : std::nullopt;
 }

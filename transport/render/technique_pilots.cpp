@@ -36,6 +36,7 @@ struct Region {
   double pixels = 0;                // that camera paths went through
   double mean = 0;                  // sum over them of the mean,
   double variance = 0;              // of the variance of a path,
+  double variance_squares = 0;      // of its square,
   double path_squares = 0;          // and of the mean square
   double path_tracing_squares = 0;  // that path tracing would have of what was joined
   double photons = 0;               // sum of all splats of photons that each stand for all of a sample's,
@@ -60,6 +61,7 @@ struct Findings {
       regions[i].pixels += more.regions[i].pixels;
       regions[i].mean += more.regions[i].mean;
       regions[i].variance += more.regions[i].variance;
+      regions[i].variance_squares += more.regions[i].variance_squares;
       regions[i].path_squares += more.regions[i].path_squares;
       regions[i].path_tracing_squares += more.regions[i].path_tracing_squares;
       regions[i].photons += more.regions[i].photons;
@@ -99,7 +101,10 @@ void add_paths(const PathValues& values, Region& region) {
   region.pixels += 1;
   region.mean += sum / kPilotPathsPerPixel;
   region.path_squares += squares / kPilotPathsPerPixel;
-  region.variance += std::max(0.0, squares - sum * sum / kPilotPathsPerPixel) / (kPilotPathsPerPixel - 1);
+  const double variance =
+      std::max(0.0, squares - sum * sum / kPilotPathsPerPixel) / (kPilotPathsPerPixel - 1);
+  region.variance += variance;
+  region.variance_squares += variance * variance;
 }
 
 void try_paths(PathTracer& tracer, const Camera& camera, std::uint32_t pilot, Findings& found) {
@@ -252,6 +257,7 @@ PilotFindings relative(const Findings& found, const Camera& camera, std::uint32_
     if (sizes[i] > 0) film_mean += mean(found.regions.at(i), sizes[i]) * sizes[i] / pixels;
   PilotFindings told;
   double parted_variance = 0;
+  double squared_error = 0;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const Region& region = found.regions.at(i);
     const double scale =
@@ -261,9 +267,12 @@ PilotFindings relative(const Findings& found, const Camera& camera, std::uint32_
     parted_variance += region.parted_squares / (std::max(1.0, found.photons_parted) * pixels) / scale;
     if (!(region.pixels > 0)) continue;
     told.path_variance += sizes[i] * region.variance / region.pixels / scale;
+    squared_error += std::pow(sizes[i] / region.pixels / scale, 2) *
+                     (region.variance_squares - region.variance * region.variance / region.pixels);
     told.path_square += sizes[i] * region.path_squares / region.pixels / scale;
     told.path_tracing_square += sizes[i] * region.path_tracing_squares / region.pixels / scale;
   }
+  told.path_variance_error = std::sqrt(std::max(0.0, squared_error));
   told.path_rays = static_cast<double>(found.path_rays) / (tried * kPilotPathsPerPixel);
   told.rays = found.path_rays + found.photon_rays + found.parted_rays;
   told.photon_rays = static_cast<double>(found.photon_rays) / photons;

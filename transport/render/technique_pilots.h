@@ -11,8 +11,11 @@ namespace abbe {
 /// magnitudes over the channels, relative to the squared mean of a sixteenth of the film's edges around, as
 /// relMSE takes them, of a meter to that of its film, and summed over the pixels.
 struct PilotFindings {
-  double path_variance = 0;    ///< Of a camera path through each pixel,
-  double path_square = 0;      ///< and the mean square.
+  double path_variance = 0;  ///< Of a camera path through each pixel,
+  double path_square = 0;    ///< and the mean square.
+  /// Standard error of `path_variance`, from its scatter over the pixels. It is of the order of the variance
+  /// itself where few rare paths dominate, and pilots may have missed others.
+  double path_variance_error = 0;
   double photon_variance = 0;  ///< Of as many photons as pixels.
   /// Of bidirectional path tracing's, no more than the mean square that a camera path of path tracing would
   /// have, which finds by rare chance what joining finds often.
