@@ -76,6 +76,7 @@ struct LightHistory {
   int events;
   /// Its density by path tracing over that of all strategies by which it was joined.
   float by_path_tracing = 1;
+  std::uint32_t branch = 0;  ///< `LightPath::branch`, of photons that light tracing follows.
 };
 
 /// Receives the film values, one per plane, that the path of that number adds to a pixel.

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <numeric>
 #include <utility>
@@ -22,7 +23,9 @@ constexpr float kEmissionShare = 0.05F;
 // Of those that are aimed: at most where few others have gone, and, once guessed, anywhere.
 constexpr float kApart = 0.1F;
 constexpr float kAnywhereByGuess = 0.5F;
-constexpr double kEvenShare = 0.1;  // of those within a grid
+constexpr double kFewestOfWindow = 8;       // photons of a branch
+constexpr double kEvenOverBranches = 0.25;  // fraction of the photons that follow others
+constexpr double kEvenShare = 0.1;          // of those within a grid
 constexpr float kInverseTurn = std::numbers::inv_pi_v<float> / 2;
 constexpr float kAnyRadius = 1;  // of the scene, which only light from infinity asks for
 
@@ -179,22 +182,69 @@ void Aim::stand(float nearer) {
   half_size_ = target_half_size_ + growth_ * nearer;
 }
 
-void Aim::learn(std::span<const ShownRay> shown) {
+void Aim::learn(std::span<const ShownRay> shown, std::size_t most_branches) {
   if (!learns() || shown.empty()) return;
   if (!around_) stand_where_fewest_pass(shown);
-  std::vector<WeighedPlace> most = places_of(shown);
-  if (most.empty()) return;
-  const Window window = window_of(most);
-  const auto apart = std::stable_partition(most.begin(), most.end(),
-                                           [&](const WeighedPlace& one) { return window.holds(one.at); });
-  const std::vector<WeighedPlace> others(apart, most.end());
-  most.erase(apart, most.end());
+  const std::vector<Branch> branches = branches_of(places_of(shown), most_branches);
+  if (branches.empty()) return;
   guided_ = has_learned_ = true;
   grids_.clear();
-  grids_.emplace_back(window, most).share = 1 - anywhere_;
-  if (others.empty()) return;
-  grids_.front().share -= kApart;
-  grids_.emplace_back(Window(), others).share = kApart;
+  Branch apart;
+  double total = 0;
+  for (const Branch& branch : branches) {
+    const Branch outside = add_grid_of(branch, branches.size() > 1 && photons_of(branch) < kFewestOfWindow);
+    apart.insert(apart.end(), outside.begin(), outside.end());
+    total += weight_of(branch);
+  }
+  const float aimed = apart.empty() ? 1 - anywhere_ : 1 - anywhere_ - kApart;
+  const auto n = static_cast<double>(branches.size());
+  for (std::size_t i = 0; i < branches.size(); ++i) {
+    const double fraction = weight_of(branches[i]) / total;
+    const double with_even = (1 - kEvenOverBranches) * fraction + kEvenOverBranches / n;
+    grids_[i].share = branches.size() == 1 ? aimed : aimed * static_cast<float>(with_even);
+  }
+  if (!apart.empty()) grids_.emplace_back(Window(), apart).share = kApart;
+}
+
+double Aim::weight_of(const Branch& branch) {
+  return std::accumulate(branch.begin(), branch.end(), 0.0,
+                         [](double sum, const WeighedPlace& place) { return sum + place.worth; });
+}
+
+// The branches by falling weight. All but the first `most` - 1 are merged into the last one.
+std::vector<Aim::Branch> Aim::branches_of(const std::vector<WeighedPlace>& places, std::size_t most) {
+  std::map<std::uint32_t, double> weights;
+  for (const WeighedPlace& place : places) weights[place.branch] += place.worth;
+  std::vector<std::pair<double, std::uint32_t>> order;
+  for (const auto& [branch, weight] : weights) order.emplace_back(-weight, branch);
+  std::sort(order.begin(), order.end());
+  std::map<std::uint32_t, std::size_t> index;
+  for (std::size_t i = 0; i < order.size(); ++i) index[order[i].second] = std::min(i, most - 1);
+  std::vector<Branch> branches(std::min(order.size(), most));
+  for (const WeighedPlace& place : places) branches[index[place.branch]].push_back(place);
+  return branches;
+}
+
+// Effective number of photons, (sum w)^2 / sum w^2 of their weights w.
+double Aim::photons_of(const Branch& branch) {
+  double squares = 0;
+  for (const WeighedPlace& place : branch) squares += place.worth * place.worth;
+  return squares > 0 ? weight_of(branch) * weight_of(branch) / squares : 0;
+}
+
+// Adds the grid of a branch. Returns the rays outside of its window, which are few.
+Aim::Branch Aim::add_grid_of(Branch branch, bool guesses) {
+  if (guesses) {
+    grids_.emplace_back(Window(), spread_over_scales(branch));
+    return {};
+  }
+  const Window window = window_of(branch);
+  const auto apart = std::stable_partition(branch.begin(), branch.end(),
+                                           [&](const WeighedPlace& one) { return window.holds(one.at); });
+  const Branch outside(apart, branch.end());
+  branch.erase(apart, branch.end());
+  grids_.emplace_back(window, branch);
+  return outside;
 }
 
 void Aim::guess(std::span<const ShownRay> shown) {
@@ -254,15 +304,15 @@ float Aim::extent_of(const Window& window, float nearer) const {
 
 std::vector<Aim::WeighedPlace> Aim::places_of(std::span<const ShownRay> shown) const {
   std::vector<WeighedPlace> places;
-  for (const auto& [from, direction, worth] : shown)
-    if (const auto at = place_of(from, direction)) places.push_back({*at, worth});
+  for (const ShownRay& ray : shown)
+    if (const auto at = place_of(ray.from, ray.direction)) places.push_back({*at, ray.worth, ray.branch});
   return places;
 }
 
 Aim::Window Aim::window_of(const std::vector<WeighedPlace>& places) {
   Worths a;
   Worths b;
-  for (const auto& [at, worth] : places) {
+  for (const auto& [at, worth, branch] : places) {
     a.emplace_back(at.x, worth);
     b.emplace_back(at.y, worth);
   }
@@ -279,7 +329,8 @@ bool Aim::Window::holds(const Imath::V2f& at) const {
 Aim::Grid::Grid(const Window& over, const std::vector<WeighedPlace>& places)
     : window(over), density(kGrid), row_cdf(kCells), column_cdf(kGrid) {
   std::vector<double> cells(kGrid, 0.0);
-  for (const auto& [at, worth] : places) add_between(cells, (at - window.corner) / window.size, worth);
+  for (const auto& [at, worth, branch] : places)
+    add_between(cells, (at - window.corner) / window.size, worth);
   const std::vector<double> weights = smoothed(cells, reach_for(places.size()));
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   double rows = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,6 +30,7 @@ struct ShownRay {
   Imath::V3f from;
   Imath::V3f direction;
   double worth;
+  std::uint32_t branch = 0;  ///< Rays of one branch meet the same specular shapes by the same events.
 };
 
 /// Aims photons of one light at the sphere that bounds the specular shapes: directions are drawn through a
@@ -56,7 +58,16 @@ class Aim {
   /// what lets its light through fills the same part only of a target that stands where it does, as a slit
   /// before a prism. A grid of densities covers that part, smoothed over as many of its cells as few rays
   /// need.
-  void learn(std::span<const ShownRay> shown);
+  ///
+  /// Each branch of rays has a grid of its own, over the part that this branch comes through; of more than
+  /// `most_branches` the weakest have one in common. Let f be the fraction of photons that follow others, and
+  /// w_i the weight of branch i of n. A quarter of f is spread evenly, so that no later pilot loses a branch:
+  ///     f_i = f [3/4 w_i / (sum_j w_j) + 1/(4 n)].
+  /// Eight rays show the extent of a branch within the margin of a grid. Around fewer rays of one branch
+  /// among several, photons are aimed at all scales alike.
+  void learn(std::span<const ShownRay> shown, std::size_t most_branches = 6);
+  /// Effective number of photons, (sum w)^2 / sum w^2, that train a light or a branch.
+  static constexpr double kEnough = 50;
   /// Aims half of the photons around where few others have gone, which do not tell how far around: at all
   /// scales alike. The other half goes anywhere, from then on. Changes nothing once others were enough to
   /// learn from.
@@ -86,7 +97,9 @@ class Aim {
   struct WeighedPlace {
     Imath::V2f at;
     double worth;
+    std::uint32_t branch = 0;
   };
+  using Branch = std::vector<WeighedPlace>;
   // A part of the unit square.
   struct Window {
     Imath::V2f corner{0, 0};
@@ -114,6 +127,11 @@ class Aim {
   [[nodiscard]] std::optional<Imath::V2f> place_of(const Imath::V3f& from, const Imath::V3f& direction) const;
   [[nodiscard]] std::vector<WeighedPlace> places_of(std::span<const ShownRay> shown) const;
   [[nodiscard]] static std::vector<WeighedPlace> spread_over_scales(const std::vector<WeighedPlace>& places);
+  [[nodiscard]] static std::vector<Branch> branches_of(const std::vector<WeighedPlace>& places,
+                                                       std::size_t most);
+  [[nodiscard]] static double weight_of(const Branch& branch);
+  [[nodiscard]] static double photons_of(const Branch& branch);
+  [[nodiscard]] Branch add_grid_of(Branch branch, bool guesses);
   [[nodiscard]] static Window window_of(const std::vector<WeighedPlace>& places);
   [[nodiscard]] Place draw(Imath::V2f u) const;
   [[nodiscard]] float pdf_at(const Imath::V2f& at) const;

@@ -75,8 +75,8 @@ std::optional<Error> refusal_of_lamp(const Scene& scene, const Light& light, con
                   2 * lamp->radius, lamp->distance));
 }
 
-// Aims cost a quarter of a megabyte each, so that of very many traced lights only the strongest have one; the
-// others shine everywhere.
+// Aims cost an eighth of a megabyte for each of their grids, so that of very many traced lights only the
+// strongest have one; the others shine everywhere.
 constexpr std::ptrdiff_t kMostAims = 128;
 
 }  // namespace

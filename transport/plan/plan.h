@@ -28,6 +28,9 @@ struct Guides {
   CausticGuide caustics_seen_through = {};
   /// Whether a tenth of what photons of pilots bring the film, or more, is brought by too few to aim by.
   bool photons_are_rare = false;
+  /// Fraction of what photons of pilots bring the film, weighted as they train the aims, by branches that
+  /// fewer than `Aim::kEnough` of them have shown each: what is found by them may be incomplete.
+  double undertrained_fraction = 0;
 };
 
 /// What a render works out once from the scene: which technique owns which light's caustics, where

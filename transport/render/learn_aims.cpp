@@ -4,7 +4,9 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "scene/extent.h"
@@ -25,10 +27,17 @@ struct Pilots {
 
 Pilots trace_batch(LightTracer& tracer, std::span<const Sampler> photons, const RelativePlaces& places) {
   Pilots pilots;
-  tracer.trace(photons, [&](std::uint32_t photon, const FilmPoint& at, std::span<const double> values) {
-    if (magnitude(values) > 0) places.add(photon, at, values, pilots.splats);
-  });
+  std::vector<std::optional<std::uint32_t>> branches(photons.size());
+  tracer.tell_apart(
+      [&](std::uint32_t photon, const FilmPoint& at, const LightHistory& of, std::span<const double> values) {
+        if (!(magnitude(values) > 0)) return;
+        places.add(photon, at, values, pilots.splats);
+        if (!branches[photon]) branches[photon] = of.branch;
+      });
+  tracer.trace(photons, [](std::uint32_t, const FilmPoint&, std::span<const double>) {});
+  tracer.tell_apart({});
   pilots.starts.assign(tracer.starts().begin(), tracer.starts().end());
+  for (std::size_t i = 0; i < branches.size(); ++i) pilots.starts[i].branch = branches[i].value_or(0);
   return pilots;
 }
 
@@ -51,7 +60,7 @@ constexpr std::uint32_t kPilotsOfAims = 1U << 17;
 
 // Of one light, aims are learned from no fewer photons: of fewer it is too likely that they miss a way on
 // which much of its light comes, which only those that go anywhere would be left for, each of great power.
-constexpr double kEnough = 50;
+constexpr double kEnough = Aim::kEnough;
 
 // By how many photons light is shown: such of one worth w as have the same mean and spread,
 // (sum w)^2 / sum w^2.
@@ -86,8 +95,17 @@ Shown show(const Plan& plan, const RelativePlaces& places, const Pilots& pilots)
 
 std::vector<std::vector<ShownRay>> rays_of_lights(std::span<const ShownStart> shown, const Plan& plan) {
   std::vector<std::vector<ShownRay>> rays(plan.guides.aims.size());
-  for (const auto& [start, worth] : shown) rays[start.light].push_back({start.from, start.direction, worth});
+  for (const auto& [start, weight] : shown)
+    rays[start.light].push_back({start.from, start.direction, weight, start.branch});
   return rays;
+}
+
+// Branches with grids of their own, so that the grids of all lights take some 32 MB at most.
+std::size_t branches_per_light(const Plan& plan) {
+  constexpr std::size_t kMostGrids = 256;
+  constexpr std::size_t kMostBranches = 6;
+  const auto lights = static_cast<std::size_t>(std::ranges::count_if(plan.guides.aims, &Aim::learns));
+  return std::clamp<std::size_t>(kMostGrids / std::max<std::size_t>(1, lights), 1, kMostBranches);
 }
 
 bool is_shown_enough(const Count& light) {
@@ -100,7 +118,7 @@ void aim_by(const Shown& shown, Plan& plan) {
   const std::vector<std::vector<ShownRay>> rays = rays_of_lights(shown.starts, plan);
   for (std::size_t light = 0; light < rays.size(); ++light)
     if (is_shown_enough(shown.lights[light]))
-      plan.guides.aims[light].learn(rays[light]);
+      plan.guides.aims[light].learn(rays[light], branches_per_light(plan));
     else if (!is_meter(plan.scene.camera))
       plan.guides.aims[light].guess(rays[light]);
 }
@@ -124,6 +142,37 @@ std::optional<double> photons_of_few(const Shown& shown, const Plan& plan, doubl
   return single.worth > share * all.worth ? 1 : few.photons();
 }
 
+// Pilots by their lights and branches.
+std::map<std::pair<std::uint32_t, std::uint32_t>, Count> count_branches(const Shown& shown) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, Count> branches;
+  for (const auto& [start, weight] : shown.starts)
+    branches[{start.light, start.branch}].add({weight, weight * weight});
+  return branches;
+}
+
+double undertrained_fraction(const Shown& shown) {
+  double all = 0;
+  double few = 0;
+  for (const auto& [branch, count] : count_branches(shown)) {
+    all += count.worth;
+    if (!is_shown_enough(count)) few += count.worth;
+  }
+  return all > 0 ? few / all : 0;
+}
+
+// Effective number of photons of the branch that has the fewest, among those of more than this fraction of
+// the weight; nothing if there is none.
+std::optional<double> photons_of_rarest_branch(const Shown& shown, double fraction) {
+  const auto branches = count_branches(shown);
+  Count all;
+  for (const auto& [branch, count] : branches) all.add(count);
+  std::optional<double> fewest;
+  for (const auto& [branch, count] : branches)
+    if (count.worth > fraction * all.worth)
+      fewest = std::min(fewest.value_or(count.photons()), count.photons());
+  return fewest;
+}
+
 Shown show(const Plan& plan, PilotStage stage, int threads) {
   const RelativePlaces places(plan.scene);
   Pilots pilots;
@@ -131,8 +180,7 @@ Shown show(const Plan& plan, PilotStage stage, int threads) {
   return show(plan, places, pilots);
 }
 
-// What few photons show is asked of as many as would show enough, unless those before were too long on their
-// ways.
+// Traces more photons where a light or a branch has too few, unless the first were too long on their ways.
 Shown show_enough(const Plan& plan, PilotStage stage, int threads, std::optional<double> ball_radius = {}) {
   constexpr double kShare = 0.01;
   constexpr double kMostTimes = 8;
@@ -140,7 +188,9 @@ Shown show_enough(const Plan& plan, PilotStage stage, int threads, std::optional
   Pilots pilots;
   trace_pilots(plan, places, {stage, kPilotsOfAims}, threads, ball_radius, pilots);
   Shown shown = show(plan, places, pilots);
-  const auto few = photons_of_few(shown, plan, kShare);
+  std::optional<double> few = photons_of_few(shown, plan, kShare);
+  if (const auto rarest = photons_of_rarest_branch(shown, kShare))
+    few = std::min(few.value_or(*rarest), *rarest);
   if (!few || *few >= kEnough || pilots.starts.size() < kPilotsOfAims) return shown;
   const auto times = static_cast<std::uint32_t>(std::min(std::ceil(2 * kEnough / *few), kMostTimes));
   PilotPhotons more{stage, (times - 1) * kPilotsOfAims};
@@ -192,12 +242,14 @@ void learn_aims(Plan& plan, int threads) {
   aim_roughly(plan, threads);
   const Shown shown = show_enough(plan, PilotStage::aims, threads);
   plan.guides.photons_are_rare = plan.guides.photons_are_rare || few_show_much(shown, plan);
+  plan.guides.undertrained_fraction = undertrained_fraction(shown);
   aim_by(shown, plan);
 }
 
 void aim_where(std::span<const ShownStart> shown, Plan& plan) {
   const std::vector<std::vector<ShownRay>> rays = rays_of_lights(shown, plan);
-  for (std::size_t light = 0; light < rays.size(); ++light) plan.guides.aims[light].learn(rays[light]);
+  for (std::size_t light = 0; light < rays.size(); ++light)
+    plan.guides.aims[light].learn(rays[light], branches_per_light(plan));
 }
 
 }  // namespace abbe

@@ -108,7 +108,8 @@ void LightTracer::connect_to(const LightPath& path, int events, const CameraConn
       {path.path,
        events,
        contribution,
-       {static_cast<int>(lens.film.x), static_cast<int>(lens.film.y), lens.cos_film, ray.time}});
+       {static_cast<int>(lens.film.x), static_cast<int>(lens.film.y), lens.cos_film, ray.time},
+       path.branch});
   if (lens.images) images_.push_back(*lens.images);
   if (arrives) arrives_.push_back(*arrives);
   ways_.push_back(way_between(ray.origin, lens.lens_point, ray.time));
@@ -140,12 +141,14 @@ void LightTracer::resolve_connections() {
 template <typename Contribution>
 void LightTracer::expose(const Connection& found, Contribution contribution) {
   contribution *= SampledSpectrum(scale_);
-  response_.expose(found.at, walks_.paths()[found.path].packet.wavelengths,
-                   let_through(scene_.shutter, found.at, contribution),
-                   [&](const FilmPoint& at, std::span<const double> values) {
-                     (*deposit_)(found.path, at, values);
-                     if (apart_) apart_(found.path, at, {starts_[found.path].light, found.events}, values);
-                   });
+  response_.expose(
+      found.at, walks_.paths()[found.path].packet.wavelengths,
+      let_through(scene_.shutter, found.at, contribution),
+      [&](const FilmPoint& at, std::span<const double> values) {
+        (*deposit_)(found.path, at, values);
+        if (apart_)
+          apart_(found.path, at, {starts_[found.path].light, found.events, 1, found.branch}, values);
+      });
 }
 
 }  // namespace abbe

@@ -20,6 +20,15 @@ namespace abbe {
 struct LightPath : Walk {
   using Walk::Walk;
   float power = 0;  ///< That it set out with, its largest lane's.
+  /// Hash of the specular events before the first event of another kind, and of their shapes.
+  std::uint32_t branch = 0;
+  bool scattered = false;  ///< True after an event that is not specular: the branch is complete.
+  /// Adds an event to the branch by a step of the FNV-1a hash.
+  void extend_branch(std::uint32_t shape, const BsdfSample& event) {
+    constexpr std::uint32_t kPrime = 16777619;
+    scattered = scattered || !event.delta;
+    if (!scattered) branch = (branch ^ (2 * shape + (event.transmitted ? 2U : 1U))) * kPrime;
+  }
 };
 
 /// Light tracing [Arvo1986]: from the lights that need it, with a connection to the camera at every vertex
@@ -65,11 +74,13 @@ class LightTracer {
   [[nodiscard]] bool parts_lanes() const { return plan_.photons_part; }
   // The power a photon starts with says nothing about what it adds to the film: roulette goes by what the
   // event itself keeps. Its ray has left by then.
-  [[nodiscard]] float kept(const LightPath& path, const SurfaceVertex& /*vertex*/, const BsdfSample& event) {
+  [[nodiscard]] float kept(LightPath& path, const SurfaceVertex& vertex, const BsdfSample& event) {
+    path.extend_branch(vertex.hit.shape, event);
     if (meter_ && (event.delta || owns_scattered(path))) run_into_meter(path, path.events + 1);
     return kept_by(event);
   }
-  [[nodiscard]] float kept_within(const LightPath& path) {
+  [[nodiscard]] float kept_within(LightPath& path) {
+    path.scattered = true;
     if (meter_ && owns_scattered(path)) run_into_meter(path, path.events + 1);
     return 1;
   }
@@ -82,6 +93,7 @@ class LightTracer {
     int events;
     SampledSpectrum contribution;  // but for what `ThroughMatter` takes
     FilmPoint at;
+    std::uint32_t branch;
   };
   // The way of a connection whose matter is followed once nothing is known to block it.
   struct ThroughMatter {

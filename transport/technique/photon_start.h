@@ -13,6 +13,7 @@ struct PhotonStart {
   std::uint32_t light = 0;
   Imath::V3f from{0, 0, 0};       ///< Where its ray began,
   Imath::V3f direction{0, 0, 1};  ///< and the unit vector along it.
+  std::uint32_t branch = 0;       ///< `LightPath::branch` where it first added to the film; 0 if it did not.
 };
 
 /// Sets a photon out from one of the plan's traced lights, by its own numbers: on its ray, with the power
