@@ -1,5 +1,6 @@
 #include "cli/material_commands.h"
 
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "cli/bench_measurements.h"
 #include "cli/lab.h"
 #include "cli/query.h"
+#include "spectral/colorimetry.h"
 
 namespace abbe::cli {
 namespace {
@@ -79,6 +81,21 @@ void add_material_queries(CLI::App& query, Command& command) {
   add_json_with_arrays(*prism.app, prism->json, prism->arrays);
 }
 
+// The ranges of colorimetric sums that can be chosen by name.
+template <typename Range>
+void add_sum_range(CLI::App& app, Range& range) {
+  const auto parse = [](const std::string& option, const std::string& text) {
+    constexpr std::array<SumRange, 2> kRanges{SumRange{}, kVisibleRange};
+    std::vector<std::string> names;
+    for (const SumRange& r : kRanges) names.push_back(fmt::format("{}-{}", r.low_nm, r.high_nm));
+    return kRanges.at(static_cast<std::size_t>(parse_choice(option, text, names)));
+  };
+  add_parsed(app, "--range", range, parse,
+             "Wavelengths in nm of the sums: those of the CIE's observers (default 360-830), or fewer, for "
+             "comparison with programs that truncate them",
+             "360-830|380-780");
+}
+
 void add_color_queries(CLI::App& query, Command& command) {
   const Sub<ColorOptions> color(query, "color", "Colour of a reflectance under an illuminant", command,
                                 query_color);
@@ -95,6 +112,7 @@ void add_color_queries(CLI::App& query, Command& command) {
       "Sum over every nanometre, or over the measured wavelengths by the weights of ASTM E308 (default "
       "1nm)",
       "1nm|astm-e308");
+  add_sum_range(*color.app, color->range);
   add_json(*color.app, color->json);
 
   const Sub<DeltaEOptions> delta_e(query, "delta-e", "Difference of two colours", command, query_delta_e);
@@ -139,6 +157,7 @@ void add_light_queries(CLI::App& query, Command& command) {
              "X0,Y0,X1,Y1");
   light.app->add_option("--plot", light->plot, "Write the colour vector graphic of TM-30")
       ->type_name("FILE.svg");
+  add_sum_range(*light.app, light->range);
   add_max_memory(*light.app, light.options);
   add_json(*light.app, light->json);
 
@@ -155,6 +174,7 @@ void add_light_queries(CLI::App& query, Command& command) {
   metamers.app->add_option("--test", metamers->test, "The other light")
       ->capture_default_str()
       ->type_name("ILLUMINANT");
+  add_sum_range(*metamers.app, metamers->range);
   add_json(*metamers.app, metamers->json);
 }
 

@@ -71,7 +71,9 @@ struct ColorOptions {
   std::string reflectance = {};
   bool json = false;
   ColorMethod method = ColorMethod::one_nm;
+  std::optional<SumRange> range = {};  ///< Of `ColorMethod::one_nm`; ASTM E308 has its own.
 };
+/// Throws Error{usage} for a range with `ColorMethod::astm_e308`.
 int query_color(const ColorOptions& options);
 
 /// `query delta-e`: between two L*, a*, b*; the first is the standard.
@@ -91,6 +93,7 @@ struct LightOptions {
   std::string reflectance = {};
   std::optional<Crop> crop = {};    ///< Of an image: these pixels, all it has without it.
   std::filesystem::path plot = {};  ///< SVG of the colour vector graphic; empty: none.
+  SumRange range = {};
   std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;
 };
@@ -105,6 +108,7 @@ struct MetamerismOptions {
   std::string reference = "D65";
   std::string test = "A";
   bool json = false;
+  SumRange range = {};
 };
 int query_metamerism(const MetamerismOptions& options);
 

@@ -48,11 +48,16 @@ struct SurfaceColor {
 SurfaceColor summed_every_nm(const ColorOptions& options, Diagnostics& diagnostics) {
   const LitSurface lit =
       load(options.illuminant, options.reflectance, diagnostics, observer_channels(options.observer));
-  return {tristimulus(lit.illuminant, lit.reflectance, options.observer),
-          tristimulus(lit.illuminant, Curve(1.0), options.observer)};
+  const SumRange range = options.range.value_or(SumRange{});
+  return {tristimulus(lit.illuminant, lit.reflectance, options.observer, range),
+          tristimulus(lit.illuminant, Curve(1.0), options.observer, range)};
 }
 
 SurfaceColor summed_by_astm(const ColorOptions& options, Diagnostics& diagnostics) {
+  if (options.range)
+    throw Error(ErrorCode::usage, "--range",
+                fmt::format("is for --method 1nm: the weights of ASTM E308 are those from {} to {} nm",
+                            kAstmRange.low_nm, kAstmRange.high_nm));
   const auto light = load_illuminant(options.illuminant, {}, diagnostics,
                                      {double{kAstmRange.low_nm}, double{kAstmRange.high_nm}});
   if (light) check_ends_of_light(*light, observer_channels(options.observer), {}, diagnostics);

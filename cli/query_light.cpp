@@ -77,7 +77,7 @@ struct TabulatedLight {
   // The other factors have none.
   void check_tables(const Curve& others, Diagnostics& diagnostics) const {
     const std::vector<Channel> observer = observer_channels(Observer::cie1931);
-    const Curve radiation = band(380, 780);
+    const Curve radiation = band(kVisibleRange.low_nm, kVisibleRange.high_nm);
     std::vector<Counter> counters = counters_of(observer);
     counters.push_back({"the luminous efficacy of radiation from 380 to 780 nm", &radiation});
     for (const NamedCurve& table : tables)
@@ -130,19 +130,19 @@ int query_light(const LightOptions& options) {
   require_distinct(options.plot.empty() ? std::vector<std::filesystem::path>{} : std::vector{options.plot},
                    files_among({options.name, options.filters, options.reflectance}));
   const Curve light = asked_light(options);
-  const XYZ xyz = tristimulus(light, Curve(1), Observer::cie1931);
+  const XYZ xyz = tristimulus(light, Curve(1), Observer::cie1931, options.range);
   if (!std::isfinite(xyz[0]))
     throw Error(ErrorCode::input, options.name, "has no light that an observer sees, hence no colour");
   const auto temperature = color_temperature(xyz);
-  const auto rendering = color_rendering(light);
-  const auto fidelity = color_fidelity(light);
+  const auto rendering = color_rendering(light, options.range);
+  const auto fidelity = color_fidelity(light, options.range);
   Json answer;
   answer["xy"] = chromaticity(xyz);
   answer["uv_1960"] = uv_1960(xyz);
   answer["CCT_K"] = temperature ? Json(temperature->kelvin) : Json();
   answer["Duv"] = temperature ? Json(temperature->duv) : Json();
   answer["LER_lm_per_W"] = luminous_efficacy(light);
-  answer["S_over_P"] = scotopic_photopic_ratio(light);
+  answer["S_over_P"] = scotopic_photopic_ratio(light, options.range);
   answer["Ra"] = rendering ? Json(rendering->general) : Json();
   if (rendering) answer["R"] = rendering->special;
   if (fidelity)
@@ -168,7 +168,7 @@ int query_metamerism(const MetamerismOptions& options) {
   for (const auto& light : {reference, test})
     if (light) check_ends_of_light(*light, observer_channels(Observer::cie1931), {}, diagnostics);
   check(diagnostics);
-  const Metamerism result = metamerism(first, second, reference->curve, test->curve);
+  const Metamerism result = metamerism(first, second, reference->curve, test->curve, options.range);
   Json answer;
   answer["reference_dE76"] = result.reference_76;
   answer["dE76"] = result.index_76;

@@ -113,14 +113,22 @@ Curve curve_of(const py::handle& spectrum, const char* name, const CurveUse& use
   return curve;
 }
 
-py::dict color(const py::object& illuminant, const py::object& reflectance, const std::string& observer) {
+SumRange range_of(const std::string& name) {
+  for (const SumRange range : {SumRange{}, kVisibleRange})
+    if (name == fmt::format("{}-{}", range.low_nm, range.high_nm)) return range;
+  throw Error(ErrorCode::usage, "range", fmt::format("got \"{}\", allowed 360-830, 380-780", name));
+}
+
+py::dict color(const py::object& illuminant, const py::object& reflectance, const std::string& observer,
+               const std::string& range_name) {
+  const SumRange range = range_of(range_name);
   const Observer eye = observer_of(observer);
   const Curve light = curve_of(illuminant, "illuminant", kIlluminantUse, named_illuminant);
   const Curve surface = reflectance.is_none()
                             ? Curve(1.0)
                             : curve_of(reflectance, "reflectance", kReflectanceUse, named_reflectance);
-  const XYZ xyz = tristimulus(light, surface, eye);
-  const XYZ white = tristimulus(light, Curve(1.0), eye);
+  const XYZ xyz = tristimulus(light, surface, eye, range);
+  const XYZ white = tristimulus(light, Curve(1.0), eye, range);
   if (!std::isfinite(white[1]))
     throw Error(ErrorCode::input, "illuminant", "has no light that an observer sees, hence no colour");
   py::dict told;
@@ -198,9 +206,10 @@ void add_curves(py::module_& module) {
              "`illuminant` does, and InputError for quantum efficiencies in percent.");
   module.def(
       "color", color, py::arg("illuminant"), py::arg("reflectance") = py::none(),
-      py::arg("observer") = "1931",
+      py::arg("observer") = "1931", py::kw_only(), py::arg("range") = "360-830",
       "Returns the colour of a reflectance, or of the perfect diffuser, as a dict of XYZ (Y = 100 for the "
-      "perfect diffuser), xy and Lab, summed every nanometre from 380 to 780 nm.\n\nIlluminant and "
+      "perfect diffuser), xy and Lab, summed every nanometre from 360 to 830 nm, or with range=\"380-780\" "
+      "over that range, as other programs do.\n\nIlluminant and "
       "reflectance "
       "are names, or pairs of wavelengths in nm and values, taken as linear between them and as 0 beyond. "
       "Raises "

@@ -20,7 +20,8 @@ constexpr int kScanSteps = 99;
 Uv1960 planckian_uv(double mired) {
   const ColorMatching& cmf = color_matching(Observer::cie1931);
   XYZ xyz{};
-  for (int nm = 360; nm <= 830; ++nm) {
+  constexpr SumRange kRange;
+  for (int nm = kRange.low_nm; nm <= kRange.high_nm; ++nm) {
     const double power = planck_radiance(1e6 / mired, nm);
     xyz[0] += power * cmf.x(nm);
     xyz[1] += power * cmf.y(nm);
@@ -85,13 +86,15 @@ std::optional<ColorTemperature> color_temperature(const XYZ& xyz) {
 }
 
 double luminous_efficacy(const Curve& light) {
-  return kLuminousEfficacy * sum_product(light, color_matching(Observer::cie1931).y) /
-         sum_product(light, Curve(1));
+  constexpr auto kLow = static_cast<double>(kVisibleRange.low_nm);
+  constexpr auto kHigh = static_cast<double>(kVisibleRange.high_nm);
+  return kLuminousEfficacy * integral_of_product(light, color_matching(Observer::cie1931).y, kLow, kHigh) /
+         light.integral(kLow, kHigh);
 }
 
-double scotopic_photopic_ratio(const Curve& light) {
-  return kMaxScotopicEfficacy / kLuminousEfficacy * sum_product(light, scotopic()) /
-         sum_product(light, color_matching(Observer::cie1931).y);
+double scotopic_photopic_ratio(const Curve& light, SumRange range) {
+  return kMaxScotopicEfficacy / kLuminousEfficacy * sum_product(light, scotopic(), range) /
+         sum_product(light, color_matching(Observer::cie1931).y, range);
 }
 
 }  // namespace abbe

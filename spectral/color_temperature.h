@@ -25,11 +25,13 @@ struct ColorTemperature {
 /// colour temperature is told [CIE15, sec. 9.4], and for temperatures beyond 1000 and 100 000 K.
 [[nodiscard]] std::optional<ColorTemperature> color_temperature(const XYZ& xyz);
 
-/// Luminous efficacy of a radiation between 380 and 780 nm [lm/W], by 1 nm sums.
+/// Luminous efficacy of the visible part of a radiation [lm/W] (`kVisibleRange`): 683.002 lm/W times the
+/// integral of S V over that of S. The integrals are exact for the straight pieces of S and V: like the
+/// trapezoidal rule, they take half a nanometre at each end.
 [[nodiscard]] double luminous_efficacy(const Curve& light);
 
 /// Ratio of scotopic to photopic luminous flux: 1700.06/683.002 times the quotient of the 1 nm sums with
-/// V'(lambda) and V(lambda) over 380-780 nm [CIE18, sec. 5].
-[[nodiscard]] double scotopic_photopic_ratio(const Curve& light);
+/// V'(lambda) and V(lambda) [CIE18, sec. 5].
+[[nodiscard]] double scotopic_photopic_ratio(const Curve& light, SumRange range = {});
 
 }  // namespace abbe

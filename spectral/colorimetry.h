@@ -26,11 +26,15 @@ struct ColorMatching {
 using XYZ = std::array<double, 3>;
 using Lab = std::array<double, 3>;
 
-/// Wavelengths of a colorimetric sum [nm], both ends included.
+/// Wavelengths of a colorimetric sum [nm], both ends included; by default those for which the CIE tabulates
+/// the standard observers [CIE15, sec. 7.1].
 struct SumRange {
-  int low_nm = 380;
-  int high_nm = 780;
+  int low_nm = 360;
+  int high_nm = 830;
 };
+/// The range of visible light, to which luminous efficacies refer. Other programs truncate their sums to it;
+/// it is an option for comparison with them.
+inline constexpr SumRange kVisibleRange{380, 780};
 
 /// 1 nm sums of the products of two and three curves, or the exact integral where `a` or `b` bends between
 /// whole nanometres, or jumps there by more than a thousandth of what the other shows at most. A `c` that

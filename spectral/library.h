@@ -23,7 +23,9 @@ struct NamedCurve {
   Outside outside = Outside::clamp;  ///< What the table says of the wavelengths beyond.
 };
 
-/// The wavelengths a caller will ask a curve for [nm]; by default those of a colorimetric sum.
+/// The wavelengths [nm] that a table must cover. By default the standard observers have less than a
+/// thousandth of their response outside. Sums over a wider range extend the table as it declares, else by its
+/// first and last value [CIE15, sec. 7.2].
 struct NeededRange {
   double low_nm = 380;
   double high_nm = 780;

@@ -24,6 +24,7 @@ namespace abbe {
 namespace {
 
 constexpr SumRange kSums;
+constexpr SumRange kVaries = kVisibleRange;  // constant beyond
 constexpr std::size_t kCount = static_cast<std::size_t>(kSums.high_nm - kSums.low_nm) + 1;
 constexpr Eigen::Index kUnknowns = 6;
 
@@ -58,10 +59,11 @@ const std::array<LinearRgb, kCount>& weights() {
   return kWeights;
 }
 
-// Red, green and blue at the i-th nanometre: exp(p), 1 and exp(q) over their sum, p and q quadratics in
-// wavelength.
-LinearRgb basis_at(const Eigen::VectorXd& u, std::size_t i) {
-  const double x = 2 * static_cast<double>(i) / (kCount - 1) - 1;
+// Red, green and blue at a wavelength: exp(p), 1 and exp(q) over their sum, p and q quadratics in wavelength.
+LinearRgb basis_at(const Eigen::VectorXd& u, int nm) {
+  const double x = 2.0 * (std::clamp(nm, kVaries.low_nm, kVaries.high_nm) - kVaries.low_nm) /
+                       (kVaries.high_nm - kVaries.low_nm) -
+                   1;
   const double p = u[0] + x * (u[1] + x * u[2]);
   const double q = u[3] + x * (u[4] + x * u[5]);
   const double most = std::max({p, q, 0.0});
@@ -85,7 +87,7 @@ struct Conditions {
   int operator()(const Eigen::VectorXd& u, Eigen::VectorXd& r) const {
     r << -1, 0, 0, 0, 0, -1;
     for (std::size_t i = 0; i < kCount; ++i) {
-      const LinearRgb basis = basis_at(u, i);
+      const LinearRgb basis = basis_at(u, kSums.low_nm + static_cast<int>(i));
       const Eigen::Map<const Eigen::Vector3d> weight(weights()[i].data());
       r.head<3>() += weight * basis[0];
       r.tail<3>() += weight * basis[2];
@@ -110,9 +112,9 @@ Eigen::VectorXd fit() {
 RgbBasis make_basis() {
   const Eigen::VectorXd u = fit();
   std::array<std::vector<Knot>, 3> knots;
-  for (std::size_t i = 0; i < kCount; ++i) {
-    const LinearRgb at = basis_at(u, i);
-    for (std::size_t c = 0; c < 3; ++c) knots[c].push_back({kSums.low_nm + static_cast<double>(i), at[c]});
+  for (int nm = kVaries.low_nm; nm <= kVaries.high_nm; ++nm) {
+    const LinearRgb at = basis_at(u, nm);
+    for (std::size_t c = 0; c < 3; ++c) knots[c].push_back({static_cast<double>(nm), at[c]});
   }
   return {Curve(std::move(knots[0])), Curve(std::move(knots[1])), Curve(std::move(knots[2]))};
 }

@@ -47,8 +47,8 @@ inline constexpr RgbSpace kRec709{kRec709Primaries[0], kRec709Primaries[1], kRec
 /// Linear RGB to XYZ, such that (1, 1, 1) is the white with Y = 1 [Lindbloom].
 [[nodiscard]] Matrix3 rgb_to_xyz(const RgbSpace& space);
 
-/// Colour of a reflectance under D65, for the CIE 1931 observer, 380-780 nm. Its white is that of the shipped
-/// table of D65, so that a reflectance of 1 is exactly (1, 1, 1).
+/// Colour of a reflectance under D65, for the CIE 1931 observer. Its white is that of the shipped table of
+/// D65, so that a reflectance of 1 is exactly (1, 1, 1).
 [[nodiscard]] LinearRgb linear_rgb(const Curve& reflectance);
 
 /// The linear value in [0, 1] of a code value in [0, 1] encoded as sRGB: x/12.92 up to 0.04045, beyond
@@ -72,8 +72,8 @@ inline constexpr Encoding kLinearEncoding{1.0};
 /// Three smooth spectra in [0, 1] that add up to 1 everywhere and have the colours (1, 0, 0), (0, 1, 0) and
 /// (0, 0, 1) under `linear_rgb`, so that any mixture of them has the colour of its weights, and stays a
 /// reflectance while the weights are in [0, 1] [Mallett2019]. Here their logarithms differ by quadratics in
-/// wavelength, whose six coefficients the six conditions fix; held constant beyond 380-780 nm, where no
-/// colour says anything. Worked out once. Throws Error{input} when a shipped table is missing.
+/// wavelength, whose six coefficients the six conditions fix. Beyond 380-780 nm, where the colour determines
+/// next to nothing, they are constant. Worked out once. Throws Error{input} when a shipped table is missing.
 struct RgbBasis {
   Curve red;
   Curve green;

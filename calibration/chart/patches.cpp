@@ -33,8 +33,8 @@ SumRange sensed(std::span<const Channel> channels) {
   return standard_observer(channels) ? SumRange{} : SumRange{kMinWavelengthNm, kMaxWavelengthNm};
 }
 
-XYZ unit_tristimulus(const Curve& illuminant, const Curve& reflectance) {
-  XYZ xyz = tristimulus(illuminant, reflectance, Observer::cie1931);
+XYZ unit_tristimulus(const Curve& illuminant, const Curve& reflectance, SumRange range) {
+  XYZ xyz = tristimulus(illuminant, reflectance, Observer::cie1931, range);
   for (double& v : xyz) v /= 100;
   return xyz;
 }
@@ -60,20 +60,21 @@ std::vector<double> diffuser_values(std::span<const Channel> channels, const Cur
   return values;
 }
 
-PatchColors integrate(const Chart& chart, std::span<const Channel> channels, const Curve& illuminant) {
+PatchColors integrate(const Chart& chart, std::span<const Channel> channels, const Curve& illuminant,
+                      SumRange range) {
   if (channels.size() != 3)
     throw Error(ErrorCode::usage, "camera",
                 fmt::format("calibration needs three channels (got {})", channels.size()));
   const std::vector<double> white = diffuser_values(channels, illuminant);
   PatchColors colors;
-  colors.white = unit_tristimulus(illuminant, Curve(1.0));
+  colors.white = unit_tristimulus(illuminant, Curve(1.0), range);
   for (const Patch& patch : chart.patches) {
     Raw raw{};
     for (std::size_t k = 0; k < raw.size(); ++k)
       raw[k] = sum_product(illuminant, channels[k].weight, patch.reflectance, sensed(channels)) / white[k];
     colors.names.push_back(patch.name);
     colors.raw.push_back(raw);
-    colors.xyz.push_back(unit_tristimulus(illuminant, patch.reflectance));
+    colors.xyz.push_back(unit_tristimulus(illuminant, patch.reflectance, range));
   }
   return colors;
 }

@@ -13,10 +13,10 @@
 namespace abbe {
 
 /// CIE 1931 tristimulus values, Y = 1 for the perfect diffuser.
-[[nodiscard]] XYZ unit_tristimulus(const Curve& illuminant, const Curve& reflectance);
+[[nodiscard]] XYZ unit_tristimulus(const Curve& illuminant, const Curve& reflectance, SumRange range = {});
 
 /// What channels are summed over: sensors count what eyes do not see, too, from 300 to 1100 nm; observers are
-/// summed as colours are, from 380 to 780 nm.
+/// summed as colours are.
 [[nodiscard]] SumRange sensed(std::span<const Channel> channels);
 
 /// Raw values of a reflectance under an illuminant in channel order, divided by the value of the perfect
@@ -41,9 +41,9 @@ struct PatchColors {
   std::vector<double> weights = {};
 };
 
-/// Integrates a chart. Throws Error{usage} unless there are three channels, Error{input} when one of them
-/// does not see the illuminant.
+/// Integrates a chart; `range` is that of the observer. Throws Error{usage} unless there are three channels,
+/// Error{input} when one of them does not see the illuminant.
 [[nodiscard]] PatchColors integrate(const Chart& chart, std::span<const Channel> channels,
-                                    const Curve& illuminant);
+                                    const Curve& illuminant, SumRange range = {});
 
 }  // namespace abbe

@@ -19,8 +19,8 @@ struct CameraSpace {
   std::array<double, 3> luther{};
 };
 
-/// Both from 1 nm samples of the energy responses over 380-780 nm. Throws Error{usage} for fewer than three
-/// channels.
+/// Both from 1 nm samples of the energy responses over the range of colorimetric sums. Throws Error{usage}
+/// for fewer than three channels.
 [[nodiscard]] CameraSpace camera_space(std::span<const Channel> channels);
 
 }  // namespace abbe

@@ -6,6 +6,7 @@
 #include "calibration/judge/color_rendering.h"
 #include "calibration/judge/reference_light.h"
 #include "spectral/chart.h"
+#include "spectral/color_temperature.h"
 
 namespace abbe {
 namespace {
@@ -22,11 +23,11 @@ const Chart& evaluation_samples() {
 using Colors = std::vector<std::array<double, 3>>;
 
 // J', a', b' of the samples under a light.
-Colors seen_under(const Curve& light) {
-  const std::vector<XYZ> weights = tristimulus_weights(light, Observer::cie1964);
+Colors seen_under(const Curve& light, SumRange range) {
+  const std::vector<XYZ> weights = tristimulus_weights(light, Observer::cie1964, range);
   const auto sum = [&](const Curve& reflectance) {
     XYZ xyz{};
-    int nm = SumRange{}.low_nm;
+    int nm = range.low_nm;
     for (const XYZ& weight : weights) {
       const double share = reflectance(nm++);
       for (std::size_t k = 0; k < 3; ++k) xyz[k] += weight[k] * share;
@@ -100,11 +101,11 @@ std::array<HueBin, ColorFidelity::kBins> binned(const Colors& test, const Colors
 
 }  // namespace
 
-std::optional<ColorFidelity> color_fidelity(const Curve& light) {
-  const auto temperature = color_temperature(tristimulus(light, Curve(1), Observer::cie1931));
+std::optional<ColorFidelity> color_fidelity(const Curve& light, SumRange range) {
+  const auto temperature = color_temperature(tristimulus(light, Curve(1), Observer::cie1931, range));
   if (!temperature || temperature->kelvin > kHottestDaylight) return std::nullopt;
-  const Colors test = seen_under(light);
-  const Colors reference = seen_under(fidelity_reference(temperature->kelvin));
+  const Colors test = seen_under(light, range);
+  const Colors reference = seen_under(fidelity_reference(temperature->kelvin, range), range);
   ColorFidelity result;
   double total = 0;
   for (std::size_t i = 0; i < test.size(); ++i) {

@@ -5,6 +5,7 @@
 #include "calibration/judge/appearance.h"
 #include "calibration/judge/reference_light.h"
 #include "spectral/chart.h"
+#include "spectral/color_temperature.h"
 
 namespace abbe {
 namespace {
@@ -41,18 +42,20 @@ std::array<double, 3> uvw(double luminance, const Uv1960& uv, const Uv1960& refe
 
 }  // namespace
 
-std::optional<ColorRendering> color_rendering(const Curve& light) {
-  const auto temperature = color_temperature(tristimulus(light, Curve(1), Observer::cie1931));
+std::optional<ColorRendering> color_rendering(const Curve& light, SumRange range) {
+  const auto summed = [range](const Curve& illuminant, const Curve& reflectance) {
+    return tristimulus(illuminant, reflectance, Observer::cie1931, range);
+  };
+  const auto temperature = color_temperature(summed(light, Curve(1)));
   if (!temperature || temperature->kelvin > kHottestDaylight) return std::nullopt;
   const Curve reference = rendering_reference(temperature->kelvin);
-  const auto white = [](const Curve& of) { return uv_1960(tristimulus(of, Curve(1), Observer::cie1931)); };
-  const Uv1960 test_white = white(light);
-  const Uv1960 reference_white = white(reference);
+  const Uv1960 test_white = uv_1960(summed(light, Curve(1)));
+  const Uv1960 reference_white = uv_1960(summed(reference, Curve(1)));
   ColorRendering result;
   for (std::size_t i = 0; i < result.special.size(); ++i) {
     const Curve& sample = test_colors().patches.at(i).reflectance;
-    const XYZ test = tristimulus(light, sample, Observer::cie1931);
-    const XYZ ideal = tristimulus(reference, sample, Observer::cie1931);
+    const XYZ test = summed(light, sample);
+    const XYZ ideal = summed(reference, sample);
     const Uv1960 uv = adapted(uv_1960(test), VonKries(test_white), VonKries(reference_white));
     result.special[i] = 100 - 4.6 * distance_between(uvw(test[1], uv, reference_white),
                                                      uvw(ideal[1], uv_1960(ideal), reference_white));

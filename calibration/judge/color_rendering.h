@@ -6,7 +6,6 @@
 #include <optional>
 #include <vector>
 
-#include "spectral/color_temperature.h"
 #include "spectral/colorimetry.h"
 #include "spectral/curve.h"
 
@@ -20,9 +19,9 @@ struct ColorRendering {
 
 /// How alike the test-colour samples TCS01-TCS14 look under a light and under a black body (below 5000 K) or
 /// daylight of the same colour temperature: R_i = 100 - 4.6 times the distance in U*V*W*, von Kries'
-/// adaptation in u, v between the two lights [CIE13, sec. 5]; 1 nm sums over 380-780 nm. Nothing for lights
+/// adaptation in u, v between the two lights [CIE13, sec. 5]; 1 nm sums over a range. Nothing for lights
 /// without a colour temperature up to 25 000 K.
-[[nodiscard]] std::optional<ColorRendering> color_rendering(const Curve& light);
+[[nodiscard]] std::optional<ColorRendering> color_rendering(const Curve& light, SumRange range = {});
 
 /// Where samples of one range of hue lie in the plane a', b', in the mean, and how they fare: NaN where the
 /// range holds none under the reference.
@@ -45,12 +44,12 @@ struct ColorFidelity {
   std::array<HueBin, kBins> bins{};  ///< From the hue angle 0 on, 22.5 degrees each.
 };
 
-/// How the 99 colour evaluation samples look under a light beside a black body (below 4000 K), daylight
-/// (above 5000 K) or a mixture of both of the same colour temperature: in CAM02-UCS for the CIE 1964
-/// observer, L_A = 100, Y_b = 20, adapted completely; R_f = 10 ln(1 + exp((100 - 6.73 dE)/10)) of the mean
-/// difference [CIE224, sec. 4]. R_g is 100 times the ratio of the areas of the polygons of the bins' means,
-/// the bins being those of the hue under the reference [TM30, sec. 4], and exists where none of the 16 is
-/// empty. Nothing as for `color_rendering`.
-[[nodiscard]] std::optional<ColorFidelity> color_fidelity(const Curve& light);
+/// How the 99 colour evaluation samples look under a light compared with a reference of the same colour
+/// temperature: a black body (below 4000 K), daylight (above 5000 K) or a mixture of both. The colours are
+/// those of CAM02-UCS for the CIE 1964 observer, L_A = 100, Y_b = 20, complete adaptation; 1 nm sums over a
+/// range. R_f = 10 ln(1 + exp((100 - 6.73 dE)/10)) of the mean difference [CIE224, sec. 4]. R_g is 100 times
+/// the ratio of the areas of the polygons of the bins' means [TM30, sec. 4]. The hue under the reference
+/// decides the bin; without samples in each of the 16 there is no R_g. Nothing as for `color_rendering`.
+[[nodiscard]] std::optional<ColorFidelity> color_fidelity(const Curve& light, SumRange range = {});
 
 }  // namespace abbe

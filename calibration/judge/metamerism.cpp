@@ -2,13 +2,13 @@
 
 #include "calibration/chart/delta_e.h"
 #include "io/error.h"
-#include "spectral/colorimetry.h"
 
 namespace abbe {
 
-Metamerism metamerism(const Curve& first, const Curve& second, const Curve& reference, const Curve& test) {
-  const auto seen = [](const Curve& light, const Curve& reflectance) {
-    return tristimulus(light, reflectance, Observer::cie1931);
+Metamerism metamerism(const Curve& first, const Curve& second, const Curve& reference, const Curve& test,
+                      SumRange range) {
+  const auto seen = [range](const Curve& light, const Curve& reflectance) {
+    return tristimulus(light, reflectance, Observer::cie1931, range);
   };
   const auto lab = [&](const XYZ& xyz, const Curve& light) { return xyz_to_lab(xyz, seen(light, Curve(1))); };
   const XYZ wanted = seen(reference, first);

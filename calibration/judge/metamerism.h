@@ -1,5 +1,6 @@
 #pragma once
 
+#include "spectral/colorimetry.h"
 #include "spectral/curve.h"
 
 namespace abbe {
@@ -13,8 +14,8 @@ struct Metamerism {
 
 /// Special metamerism index for a change of illuminant, for the CIE 1931 observer [CIE15, sec. 9.2]: X, Y and
 /// Z of the second under the test light are multiplied first by what makes the two match under the reference
-/// light. Throws Error{input} for a reflectance that is black there.
+/// light; 1 nm sums over a range. Throws Error{input} for a reflectance that is black there.
 [[nodiscard]] Metamerism metamerism(const Curve& first, const Curve& second, const Curve& reference,
-                                    const Curve& test);
+                                    const Curve& test, SumRange range = {});
 
 }  // namespace abbe

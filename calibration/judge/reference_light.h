@@ -15,13 +15,14 @@ inline constexpr double kHottestDaylight = 25000;
   return kelvin < 5000 ? planck(kelvin) : daylight(kelvin);
 }
 
-/// The same for colour fidelity: a black body up to 4000 K, daylight from 5000 K on, between them a mixture
-/// that goes over from one to the other at equal luminance [CIE224, sec. 4.3].
-[[nodiscard]] inline Curve fidelity_reference(double kelvin) {
+/// The reference light of colour fidelity: a black body up to 4000 K, daylight from 5000 K on. In between it
+/// is a mixture whose fractions of luminance, summed over a range, are linear in the temperature [CIE224,
+/// sec. 4.3].
+[[nodiscard]] inline Curve fidelity_reference(double kelvin, SumRange range) {
   if (kelvin <= 4000) return planck(kelvin);
   if (kelvin >= 5000) return daylight(kelvin);
-  const auto part = [](const Curve& light, double share) {
-    return scaled(light, share / sum_product(light, color_matching(Observer::cie1964).y));
+  const auto part = [range](const Curve& light, double share) {
+    return scaled(light, share / sum_product(light, color_matching(Observer::cie1964).y, range));
   };
   const double share = (kelvin - 4000) / 1000;
   return sum(part(planck(kelvin), 1 - share), part(daylight(kelvin), share));

@@ -163,9 +163,9 @@ std::pair<CorrectionFit, Matrix3> fit_channels(const std::vector<Channel>& chann
     if (error.code != ErrorCode::input) throw;
     throw Error(
         ErrorCode::usage, "display",
-        fmt::format("in its light channels {} do not tell colours apart between 380 and 780 nm, so that no "
+        fmt::format("in its light channels {} do not tell colours apart between {} and {} nm, so that no "
                     "colour picture can be made of them: {}",
-                    fmt::join(names, ", "), error.what()));
+                    fmt::join(names, ", "), SumRange{}.low_nm, SumRange{}.high_nm, error.what()));
   }
 }
 

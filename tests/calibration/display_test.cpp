@@ -309,7 +309,7 @@ TEST(Display, RefusesWhatItCannotShow) {
     for (const char* name : {"a", "b", "c"}) blind.push_back(energy_channel(name, band(from_nm, 800)));
     test::expect_error(
         [&] { static_cast<void>(make_display(blind, light)); }, ErrorCode::usage,
-        "display: in its light channels a, b, c do not tell colours apart between 380 and 780 nm, so that no "
+        "display: in its light channels a, b, c do not tell colours apart between 360 and 830 nm, so that no "
         "colour picture can be made of them: ");
   }
   const DisplayTransform display({"R", "G", "B"}, Matrix3());

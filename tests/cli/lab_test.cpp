@@ -218,7 +218,7 @@ TEST(Lab, TellsOfAnExtinctionThatIsHeldWhereTheIndexIsMeasured) {
   EXPECT_EQ(heard_at({334, 550}).find("is held"), std::string::npos);
 }
 
-// Colours look from 380 to 780 nm, whatever wavelengths are asked for.
+// Colours are sums from 360 to 830 nm, whatever wavelengths are asked for.
 TEST(Lab, TellsOfIndicesThatColoursAloneAskFor) {
   const auto heard = [](const std::string& material) {
     cli::LabOptions options = about(material);
@@ -231,14 +231,14 @@ TEST(Lab, TellsOfIndicesThatColoursAloneAskFor) {
   const std::string held = heard(R"({"dielectric": {"ior": "ZnSe"}})");
   EXPECT_NE(held.find("warning: the index of material "), std::string::npos) << held;
   EXPECT_NE(
-      held.find("is held from the end of its data, [540, 18200] nm; colours are sums from 380 to 780 nm"),
+      held.find("is held from the end of its data, [540, 18200] nm; colours are sums from 360 to 830 nm"),
       std::string::npos)
       << held;
   const auto ruby = scratch().write("ruby.csv",
                                     "# unit: n, k dimensionless\n# outside: clamp\nwavelength_nm,n,k\n"
                                     "300,1.5,0.3\n500,1.5,0.3\n501,1.5,0\n900,1.5,0\n");
   const std::string fault = heard(fmt::format(R"({{"dielectric": {{"ior": "{}"}}}})", ruby.string()));
-  EXPECT_NE(fault.find("warning: \"material\" is not clear: with n = 1.5 and k = 0.3 at 380 nm"),
+  EXPECT_NE(fault.find("warning: \"material\" is not clear: with n = 1.5 and k = 0.3 at 360 nm"),
             std::string::npos)
       << fault;
   for (const char* sound :

@@ -94,7 +94,7 @@ TEST(MergeDisplay, ChannelsThatShowNoColoursAreToldAlike) {
     EXPECT_EQ(run.code, 2);
     EXPECT_NE(
         run.err.find(
-            "abbe: display: in its light channels a, b, c do not tell colours apart between 380 and 780 nm, "
+            "abbe: display: in its light channels a, b, c do not tell colours apart between 360 and 830 nm, "
             "so that no colour picture can be made of them: "),
         std::string::npos)
         << run.err;

@@ -53,6 +53,17 @@ TEST(QueryLight, FiguresThatDoNotExistAreNeitherPrintedNorDrawn) {
   }
 }
 
+TEST(QueryLight, BlackBodiesHaveTheirTemperatures) {
+  const auto kelvin = [](const LightOptions& options) {
+    return json_output(query_light, options)["CCT_K"].get<double>();
+  };
+  EXPECT_NEAR(kelvin(LightOptions{"blackbody:20000"}), 20000, 0.2);
+  EXPECT_NEAR(kelvin(LightOptions{"blackbody:99000"}), 99000, 0.99);
+  LightOptions truncated{"blackbody:99000"};
+  truncated.range = kVisibleRange;
+  EXPECT_NEAR(kelvin(truncated), 96570, 10);
+}
+
 TEST(QueryLight, SeesThroughFiltersAndFromSurfaces) {
   const json bare = json_output(query_light, LightOptions{"A"});
   const json filtered = json_output(query_light, LightOptions{"A", "kodak_wratten_400-700:W78"});

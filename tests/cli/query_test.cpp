@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <tuple>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -313,6 +314,26 @@ TEST(QueryColor, ByTheWeightsOfAstmE308) {
                 },
                 "every 10 or 20 nm at whole steps from 360 nm (got 5 nm)"),
             ErrorCode::input);
+}
+
+TEST(QueryColor, SumsOverTheRangeThatIsChosen) {
+  const auto xy = [](const std::string& arguments) {
+    const Outcome run = abbe("query color --illuminant D65 --json" + arguments);
+    EXPECT_EQ(run.code, 0) << run.err;
+    return run.json()["xy"].get<Chromaticity>();
+  };
+  for (const auto& [arguments, x, y] : {std::tuple{"", 0.312727, 0.329023},
+                                        {" --range 360-830", 0.312727, 0.329023},
+                                        {" --range 380-780", 0.312739, 0.329052}}) {
+    EXPECT_NEAR(xy(arguments)[0], x, 6e-7) << arguments;
+    EXPECT_NEAR(xy(arguments)[1], y, 6e-7) << arguments;
+  }
+  const Outcome other = abbe("query color --illuminant D65 --range 400-700");
+  EXPECT_EQ(other.code, 2);
+  EXPECT_NE(other.err.find("allowed 360-830, 380-780"), std::string::npos) << other.err;
+  const Outcome astm = abbe("query color --illuminant D65 --range 380-780 --method astm-e308");
+  EXPECT_EQ(astm.code, 2);
+  EXPECT_NE(astm.err.find("--range: is for --method 1nm"), std::string::npos) << astm.err;
 }
 
 TEST(QueryArrays, OneWavelengthIsAListOnlyWhereListsWereAskedFor) {

@@ -71,6 +71,12 @@ class Queries(Test):
         sampled = abbe.color((grid, abbe.illuminant("A", grid)), (grid, abbe.curve("reflectance", "Blue Sky", grid)), "1964")
         numpy.testing.assert_allclose(sampled["XYZ"], told["XYZ"], rtol=1e-12)
 
+    def test_colours_are_summed_over_the_range_that_is_chosen(self):
+        numpy.testing.assert_allclose(abbe.color("D65")["xy"], [0.312727, 0.329023], atol=6e-7)
+        numpy.testing.assert_allclose(abbe.color("D65", range="380-780")["xy"], [0.312739, 0.329052], atol=6e-7)
+        with self.assertRaisesRegex(abbe.UsageError, 'range: got "400-700", allowed 360-830, 380-780'):
+            abbe.color("D65", range="400-700")
+
     def test_colour_differences_are_those_of_the_command(self):
         labs = [[50, 2.6772, -79.7751], [50, 0, -82.7485]]
         told = self.query("delta-e", *(",".join(map(str, lab)) for lab in labs))

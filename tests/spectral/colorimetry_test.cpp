@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <string>
+#include <utility>
 #include <vector>
 
 #include "spectral/color_temperature.h"
@@ -30,6 +32,20 @@ TEST(Colorimetry, lab_and_back) {
 
 TEST(Colorimetry, chromaticity_of_black) {
   EXPECT_EQ(chromaticity({0, 0, 0}), (std::array<double, 2>{0, 0}));
+}
+
+// The CIE prints x = 0.31272, y = 0.32903 for D65; truncated sums differ in the fifth decimal of both.
+TEST(Colorimetry, sums_cover_the_whole_observer_unless_a_range_is_given) {
+  const Curve d65 = illuminant("D65");
+  const auto expect_xy = [](const Chromaticity& xy, double x, double y) {
+    EXPECT_NEAR(xy[0], x, 6e-7);
+    EXPECT_NEAR(xy[1], y, 6e-7);
+  };
+  expect_xy(chromaticity(d65), 0.312727, 0.329023);
+  expect_xy(chromaticity(d65, Observer::cie1964), 0.313824, 0.330999);
+  expect_xy(chromaticity(tristimulus(d65, Curve(1), Observer::cie1931)), 0.312727, 0.329023);
+  expect_xy(chromaticity(tristimulus(d65, Curve(1), Observer::cie1931, kVisibleRange)), 0.312739, 0.329052);
+  EXPECT_EQ(tristimulus_weights(d65, Observer::cie1931).size(), 471U);
 }
 
 // Lines between whole nanometres, and one on one, count by their power, as do those of a lamp of lasers.
@@ -88,7 +104,7 @@ TEST(Colorimetry, nanometres_at_the_ends_of_curves_count_by_their_means_too) {
   const SumRange whole{kMinWavelengthNm, kMaxWavelengthNm};
   const Curve one({{300, 1}, {300.25, 1}, {480.5, 1}, {1099.7, 1}, {1100, 1}});
   EXPECT_NEAR(sum_product(Curve(1), Curve(1), one, whole), 801, 801e-12);
-  EXPECT_NEAR(sum_product(Curve(1), Curve(1), one), 401, 401e-12);
+  EXPECT_NEAR(sum_product(Curve(1), Curve(1), one), 471, 471e-12);
   const Curve rise({{300, 0}, {480.5, 180.5}, {1100, 800}});
   EXPECT_NEAR(told(rise, 300), 1.0 / 3, 1e-12);
   EXPECT_NEAR(told(rise, 301), 1, 1e-12);
@@ -113,7 +129,7 @@ TEST(Colorimetry, tables_of_whole_nanometres_are_summed) {
   const ColorMatching& seen = color_matching(Observer::cie1931);
   double lit = 0;
   double lined = 0;
-  for (int nm = 380; nm <= 780; ++nm) {
+  for (int nm = 360; nm <= 830; ++nm) {
     lit += light(nm) * seen.y(nm);
     lined += light(nm) * seen.y(nm) * line(nm);
   }
@@ -205,6 +221,24 @@ TEST(Photometry, integral_is_exact) {
   EXPECT_NEAR(photometric(band(500, 500.5)), 683.002 * 0.25 * (v(500) + v(500.5)), 1e-9);
   // A constant watt per nanometre: the trapezoid of V over its whole table.
   EXPECT_NEAR(photometric(Curve(1)), 683.002 * (106.856917 - 0.5 * (v(360) + v(830))), 1e-3);
+}
+
+// Sums include both ends of their range, integrals half of each: the trapezoidal rule of 1 nm gives 156.20
+// lm/W for A, a sum 155.78.
+TEST(Photometry, efficacies_are_those_of_the_trapezoidal_rule) {
+  const Curve& v = color_matching(Observer::cie1931).y;
+  for (const auto& [name, known] : {std::pair{"A", 156.20}, {"FL11", 336.86}, {"E", 182.46}}) {
+    const Curve light = illuminant(name);
+    const auto trapezoids = [](auto value) {
+      double total = -0.5 * (value(380) + value(780));
+      for (int nm = 380; nm <= 780; ++nm) total += value(nm);
+      return total;
+    };
+    const double expected = kLuminousEfficacy * trapezoids([&](int nm) { return light(nm) * v(nm); }) /
+                            trapezoids([&](int nm) { return light(nm); });
+    EXPECT_NEAR(luminous_efficacy(light), expected, 2e-6 * expected) << name;
+    EXPECT_NEAR(luminous_efficacy(light), known, 0.005) << name;
+  }
 }
 
 TEST(Photometry, fluorescent_lamps_give_more_light_per_watt) {

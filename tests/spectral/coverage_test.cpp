@@ -4,6 +4,7 @@
 
 #include <array>
 
+#include "spectral/colorimetry.h"
 #include "spectral/sources.h"
 
 namespace abbe {
@@ -27,6 +28,17 @@ TEST(Coverage, TheShareBeyondIsOfWhatIsCountedOfALight) {
   EXPECT_EQ(share_beyond(weight, light, 600, 1100).share, 1);
   EXPECT_EQ(share_beyond(weight, light, 400, 500).share, 0);
   EXPECT_EQ(share_beyond(weight, band(600, 700), 300, 450).share, 0) << "nothing is counted";
+}
+
+// A table that says nothing beyond 380-780 nm leaves next to nothing of a colour unknown.
+TEST(Coverage, ObserversSeeLittleBeyondTheRangeThatTablesMustCover) {
+  constexpr NeededRange kNeeded;
+  for (const Observer observer : {Observer::cie1931, Observer::cie1964}) {
+    const ColorMatching& matching = color_matching(observer);
+    for (const Curve* curve : {&matching.x, &matching.y, &matching.z})
+      for (const Curve& light : {Curve(1.0), planck(2000), planck(20000)})
+        EXPECT_LT(share_beyond(*curve, light, kNeeded.low_nm, kNeeded.high_nm).share, kNegligibleShare);
+  }
 }
 
 TEST(Coverage, TheMainRangeLeavesAThousandthAtEitherEnd) {

@@ -42,7 +42,8 @@ Fitted fit_row(const ReferenceTable& table, std::size_t row) {
   const std::string& camera = table.text(row, "camera");
   const std::string& spectra = table.text(row, "spectra");
   const std::string& light = table.text(row, "illuminant");
-  PatchColors colors = integrate(shipped_chart(spectra), shipped_camera(camera), shipped_illuminant(light));
+  PatchColors colors =
+      integrate(shipped_chart(spectra), shipped_camera(camera), shipped_illuminant(light), kVisibleRange);
   const Matrix3 matrix = least_squares_matrix(colors);
   return {fmt::format("{} {} {}", camera, light, spectra), std::move(colors), matrix};
 }

@@ -16,8 +16,9 @@ struct ChartColors {
   std::vector<XYZ> xyz;
   std::vector<Lab> lab;  ///< Relative to the illuminant's white.
 };
-/// Colours of a chart from a shipped table of spectra, by 1 nm sums.
-[[nodiscard]] ChartColors chart_colors(const std::string& spectra, const std::string& illuminant);
+/// Colours of a chart from a shipped table of spectra, by 1 nm sums over a range.
+[[nodiscard]] ChartColors chart_colors(const std::string& spectra, const std::string& illuminant,
+                                       SumRange range = {});
 
 /// CIEDE2000 patch by patch.
 struct ChartDifference {

@@ -17,7 +17,6 @@
 namespace abbe {
 namespace {
 
-constexpr SumRange kWholeObserver{360, 830};
 // The nominal temperatures of daylight are in the scale of c2 = 1.4380e-2 m K.
 constexpr double kDaylightScale = 1.4388 / 1.4380;
 
@@ -26,8 +25,8 @@ std::vector<Figure> observer_sums() {
                       const std::array<double, 3>& expected) {
     const std::array<const Curve*, 3> curves{&cmf.x, &cmf.y, &cmf.z};
     for (std::size_t i = 0; i < 3; ++i)
-      figures.push_back(exact_figure(fmt::format("{} {}", name, "xyz"[i]), expected[i],
-                                     sum_product(*curves[i], Curve(1), kWholeObserver)));
+      figures.push_back(
+          exact_figure(fmt::format("{} {}", name, "xyz"[i]), expected[i], sum_product(*curves[i], Curve(1))));
   };
   std::vector<Figure> figures;
   add(figures, "1931", color_matching(Observer::cie1931), {106.865469, 106.856917, 106.892251});
@@ -67,10 +66,13 @@ Curve by_definition(const std::string& name) {
 }
 
 std::vector<Figure> summed_whites() {
-  return white_points("1nm", {}, shipped_illuminant);
+  return white_points("360_830", {}, shipped_illuminant);
+}
+std::vector<Figure> truncated_whites() {
+  return white_points("1nm", kVisibleRange, shipped_illuminant);
 }
 std::vector<Figure> defined_whites() {
-  return white_points("full", kWholeObserver, by_definition);
+  return white_points("full", {}, by_definition);
 }
 std::vector<Figure> printed_whites() {
   return white_points("pub", {}, shipped_illuminant);
@@ -93,7 +95,7 @@ std::vector<Figure> astm_printed_weights() {
     const int step = static_cast<int>(table.number(row, "step_nm"));
     const int nm = static_cast<int>(table.number(row, "wavelength_nm"));
     const std::string name = fmt::format("{} {}° {} nm", light, degrees, step);
-    if (name != of) weights = astm_weights(astm_illuminant(light), observer(degrees), step, kWholeObserver);
+    if (name != of) weights = astm_weights(astm_illuminant(light), observer(degrees), step, {});
     of = name;
     const XYZ& weight = weights.weights.at(static_cast<std::size_t>((nm - weights.low_nm) / step));
     for (std::size_t i = 0; i < 3; ++i) {
@@ -111,7 +113,7 @@ std::vector<Figure> planckian_locus() {
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const double kelvin = table.number(row, "T_K");
     add_chromaticity(figures, fmt::format("{} K", kelvin), {table.number(row, "x"), table.number(row, "y")},
-                     tristimulus(planck(kelvin), Curve(1), Observer::cie1931, kWholeObserver));
+                     tristimulus(planck(kelvin), Curve(1), Observer::cie1931));
   }
   return figures;
 }
@@ -233,10 +235,12 @@ std::vector<Case> colour_cases() {
                {0.51e-6}, observer_sums),
       computed("whites", "white points of 50 illuminants for both observers, 1 nm sums", "[CIE15, sec. 7.1]",
                "", millionth, summed_whites),
+      computed("whites-truncated", "the same, summed from 380 to 780 nm", "[CIE15, sec. 7.1]", "", millionth,
+               truncated_whites),
       computed("astm-weights", "tristimulus weights for 10 and 20 nm as printed", "[ASTM308], [ASTM2022]", "",
                {5.01e-4}, astm_printed_weights),
-      computed("whites-defined", "white points over the whole observer, A and D by definition",
-               "[CIE15, sec. 3]", "", millionth, defined_whites),
+      computed("whites-defined", "the same, with A and D by definition", "[CIE15, sec. 3]", "", millionth,
+               defined_whites),
       computed("whites-printed", "white points as printed, from rounded tables", "[CIE15, tables]", "",
                {3.5e-4}, printed_whites),
       computed("locus", "chromaticities of black bodies", "Planck's law [Planck1901] and [CIE15]", "",
@@ -245,8 +249,8 @@ std::vector<Case> colour_cases() {
                {1e-7, Margin::Kind::relative}, planckian_radiance),
       computed("daylight", "CIE daylight from its components", "[CIE15, eq. 3.3]", "", {5.1e-6},
                daylight_series),
-      computed("efficacy", "luminous efficacy of illuminants", "683.002 lm/W at 540 THz [CIE15]", "lm/W",
-               {1e-4}, luminous_efficacies),
+      computed("efficacy", "luminous efficacy of illuminants, 380-780 nm by trapezoids",
+               "683.002 lm/W at 540 THz [CIE15]", "lm/W", {1e-4}, luminous_efficacies),
       computed("dE00", "the 34 published pairs of CIEDE2000", "[Sharma2005, table 1]", "ΔE", {5.1e-5},
                pairs_2000),
       computed("dE76", "the same pairs in L*a*b*", "[Sharma2005, table 1], [CIE15, sec. 8.2.1]", "ΔE",

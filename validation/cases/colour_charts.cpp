@@ -24,14 +24,14 @@ constexpr std::array<IntegratedTable, 2> kTables{
     {{"colorchecker_babelcolor_2deg", "colorchecker24_babelcolor_average"},
      {"colorchecker_ohta_iso17321_2deg", "colorchecker24_ohta1997"}}};
 
-// X, Y, Z, L*, a*, b* of every patch under every illuminant of a table of known answers.
-std::vector<Figure> patches_of(const IntegratedTable& chart) {
+// X, Y, Z, L*, a*, b* of every patch of a chart under every illuminant of a table of known answers.
+std::vector<Figure> patches_of(const IntegratedTable& chart, SumRange range) {
   const ReferenceTable table(chart.reference);
   std::map<std::string, ChartColors> integrated;
   std::vector<Figure> figures;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::string& light = table.text(row, "illuminant");
-    if (!integrated.contains(light)) integrated[light] = chart_colors(chart.spectra, light);
+    if (!integrated.contains(light)) integrated[light] = chart_colors(chart.spectra, light, range);
     const ChartColors& colors = integrated[light];
     const auto patch = static_cast<std::size_t>(table.number(row, "index")) - 1;
     const std::string what = light + " " + table.text(row, "patch") + " ";
@@ -45,10 +45,13 @@ std::vector<Figure> patches_of(const IntegratedTable& chart) {
   return figures;
 }
 std::vector<Figure> babelcolor_patches() {
-  return patches_of(kTables[0]);
+  return patches_of(kTables[0], kVisibleRange);
 }
 std::vector<Figure> ohta_patches() {
-  return patches_of(kTables[1]);
+  return patches_of(kTables[1], kVisibleRange);
+}
+std::vector<Figure> whole_range_patches() {
+  return patches_of({"colorchecker_babelcolor_360_830", kTables[0].spectra}, {});
 }
 
 // L*a*b* of every patch by the weights of ASTM E308, which another program computed from the same tables.
@@ -85,8 +88,9 @@ std::vector<Figure> integrated_differences() {
       known[table.text(row, "illuminant")].push_back(
           {table.number(row, "L"), table.number(row, "a"), table.number(row, "b")});
     for (const auto& [light, labs] : known)
-      figures.push_back(exact_figure(fmt::format("{} {}", chart.spectra, light), 0,
-                                     difference_of(labs, chart_colors(chart.spectra, light).lab).mean));
+      figures.push_back(
+          exact_figure(fmt::format("{} {}", chart.spectra, light), 0,
+                       difference_of(labs, chart_colors(chart.spectra, light, kVisibleRange).lab).mean));
   }
   return figures;
 }
@@ -111,13 +115,13 @@ std::vector<Figure> edition_spread() {
 
 }  // namespace
 
-ChartColors chart_colors(const std::string& spectra, const std::string& illuminant) {
+ChartColors chart_colors(const std::string& spectra, const std::string& illuminant, SumRange range) {
   const Curve light = shipped_illuminant(illuminant);
-  const XYZ white = tristimulus(light, Curve(1), Observer::cie1931);
+  const XYZ white = tristimulus(light, Curve(1), Observer::cie1931, range);
   ChartColors colors;
   for (const Patch& patch : shipped_chart(spectra).patches) {
     colors.names.push_back(patch.name);
-    colors.xyz.push_back(tristimulus(light, patch.reflectance, Observer::cie1931));
+    colors.xyz.push_back(tristimulus(light, patch.reflectance, Observer::cie1931, range));
     colors.lab.push_back(xyz_to_lab(colors.xyz.back(), white));
   }
   return colors;
@@ -162,9 +166,11 @@ std::vector<Case> chart_cases() {
                          figures);
   };
   return {
-      computed("chart-babelcolor", "ColorChecker, mean of 30 charts: XYZ and L*a*b* of each patch",
+      computed("chart-patches", "ColorChecker, mean of 30 charts: XYZ and L*a*b* of each patch",
+               "spectra of [Pascale2012], 1 nm sums [CIE15, sec. 7.1]", {1e-5}, whole_range_patches),
+      computed("chart-babelcolor", "the same, summed from 380 to 780 nm",
                "spectra of [Pascale2012], 1 nm sums [CIE15, sec. 7.1]", {1e-5}, babelcolor_patches),
-      computed("chart-ohta", "ColorChecker of Ohta: XYZ and L*a*b* of each patch",
+      computed("chart-ohta", "ColorChecker of Ohta, summed from 380 to 780 nm: XYZ and L*a*b* of each patch",
                "spectra of [Ohta1997], 1 nm sums [CIE15, sec. 7.1]", {1e-5}, ohta_patches),
       computed("chart-astm", "ColorChecker by the weights of ASTM E308: L*a*b* of each patch",
                "spectra of [Pascale2012], [ASTM308]", {1e-5}, astm_patches),

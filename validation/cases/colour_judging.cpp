@@ -6,6 +6,7 @@
 #include "io/reference_table.h"
 #include "spectral/color_temperature.h"
 #include "spectral/rgb.h"
+#include "spectral/sources.h"
 #include "validation/cases/figures.h"
 #include "validation/cases/suites.h"
 #include "validation/cases/tables.h"
@@ -13,8 +14,8 @@
 namespace abbe {
 namespace {
 
-ColorTemperature temperature_of(const Curve& light) {
-  return color_temperature(tristimulus(light, Curve(1), Observer::cie1931)).value();
+ColorTemperature temperature_of(const Curve& light, SumRange range = {}) {
+  return color_temperature(tristimulus(light, Curve(1), Observer::cie1931, range)).value();
 }
 
 // One figure of each illuminant of a table, where its column tells one.
@@ -33,13 +34,35 @@ constexpr const char* kComputed = "illuminant_cct_ler";
 constexpr const char* kPrinted = "illuminant_rendering";
 
 std::vector<Figure> temperatures() {
-  return of_illuminants(kComputed, "CCT_K", [](const Curve& c) { return temperature_of(c).kelvin; });
+  return of_illuminants(kComputed, "CCT_K_360_830", [](const Curve& c) { return temperature_of(c).kelvin; });
+}
+std::vector<Figure> truncated_temperatures() {
+  return of_illuminants(kComputed, "CCT_K",
+                        [](const Curve& c) { return temperature_of(c, kVisibleRange).kelvin; });
 }
 std::vector<Figure> locus_distances() {
-  return of_illuminants(kComputed, "Duv", [](const Curve& c) { return temperature_of(c).duv; });
+  return of_illuminants(kComputed, "Duv_360_830", [](const Curve& c) { return temperature_of(c).duv; });
+}
+std::vector<Figure> truncated_locus_distances() {
+  return of_illuminants(kComputed, "Duv",
+                        [](const Curve& c) { return temperature_of(c, kVisibleRange).duv; });
 }
 std::vector<Figure> scotopic_ratios() {
-  return of_illuminants(kComputed, "S_over_P", scotopic_photopic_ratio);
+  return of_illuminants(kComputed, "S_over_P_360_830",
+                        [](const Curve& c) { return scotopic_photopic_ratio(c); });
+}
+std::vector<Figure> truncated_scotopic_ratios() {
+  return of_illuminants(kComputed, "S_over_P",
+                        [](const Curve& c) { return scotopic_photopic_ratio(c, kVisibleRange); });
+}
+
+// Black bodies have their own temperatures.
+std::vector<Figure> black_body_temperatures() {
+  std::vector<Figure> figures;
+  for (const double kelvin : {1500.0, 2856.0, 6500.0, 20000.0, 50000.0, 99000.0})
+    figures.push_back(
+        exact_figure(fmt::format("{} K", kelvin), kelvin, temperature_of(planck(kelvin)).kelvin));
+  return figures;
 }
 std::vector<Figure> printed_temperatures() {
   return of_illuminants(kPrinted, "CCT_K", [](const Curve& c) { return temperature_of(c).kelvin; });
@@ -49,13 +72,15 @@ double general_index(const Curve& light) {
   return color_rendering(light).value().general;
 }
 std::vector<Figure> rendering_indices() {
-  return of_illuminants(kComputed, "Ra", general_index);
+  return of_illuminants(kComputed, "Ra",
+                        [](const Curve& c) { return color_rendering(c, kVisibleRange).value().general; });
 }
 std::vector<Figure> printed_indices() {
   return of_illuminants(kPrinted, "Ra", general_index);
 }
 std::vector<Figure> fidelities() {
-  return of_illuminants(kComputed, "Rf", [](const Curve& c) { return color_fidelity(c).value().fidelity; });
+  return of_illuminants(kComputed, "Rf",
+                        [](const Curve& c) { return color_fidelity(c, kVisibleRange).value().fidelity; });
 }
 
 std::vector<Figure> special_indices() {
@@ -163,11 +188,19 @@ std::vector<Case> judging_cases() {
   return {
       computed("cct", "correlated colour temperature of illuminants", "nearest black body [Ohno2014]", "K",
                {0.0051}, temperatures),
-      computed("duv", "their distance from the Planckian locus", "nearest black body [Ohno2014]", "",
+      computed("cct-truncated", "the same of colours summed from 380 to 780 nm",
+               "nearest black body [Ohno2014]", "K", {0.0051}, truncated_temperatures),
+      computed("cct-black-body", "colour temperature of black bodies", "their own [Planck1901]", "K",
+               {1e-5, Margin::Kind::relative}, black_body_temperatures),
+      computed("duv", "distance of illuminants from the Planckian locus", "nearest black body [Ohno2014]", "",
                {5.1e-7}, locus_distances),
+      computed("duv-truncated", "the same of colours summed from 380 to 780 nm",
+               "nearest black body [Ohno2014]", "", {5.1e-7}, truncated_locus_distances),
       computed("cct-printed", "colour temperatures as printed, to 10 K and from 5 nm sums",
                "[CIE15, tables 10 and 12]", "K", {1.6e-3, Margin::Kind::relative}, printed_temperatures),
       computed("scotopic", "ratio of scotopic to photopic flux", "[CIE18]", "", {6e-6}, scotopic_ratios),
+      computed("scotopic-truncated", "the same, summed from 380 to 780 nm", "[CIE18]", "", {6e-6},
+               truncated_scotopic_ratios),
       computed("cri", "general colour rendering index, there with spectra read by Sprague's rule", "[CIE13]",
                "", {0.1}, rendering_indices),
       computed("cri-special", "R1 to R14 of FL1, there with spectra read by Sprague's rule", "[CIE13]", "",

@@ -189,11 +189,14 @@ std::vector<Figure> metal_colours() {
     const std::string& light = table.text(row, "illuminant");
     const RefractiveIndex index = shipped_index(name);
     std::vector<Knot> knots;
-    for (int nm = 380; nm <= 780; ++nm)
+    for (int nm = kVisibleRange.low_nm; nm <= kVisibleRange.high_nm; ++nm)
       knots.push_back({static_cast<double>(nm), fresnel_conductor(1.0, index.n(nm), index.k(nm)).R()});
     const Curve illuminant = shipped_illuminant(light);
-    const XYZ xyz = tristimulus(illuminant, Curve(std::move(knots)), Observer::cie1931);
-    const Lab lab = xyz_to_lab(xyz, tristimulus(illuminant, Curve(1.0), Observer::cie1931));
+    const auto summed = [&illuminant](const Curve& reflectance) {
+      return tristimulus(illuminant, reflectance, Observer::cie1931, kVisibleRange);
+    };
+    const XYZ xyz = summed(Curve(std::move(knots)));
+    const Lab lab = xyz_to_lab(xyz, summed(Curve(1.0)));
     for (std::size_t i = 0; i < 3; ++i) {
       const std::string letters = "XYZLab";
       const auto add = [&](char letter, double value) {
