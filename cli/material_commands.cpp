@@ -157,6 +157,7 @@ void add_light_queries(CLI::App& query, Command& command) {
              "X0,Y0,X1,Y1");
   light.app->add_option("--plot", light->plot, "Write the colour vector graphic of TM-30")
       ->type_name("FILE.svg");
+  light.app->add_flag("--samples", light->samples, "Print the colour fidelity of each of the 99 samples too");
   add_sum_range(*light.app, light->range);
   add_max_memory(*light.app, light.options);
   add_json(*light.app, light->json);

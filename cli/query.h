@@ -93,6 +93,7 @@ struct LightOptions {
   std::string reflectance = {};
   std::optional<Crop> crop = {};    ///< Of an image: these pixels, all it has without it.
   std::filesystem::path plot = {};  ///< SVG of the colour vector graphic; empty: none.
+  bool samples = false;             ///< Print the fidelity of each of the 99 samples too.
   SumRange range = {};
   std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;

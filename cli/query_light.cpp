@@ -113,7 +113,7 @@ Curve asked_light(const LightOptions& options) {
   return product(asked.light, others);
 }
 
-void add_fidelity(Json& answer, const ColorFidelity& fidelity) {
+void add_fidelity(Json& answer, const ColorFidelity& fidelity, bool with_samples) {
   answer["Rf"] = fidelity.fidelity;
   answer["Rg"] = fidelity.gamut;
   for (const HueBin& bin : fidelity.bins) {
@@ -121,6 +121,8 @@ void add_fidelity(Json& answer, const ColorFidelity& fidelity) {
     answer["Rcs_h"].push_back(bin.chroma_shift);
     answer["Rhs_h"].push_back(bin.hue_shift);
   }
+  for (std::size_t i = 0; with_samples && i < fidelity.samples.size(); ++i)
+    answer["Rs"][fmt::format("CES{:02}", i + 1)] = fidelity.samples[i];
 }
 
 }  // namespace
@@ -146,9 +148,10 @@ int query_light(const LightOptions& options) {
   answer["Ra"] = rendering ? Json(rendering->general) : Json();
   if (rendering) answer["R"] = rendering->special;
   if (fidelity)
-    add_fidelity(answer, *fidelity);
+    add_fidelity(answer, *fidelity, options.samples);
   else
     for (const char* key : {"Rf", "Rg"}) answer[key] = Json();
+  if (options.samples && !fidelity) answer["Rs"] = Json();
   if (!options.plot.empty()) {
     if (!fidelity)
       throw Error(ErrorCode::input, options.name,

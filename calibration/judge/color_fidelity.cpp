@@ -16,7 +16,7 @@ constexpr double kAdaptingLuminance = 100;
 constexpr double kBackground = 20;
 
 const Chart& evaluation_samples() {
-  static const Chart chart = shipped_chart("cie224_ces01-99_5nm");
+  static const Chart chart = shipped_chart("cie224_ces01-99_1nm");
   return chart;
 }
 

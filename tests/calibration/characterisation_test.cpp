@@ -68,6 +68,7 @@ TEST(Characterisation, EveryTableOfReflectancesTrains) {
   for (const auto& [name, patches] : {std::pair{"colorchecker24_ohta1997", 24},
                                       {"colorchecker24_iso17321-1", 24},
                                       {"cie224_ces01-99_5nm", 99},
+                                      {"cie224_ces01-99_1nm", 99},
                                       {"rawtoaces_190_patches", 190},
                                       {"pmc_chart_luo2024", 30},
                                       {"cri_tcs01-14", 14}}) {

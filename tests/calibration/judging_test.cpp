@@ -66,6 +66,14 @@ TEST(ColorRendering, OfHuesWithoutSamplesAndTheirGamutThereIsNone) {
   EXPECT_EQ(empty, (std::vector<std::size_t>{3, 5, 12}));
 }
 
+// One sample lies so near the end of the hue bin that samples in steps of 5 nm put it into another, which
+// gives 78.3.
+TEST(ColorRendering, SamplesAreThoseOfEveryNanometre) {
+  const auto fidelity = color_fidelity(illuminant("FL3.9"));
+  EXPECT_NEAR(fidelity->bins[11].fidelity, 71.45, 0.05);
+  EXPECT_NEAR(fidelity->fidelity, 77.50, 0.05);
+}
+
 TEST(ColorRendering, RangesDifferLittle) {
   const Curve light = illuminant("D50");
   EXPECT_NEAR(color_rendering(light)->general, color_rendering(light, kVisibleRange)->general, 0.01);

@@ -64,6 +64,20 @@ TEST(QueryLight, BlackBodiesHaveTheirTemperatures) {
   EXPECT_NEAR(kelvin(truncated), 96570, 10);
 }
 
+TEST(QueryLight, PrintsTheFidelityOfEachSampleOnDemand) {
+  LightOptions options{"FL2"};
+  EXPECT_FALSE(json_output(query_light, options).contains("Rs"));
+  options.samples = true;
+  const json found = json_output(query_light, options);
+  EXPECT_EQ(found["Rs"].size(), 99U);
+  double sum = 0;
+  for (const double sample : found["Rs"]) sum += sample;
+  EXPECT_NEAR(sum / 99, found["Rf"].get<double>(), 1.5) << "the scale is not linear near 0";
+  EXPECT_NEAR(found["Rs"]["CES05"].get<double>(), 36, 0.65) << "of the calculator of TM-30";
+  options.name = "blackbody:99000";
+  EXPECT_TRUE(json_output(query_light, options)["Rs"].is_null()) << "without a reference";
+}
+
 TEST(QueryLight, SeesThroughFiltersAndFromSurfaces) {
   const json bare = json_output(query_light, LightOptions{"A"});
   const json filtered = json_output(query_light, LightOptions{"A", "kodak_wratten_400-700:W78"});

@@ -1,3 +1,5 @@
+#include <limits>
+
 #include <fmt/format.h>
 
 #include "calibration/judge/appearance.h"
@@ -5,6 +7,7 @@
 #include "calibration/judge/itp.h"
 #include "io/reference_table.h"
 #include "spectral/color_temperature.h"
+#include "spectral/interpolation.h"
 #include "spectral/rgb.h"
 #include "spectral/sources.h"
 #include "validation/cases/figures.h"
@@ -81,6 +84,26 @@ std::vector<Figure> printed_indices() {
 std::vector<Figure> fidelities() {
   return of_illuminants(kComputed, "Rf",
                         [](const Curve& c) { return color_fidelity(c, kVisibleRange).value().fidelity; });
+}
+
+// The worked example of CIE 224 and FL1 are tabulated every 5 nm. The calculator sums every 5 nm; Sprague's
+// rule agrees with it. One sample under FL3.9 is so near the end of the twelfth hue bin that its bin depends
+// on the steps of the table of samples.
+std::vector<Figure> fidelity_example() {
+  Diagnostics diagnostics;
+  const ColorFidelity example = color_fidelity(shipped_curve("reference", "cie224_example_lamp")).value();
+  const ReferenceTable table("cie224_example_Rs");
+  std::vector<Figure> figures{exact_figure("Rf", 81.6, example.fidelity)};
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    figures.push_back(exact_figure(table.text(i, "sample"), table.number(i, "Rs"), example.samples.at(i)));
+  const Samples fl1 = shipped(load_samples("illuminant", "FL1", {}, diagnostics), diagnostics).samples;
+  const Samples fine =
+      every_nanometre(fl1, Interpolation::sprague, 0, std::numeric_limits<double>::infinity());
+  const Curve read_smoothly = table_curve(fine.wavelengths_nm, fine.values, Outside::zero);
+  figures.push_back(exact_figure("FL1 Rf", 80.6, color_fidelity(read_smoothly).value().fidelity));
+  figures.push_back(exact_figure("FL3.9 Rf,h12", 71.5,
+                                 color_fidelity(shipped_illuminant("FL3.9")).value().bins[11].fidelity));
+  return figures;
 }
 
 std::vector<Figure> special_indices() {
@@ -208,6 +231,8 @@ std::vector<Case> judging_cases() {
       computed("cri-printed", "general colour rendering index as printed, whole and from 5 nm sums",
                "[CIE15, table T.8]", "", {0.56}, printed_indices),
       computed("fidelity", "colour fidelity, there from 5 nm sums", "[CIE224]", "", {0.17}, fidelities),
+      computed("fidelity-example", "the worked example of CIE 224, and two lamps, as printed to 0.1",
+               "[CIE224]", "", {0.07}, fidelity_example),
       computed("tm30", "FL2 by the calculator of TM-30, whole numbers from 5 nm sums", "[TM30]", "", {0.65},
                printed_fidelity),
       computed("tm30-hue", "hue shifts of FL2 by that calculator", "[TM30]", "rad", {6e-3},
