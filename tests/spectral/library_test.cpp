@@ -250,5 +250,16 @@ TEST(Library, refuses_what_a_rule_of_interpolation_cannot_take) {
                    ".csv:3:1: error: malformed range (got \"" + std::string(range));
 }
 
+// Both tables of CIE 224 have columns of these names; alone they mean the finer one.
+TEST(Library, samples_of_cie_224_have_their_names_alone) {
+  Diagnostics diagnostics;
+  const auto alone = load_curve("reflectance", "CES42", {}, diagnostics);
+  const auto fine = load_curve("reflectance", "cie224_ces01-99_1nm:CES42", {}, diagnostics);
+  const auto coarse = load_curve("reflectance", "cie224_ces01-99_5nm:CES42", {}, diagnostics);
+  ASSERT_TRUE(alone && fine && coarse) << diagnostics.text();
+  EXPECT_EQ(alone->curve(482), fine->curve(482));
+  EXPECT_NE(alone->curve(482), coarse->curve(482));
+}
+
 }  // namespace
 }  // namespace abbe
