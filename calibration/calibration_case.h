@@ -37,9 +37,10 @@ struct CalibrationCase {
 };
 
 /// The channels of a camera of `data/camera` or of a file, of ideal filters "box:a-b,c-d,e-f" [nm] from blue
-/// to red, or of an "observer:1931" or "observer:1964". R, G and B come in this order, whatever that of the
-/// file: so tables and pictures have them. Reports a name that is none of these; throws Error{usage} for
-/// bands that cannot be, and for a response of what has its own, as filters and observers do.
+/// to red, or of an "observer:1931" or "observer:1964". R, G and B, or red, green and blue, come in this
+/// order, whatever that of the file: so tables and pictures have them. Reports a name that is none of these;
+/// throws Error{usage} for bands that cannot be, and for a response of what has its own, as filters and
+/// observers do.
 [[nodiscard]] std::optional<std::vector<Channel>> camera_channels(const std::string& camera,
                                                                   std::optional<ResponseKind> response,
                                                                   Diagnostics& diagnostics);

@@ -156,6 +156,8 @@ void read_pattern(fitsfile* fits, const std::string& path, RawPicture& raw) {
     raw.mosaic.push_back(static_cast<std::uint8_t>(kLetters.find(pattern[i ^ right ^ (2 * down)])));
 }
 
+// The names that `PLANES` lists, as files of ours do. Without them, three planes are red, green and blue, as
+// programs for astronomers write colour pictures.
 std::vector<std::string> plane_names(const std::string& told, std::size_t count) {
   std::vector<std::string> names(1);
   for (const char c : told)
@@ -164,6 +166,7 @@ std::vector<std::string> plane_names(const std::string& told, std::size_t count)
     else
       names.back() += c;
   if (names.size() == count && !names.front().empty()) return names;
+  if (count == 3) return {"R", "G", "B"};
   names.clear();
   for (std::size_t k = 0; k < count; ++k) names.push_back(count == 1 ? "raw" : std::to_string(k));
   return names;

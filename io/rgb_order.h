@@ -2,20 +2,34 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 
 namespace abbe {
 
-/// Where R, G and B stand among these names, in that order, which pictures and tables have; nothing unless
-/// the names are these three.
+/// 0, 1 or 2 for a name of red, green or blue: "R" or "red", in capitals or small letters; nothing for any
+/// other name.
+[[nodiscard]] inline std::optional<std::size_t> rgb_index(std::string_view name) {
+  constexpr std::array<std::string_view, 3> kNames{"red", "green", "blue"};
+  std::string lower(name);
+  for (char& c : lower) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  for (std::size_t k = 0; k < kNames.size(); ++k)
+    if (lower == kNames[k] || lower == kNames[k].substr(0, 1)) return k;
+  return std::nullopt;
+}
+
+/// Positions of red, green and blue among these names, in that order, which pictures and tables have; nothing
+/// unless the names are one of each (`rgb_index`).
 [[nodiscard]] inline std::optional<std::array<std::size_t, 3>> rgb_order(std::span<const std::string> names) {
-  constexpr std::array kRgb{"R", "G", "B"};
-  if (!std::is_permutation(names.begin(), names.end(), kRgb.begin(), kRgb.end())) return std::nullopt;
-  std::array<std::size_t, 3> order{};
-  for (std::size_t k = 0; k < 3; ++k)
-    order[k] = static_cast<std::size_t>(std::find(names.begin(), names.end(), kRgb[k]) - names.begin());
+  constexpr std::size_t kNone = 3;
+  std::array<std::size_t, 3> order{kNone, kNone, kNone};
+  if (names.size() != order.size()) return std::nullopt;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (const auto k = rgb_index(names[i])) order[*k] = i;
+  if (std::find(order.begin(), order.end(), kNone) != order.end()) return std::nullopt;
   return order;
 }
 

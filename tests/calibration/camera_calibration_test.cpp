@@ -1,7 +1,15 @@
 #include "calibration/camera_calibration.h"
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+
+#include "calibration/calibration_case.h"
+#include "io/text.h"
+#include "spectral/sources.h"
 #include "tests/calibration/calibration_fixture.h"
 
 namespace abbe {
@@ -30,6 +38,29 @@ TEST(CameraCalibration, RecoversCurveAndColour) {
     EXPECT_NEAR(calibration.correction.errors.mean, ideal.errors.mean, 0.03) << response;
     EXPECT_NEAR(calibration.correction.errors.max, ideal.errors.max, 0.1) << response;
   }
+}
+
+// Columns of a camera's table are known by their names, whatever their order and spelling.
+TEST(CameraCalibration, ColumnsOfACameraAreMappedByName) {
+  const std::filesystem::path path =
+      std::filesystem::path(testing::TempDir()) / ("abbe_camera_" + std::to_string(::getpid()) + ".csv");
+  for (const char* columns : {"b,g,r", "blue,green,red", "Blue,G,r", "B,G,R"}) {
+    std::ofstream(path) << "# unit: relative sensitivity\n# outside: zero\nwavelength_nm," << columns
+                        << "\n400,0,0,0\n450,1,0,0\n550,0,1,0\n650,0,0,1\n700,0,0,0\n";
+    Diagnostics diagnostics;
+    const auto channels = camera_channels(path.string(), {}, diagnostics);
+    ASSERT_TRUE(channels) << diagnostics.text();
+    std::string initials;
+    for (const Channel& channel : *channels) initials += channel.name.front();
+    EXPECT_EQ(lower_case(initials), "rgb") << columns;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double peak_nm = 650 - 100 * static_cast<double>(k);
+      const std::vector<double> seen = camera_raw(*channels, Curve(1.0), band(peak_nm - 20, peak_nm + 20));
+      EXPECT_EQ(std::max_element(seen.begin(), seen.end()) - seen.begin(), static_cast<std::ptrdiff_t>(k))
+          << columns;
+    }
+  }
+  std::filesystem::remove(path);
 }
 
 TEST(CameraCalibration, CoarserCodesCostColour) {

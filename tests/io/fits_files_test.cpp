@@ -143,5 +143,26 @@ TEST(Fits, TheFirstImageWithPixelsIsRead) {
   }
 }
 
+// A cube of so many planes of one pixel, with these cards added.
+std::string cube_of(std::size_t planes, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> cards{
+      "SIMPLE  =                    T",     "BITPIX  = 16", "NAXIS   = 3", "NAXIS1  = 1", "NAXIS2  = 1",
+      "NAXIS3  = " + std::to_string(planes)};
+  cards.insert(cards.end(), more.begin(), more.end());
+  cards.emplace_back("END");
+  return in_blocks(cards) + std::string(2880, '\1');
+}
+
+TEST(Fits, ThreePlanesWithoutNamesAreRedGreenAndBlue) {
+  const auto path = test_folder() / "a.fits";
+  const auto planes = [&](const std::string& bytes) {
+    put(path, bytes);
+    return read_raw_picture(path).planes;
+  };
+  EXPECT_EQ(planes(cube_of(3)), (std::vector<std::string>{"R", "G", "B"}));
+  EXPECT_EQ(planes(cube_of(3, {"PLANES  = 'Ha,OIII,SII'"})), (std::vector<std::string>{"Ha", "OIII", "SII"}));
+  EXPECT_EQ(planes(cube_of(2)), (std::vector<std::string>{"0", "1"}));
+}
+
 }  // namespace
 }  // namespace abbe
