@@ -74,6 +74,7 @@ void warn_of_cut_codes(const RawImage& read, std::span<const double> values,
 EdgeResponse measure_edge(const MtfOptions& options, Inputs& inputs) {
   inputs.add_file(options.image);
   const RawImage read = read_raw_image(options.image, &inputs);
+  for (const std::string& warning : read.warnings) say("warning: " + warning);
   require_no_mosaic(read, options.image);
   const Image& image = read.image;
   Diagnostics diagnostics;

@@ -13,6 +13,7 @@
 #include "io/extension.h"
 #include "io/picture.h"
 #include "io/raw_picture.h"
+#include "io/rgb_order.h"
 #include "io/spectral_exr.h"
 #include "io/text.h"
 #include "sensor/film/defective_pixels.h"
@@ -42,8 +43,7 @@ void keep_planes(Image& image) {
   std::vector<std::string> order = intensities(plane_names(image));
   if (!told(image, "sensor_channels") && !is_spectral(image)) {
     std::erase_if(order, [](const std::string& name) { return name.find('.') != std::string::npos; });
-    const std::vector<std::string> colors{"R", "G", "B"};
-    if (std::is_permutation(order.begin(), order.end(), colors.begin(), colors.end())) order = colors;
+    if (const auto rgb = rgb_order(order)) order = {order[(*rgb)[0]], order[(*rgb)[1]], order[(*rgb)[2]]};
   }
   std::vector<ImageChannel> planes;
   for (const std::string& name : order)
@@ -73,6 +73,17 @@ void take_black(LinearImage& read, const RawScale& scale, double black, double w
     for (float& code : plane.values) code = above_black(static_cast<double>(code));
 }
 
+// The values that the opcodes of a DNG make of those above black.
+void take_corrected(LinearImage& read, const RawPicture& raw, Inputs* inputs, const std::string& file) {
+  read.warnings = ignored_opcodes(raw, file);
+  if (raw.corrected.empty()) return;
+  if (inputs != nullptr) inputs->take_memory(file, raw.corrected.size() * sizeof(float));
+  read.exposed = read.image.channels;
+  const std::size_t planes = raw.planes.size();
+  for (std::size_t i = 0; i < raw.corrected.size(); ++i)
+    read.image.channels[i % planes].values[i / planes] = raw.corrected[i];
+}
+
 LinearImage of_raw(const std::filesystem::path& path, Inputs* inputs) {
   const RawPicture raw = read_raw_picture(path);
   if (inputs != nullptr) inputs->take_memory(path.string(), raw.codes.size() * sizeof(float));
@@ -83,6 +94,7 @@ LinearImage of_raw(const std::filesystem::path& path, Inputs* inputs) {
   // Tags tell it in single precision at most.
   const auto black = parse_number(told(read.image, kBlackLevelKey).value_or(""));
   take_black(read, scale, black.value_or(raw.black_level_dn), raw.white_level_dn);
+  take_corrected(read, raw, inputs, path.string());
   return read;
 }
 
@@ -147,7 +159,7 @@ std::string described(const LinearImage& image) {
 void require_unsaturated(const LinearImage& flat, const std::filesystem::path& path) {
   if (!flat.saturation) return;
   double saturated = 0;
-  for (const ImageChannel& channel : flat.image.channels)
+  for (const ImageChannel& channel : flat.as_exposed())
     saturated +=
         static_cast<double>(std::count_if(channel.values.begin(), channel.values.end(), [&](float value) {
           return static_cast<double>(value) >= *flat.saturation;
@@ -165,6 +177,7 @@ void require_unsaturated(const LinearImage& flat, const std::filesystem::path& p
 MeasuredPlanes LinearImage::planes() const {
   MeasuredPlanes planes{{}, channels, mosaic, saturation, recorded_areas(image)};
   for (const ImageChannel& channel : image.channels) planes.planes.push_back(&channel);
+  for (const ImageChannel& channel : exposed) planes.exposed.push_back(&channel);
   return planes;
 }
 
@@ -184,6 +197,7 @@ void flat_field(LinearImage& image, const LinearImage& flat, const std::filesyst
                 fmt::format("the flat has other channels or another mosaic (got {}, allowed {})",
                             described(flat), described(image)));
   require_unsaturated(flat, path);
+  if (image.exposed.empty()) image.exposed = image.image.channels;
   const std::vector<double> means = channel_means(flat);
   for (std::size_t k = 0; k < image.image.channels.size(); ++k)
     for (std::size_t i = 0; i < image.image.pixels(); ++i) {

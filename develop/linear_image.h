@@ -18,13 +18,22 @@ struct LinearImage {
   std::optional<Mosaic> mosaic;      ///< Then the image has one plane.
   std::optional<double> saturation;  ///< Rounded to single precision, as the values are.
   std::string unit;                  ///< What the values are, in words.
+  /// The planes as they were exposed, where opcodes of a DNG or a flat have changed them; empty where nothing
+  /// has.
+  std::vector<ImageChannel> exposed = {};
+  std::vector<std::string> warnings = {};  ///< About the file, each of which names it.
 
   [[nodiscard]] MeasuredPlanes planes() const;
+  /// The planes that decide which pixels are saturated.
+  [[nodiscard]] const std::vector<ImageChannel>& as_exposed() const {
+    return exposed.empty() ? image.channels : exposed;
+  }
+  [[nodiscard]] std::size_t memory_bytes() const { return image.memory_bytes() * (exposed.empty() ? 1 : 2); }
 };
 
 /// Reads a film (its expected exposure), a spectral film (its bands), a raw DNG, FITS, TIFF or PNG (digital
-/// numbers above black, by what the file tells of them), or any other picture (its code values in [0, 1],
-/// linear or not). Throws Error{input} and Error{resource}.
+/// numbers above black, by what the file tells of them and as the opcodes of a DNG change them), or any other
+/// picture (its code values in [0, 1], linear or not). Throws Error{input} and Error{resource}.
 [[nodiscard]] LinearImage read_linear_image(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
 /// Divides each pixel by what a picture of an even surface has there, relative to the mean of its channel: so

@@ -56,16 +56,26 @@ toff_t size_of(thandle_t handle) {
   return file_of(handle).bytes.size();
 }
 
-// Tags of DNG 1.2 that libtiff does not know, and would warn of.
+// Tags of DNG 1.2 and 1.3 that libtiff does not know, and would warn of.
 constexpr std::uint32_t kForward1 = 50964;
 constexpr std::uint32_t kForward2 = 50965;
 TIFFExtendProc others = nullptr;
-void know_forward_matrices(TIFF* tiff) {
-  static std::array<char, 14> name{"ForwardMatrix"};
-  static const std::array<TIFFFieldInfo, 2> kForward{
-      {{kForward1, -1, -1, TIFF_SRATIONAL, FIELD_CUSTOM, 1, 1, name.data()},
-       {kForward2, -1, -1, TIFF_SRATIONAL, FIELD_CUSTOM, 1, 1, name.data()}}};
-  TIFFMergeFieldInfo(tiff, kForward.data(), kForward.size());
+void add_dng_tags(TIFF* tiff) {
+  static std::array<char, 14> matrix{"ForwardMatrix"};
+  static std::array<char, 11> list{"OpcodeList"};
+  constexpr short kAny = TIFF_VARIABLE;
+  constexpr short kAnyOf32Bits = TIFF_VARIABLE2;
+  const auto opcodes = [](std::size_t i) {
+    return TIFFFieldInfo{kOpcodeLists.at(i), kAnyOf32Bits, kAnyOf32Bits, TIFF_UNDEFINED, FIELD_CUSTOM, 1, 1,
+                         list.data()};
+  };
+  static const std::array<TIFFFieldInfo, 5> kFields{
+      {{kForward1, kAny, kAny, TIFF_SRATIONAL, FIELD_CUSTOM, 1, 1, matrix.data()},
+       {kForward2, kAny, kAny, TIFF_SRATIONAL, FIELD_CUSTOM, 1, 1, matrix.data()},
+       opcodes(0),
+       opcodes(1),
+       opcodes(2)}};
+  TIFFMergeFieldInfo(tiff, kFields.data(), kFields.size());
   if (others != nullptr) others(tiff);
 }
 
@@ -226,7 +236,7 @@ bool reads_back(const std::string& path, MemoryTiff& file, const RawPicture& raw
 }  // namespace
 
 void teach_dng_tags() {
-  static const bool once = (others = TIFFSetTagExtender(know_forward_matrices), true);
+  static const bool once = (others = TIFFSetTagExtender(add_dng_tags), true);
   static_cast<void>(once);
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <sstream>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "io/image.h"
 #include "io/picture_module.h"
 #include "io/picture_module_dng.h"
+#include "io/picture_module_dng_opcodes.h"
 #include "io/rgb_order.h"
 
 namespace abbe::picture_module {
@@ -143,6 +145,46 @@ void keep_active_area(TIFF* tiff, RawPicture& raw) {
   raw.height = static_cast<decltype(raw.height)>(bottom - top);
 }
 
+// The opcode list of that number; an empty one where the file has none.
+OpcodeList read_opcodes(TIFF* tiff, int list, RawPicture& raw) {
+  std::uint32_t count = 0;
+  const std::uint8_t* bytes = nullptr;
+  if (TIFFGetField(tiff, kOpcodeLists.at(static_cast<std::size_t>(list - 1)), &count, &bytes) != 1) return {};
+  OpcodeList parsed = parse_opcodes({bytes, count}, list, TIFFFileName(tiff));
+  raw.opcodes.insert(raw.opcodes.end(), parsed.names.begin(), parsed.names.end());
+  return parsed;
+}
+
+// List 1 works on the codes as stored, which are the argument of its polynomials too.
+void apply_first_opcodes(TIFF* tiff, RawPicture& raw) {
+  const OpcodeList list = read_opcodes(tiff, 1, raw);
+  if (list.opcodes.empty()) return;
+  std::vector<float> values(raw.codes.begin(), raw.codes.end());
+  apply_opcodes(list.opcodes, {raw.width, raw.height, raw.planes.size(), values, 1});
+  std::transform(values.begin(), values.end(), raw.codes.begin(), [](float value) {
+    return static_cast<std::uint16_t>(std::lround(std::clamp(value, 0.0F, 65535.0F)));
+  });
+}
+
+// Lists 2 and 3 work on values that are 0 at black and 1 at the white level. The second sees the planes that
+// are stored, the third those of the demosaicked picture, of which a mosaic has each pixel's own.
+void apply_later_opcodes(TIFF* tiff, RawPicture& raw) {
+  const OpcodeList stored = read_opcodes(tiff, 2, raw);
+  const OpcodeList demosaicked = read_opcodes(tiff, 3, raw);
+  if (stored.opcodes.empty() && demosaicked.opcodes.empty()) return;
+  for (const std::uint16_t code : raw.codes)
+    raw.corrected.push_back(static_cast<float>(code - raw.black_level_dn));
+  const double unit = raw.white_level_dn - raw.black_level_dn;
+  if (!(unit > 0))
+    throw Error(ErrorCode::input, TIFFFileName(tiff),
+                "its white level is not above its black level, between which its opcodes work");
+  OpcodeImage image{raw.width, raw.height, raw.planes.size(), raw.corrected, unit};
+  apply_opcodes(stored.opcodes, image);
+  image.mosaic = raw.mosaic;
+  image.mosaic_width = raw.mosaic_width;
+  apply_opcodes(demosaicked.opcodes, image);
+}
+
 // The exposure time, of which the folder of Exif tells, beside the first picture; the last to be read, since
 // it leaves the image.
 void read_exposure(TIFF* tiff, RawPicture& raw) {
@@ -261,10 +303,12 @@ RawPicture read_dng(const std::string& path) {
   for (int k = 0; k < samples; ++k) raw.planes.push_back(samples == 1 ? "raw" : std::to_string(k));
   raw.codes.resize(static_cast<std::size_t>(width) * height * samples);
   if (!read_codes(tiff.get(), raw)) throw Error(ErrorCode::input, path, why_unreadable(tiff.get()));
+  apply_first_opcodes(tiff.get(), raw);
   read_layout(tiff.get(), raw);
   read_levels(tiff.get(), raw);
   require_even_black(tiff.get());
   keep_active_area(tiff.get(), raw);
+  apply_later_opcodes(tiff.get(), raw);
   read_exposure(tiff.get(), raw);
   return raw;
 }

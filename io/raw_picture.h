@@ -17,6 +17,16 @@ struct RawLight {
   std::array<double, 9> forward{};  ///< ForwardMatrix: balanced camera values to XYZ relative to D50.
 };
 
+/// A correction that an opcode list of a DNG asks for [DNG, ch. 7].
+struct DngOpcode {
+  std::string name;
+  int list;  ///< 1: of the codes as stored, 2: behind linearisation, 3: behind demosaicking.
+  bool is_optional;
+  bool is_applied;
+
+  [[nodiscard]] std::string text() const { return name + " of OpcodeList" + std::to_string(list); }
+};
+
 /// The codes of a sensor as a raw file holds them, and what programs that develop raw files ask of it.
 struct RawPicture {
   std::int64_t width = 0;
@@ -30,6 +40,9 @@ struct RawPicture {
   double white_level_dn = 65535;  ///< The code that saturated pixels reach.
   std::vector<std::uint16_t> linear_codes = {};  ///< What each code stands for; empty where they are linear.
   bool is_linearised = false;  ///< Whether such a table of the file has made the codes that were read.
+  std::vector<DngOpcode> opcodes = {};  ///< Those of a DNG; list 1 has changed `codes` already.
+  /// The codes above black as lists 2 and 3 change them, in the order of `codes`; empty where they do not.
+  std::vector<float> corrected = {};
   double gain_e_per_dn = 1;
   double read_noise_e = 0;
   double full_well_e = 0;            ///< 0 where there is no limit.
@@ -55,8 +68,9 @@ void write_fits(const std::filesystem::path& path, const RawPicture& raw);
 /// with one black and one white level, or a FITS image of whole numbers from 0 to 65535, the first row first
 /// unless its `ROWORDER` is BOTTOM-UP: codes, mosaic, black and white level, exposure, gain and, of a file
 /// that Abbe wrote, what the film told, as far as the file tells them; of a DNG with a linearisation table
-/// what that makes of the codes. Channels of a mosaic are R, G and B, or those that a DNG of ours names.
-/// Throws Error{input}, or Error{resource} for one beyond the limits of `io/image.h`.
+/// what that makes of the codes. Opcodes GainMap and MapPolynomial of a DNG are applied, other optional ones
+/// are only listed, and other mandatory ones are an error. Channels of a mosaic are R, G and B, or those that
+/// a DNG of ours names. Throws Error{input}, or Error{resource} for one beyond the limits of `io/image.h`.
 [[nodiscard]] RawPicture read_raw_picture(const std::filesystem::path& path);
 
 /// Whether a file is one for `read_raw_picture`, by its extension: .dng, .fits or .fit, in either case.

@@ -288,7 +288,8 @@ std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
   std::vector<Region> regions = listing.regions;
   for (const Photograph& photograph : listing.photographs) {
     const RawImage read = read_raw_image(photograph.file, inputs);
-    const auto& [image, told] = read;
+    const auto& [image, told, warnings] = read;
+    for (const std::string& warning : warnings) diagnostics.warning(photograph.where, warning);
     const std::optional<RawScale> codes = holds_codes_told_of(read) ? told : std::nullopt;
     std::string wrong = objection(image, first ? *first : image, listing);
     if (wrong.empty() && first && codes.has_value() != all.full_scale.dn.has_value())

@@ -5,6 +5,7 @@
 #include <memory>
 #include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include "io/error.h"
@@ -78,6 +79,20 @@ void straighten(Image& image, const RawScale& scale) {
     for (float& value : plane.values) value = static_cast<float>(scale.linear(code_of(value))) * share;
 }
 
+// The sensor's own codes are needed where its response, noise or sharpness is measured.
+void leave_uncorrected(RawPicture& raw, const std::string& file) {
+  for (DngOpcode& opcode : raw.opcodes) {
+    if (opcode.list == 1) continue;
+    if (!opcode.is_optional)
+      throw Error(ErrorCode::input, file,
+                  fmt::format("it requires corrections of the sensor's codes, which are needed as they are "
+                              "(got the mandatory opcode {}, allowed none behind linearisation)",
+                              opcode.text()));
+    opcode.is_applied = false;
+  }
+  raw.corrected.clear();
+}
+
 // By the tags or keywords that every program writes.
 RawScale scale_of(const RawPicture& raw) {
   RawScale scale;
@@ -102,6 +117,14 @@ Image code_planes(const RawPicture& raw) {
       plane.values.push_back(static_cast<float>(raw.codes[i]));
   }
   return image;
+}
+
+std::vector<std::string> ignored_opcodes(const RawPicture& raw, const std::string& file) {
+  std::vector<std::string> warnings;
+  for (const DngOpcode& opcode : raw.opcodes)
+    if (!opcode.is_applied)
+      warnings.push_back(fmt::format("{}: the optional opcode {} is not applied", file, opcode.text()));
+  return warnings;
 }
 
 std::optional<Mosaic> mosaic_of(const RawPicture& raw) {
@@ -165,9 +188,10 @@ RawImage read_raw_image(const std::filesystem::path& path, Inputs* inputs) {
     if (scale && !scale->linear_codes.empty()) straighten(image, *scale);
     return {std::move(image), std::move(scale)};
   }
-  const RawPicture raw = read_raw_picture(path);
+  RawPicture raw = read_raw_picture(path);
+  leave_uncorrected(raw, path.string());
   if (inputs != nullptr) inputs->take_memory(path.string(), raw.codes.size() * sizeof(float));
-  RawImage read{code_planes(raw), {}};
+  RawImage read{code_planes(raw), {}, ignored_opcodes(raw, path.string())};
   tell_lines(read.image);
   read.image.metadata[kColorSpace] = kLinear;
   const auto share = static_cast<float>(1 / kSixteenBits);  // with which OpenImageIO rounds alike

@@ -55,6 +55,8 @@ struct RawScale {
 
 /// A raw picture as an image: a channel of codes for each plane, with what the picture tells as attributes.
 [[nodiscard]] Image code_planes(const RawPicture& raw);
+/// Warnings of the optional opcodes of a DNG that are not applied, one sentence each.
+[[nodiscard]] std::vector<std::string> ignored_opcodes(const RawPicture& raw, const std::string& file);
 /// The mosaic of a raw picture; nothing for one without.
 [[nodiscard]] std::optional<Mosaic> mosaic_of(const RawPicture& raw);
 
@@ -73,14 +75,16 @@ void name_planes(Image& image);
 struct RawImage {
   Image image;
   std::optional<RawScale> scale;
+  std::vector<std::string> warnings = {};  ///< About the file, each of which names it.
 };
 
 /// Reads a DNG or FITS by `read_raw_picture`, its codes as they are and not as a raw converter shows them,
 /// and any other image by `read_image`, as stored beside an alpha channel; codes by a response curve that the
 /// file tells are those of a straight line, as the table of a DNG makes them. What a DNG or FITS of another
-/// program tells of its levels, pattern and exposure counts too. Codes of a sensor are "Linear" by the
-/// attribute `kColorSpace`, as floats are, and lines of their description are attributes (`tell_lines`).
-/// Throws Error{input} and Error{resource}.
+/// program tells of its levels, pattern and exposure counts too. Opcodes of a DNG behind linearisation, which
+/// would make other values than the sensor's own of its codes, are an error where they are mandatory. Codes
+/// of a sensor are "Linear" by the attribute `kColorSpace`, as floats are, and lines of their description are
+/// attributes (`tell_lines`). Throws Error{input} and Error{resource}.
 [[nodiscard]] RawImage read_raw_image(const std::filesystem::path& path, Inputs* inputs = nullptr);
 /// The 16-bit code that a value of an image from `read_image` stands for.
 [[nodiscard]] double code_of(float value);

@@ -41,9 +41,10 @@ struct Frame {
   throw Error(ErrorCode::input, file.string(), what);
 }
 
-Frame read_frame(const std::filesystem::path& file, Inputs& inputs) {
+Frame read_frame(const std::filesystem::path& file, Inputs& inputs, std::vector<std::string>* warnings) {
   inputs.add_file(file);
-  const auto [image, scale] = read_raw_image(file, &inputs);
+  const auto [image, scale, about] = read_raw_image(file, &inputs);
+  if (warnings != nullptr) warnings->insert(warnings->end(), about.begin(), about.end());
   if (!scale || !scale->exposure_s)
     refuse(file, "tells neither bits nor exposure time: a raw file of `abbe develop` is needed");
   Frame frame{*scale->exposure_s,
@@ -158,10 +159,11 @@ void require_pair(const Frame& first, const Frame& second, bool are_dark, const 
   if (is_copy) refuse(file, "has the very codes of the frame before it: two exposures are needed");
 }
 
-std::vector<Frame> read_frames(std::span<const std::filesystem::path> files, bool are_dark, Inputs& inputs) {
+std::vector<Frame> read_frames(std::span<const std::filesystem::path> files, bool are_dark, Inputs& inputs,
+                               std::vector<std::string>* warnings) {
   std::vector<Frame> frames;
   for (const std::filesystem::path& file : files) {
-    frames.push_back(read_frame(file, inputs));
+    frames.push_back(read_frame(file, inputs, warnings));
     require_alike(frames.back(), frames.front(), file);
     require_no_underflow(frames.back(), file);
     if (frames.size() % 2 == 0) require_pair(frames[frames.size() - 2], frames.back(), are_dark, file);
@@ -181,9 +183,10 @@ std::vector<FlatPair> pairs_of(const std::vector<Frame>& frames, std::size_t cha
 }  // namespace
 
 std::vector<ChannelTransfer> measure_transfer(std::span<const std::filesystem::path> dark,
-                                              std::span<const std::filesystem::path> lit, Inputs& inputs) {
-  const std::vector<Frame> dark_frames = read_frames(dark, true, inputs);
-  const std::vector<Frame> lit_frames = read_frames(lit, false, inputs);
+                                              std::span<const std::filesystem::path> lit, Inputs& inputs,
+                                              std::vector<std::string>* warnings) {
+  const std::vector<Frame> dark_frames = read_frames(dark, true, inputs, warnings);
+  const std::vector<Frame> lit_frames = read_frames(lit, false, inputs, warnings);
   if (dark_frames.empty() || lit_frames.empty())
     throw Error(ErrorCode::usage, "photon transfer", "needs dark and lit frames, two of each exposure");
   const Frame& first = lit_frames.front();

@@ -25,7 +25,7 @@ struct ChannelTransfer {
 
 /// The photon transfer of raw files that Abbe wrote, of any kind: two frames of each exposure, one after the
 /// other, dark ones of two exposure times or more. Exposure times, bits, mosaic and the pixels that were
-/// rendered, which alone count, are read of the files.
+/// rendered, which alone count, are read of the files. `warnings`, if any, receives those about files.
 /// Throws Error{input} naming a file that tells of no read-out or differs from the first in size, rendered
 /// pixels, channels, bits, gain or response curve, one of which more than 0.5 % of a channel's codes, but not
 /// all, are the lowest, where noise is cut off [EMVA1288], and one without a second of its exposure that saw
@@ -33,6 +33,7 @@ struct ChannelTransfer {
 /// `photon_transfer`.
 [[nodiscard]] std::vector<ChannelTransfer> measure_transfer(std::span<const std::filesystem::path> dark,
                                                             std::span<const std::filesystem::path> lit,
-                                                            Inputs& inputs);
+                                                            Inputs& inputs,
+                                                            std::vector<std::string>* warnings = nullptr);
 
 }  // namespace abbe

@@ -14,6 +14,7 @@
 #include "io/picture.h"
 #include "io/raw_picture.h"
 #include "sensor/readout/readout.h"
+#include "tests/io/dng_opcodes.h"
 #include "tests/io/tiff_entries.h"
 
 namespace abbe {
@@ -253,6 +254,54 @@ TEST(LinearImage, APlaneOfTheSensorIsNoAlpha) {
   codes.metadata["sensor_channels"] = "B,G,R";
   EXPECT_EQ(with_alpha(codes, 1).channels, (std::vector<std::string>{"B", "G", "R"}))
       << "a file to which another program has given an alpha channel";
+}
+
+// The gain doubles what the sensor has, also above its white level, and halves nothing's being saturated.
+TEST(LinearImage, OpcodesOfADngChangeValuesButNotWhatIsSaturated) {
+  constexpr std::uint16_t kWriter = 305;
+  const fs::path path =
+      fs::path(testing::TempDir()) / ("abbe_opcodes_" + std::to_string(::getpid()) + ".dng");
+  RawPicture raw;
+  raw.width = 3;
+  raw.height = 1;
+  raw.planes = raw.channels = {"raw"};
+  raw.codes = {100, 3000, 4000};
+  raw.black_level_dn = 100;
+  raw.white_level_dn = 4000;
+  for (const float gain : {2.0F, 0.5F}) {
+    write_dng(path, raw);
+    std::ifstream written(path, std::ios::binary);
+    test::TiffEntries file{{std::istreambuf_iterator<char>(written), {}}};
+    file.set_bytes(kWriter, test::kOpcodeList2, test::gain_map({gain}));
+    std::ofstream(path, std::ios::binary) << file.bytes;
+    LinearImage read = read_linear_image(path);
+    EXPECT_EQ(read.image.channels[0].values, (std::vector<float>{0, gain * 2900, gain * 3900}));
+    const PatchOutline all{"all", {Imath::V2d(0, 0), {3, 0}, {3, 1}, {0, 1}}};
+    EXPECT_EQ(measure_patches(read.image, read.planes(), std::array{all})[0].channels[0].saturated, 1U);
+    const LinearImage flat = image_of(3, 1, [](int, int) { return 1.0; });
+    flat_field(read, flat, "flat");
+    EXPECT_EQ(measure_patches(read.image, read.planes(), std::array{all})[0].channels[0].saturated, 1U);
+  }
+  fs::remove(path);
+}
+
+TEST(LinearImage, OptionalOpcodesThatAreNotAppliedAreReported) {
+  constexpr std::uint16_t kWriter = 305;
+  const fs::path path =
+      fs::path(testing::TempDir()) / ("abbe_optional_" + std::to_string(::getpid()) + ".dng");
+  RawPicture raw;
+  raw.width = raw.height = 1;
+  raw.planes = raw.channels = {"raw"};
+  raw.codes = {100};
+  write_dng(path, raw);
+  std::ifstream written(path, std::ios::binary);
+  test::TiffEntries file{{std::istreambuf_iterator<char>(written), {}}};
+  file.set_bytes(kWriter, test::kOpcodeList3, test::opcode_list(3, std::string(56, '\0'), true));
+  std::ofstream(path, std::ios::binary) << file.bytes;
+  EXPECT_EQ(
+      read_linear_image(path).warnings,
+      std::vector{path.string() + ": the optional opcode FixVignetteRadial of OpcodeList3 is not applied"});
+  fs::remove(path);
 }
 
 TEST(LinearImage, CodeValuesBesideAlphaAreThoseOfTheFile) {

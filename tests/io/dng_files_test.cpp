@@ -1,10 +1,13 @@
 // DNG files as other programs write them.
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "dng_opcodes.h"
 #include "io/error.h"
 #include "io/raw_picture.h"
 #include "test_files.h"
@@ -100,6 +103,88 @@ TEST(Dng, CompressionThatIsNotReadIsToldAsSuch) {
   EXPECT_EQ(refusal_of(file.bytes),
             ": its raw picture is damaged, or compressed as is not read here (got Compression 34892); a raw "
             "converter can make an uncompressed DNG of it");
+}
+
+// The file of one row with an opcode list of that tag.
+RawPicture with_opcodes(std::uint16_t tag, const std::string& list) {
+  test::TiffEntries file = raw_file();
+  file.set_bytes(kWriter, tag, list);
+  const auto path = test_folder() / "a.dng";
+  put(path, file.bytes);
+  return read_raw_picture(path);
+}
+
+std::string opcode_refusal(std::uint16_t tag, const std::string& list) {
+  test::TiffEntries file = raw_file();
+  file.set_bytes(kWriter, tag, list);
+  return refusal_of(file.bytes);
+}
+
+// Pixel centres lie at a quarter and three quarters of the width, the points of the map at its ends.
+TEST(DngOpcodes, AGainMapMultipliesByABilinearGrid) {
+  const RawPicture even = with_opcodes(test::kOpcodeList2, test::gain_map({2}));
+  EXPECT_EQ(even.codes, (std::vector<std::uint16_t>{300, 200}));
+  EXPECT_EQ(even.corrected, (std::vector<float>{2 * 284, 2 * 184}));
+  const RawPicture sloped = with_opcodes(test::kOpcodeList2, test::gain_map({1, 3}));
+  EXPECT_EQ(sloped.corrected, (std::vector<float>{284 * 1.5F, 184 * 2.5F}));
+  ASSERT_EQ(sloped.opcodes.size(), 1U);
+  EXPECT_EQ(sloped.opcodes[0].text(), "GainMap of OpcodeList2");
+  EXPECT_TRUE(sloped.opcodes[0].is_applied);
+  EXPECT_EQ(with_opcodes(test::kOpcodeList2, test::gain_map({2}, 0, 1, true)).corrected, even.corrected)
+      << "an optional one";
+}
+
+// The list behind demosaicking counts the channels of the filters as planes: the second pixel is green.
+TEST(DngOpcodes, TheThirdListKnowsTheChannelsOfAMosaic) {
+  EXPECT_EQ(with_opcodes(test::kOpcodeList3, test::gain_map({2}, 1)).corrected,
+            (std::vector<float>{284, 2 * 184}));
+  EXPECT_EQ(with_opcodes(test::kOpcodeList2, test::gain_map({2}, 1)).corrected,
+            (std::vector<float>{284, 184}))
+      << "a mosaic has one plane";
+}
+
+// The first list works on stored codes, the second on values that are 1 at white, 65535 - 16 above black.
+TEST(DngOpcodes, AMapPolynomialTakesTheValuesOfItsList) {
+  const RawPicture first = with_opcodes(test::kOpcodeList1, test::map_polynomial({10, 2}));
+  EXPECT_EQ(first.codes, (std::vector<std::uint16_t>{610, 410}));
+  EXPECT_TRUE(first.corrected.empty());
+  const RawPicture second = with_opcodes(test::kOpcodeList2, test::map_polynomial({0, 0.5, 4}));
+  for (const std::size_t i : {0U, 1U}) {
+    const double x = (i == 0 ? 284 : 184) / 65519.0;
+    EXPECT_NEAR(static_cast<double>(second.corrected[i]), 65519 * (0.5 * x + 4 * x * x), 1e-4) << i;
+  }
+}
+
+TEST(DngOpcodes, MandatoryOnesThatAreNotAppliedAreRefusedByName) {
+  const std::string parameters(48, '\0');
+  for (const auto& [id, name] : {std::pair{1U, "WarpRectilinear"},
+                                 {3U, "FixVignetteRadial"},
+                                 {5U, "FixBadPixelsList"},
+                                 {13U, "ScalePerColumn"},
+                                 {99U, "number 99"}}) {
+    EXPECT_EQ(opcode_refusal(test::kOpcodeList3, test::opcode_list(id, parameters)),
+              ": it requires corrections that are not made here (got the mandatory opcode " +
+                  std::string(name) +
+                  " of OpcodeList3, allowed GainMap and MapPolynomial); a raw converter can make a linear "
+                  "picture of it");
+    const RawPicture read = with_opcodes(test::kOpcodeList3, test::opcode_list(id, parameters, true));
+    ASSERT_EQ(read.opcodes.size(), 1U);
+    EXPECT_EQ(read.opcodes[0].name, name);
+    EXPECT_FALSE(read.opcodes[0].is_applied);
+    EXPECT_TRUE(read.corrected.empty());
+  }
+}
+
+TEST(DngOpcodes, DamagedListsAreRefused) {
+  const std::string sound = test::gain_map({1, 3});
+  EXPECT_EQ(opcode_refusal(test::kOpcodeList2, sound.substr(0, sound.size() - 1)),
+            ": its OpcodeList2 is damaged: it ends within an opcode");
+  std::string larger = sound;
+  larger.at(sound.size() - 49) = 9;  // the last byte of the number of rows
+  EXPECT_EQ(opcode_refusal(test::kOpcodeList2, larger),
+            ": its OpcodeList2 is damaged: a GainMap has another size than it states");
+  EXPECT_EQ(opcode_refusal(test::kOpcodeList1, test::map_polynomial({1, std::nan("")})),
+            ": its OpcodeList1 is damaged: a number is not finite");
 }
 
 }  // namespace

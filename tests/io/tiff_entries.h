@@ -29,6 +29,13 @@ struct TiffEntries {
     bytes.resize(at + 4 * values.size());
     for (std::size_t i = 0; i < values.size(); ++i) set(at + 4 * i, {{4, values[i]}});
   }
+  /// Makes the entry of `tag` one of `as` with these bytes of no type, behind all else.
+  void set_bytes(std::uint16_t tag, std::uint16_t as, const std::string& values) {
+    constexpr std::uint32_t kUndefined = 7;
+    const auto at = static_cast<std::uint32_t>(bytes.size());
+    set(entry_of(tag), {{2, as}, {2, kUndefined}, {4, static_cast<std::uint32_t>(values.size())}, {4, at}});
+    bytes += values;
+  }
   /// The value of an entry, or where its values are.
   [[nodiscard]] std::uint32_t value_of(std::uint16_t tag) const { return number(entry_of(tag) + 8, 4); }
   /// Where its first folder is.
