@@ -1,6 +1,7 @@
 #include "cli/measure.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -68,7 +69,9 @@ struct Measurement {
   std::vector<std::string> channels;
   std::string unit;
   std::vector<PatchValues> patches;
-  std::optional<Corners> found;  // where the chart was, if it had to be found
+  std::optional<Corners> found;                     // where the chart was, if it had to be found
+  std::optional<double> saturation;                 // as the file declares it
+  std::vector<std::optional<double>> clipped_at{};  // per channel, where that is lower
 };
 
 // Where the chart is in an image, and whether that had to be found.
@@ -91,27 +94,36 @@ void warn_of_flat(const LinearImage& divided, const fs::path& file) {
   check(diagnostics);
 }
 
+// Measures the patches, and once more where they show that the image is clipped below what its file declares.
+void measure_planes(const LinearImage& read, const std::vector<PatchOutline>& outlines,
+                    Measurement& measured) {
+  MeasuredPlanes planes = read.planes();
+  measured.patches = measure_patches(read.image, planes, outlines);
+  if (!planes.saturation) return;
+  measured.clipped_at = planes.clipped_at = clipping_levels(read.image, planes, measured.patches);
+  if (std::any_of(planes.clipped_at.begin(), planes.clipped_at.end(),
+                  [](const auto& level) { return level; }))
+    measured.patches = measure_patches(read.image, planes, outlines);
+}
+
 // An image's name stands before what is wrong with it.
 Measurement measure_image(const fs::path& file, const ChartToMeasure& chart,
                           const std::optional<LinearImage>& flat, const MeasureOptions& options,
                           Inputs& inputs) {
   LinearImage read = read_linear_image(file, &inputs);
-  Measurement measured{file, read.channels, read.unit, {}, {}};
+  for (const std::string& warning : read.warnings) say("warning: " + warning);
+  Measurement measured{file, read.channels, read.unit, {}, {}, read.saturation};
   try {
     const std::vector<PatchOutline> outlines = outlines_in(read, chart, options, measured);
     if (flat) warn_of_flat(read, file);
-    if (flat) inputs.take_memory(file.string(), read.image.memory_bytes());
-    const Image exposed = flat ? read.image : Image{};
+    if (flat && read.exposed.empty()) inputs.take_memory(file.string(), read.image.memory_bytes());
     if (flat) flat_field(read, *flat, options.flat);
-    MeasuredPlanes planes = read.planes();
-    for (const ImageChannel& plane : exposed.channels) planes.exposed.push_back(&plane);
-    measured.patches = measure_patches(read.image, planes, outlines);
-    inputs.give_back_memory(exposed.memory_bytes());
+    measure_planes(read, outlines, measured);
   } catch (const Error& error) {
     throw Error(error.code, file.string(), error.what());
   }
   for (std::size_t i = 0; i < chart.names.size(); ++i) measured.patches[i].name = chart.names[i];
-  inputs.give_back_memory(read.image.memory_bytes());
+  inputs.give_back_memory(read.memory_bytes());
   return measured;
 }
 
@@ -124,17 +136,57 @@ void tell_found(const Measurement& measured) {
   say(fmt::format("{}: the chart was found at --corners {}", measured.file.string(), numbers));
 }
 
+// Warns of a saturation that the file declares too high, or not at all.
+void warn_of_clipping(const Measurement& measured) {
+  std::string levels;
+  for (std::size_t k = 0; k < measured.clipped_at.size(); ++k)
+    if (const auto& level = measured.clipped_at[k])
+      levels += fmt::format("{}{:.6g} in {}", levels.empty() ? "" : ", ", *level, measured.channels[k]);
+  if (!levels.empty())
+    say(fmt::format(
+        "warning: {}: patches without any noise hold the highest value of the picture ({}), so that it is "
+        "clipped there, not at the {:.6g} that the file declares or its format allows",
+        measured.file.string(), levels, *measured.saturation));
+}
+
+// The highest mean of a channel in patches that are saturated in all pixels but differ by more than noise, as
+// none do that the camera clips; nothing where there are none.
+std::optional<double> unclipped_mean(const Measurement& measured, std::size_t channel) {
+  constexpr double kDeviations = 5;
+  double lowest = std::numeric_limits<double>::infinity();
+  double highest = 0;
+  double deviation = 0;
+  for (const PatchValues& patch : measured.patches) {
+    const PatchChannel& own = patch.channels[channel];
+    if (own.saturated < own.pixels) continue;
+    lowest = std::min(lowest, own.mean);
+    highest = std::max(highest, own.mean);
+    deviation = std::max(deviation, own.deviation.value_or(0));
+  }
+  return deviation > 0 && highest - lowest > kDeviations * deviation ? std::optional(highest) : std::nullopt;
+}
+
+// Warns of a saturation that the file declares too low.
+void warn_of_low_saturation(const Measurement& measured) {
+  for (std::size_t k = 0; k < measured.channels.size(); ++k)
+    if (const auto mean = unclipped_mean(measured, k))
+      say(fmt::format(
+          "warning: {}: patches of {} differ up to {:.6g}, above the {:.6g} from which the file declares "
+          "pixels to be saturated: declare the level where the camera clips, if that is higher",
+          measured.file.string(), measured.channels[k], *mean, *measured.saturation));
+}
+
 void warn_of_saturation(const Measurement& measured) {
   std::vector<std::string> names;
   for (const PatchValues& patch : measured.patches)
     if (std::any_of(patch.channels.begin(), patch.channels.end(),
                     [](const PatchChannel& channel) { return channel.is_saturated(); }))
       names.push_back(patch.name);
-  if (!names.empty())
-    say(
-        fmt::format("warning: {}: saturated pixels, whose values are too low, in {} (more than {:g} %, up to "
-                    "which they are taken for defective and left out)",
-                    measured.file.string(), fmt::join(names, ", "), 100 * kMostDefective));
+  if (names.empty()) return;
+  say(
+      fmt::format("warning: {}: saturated pixels, whose values are too low, in {} (more than {:g} %, up to "
+                  "which they are taken for defective and left out)",
+                  measured.file.string(), fmt::join(names, ", "), 100 * kMostDefective));
 }
 
 Json json_of(const Measurement& measured) {
@@ -226,6 +278,8 @@ int measure(const MeasureOptions& options) {
   for (const fs::path& image : options.images) {
     all.push_back(measure_image(image, chart, flat, options, inputs));
     tell_found(all.back());
+    warn_of_clipping(all.back());
+    warn_of_low_saturation(all.back());
     warn_of_saturation(all.back());
   }
   if (!options.output.empty()) {

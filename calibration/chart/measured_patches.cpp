@@ -116,12 +116,43 @@ bool is_too_bright(double saturated, double pixels) {
   return saturated >= 1 ? exceeds_defects(saturated, pixels) : saturated > 0;
 }
 
+// Patches at the highest value of a channel whose pixels have no deviation there, where those of all other
+// values have one: the camera clips them, though a table without columns of saturated pixels does not say so.
+std::set<std::string> even_at_the_top(const Table& table, const std::vector<std::string>& names,
+                                      const std::vector<Raw>& values, Diagnostics& diagnostics) {
+  constexpr double kMinPixels = 16;  // fewer are even by chance
+  std::set<std::string> even;
+  if (!table.column(kDeviations[0]) || !table.column(kPixels[0])) return even;
+  const auto deviations = pixel_deviations(table, diagnostics);
+  const auto pixels = triples(table, kPixels, diagnostics);
+  if (!deviations || !pixels) return even;
+  for (std::size_t k = 0; k < 3; ++k) {
+    double top = 0;
+    for (const Raw& value : values) top = std::max(top, value[k]);
+    std::size_t noisy = 0;
+    std::vector<std::size_t> clipped;
+    for (std::size_t i = 0; i < names.size(); ++i)
+      if ((*deviations)[i][k] > 0)
+        ++noisy;
+      else if (values[i][k] == top && (*pixels)[i][k] >= kMinPixels)
+        clipped.push_back(i);
+    if (noisy == 0 || noisy + clipped.size() < names.size()) continue;
+    for (const std::size_t i : clipped)
+      if (even.insert(names[i]).second)
+        diagnostics.warning(table.position(i),
+                            fmt::format("patch \"{}\" has the highest value of {} in all its pixels, without "
+                                        "the noise of others: it is taken for clipped and left out",
+                                        names[i], std::array{"R", "G", "B"}.at(k)));
+  }
+  return even;
+}
+
 // Patches with more saturated pixels than may be defective, each of which is warned of; without columns of
 // pixels, with any.
 std::set<std::string> saturated_in(const Table& table, const std::vector<std::string>& names,
-                                   Diagnostics& diagnostics) {
+                                   const std::vector<Raw>& values, Diagnostics& diagnostics) {
   std::set<std::string> saturated;
-  if (!table.column("R_saturated")) return saturated;
+  if (!table.column("R_saturated")) return even_at_the_top(table, names, values, diagnostics);
   const auto counts = triples(table, {"R_saturated", "G_saturated", "B_saturated"}, diagnostics);
   const auto pixels =
       table.column(kPixels[0]) ? triples(table, kPixels, diagnostics) : std::vector<Raw>(names.size());
@@ -242,7 +273,7 @@ std::optional<MeasuredPatches> load_measured_patches(const std::filesystem::path
   const auto unit = table->keys.find("unit");
   MeasuredPatches patches{*std::move(names), *std::move(values)};
   patches.unit = unit == table->keys.end() ? "" : unit->second;
-  patches.saturated = saturated_in(*table, patches.names, diagnostics);
+  patches.saturated = saturated_in(*table, patches.names, patches.values, diagnostics);
   auto deviations = deviations_of(*table, patches, diagnostics);
   if (!deviations) return std::nullopt;
   patches.deviations = *std::move(deviations);

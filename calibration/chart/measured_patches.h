@@ -45,7 +45,8 @@ void warn_unless_linear(const Image& picture, const std::filesystem::path& file,
 /// deviation of 0 of one pixel, a warning tells that all count alike. Deviations below 0 and fewer pixels
 /// than 1 are errors at any rate. Where `R_saturated`, `G_saturated` or `B_saturated` is more than may be
 /// defective of `R_pixels`, `G_pixels` or `B_pixels` (`exceeds_defects`), or above 0 without these columns, a
-/// warning names the patch as left out.
+/// warning names the patch as left out. A table without such columns but with deviations leaves out patches
+/// at the highest value of a channel that have no deviation, if all others have one.
 struct MeasuredPatches {
   std::vector<std::string> names;
   std::vector<Raw> values;

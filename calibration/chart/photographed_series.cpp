@@ -20,6 +20,8 @@ namespace {
 
 constexpr int kGridColumns = 16;
 constexpr int kGridRows = 12;
+// Relative error of pixels in single precision; codes of 16 bits are 15 times as far apart.
+constexpr double kRounding = 1e-6;
 
 // Pixels of one patch, the last column and row excluded.
 struct Region {
@@ -246,9 +248,7 @@ std::string full_scale_objection(const Image& image, const Listing& listing, con
 }
 
 void add(const Image& image, const std::optional<RawScale>& told, const std::vector<Region>& regions,
-         const Scale& scale, PhotographedSeries& all) {
-  // Of pixels, which are in single precision; codes of 16 bits are 15 times as far apart.
-  constexpr double kRounding = 1e-6;
+         const Scale& scale, PhotographedSeries& all, std::vector<std::vector<PatchChannel>>& measured) {
   MeasuredPlanes planes{planes_of(image), all.channels, mosaic_of(image, told), scale.full * (1 - kRounding)};
   planes.black = scale.black * (1 + kRounding);
   std::vector<PatchOutline> outlines;
@@ -256,10 +256,32 @@ void add(const Image& image, const std::optional<RawScale>& told, const std::vec
   const std::vector<PatchValues> patches = measure_patches(image, planes, outlines);
   for (std::size_t i = 0; i < patches.size(); ++i)
     for (std::size_t k = 0; k < patches[i].channels.size(); ++k) {
+      measured[k].push_back(patches[i].channels[k]);
       const Code code = patch_code(patches[i].channels[k], scale);
       all.series[k].codes[i].push_back(code.value);
       all.series[k].deviations[i].push_back(code.deviation);
     }
+}
+
+// Adds a series without exposures for each channel.
+void start_series(const std::vector<std::string>& channels, std::size_t regions, PhotographedSeries& all) {
+  const std::vector<std::vector<double>> none(regions);
+  for (const std::string& channel : channels) {
+    all.channels.push_back(channel);
+    all.series.push_back({{}, none, none});
+  }
+}
+
+// Warns of regions that show that the camera clips below the full scale of the series.
+void warn_of_clipping(const std::vector<std::vector<PatchChannel>>& measured, double full,
+                      const PhotographedSeries& all, const SourcePosition& where, Diagnostics& diagnostics) {
+  for (std::size_t k = 0; k < measured.size(); ++k)
+    if (const auto level = clipping_level(measured[k], full * (1 - kRounding)))
+      diagnostics.warning(
+          where,
+          fmt::format("regions of {} hold the value {:.6g} without any noise, and none is above it: the "
+                      "camera clips there, below the full scale of {:.6g}; set \"full_scale\" to {:.6g}",
+                      all.channels[k], *level, full, *level));
 }
 
 // Deviations of zero would be certainty: where one is found, nothing is known.
@@ -286,6 +308,8 @@ std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
   PhotographedSeries all;
   std::optional<Image> first;
   std::vector<Region> regions = listing.regions;
+  std::vector<std::vector<PatchChannel>> measured;
+  double full = 1;
   for (const Photograph& photograph : listing.photographs) {
     const RawImage read = read_raw_image(photograph.file, inputs);
     const auto& [image, told, warnings] = read;
@@ -309,21 +333,20 @@ std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
     if (!first) {
       if (regions.empty())
         regions = grid(image.width, image.height, told ? told->mosaic.value_or(Mosaic{}) : Mosaic{});
-      const std::vector<std::vector<double>> none(regions.size());
-      for (const std::string& channel : channels_of(image, told)) {
-        all.channels.push_back(channel);
-        all.series.push_back({{}, none, none});
-      }
+      start_series(channels_of(image, told), regions.size(), all);
+      measured.resize(all.channels.size());
+      full = scale_of(image, listing, codes).full;
       if (codes) all.full_scale.dn = full_dn(image, listing, *codes) - codes->offset_dn;
       if (!codes) all.full_scale.value = listing.full_scale.value_or(1);
       first = image;
     }
-    add(image, told, regions, scale_of(image, listing, codes), all);
+    add(image, told, regions, scale_of(image, listing, codes), all, measured);
     if (inputs) inputs->give_back_memory(image.memory_bytes());
     for (std::size_t k = 0; k < all.series.size(); ++k)
       all.series[k].times_s.push_back(photograph.exposure_s ? *photograph.exposure_s
                                                             : told->exposure_of(all.channels[k]).value());
   }
+  warn_of_clipping(measured, full, all, listing.photographs.front().where, diagnostics);
   if (listing.regions.empty())
     for (ExposureSeries& series : all.series) series.deviations.clear();
   for (ExposureSeries& series : all.series)

@@ -80,9 +80,30 @@ void average(const std::vector<double>& values, PatchChannel& found) {
   if (count > 1) found.deviation = std::sqrt(squares / (count - 1));
 }
 
+// Describes the highest values and the middle half of the pixels.
+void describe_spread(std::vector<double> values, PatchChannel& found) {
+  std::sort(values.begin(), values.end());
+  found.highest = values.back();
+  found.at_highest =
+      static_cast<std::size_t>(values.end() - std::lower_bound(values.begin(), values.end(), found.highest));
+  const auto quarter = static_cast<std::ptrdiff_t>(values.size() / 4);
+  const auto middle = std::unique(values.begin() + quarter, values.end() - quarter);
+  found.middle_levels = static_cast<std::size_t>(middle - (values.begin() + quarter));
+}
+
+// Whether all pixels but defective ones have one value, of so many that noise wider than a step hardly gives
+// them the same by chance.
+bool is_even(const PatchChannel& patch) {
+  constexpr std::size_t kMinPixels = 16;
+  return patch.pixels >= kMinPixels && !exceeds_defects(static_cast<double>(patch.pixels - patch.at_highest),
+                                                        static_cast<double>(patch.pixels));
+}
+
 // Of the pixels that a channel has, in its plane.
-PatchChannel measure(int width, const MeasuredPlanes& planes, std::size_t plane,
+PatchChannel measure(int width, const MeasuredPlanes& planes, std::size_t channel,
                      const std::vector<Pixel>& pixels) {
+  const std::size_t plane = planes.mosaic ? 0 : channel;
+  const std::optional<double> saturation = planes.saturation_of(channel);
   const ImageChannel& measured = *planes.planes[plane];
   const ImageChannel& exposed = planes.exposed.empty() ? measured : *planes.exposed[plane];
   const auto value = [width](const ImageChannel& channel, const Pixel& pixel) {
@@ -94,12 +115,15 @@ PatchChannel measure(int width, const MeasuredPlanes& planes, std::size_t plane,
     return planes.black && value(exposed, pixel) <= *planes.black;
   };
   const auto is_saturated = [&](const Pixel& pixel) {
-    return planes.saturation && value(exposed, pixel) >= *planes.saturation;
+    return saturation && value(exposed, pixel) >= *saturation;
   };
   PatchChannel found{.pixels = pixels.size()};
   found.black = static_cast<std::size_t>(std::count_if(pixels.begin(), pixels.end(), is_black));
   found.saturated = static_cast<std::size_t>(std::count_if(pixels.begin(), pixels.end(), is_saturated));
   std::vector<double> sound;
+  std::vector<double> all;
+  for (const Pixel& pixel : pixels) all.push_back(value(exposed, pixel));
+  describe_spread(std::move(all), found);
   for (const Pixel& pixel : pixels) {
     const bool is_defective =
         (is_black(pixel) && !found.is_black()) || (is_saturated(pixel) && !found.is_saturated());
@@ -130,11 +154,48 @@ std::vector<PatchValues> measure_patches(const Image& image, const MeasuredPlane
         throw Error(ErrorCode::input, outline.name,
                     fmt::format("its middle holds no whole pixel{}: the film is too coarse",
                                 planes.mosaic ? " of channel " + planes.channels[k] : ""));
-      patch.channels.push_back(measure(image.width, planes, planes.mosaic ? 0 : k, own));
+      patch.channels.push_back(measure(image.width, planes, k, own));
     }
     patches.push_back(std::move(patch));
   }
   return patches;
+}
+
+std::optional<double> clipping_level(std::span<const PatchChannel> patches,
+                                     std::optional<double> saturation) {
+  constexpr std::size_t kNoisyLevels = 3;  // of half of all pixels: a deviation of .75 steps or more
+  std::optional<double> level;
+  for (const PatchChannel& patch : patches)
+    if (is_even(patch)) level = std::max(level.value_or(patch.highest), patch.highest);
+  if (!level || (saturation && *level >= *saturation)) return std::nullopt;
+  const PatchChannel* below = nullptr;
+  for (const PatchChannel& patch : patches)
+    if (patch.highest < *level && (below == nullptr || patch.highest > below->highest)) below = &patch;
+  return below != nullptr && below->middle_levels >= kNoisyLevels ? level : std::nullopt;
+}
+
+std::vector<std::optional<double>> clipping_levels(const Image& image, const MeasuredPlanes& planes,
+                                                   std::span<const PatchValues> patches) {
+  std::vector<std::optional<double>> levels;
+  for (std::size_t k = 0; k < planes.channels.size(); ++k) {
+    std::vector<PatchChannel> own;
+    for (const PatchValues& patch : patches) own.push_back(patch.channels[k]);
+    std::optional<double>& level = levels.emplace_back(clipping_level(own, planes.saturation));
+    if (!level) continue;
+    const auto& all = planes.exposed.empty() ? planes.planes : planes.exposed;
+    const std::vector<float>& values = all[planes.mosaic ? 0 : k]->values;
+    double pixels = 0;
+    double above = 0;
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const int x = static_cast<int>(i % static_cast<std::size_t>(image.width));
+      const int y = static_cast<int>(i / static_cast<std::size_t>(image.width));
+      if (planes.mosaic && planes.mosaic->at(x, y) != static_cast<int>(k)) continue;
+      pixels += 1;
+      above += static_cast<double>(values[i]) > *level ? 1 : 0;
+    }
+    if (exceeds_defects(above, pixels)) level.reset();
+  }
+  return levels;
 }
 
 }  // namespace abbe

@@ -32,6 +32,9 @@ struct PatchChannel {
   std::optional<double> deviation = {};  ///< Standard deviation of the pixels; nothing of a single one.
   std::size_t black = 0;                 ///< Pixels at or below black.
   std::size_t saturated = 0;             ///< Pixels at or above saturation.
+  double highest = 0;                    ///< Highest value of all pixels, as they were exposed.
+  std::size_t at_highest = 0;            ///< Pixels that have it.
+  std::size_t middle_levels = 0;  ///< Distinct values of the middle half of the pixels, as they were exposed.
 
   /// Whether more pixels are there than defective ones.
   [[nodiscard]] bool is_black() const {
@@ -58,11 +61,29 @@ struct MeasuredPlanes {
   /// The planes before they were divided by a flat, which tell what is black or saturated; of none `planes`
   /// do.
   std::vector<const ImageChannel*> exposed = {};
+  /// Per channel, a value below `saturation` from which its pixels count as saturated too; empty: none.
+  std::vector<std::optional<double>> clipped_at = {};
+
+  /// The value from which a pixel of a channel counts as saturated.
+  [[nodiscard]] std::optional<double> saturation_of(std::size_t channel) const {
+    return channel < clipped_at.size() && clipped_at[channel] ? clipped_at[channel] : saturation;
+  }
 };
 
 /// Measures the pixels that lie wholly within each outline. Throws Error{input} naming a patch that reaches
 /// beyond the image or what of it was rendered, or in which a channel has no whole pixel.
 [[nodiscard]] std::vector<PatchValues> measure_patches(const Image& image, const MeasuredPlanes& planes,
                                                        std::span<const PatchOutline> outlines);
+
+/// The value at which a channel is clipped below the saturation that its file declares, found from its
+/// patches: the highest value that all pixels of a patch have, but for defective ones. Nothing unless the
+/// brightest patch below it has noise wider than a step of the codes, which no even patch then has by chance.
+[[nodiscard]] std::optional<double> clipping_level(std::span<const PatchChannel> patches,
+                                                   std::optional<double> saturation);
+
+/// That of each channel of an image in which no more pixels are above it than may be defective.
+[[nodiscard]] std::vector<std::optional<double>> clipping_levels(const Image& image,
+                                                                 const MeasuredPlanes& planes,
+                                                                 std::span<const PatchValues> patches);
 
 }  // namespace abbe

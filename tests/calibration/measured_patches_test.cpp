@@ -252,5 +252,28 @@ TEST_F(Measured, PatchesOfFewDefectivePixelsCount) {
       << diagnostics_.text();
 }
 
+// A table of another program does not count saturated pixels, but its deviations show them.
+TEST_F(Measured, PatchesWithoutNoiseAtTheTopAreClipped) {
+  const std::string columns = "patch,R,G,B,R_deviation,G_deviation,B_deviation,R_pixels,G_pixels,B_pixels\n";
+  const auto clipped = [&](const std::string& rows) {
+    diagnostics_ = {};
+    const auto measured = read(columns + rows);
+    EXPECT_TRUE(measured) << diagnostics_.text();
+    return measured ? measured->saturated : std::set<std::string>{};
+  };
+  const std::string noisy = "a,1,1,1,.1,.1,.1,50,50,50\n";
+  EXPECT_EQ(clipped(noisy + "b,3,2,2,.1,0,.1,50,50,50\nc,2,2,1,.1,0,.1,50,50,50\n"),
+            (std::set<std::string>{"b", "c"}));
+  EXPECT_NE(
+      diagnostics_.text().find(
+          "csv:4:1: warning: patch \"b\" has the highest value of G in all its pixels, without the noise "
+          "of others: it is taken for clipped and left out"),
+      std::string::npos)
+      << diagnostics_.text();
+  EXPECT_TRUE(clipped(noisy + "b,3,2,2,.1,0,.1,50,9,50\n").empty()) << "few pixels are even by chance";
+  EXPECT_TRUE(clipped(noisy + "b,3,2,2,.1,0,.1,50,50,50\nc,2,1,1,.1,0,.1,50,50,50\n").empty())
+      << "darker patches have no noise either";
+}
+
 }  // namespace
 }  // namespace abbe

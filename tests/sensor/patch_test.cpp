@@ -57,5 +57,59 @@ TEST(Patch, PixelsAreSaturatedAsTheyWereExposed) {
   EXPECT_EQ(patch.mean, 120);
 }
 
+// Patches of 20 pixels side by side in a row, each with the values that repeat in it.
+struct Row {
+  Image image{0, 1, {{"Y", {}}}, {}};
+  std::vector<PatchOutline> outlines;
+
+  explicit Row(const std::vector<std::vector<float>>& patches) {
+    constexpr int kPixels = 20;
+    for (const std::vector<float>& values : patches) {
+      const double left = image.width;
+      const double right = left + kPixels;
+      outlines.push_back({"patch", {Imath::V2d(left, 0), {right, 0}, {right, 1}, {left, 1}}});
+      for (std::size_t i = 0; i < kPixels; ++i) image.channels[0].values.push_back(values[i % values.size()]);
+      image.width += kPixels;
+    }
+  }
+  [[nodiscard]] MeasuredPlanes planes(double saturation) const {
+    return {{&image.channels[0]}, {"Y"}, {}, saturation};
+  }
+  [[nodiscard]] std::optional<double> level(double saturation = 1000) const {
+    const MeasuredPlanes all = planes(saturation);
+    return clipping_levels(image, all, measure_patches(image, all, outlines))[0];
+  }
+};
+
+const std::vector<float> kNoisy{40, 44, 42, 39, 41};
+
+TEST(Clipping, AnEvenPatchAtTheTopAmongNoisyOnesIsClipped) {
+  EXPECT_EQ(Row({kNoisy, {80}, {80}}).level(), 80);
+  EXPECT_EQ(Row({kNoisy, {80}, {78, 80, 80, 79}}).level(), 80) << "with one that is clipped in part";
+  EXPECT_EQ(Row({kNoisy, {80}, {10}}).level(), 80) << "and an even one in the dark";
+  EXPECT_FALSE(Row({kNoisy, {80}}).level(80)) << "as the file declares it";
+  EXPECT_FALSE(Row({kNoisy, {80}, {90, 91, 92, 93}}).level()) << "a noisy patch is brighter";
+  EXPECT_FALSE(Row({kNoisy, {10}}).level()) << "it is the darkest";
+  EXPECT_FALSE(Row({{40}, {60}, {80}}).level()) << "no patch has noise";
+  EXPECT_FALSE(Row({{40, 41}, {80}}).level()) << "noise below a step of the codes leaves patches even";
+}
+
+TEST(Clipping, PixelsCountAsSaturatedFromThatLevelOn) {
+  const Row row({kNoisy, {80}, {78, 80, 80, 79}});
+  MeasuredPlanes planes = row.planes(1000);
+  planes.clipped_at = {80};
+  const std::vector<PatchValues> patches = measure_patches(row.image, planes, row.outlines);
+  EXPECT_EQ(patches[0].channels[0].saturated, 0U);
+  EXPECT_EQ(patches[1].channels[0].saturated, 20U);
+  EXPECT_EQ(patches[2].channels[0].saturated, 10U);
+}
+
+// Pixels outside the patches count too.
+TEST(Clipping, BrighterPixelsElsewhereShowThatNothingIsClipped) {
+  Row row({kNoisy, {80}, {90, 91, 92, 93}});
+  row.outlines.pop_back();
+  EXPECT_FALSE(row.level());
+}
+
 }  // namespace
 }  // namespace abbe
