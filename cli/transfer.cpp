@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
@@ -28,13 +29,34 @@ void warn_of_dim_light(const std::vector<ChannelTransfer>& channels) {
       dim));
 }
 
+// Warns of a gain that is biased by a response that is not linear.
+void warn_of_nonlinearity(const std::vector<ChannelTransfer>& channels) {
+  constexpr double kNegligible = 0.01;
+  constexpr double kStandardErrors = 3;
+  for (const ChannelTransfer& one : channels) {
+    const auto& bias = one.transfer.gain_bias;
+    const double limit = bias ? std::max(kNegligible, kStandardErrors * bias->standard_error) : 0;
+    if (!bias || std::abs(bias->value) <= limit) continue;
+    say(fmt::format(
+        "warning: {} does not respond linearly, so that its gain is {:.2g} % too {} (that of weak light is "
+        "{:.5g} "
+        "e/DN), and all figures in electrons with it: use weaker light, or correct the response first",
+        one.channel, 100 * std::abs(bias->value), bias->value > 0 ? "large" : "small",
+        one.transfer.gain_e_per_dn / (1 + bias->value)));
+  }
+}
+
 }  // namespace
 
 int transfer(const TransferOptions& options) {
   if (!options.plot.empty()) require_extension(options.plot, {".svg"});
   Inputs inputs(options.max_memory_bytes);
-  const std::vector<ChannelTransfer> channels = measure_transfer(options.dark, options.lit, inputs);
+  std::vector<std::string> warnings;
+  const std::vector<ChannelTransfer> channels =
+      measure_transfer(options.dark, options.lit, inputs, &warnings);
+  for (const std::string& warning : warnings) say("warning: " + warning);
   warn_of_dim_light(channels);
+  warn_of_nonlinearity(channels);
   Json answer;
   for (const ChannelTransfer& one : channels) {
     const PhotonTransfer& found = one.transfer;
@@ -51,6 +73,8 @@ int transfer(const TransferOptions& options) {
     const std::optional<double>& range_db = one.dynamic_range_db;
     answer["dynamic_range_db"].push_back(range_db && std::isfinite(*range_db) ? Json(*range_db) : Json());
     answer["snr10_e"].push_back(one.snr10_e);
+    const std::optional<double>& nonlinear = found.linearity_error_percent;
+    answer["linearity_error_percent"].push_back(nonlinear ? Json(*nonlinear) : Json());
     answer["snr10_lx_s"].push_back(one.snr10_lx_s ? Json(*one.snr10_lx_s) : Json());
   }
   Json with_curves = answer;

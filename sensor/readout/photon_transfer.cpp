@@ -267,6 +267,21 @@ double pattern(std::span<const FlatPair> pairs, const std::vector<PairMoments>& 
   return noise > kPatternNoise * by_nearest ? by_nearest : variance(line);
 }
 
+// How straight the lit pairs are, `below` being those that the gain is fitted to.
+void judge_linearity(const std::vector<PairMoments>& lit, const std::vector<PairMoments>& below,
+                     const Line& dark_mean, const Line& dark_variance, double saturation_dn,
+                     PhotonTransfer& transfer) {
+  const auto points_of = [&](const std::vector<PairMoments>& pairs) {
+    std::vector<LinearityPoint> points;
+    for (const PairMoments& m : pairs)
+      points.push_back({m.exposure_s, m.mean - dark_mean.at(m.exposure_s),
+                        m.temporal - dark_variance.at(m.exposure_s), m.temporal_error2});
+    return points;
+  };
+  transfer.linearity_error_percent = linearity_error_percent(points_of(lit), saturation_dn);
+  transfer.gain_bias = gain_bias(points_of(below), transfer.linearity_error_percent.has_value());
+}
+
 // What pairs say, as long as no pixel is full where it should not be.
 struct Analysis {
   PhotonTransfer transfer;
@@ -324,12 +339,14 @@ Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair>
   std::vector<TransferPoint> points;
   for (const PairMoments& m : lit) points.push_back({signal(m), m.temporal - dark_variance.at(m.exposure_s)});
   const double read_noise = root(read_variance) * gain;
-  return {
+  Analysis all{
       {gain, read_noise, dark_mean.slope * gain,
        100 * root(pattern(dark_pairs, dark, levels, half.exposure_s, &half, room_dn)) / signal(*half_pair),
        root(pattern(dark_pairs, dark, levels, 0)) * gain, full_well_e, std::move(points), errors.gain * gain,
        errors.read_noise ? std::optional(*errors.read_noise * read_noise) : std::nullopt, saturation_e},
       full_dn};
+  judge_linearity(lit, below, dark_mean, dark_variance, saturation, all.transfer);
+  return all;
 }
 
 // Whether each pixel is full in one of these pairs.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sensor/readout/code_levels.h"
+#include "sensor/readout/linearity.h"
 
 namespace abbe {
 
@@ -36,6 +37,8 @@ struct PhotonTransfer {
   std::optional<double> read_noise_standard_error = {};  ///< [e]; nothing where rounding hides the noise.
   /// Electrons at which wells are full or codes end; nothing where the brightest lit pair reaches neither.
   std::optional<double> saturation_e = {};
+  std::optional<double> linearity_error_percent = {};  ///< By that function, of the lit pairs.
+  std::optional<RelativeBias> gain_bias = {};  ///< By that function, of the pairs that K is fitted to.
 };
 
 /// The photon transfer method of [EMVA1288]: temporal variance, from the difference of two exposures, less

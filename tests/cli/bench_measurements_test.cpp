@@ -9,6 +9,7 @@
 
 #include "io/exr.h"
 #include "io/picture.h"
+#include "io/raw_picture.h"
 #include "sensor/film/crop.h"
 #include "tests/cli/program.h"
 #include "tests/cli/runs.h"
@@ -77,6 +78,32 @@ TEST(Transfer, LightThatSaturatesNothingTellsNoRange) {
       << run.err;
 }
 
+// Signals of 400 t - 4 t^2 codes at t seconds: 1 % below a line for each second. The expected figures are
+// those of a separate calculation: LE of four of the pairs, the bias of a gain of three.
+constexpr double kBentLinearityError = 0.38448740;
+constexpr double kBentBias = 0.08246962;
+TEST(Transfer, AResponseThatIsNotLinearIsWarnedOf) {
+  const auto run_with = [](double bend) {
+    std::string lit;
+    for (const int t : {1, 2, 3, 4, 5})
+      lit += pair(fmt::format("bend{}", t), 50 + 400 * t - bend * t * t, 2 + t, t);
+    return abbe("transfer --dark " + pair("short", 50, 1, 0.01) + pair("long", 50, 1, 1) + "--lit " + lit +
+                pair("over", 4095, 0, 6) + "--json");
+  };
+  const Outcome straight = run_with(0);
+  EXPECT_EQ(straight.err, "");
+  EXPECT_NEAR(straight.json()["linearity_error_percent"][0], 0, 1e-9);
+  const Outcome bent = run_with(4);
+  EXPECT_NEAR(bent.json()["linearity_error_percent"][0], kBentLinearityError, 1e-6);
+  const double gain = bent.json()["gain_e_per_dn"][0];
+  EXPECT_NE(bent.err.find(
+                fmt::format("warning: Y does not respond linearly, so that its gain is {:.2g} % too large "
+                            "(that of weak light is {:.5g} e/DN)",
+                            100 * kBentBias, gain / (1 + kBentBias))),
+            std::string::npos)
+      << bent.err;
+}
+
 void expect_fault(const std::string& arguments, int code, const std::string& message) {
   const Outcome run = abbe(arguments);
   EXPECT_EQ(run.code, code) << arguments << '\n' << run.err;
@@ -97,6 +124,57 @@ TEST(Transfer, FaultsAreNamed) {
                "where the codes scatter most: weaker light is needed beside it (1 lit pair given)");
   expect_fault("transfer " + dark_pairs(), 2, "--lit");
   expect_fault("transfer " + dark_pairs() + "--lit " + file("absent.tif"), 4, "absent.tif");
+}
+
+// A row of three patches of 12-bit codes in a file that allows 16 bits: noise of some codes, and the highest
+// code, which all pixels of one patch have and every other one of another.
+TEST(Measure, PatchesAtAHighestCodeThatNoFileDeclaresAreClipped) {
+  const std::string chart = scratch()
+                                .write("clipped.csv",
+                                       "# unit: reflectance factor\n# outside: clamp\n"
+                                       "wavelength_nm,dark,bright,brighter\n380,.2,.5,.9\n780,.2,.5,.9\n")
+                                .string();
+  RawPicture raw;
+  raw.width = 60;
+  raw.height = 20;
+  raw.planes = raw.channels = {"mono"};
+  raw.black_level_dn = 256;
+  for (int y = 0; y < 20; ++y)
+    for (int x = 0; x < 60; ++x) {
+      const int noise = (7 * x + 3 * y) % 11;
+      const int code = x < 20 ? 2000 + noise : x < 40 ? (noise < 5 ? 4090 + noise : 4095) : 4095;
+      raw.codes.push_back(static_cast<std::uint16_t>(code));
+    }
+  const auto run_with = [&](double white) {
+    raw.white_level_dn = white;
+    write_fits(file("clipped.fits"), raw);
+    return abbe("measure " + file("clipped.fits") + " --chart " + chart +
+                " --columns 3 --corners 0,0,60,0,60,20,0,20 --json");
+  };
+  for (const double white : {65535.0, 4095.0}) {
+    const Outcome run = run_with(white);
+    ASSERT_EQ(run.code, 0) << run.err;
+    const nlohmann::json patches = run.json()["patches"];
+    EXPECT_EQ(patches[0]["saturated"][0], 0) << white;
+    EXPECT_GT(patches[1]["saturated"][0], 0) << white;
+    EXPECT_EQ(patches[2]["saturated"][0], patches[2]["pixels"][0]) << white;
+    EXPECT_EQ(
+        run.err.find("hold the highest value of the picture (3839 in mono), so that it is clipped there, "
+                     "not at the 65279 that the file declares") != std::string::npos,
+        white == 65535)
+        << run.err;
+    EXPECT_NE(run.err.find("saturated pixels, whose values are too low, in bright, brighter"),
+              std::string::npos)
+        << run.err;
+  }
+  raw.codes.assign(raw.codes.size(), 0);
+  for (std::size_t i = 0; i < raw.codes.size(); ++i)
+    raw.codes[i] = static_cast<std::uint16_t>(1500 + 500 * (i % 60 / 20) + 7 * i % 11);
+  const Outcome low = run_with(1400);
+  EXPECT_NE(low.err.find("patches of mono differ up to 22"), std::string::npos) << low.err;
+  EXPECT_NE(low.err.find("above the 1144 from which the file declares pixels to be saturated"),
+            std::string::npos)
+      << low.err;
 }
 
 // The middle of a patch's cell of three pixels by three holds one.
