@@ -1,6 +1,7 @@
 #include "calibration/calibration_case.h"
 
 #include <iterator>
+#include <memory>
 #include <utility>
 
 #include <fmt/format.h>
@@ -120,6 +121,20 @@ void linearise_all(MeasuredPatches& patches, const std::vector<ChannelResponse>&
     }
 }
 
+// Warns of a curve that does not follow its codes.
+void warn_of_misfit(const ChannelResponse& response, const fs::path& series, Diagnostics& diagnostics) {
+  const auto& misfit = response.fit.misfit;
+  if (!misfit) return;
+  const auto source = std::make_shared<const SourceText>(SourceText{series.string(), ""});
+  diagnostics.warning(
+      {source, SourcePosition::kWholeFile, ""},
+      fmt::format(
+          "the curve of {} does not follow its codes: from {:.3g} to {:.3g} their exposures are off by "
+          "{:.2g} % of full scale, which noise does not explain, and its 95 % interval is wider "
+          "there for it; at a knee, add exposures whose codes lie near it",
+          response.channel, misfit->low_code, misfit->high_code, 100 * misfit->exposure));
+}
+
 }  // namespace
 
 std::optional<std::vector<Channel>> camera_channels(const std::string& camera,
@@ -160,8 +175,10 @@ RecoveredResponses recover_responses(const fs::path& series, Inputs& inputs, Dia
   const auto photographs = read_series(series, diagnostics, &inputs);
   require_sound(diagnostics);
   RecoveredResponses recovered{{}, photographs->full_scale};
-  for (std::size_t k = 0; k < photographs->channels.size(); ++k)
+  for (std::size_t k = 0; k < photographs->channels.size(); ++k) {
     recovered.channels.push_back({photographs->channels[k], recover_response(photographs->series[k]), {}});
+    warn_of_misfit(recovered.channels.back(), series, diagnostics);
+  }
   return recovered;
 }
 

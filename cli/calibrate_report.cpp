@@ -83,6 +83,9 @@ Json json_of(const ChannelResponse& r) {
   Json answer{{"channel", r.channel}};
   if (r.max_error) answer["max_error"] = *r.max_error;
   answer["uncertainty_95"] = largest_uncertainty(r.fit);
+  if (r.fit.misfit)
+    answer["misfit"] = {{"codes", {r.fit.misfit->low_code, r.fit.misfit->high_code}},
+                        {"exposure", r.fit.misfit->exposure}};
   answer["median_code"] = r.fit.median_code;
   answer["noise_scale"] = r.fit.noise_scale;
   answer["roughness"] = r.fit.roughness;

@@ -176,6 +176,69 @@ std::vector<double> tabulate(const ResponseUnknowns& unknowns, std::size_t size)
   return table;
 }
 
+// Distances of a sample from the curve.
+struct SampleError {
+  double code;
+  double deviations;    // of the code
+  double log_exposure;  // absolute
+  double exposure;      // as a fraction of full scale
+};
+
+std::vector<SampleError> sample_errors(const std::vector<ResponseSample>& samples,
+                                       const ResponseUnknowns& unknowns, double scale) {
+  const std::vector<double> errors = code_errors(samples, unknowns);
+  const ResponseModel<double> model = unknowns.model();
+  const double full_scale = model(1.0);
+  std::vector<SampleError> all;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double code = samples[i].code;
+    const double log_exposure = errors[i] * model.slope(code);
+    all.push_back({code, errors[i] / std::max(kLeastDeviation, scale * samples[i].deviation), log_exposure,
+                   log_exposure * std::exp(model(code) - full_scale)});
+  }
+  std::sort(all.begin(), all.end(),
+            [](const SampleError& a, const SampleError& b) { return a.code < b.code; });
+  return all;
+}
+
+// Neighbouring samples of which so many are off the curve that they are no outliers: where the curve is too
+// smooth for the codes, the loss takes some of them for these.
+std::optional<ResponseMisfit> misfit_of(const std::vector<SampleError>& errors) {
+  constexpr std::size_t kWindow = 9;
+  constexpr std::size_t kMinOff = 3;
+  constexpr double kDeviations = 6;
+  constexpr double kNegligible = 0.002;  // of full scale
+  std::optional<ResponseMisfit> misfit;
+  for (std::size_t first = 0; first + kWindow <= errors.size(); ++first) {
+    std::vector<double> off;
+    std::vector<double> log_off;
+    for (std::size_t i = first; i < first + kWindow; ++i) {
+      if (errors[i].deviations <= kDeviations) continue;
+      off.push_back(errors[i].exposure);
+      log_off.push_back(errors[i].log_exposure);
+    }
+    if (off.size() < kMinOff) continue;
+    const double exposure = median(std::move(off));
+    if (exposure < kNegligible) continue;
+    if (!misfit) misfit = {errors[first].code, 0, 0, 0};
+    const bool is_last = first + kWindow == errors.size();  // no code determines the curve above it
+    misfit->high_code = is_last ? 1 : errors[first + kWindow - 1].code;
+    misfit->exposure = std::max(misfit->exposure, exposure);
+    misfit->log_exposure = std::max(misfit->log_exposure, median(std::move(log_off)));
+  }
+  return misfit;
+}
+
+// Makes the interval hold a curve that is off by so much.
+void widen(std::vector<double>& log_deviation, const ResponseMisfit& misfit) {
+  const auto last = static_cast<double>(log_deviation.size() - 1);
+  for (std::size_t i = 0; i < log_deviation.size(); ++i) {
+    const double code = static_cast<double>(i) / last;
+    if (code >= misfit.low_code && code <= misfit.high_code)
+      log_deviation[i] = std::hypot(log_deviation[i], misfit.log_exposure);
+  }
+}
+
 void require_samples(const std::vector<ResponseSample>& samples) {
   require_for_response(
       samples.size() >= kMinSamples,
@@ -221,6 +284,9 @@ ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions
   fit.final_cost = summary.final_cost;
   fit.median_code = median(code_errors(data.samples, unknowns));
   fit.samples = data.samples.size();
+  if (!series.deviations.empty())
+    fit.misfit = misfit_of(sample_errors(data.samples, unknowns, fit.noise_scale));
+  if (fit.misfit) widen(fit.log_deviation, *fit.misfit);
   require_for_response(
       std::is_sorted(fit.linear.begin(), fit.linear.end(), std::less_equal<>()) &&
           std::isfinite(fit.linear.back()),

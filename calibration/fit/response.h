@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -8,6 +9,13 @@
 #include "calibration/chart/exposure_series.h"
 
 namespace abbe {
+
+/// Where a recovered curve does not follow the codes, and by how much their exposures are off: medians.
+struct ResponseMisfit {
+  double low_code, high_code;  ///< Range in [0, 1].
+  double exposure;             ///< Fraction of full scale.
+  double log_exposure;         ///< Difference of ln exposure.
+};
 
 /// One channel's recovered response.
 struct ResponseFit {
@@ -27,6 +35,11 @@ struct ResponseFit {
   double roughness = 0;     ///< Weight of the curve's second differences that cross-validation chose.
   std::size_t samples = 0;  ///< Code values used: neither black nor clipped.
   int iterations = 0;       ///< Of all passes.
+  /// What neither noise nor single outliers explain, as a knee that is sharper than the curve can be: three
+  /// of nine neighbouring codes are off. `log_deviation` includes it in its range. Nothing where the curve
+  /// follows all codes to 0.2 % of full scale, and where the series does not state deviations, since these
+  /// are then learnt of the residuals themselves.
+  std::optional<ResponseMisfit> misfit = {};
 };
 
 /// How a response is recovered.

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <random>
@@ -158,6 +159,45 @@ TEST(ResponseFit, ClippingByNoiseDoesNotPullTheCurve) {
     unknown.deviations.clear();
     EXPECT_LT(worst_error(recover_response(unknown), planted), 0.01) << name;
   }
+}
+
+// Codes that grow a quarter as fast from 0.8 on: 24 patches and six times a factor of two apart leave few
+// codes beyond the knee.
+TEST(ResponseFit, AKneeThatTheCurveDoesNotFollowIsReported) {
+  constexpr double kKnee = 0.8;
+  const auto code_of = [](double x) { return x < kKnee ? x : std::min(1.0, kKnee + (x - kKnee) / 4); };
+  const auto exposure_of = [](double z) { return z < kKnee ? z : kKnee + 4 * (z - kKnee); };
+  ExposureSeries series{stops(-4, 1, 1), {}, {}};
+  std::mt19937_64 random(7);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 24; ++i) {
+    std::vector<double>& codes = series.codes.emplace_back();
+    std::vector<double>& deviations = series.deviations.emplace_back();
+    for (const double time : series.times_s) {
+      const double code = code_of(0.0026 * std::exp(0.277 * i) * time);
+      deviations.push_back(std::hypot(3e-5, 1.5e-4 * std::sqrt(code)));
+      codes.push_back(code < 1 ? std::clamp(code + deviations.back() * normal(random), 0.0, 1.0) : 1);
+    }
+  }
+  const ResponseFit fit = recover_response(series);
+  ASSERT_TRUE(fit.misfit);
+  EXPECT_GT(fit.misfit->exposure, 0.005);
+  EXPECT_LT(fit.misfit->low_code, kKnee);
+  EXPECT_EQ(fit.misfit->high_code, 1) << "the last codes are among them";
+  int inside = 0;
+  for (int i = 10; i <= 990; ++i) {
+    const double code = i / 1000.0;
+    const double ratio =
+        linearise(fit.linear, code) / linearise(fit.linear, 0.5) * exposure_of(0.5) / exposure_of(code);
+    inside += std::abs(std::log(ratio)) <= 1.96 * linearise(fit.log_deviation, code) ? 1 : 0;
+  }
+  EXPECT_GT(inside, 0.75 * 981)
+      << "the interval includes the misfit, without which it holds half of the codes";
+  for (const char* smooth : {"linear", "gamma:2.2", "s-curve"})
+    EXPECT_FALSE(
+        recover_response(expose(chart_values(), stops(-9, 6, 1.0 / 3), PlantedResponse(smooth), kNoisyCamera))
+            .misfit)
+        << smooth;
 }
 
 TEST(ResponseFit, AFitThatDoesNotConvergeIsAnError) {
