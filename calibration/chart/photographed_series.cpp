@@ -275,8 +275,9 @@ void start_series(const std::vector<std::string>& channels, std::size_t regions,
 // Warns of regions that show that the camera clips below the full scale of the series.
 void warn_of_clipping(const std::vector<std::vector<PatchChannel>>& measured, double full,
                       const PhotographedSeries& all, const SourcePosition& where, Diagnostics& diagnostics) {
-  for (std::size_t k = 0; k < measured.size(); ++k)
-    if (const auto level = clipping_level(measured[k], full * (1 - kRounding)))
+  const std::vector<std::optional<double>> levels = clipping_levels(measured, full * (1 - kRounding));
+  for (std::size_t k = 0; k < levels.size(); ++k)
+    if (const auto level = levels[k])
       diagnostics.warning(
           where,
           fmt::format("regions of {} hold the value {:.6g} without any noise, and none is above it: the "

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -134,6 +135,32 @@ PatchChannel measure(int width, const MeasuredPlanes& planes, std::size_t channe
   return found;
 }
 
+double highest_of(std::span<const PatchChannel> patches) {
+  double highest = -std::numeric_limits<double>::infinity();
+  for (const PatchChannel& patch : patches) highest = std::max(highest, patch.highest);
+  return highest;
+}
+
+// The highest value of a channel, where all pixels of a patch have it and those of the next patch differ; and
+// whether these differ by more than a step of the codes.
+struct EvenTop {
+  std::optional<double> level;
+  bool is_wide = false;
+};
+EvenTop even_top(std::span<const PatchChannel> patches, std::optional<double> saturation) {
+  constexpr std::size_t kWideLevels = 3;  // of half of all pixels: a deviation of .75 steps or more
+  const double highest = highest_of(patches);
+  if (saturation && highest >= *saturation) return {};
+  bool is_even_there = false;
+  const PatchChannel* below = nullptr;
+  for (const PatchChannel& patch : patches) {
+    is_even_there = is_even_there || (patch.highest == highest && is_even(patch));
+    if (patch.highest < highest && (below == nullptr || patch.highest > below->highest)) below = &patch;
+  }
+  if (!is_even_there || below == nullptr || is_even(*below)) return {};
+  return {highest, below->middle_levels >= kWideLevels};
+}
+
 }  // namespace
 
 std::vector<PatchValues> measure_patches(const Image& image, const MeasuredPlanes& planes,
@@ -161,26 +188,34 @@ std::vector<PatchValues> measure_patches(const Image& image, const MeasuredPlane
   return patches;
 }
 
-std::optional<double> clipping_level(std::span<const PatchChannel> patches,
-                                     std::optional<double> saturation) {
-  constexpr std::size_t kNoisyLevels = 3;  // of half of all pixels: a deviation of .75 steps or more
-  std::optional<double> level;
-  for (const PatchChannel& patch : patches)
-    if (is_even(patch)) level = std::max(level.value_or(patch.highest), patch.highest);
-  if (!level || (saturation && *level >= *saturation)) return std::nullopt;
-  const PatchChannel* below = nullptr;
-  for (const PatchChannel& patch : patches)
-    if (patch.highest < *level && (below == nullptr || patch.highest > below->highest)) below = &patch;
-  return below != nullptr && below->middle_levels >= kNoisyLevels ? level : std::nullopt;
+std::vector<std::optional<double>> clipping_levels(std::span<const std::vector<PatchChannel>> channels,
+                                                   std::optional<double> saturation) {
+  std::vector<EvenTop> tops;
+  for (const std::vector<PatchChannel>& patches : channels) tops.push_back(even_top(patches, saturation));
+  std::vector<double> clipped;
+  for (const EvenTop& top : tops) {
+    const auto same = std::count_if(tops.begin(), tops.end(), [&](const EvenTop& other) {
+      return top.level && other.level == top.level;
+    });
+    if (top.level && (top.is_wide || same > 1)) clipped.push_back(*top.level);
+  }
+  std::vector<std::optional<double>> levels;
+  for (const std::vector<PatchChannel>& patches : channels) {
+    const double highest = highest_of(patches);
+    const bool is_clipped = std::find(clipped.begin(), clipped.end(), highest) != clipped.end();
+    levels.push_back(is_clipped ? std::optional(highest) : std::nullopt);
+  }
+  return levels;
 }
 
 std::vector<std::optional<double>> clipping_levels(const Image& image, const MeasuredPlanes& planes,
                                                    std::span<const PatchValues> patches) {
-  std::vector<std::optional<double>> levels;
-  for (std::size_t k = 0; k < planes.channels.size(); ++k) {
-    std::vector<PatchChannel> own;
-    for (const PatchValues& patch : patches) own.push_back(patch.channels[k]);
-    std::optional<double>& level = levels.emplace_back(clipping_level(own, planes.saturation));
+  std::vector<std::vector<PatchChannel>> channels(planes.channels.size());
+  for (const PatchValues& patch : patches)
+    for (std::size_t k = 0; k < channels.size(); ++k) channels[k].push_back(patch.channels[k]);
+  std::vector<std::optional<double>> levels = clipping_levels(channels, planes.saturation);
+  for (std::size_t k = 0; k < channels.size(); ++k) {
+    std::optional<double>& level = levels[k];
     if (!level) continue;
     const auto& all = planes.exposed.empty() ? planes.planes : planes.exposed;
     const std::vector<float>& values = all[planes.mosaic ? 0 : k]->values;

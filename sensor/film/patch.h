@@ -75,13 +75,15 @@ struct MeasuredPlanes {
 [[nodiscard]] std::vector<PatchValues> measure_patches(const Image& image, const MeasuredPlanes& planes,
                                                        std::span<const PatchOutline> outlines);
 
-/// The value at which a channel is clipped below the saturation that its file declares, found from its
-/// patches: the highest value that all pixels of a patch have, but for defective ones. Nothing unless the
-/// brightest patch below it has noise wider than a step of the codes, which no even patch then has by chance.
-[[nodiscard]] std::optional<double> clipping_level(std::span<const PatchChannel> patches,
-                                                   std::optional<double> saturation);
+/// The value of each channel at which it is clipped below the saturation that its file declares, found from
+/// its patches: the highest value that all pixels of a patch have, but for defective ones, while the
+/// brightest patch below it is uneven. Noise narrower than a step of the codes leaves patches even by chance,
+/// so that the noise of that patch must be wider, or another channel be even at the same value. Channels in
+/// which a patch reaches the value of another channel are clipped there too.
+[[nodiscard]] std::vector<std::optional<double>> clipping_levels(
+    std::span<const std::vector<PatchChannel>> channels, std::optional<double> saturation);
 
-/// That of each channel of an image in which no more pixels are above it than may be defective.
+/// That of the channels of an image in which no more pixels are above it than may be defective.
 [[nodiscard]] std::vector<std::optional<double>> clipping_levels(const Image& image,
                                                                  const MeasuredPlanes& planes,
                                                                  std::span<const PatchValues> patches);

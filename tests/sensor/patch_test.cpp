@@ -94,6 +94,20 @@ TEST(Clipping, AnEvenPatchAtTheTopAmongNoisyOnesIsClipped) {
   EXPECT_FALSE(Row({{40, 41}, {80}}).level()) << "noise below a step of the codes leaves patches even";
 }
 
+// Noise below a step leaves some patches even by chance, but hardly two channels at the same highest value.
+TEST(Clipping, TwoChannelsThatAreEvenAtTheSameValueAreClipped) {
+  const auto patch = [](double highest, std::size_t at_highest) {
+    return PatchChannel{.pixels = 40, .highest = highest, .at_highest = at_highest, .middle_levels = 2};
+  };
+  const std::vector<PatchChannel> red{patch(30, 20), patch(80, 40)};
+  const std::vector<PatchChannel> green{patch(79, 10), patch(80, 40)};
+  const std::vector<PatchChannel> partly{patch(40, 10), patch(80, 30)};
+  const std::vector<PatchChannel> lower{patch(20, 10), patch(60, 40)};
+  EXPECT_EQ(clipping_levels(std::vector{red, green, partly, lower}, 1000),
+            (std::vector<std::optional<double>>{80, 80, 80, std::nullopt}));
+  EXPECT_EQ(clipping_levels(std::vector{red, partly, lower}, 1000), std::vector<std::optional<double>>(3));
+}
+
 TEST(Clipping, PixelsCountAsSaturatedFromThatLevelOn) {
   const Row row({kNoisy, {80}, {78, 80, 80, 79}});
   MeasuredPlanes planes = row.planes(1000);
