@@ -27,11 +27,11 @@ struct GainMap {
   std::vector<float> gains;  ///< By row, by column, by plane.
 };
 
-/// An opcode that changes each pixel for itself: GainMap or MapPolynomial.
+/// An opcode that changes each pixel for itself: a GainMap, or a MapPolynomial where the map has no gains.
 struct PixelOpcode {
   OpcodeArea area;
-  GainMap map = {};                  ///< Of a GainMap; without gains the opcode is a MapPolynomial,
-  std::vector<double> polynomial{};  ///< which has the coefficients of 1, x, x^2 and so on.
+  GainMap map = {};
+  std::vector<double> polynomial{};  ///< Coefficients of 1, x, x^2 and so on.
 };
 
 /// An opcode list of a DNG [DNG, ch. 7].

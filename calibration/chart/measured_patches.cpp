@@ -116,8 +116,8 @@ bool is_too_bright(double saturated, double pixels) {
   return saturated >= 1 ? exceeds_defects(saturated, pixels) : saturated > 0;
 }
 
-// Patches at the highest value of a channel whose pixels have no deviation there, where those of all other
-// values have one: the camera clips them, though a table without columns of saturated pixels does not say so.
+// Patches at the highest value of a channel without deviation, where all others have one. The camera clips
+// them, though a table without columns of saturated pixels does not say so.
 std::set<std::string> even_at_the_top(const Table& table, const std::vector<std::string>& names,
                                       const std::vector<Raw>& values, Diagnostics& diagnostics) {
   constexpr double kMinPixels = 16;  // fewer are even by chance

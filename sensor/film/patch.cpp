@@ -141,11 +141,10 @@ double highest_of(std::span<const PatchChannel> patches) {
   return highest;
 }
 
-// The highest value of a channel, where all pixels of a patch have it and those of the next patch differ; and
-// whether these differ by more than a step of the codes.
+// The highest value of a channel, where all pixels of a patch have it and those of the next patch differ.
 struct EvenTop {
   std::optional<double> level;
-  bool is_wide = false;
+  bool is_wide = false;  // True if they differ by more than a step of the codes.
 };
 EvenTop even_top(std::span<const PatchChannel> patches, std::optional<double> saturation) {
   constexpr std::size_t kWideLevels = 3;  // of half of all pixels: a deviation of .75 steps or more

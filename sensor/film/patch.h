@@ -75,11 +75,11 @@ struct MeasuredPlanes {
 [[nodiscard]] std::vector<PatchValues> measure_patches(const Image& image, const MeasuredPlanes& planes,
                                                        std::span<const PatchOutline> outlines);
 
-/// The value of each channel at which it is clipped below the saturation that its file declares, found from
-/// its patches: the highest value that all pixels of a patch have, but for defective ones, while the
-/// brightest patch below it is uneven. Noise narrower than a step of the codes leaves patches even by chance,
-/// so that the noise of that patch must be wider, or another channel be even at the same value. Channels in
-/// which a patch reaches the value of another channel are clipped there too.
+/// The value of each channel at which it is clipped below the saturation that its file declares. It is the
+/// highest value of its patches, if all pixels of one patch have it, but for defective ones. The brightest
+/// patch below it must be uneven. Noise narrower than a step of the codes leaves patches even by chance. So
+/// the noise of that patch must be wider, or another channel be even at the same value. A channel of which a
+/// patch reaches the value of another one is clipped there too.
 [[nodiscard]] std::vector<std::optional<double>> clipping_levels(
     std::span<const std::vector<PatchChannel>> channels, std::optional<double> saturation);
 
