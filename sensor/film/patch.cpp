@@ -141,10 +141,11 @@ double highest_of(std::span<const PatchChannel> patches) {
   return highest;
 }
 
-// The highest value of a channel, where all pixels of a patch have it and those of the next patch differ.
+// The highest value of a channel, where all pixels of a patch have it and lower patches have noise: the
+// brightest of them of more than a step of the codes, or else most of them some.
 struct EvenTop {
   std::optional<double> level;
-  bool is_wide = false;  // True if they differ by more than a step of the codes.
+  bool is_wide = false;  // True for noise of more than a step.
 };
 EvenTop even_top(std::span<const PatchChannel> patches, std::optional<double> saturation) {
   constexpr std::size_t kWideLevels = 3;  // of half of all pixels: a deviation of .75 steps or more
@@ -152,12 +153,17 @@ EvenTop even_top(std::span<const PatchChannel> patches, std::optional<double> sa
   if (saturation && highest >= *saturation) return {};
   bool is_even_there = false;
   const PatchChannel* below = nullptr;
+  std::size_t even = 0;
+  std::size_t uneven = 0;
   for (const PatchChannel& patch : patches) {
     is_even_there = is_even_there || (patch.highest == highest && is_even(patch));
-    if (patch.highest < highest && (below == nullptr || patch.highest > below->highest)) below = &patch;
+    if (patch.highest == highest) continue;
+    ++(is_even(patch) ? even : uneven);
+    if (below == nullptr || patch.highest > below->highest) below = &patch;
   }
-  if (!is_even_there || below == nullptr || is_even(*below)) return {};
-  return {highest, below->middle_levels >= kWideLevels};
+  if (!is_even_there || below == nullptr) return {};
+  const bool is_wide = below->middle_levels >= kWideLevels;
+  return is_wide || uneven > even ? EvenTop{highest, is_wide} : EvenTop{};
 }
 
 }  // namespace

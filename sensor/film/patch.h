@@ -76,10 +76,10 @@ struct MeasuredPlanes {
                                                        std::span<const PatchOutline> outlines);
 
 /// The value of each channel at which it is clipped below the saturation that its file declares. It is the
-/// highest value of its patches, if all pixels of one patch have it, but for defective ones. The brightest
-/// patch below it must be uneven. Noise narrower than a step of the codes leaves patches even by chance. So
-/// the noise of that patch must be wider, or another channel be even at the same value. A channel of which a
-/// patch reaches the value of another one is clipped there too.
+/// highest value of its patches, if all pixels of one patch have it, but for defective ones, while others
+/// have noise. Noise narrower than a step of the codes leaves patches even by chance. So the brightest patch
+/// below must have wider noise, or most others some, and another channel be even at the same value. A channel
+/// of which a patch reaches the value of another one is clipped there too.
 [[nodiscard]] std::vector<std::optional<double>> clipping_levels(
     std::span<const std::vector<PatchChannel>> channels, std::optional<double> saturation);
 

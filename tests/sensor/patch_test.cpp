@@ -100,7 +100,7 @@ TEST(Clipping, TwoChannelsThatAreEvenAtTheSameValueAreClipped) {
     return PatchChannel{.pixels = 40, .highest = highest, .at_highest = at_highest, .middle_levels = 2};
   };
   const std::vector<PatchChannel> red{patch(30, 20), patch(80, 40)};
-  const std::vector<PatchChannel> green{patch(79, 10), patch(80, 40)};
+  const std::vector<PatchChannel> green{patch(20, 9), patch(30, 11), patch(79, 40), patch(80, 40)};
   const std::vector<PatchChannel> partly{patch(40, 10), patch(80, 30)};
   const std::vector<PatchChannel> lower{patch(20, 10), patch(60, 40)};
   EXPECT_EQ(clipping_levels(std::vector{red, green, partly, lower}, 1000),
