@@ -126,7 +126,7 @@ int merge(const MergeOptions& options) {
   say(fmt::format("{} from {} parts: {}{}{}", options.outputs.front().string(), options.parts.size(),
                   in_words(all.areas, all.shape, " of every pixel"),
                   missing.empty() ? "" : fmt::format("; missing: {}", in_words(missing, all.shape)),
-                  error_text({.frame_mean = error}, ", ")));
+                  error_text({.frame_mean = error, .few_samples = few_samples(sum)}, ", ")));
   return 0;
 }
 

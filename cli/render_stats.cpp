@@ -6,6 +6,7 @@
 #include "cli/answer.h"
 #include "film/spectral.h"
 #include "io/data_directory.h"
+#include "validation/statistics/students_interval.h"
 
 namespace abbe::cli {
 namespace {
@@ -23,9 +24,12 @@ Json film_figures(const Scene& scene, const Film& film) {
   for (std::size_t i = 0; i < planes.size(); ++i) {
     const Film::Average average = film.average(static_cast<int>(i), of.x0, of.y0, of.x1, of.y1, divisors);
     const bool known = average.degrees_of_freedom > 0;
-    figures[planes[i]] = {{"mean", average.mean},
-                          {"standard_error", known ? Json(average.standard_error) : Json()},
-                          {"degrees_of_freedom", average.degrees_of_freedom}};
+    figures[planes[i]] = {
+        {"mean", average.mean},
+        {"standard_error", known ? Json(average.standard_error) : Json()},
+        {"degrees_of_freedom", average.degrees_of_freedom},
+        {"half_interval_95",
+         known ? Json(half_interval(average.standard_error, average.degrees_of_freedom, 0.95)) : Json()}};
   }
   return figures;
 }
@@ -56,6 +60,8 @@ std::string stats_text(const Scene& scene, const RenderResult& result, const Cos
   answer["relative_error"] = stats.error.median;
   answer["relative_error_p95"] = stats.error.p95;
   answer["frame_mean_error"] = stats.error.frame_mean;
+  answer["half_noise_samples"] = stats.error.few_samples ? Json(*stats.error.few_samples) : Json();
+  answer["hidden_noise"] = stats.error.hidden_noise > 0 ? Json(stats.error.hidden_noise) : Json();
   answer["nonfinite_samples"] = stats.nonfinite_samples;
   answer["cut_paths"] = stats.cut.paths;
   answer["cut_throughput"] = stats.cut.throughput();

@@ -141,7 +141,7 @@ void expose_to(ExposedFilm& exposed, const CalibrationFrame& frame) {
   exposed.film.metadata[kFrameKey] = flat                                       ? kFlatFrame
                                      : std::holds_alternative<DarkFrame>(frame) ? "dark"
                                                                                 : kBiasFrame;
-  exposed.film.metadata.erase(kFrameMeanErrorKey);
+  for (const char* key : {kFrameMeanErrorKey, kHalfNoiseSamplesKey}) exposed.film.metadata.erase(key);
   if (std::holds_alternative<BiasFrame>(frame)) set_exposure(exposed, 0);
 }
 

@@ -58,9 +58,11 @@ MeterMeasurement measure_meter(Scene scene, const Meter& meter, RenderOptions ho
   tell_shortcoming(caller, meter, unused_settings(scene), false);
   inputs.take_memory("the film", film_bytes(scene, how));
   inputs.take_memory("the paths from lights of a sample", bytes_of_light_paths(scene));
-  const RenderResult result = caller.render(scene, how);
+  RenderResult result = caller.render(scene, how);
+  result.stats.error.few_samples = few_samples(result.film, kSpectrumPlane);
   inputs.give_back_memory(film_bytes(scene, how) + bytes_of_light_paths(scene));
   for (const std::string& loss : left_out(scene, result)) warn_of_meter(caller, meter, loss);
+  tell_shortcoming(caller, meter, unknown_error(result.stats.error), false);
   if (how.target_error && !how.time_limit_s && !std::isfinite(result.stats.error.median))
     warn_of_meter(caller, meter,
                   fmt::format("a pilot found no light there: {} had nothing to wait for", caller.error_name));

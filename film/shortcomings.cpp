@@ -87,6 +87,16 @@ std::optional<std::string> rare_photons(const Guides* guides) {
          "noisy, and its error uncertain";
 }
 
+std::optional<std::string> unknown_error(const RelativeError& error) {
+  if (error.few_samples)
+    return fmt::format("error not yet known: {} sample{} half of the noise; increase --spp",
+                       *error.few_samples, *error.few_samples == 1 ? " carries" : "s carry");
+  if (error.hidden_noise > 0)
+    return fmt::format("error not yet known: a pilot has {:.2g} times this noise; increase --spp",
+                       error.hidden_noise);
+  return std::nullopt;
+}
+
 std::optional<std::string> unused_settings(const Scene& scene) {
   std::vector<std::string> keys;
   for (const std::string_view key : unused_photon_settings(scene))

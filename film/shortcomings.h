@@ -31,6 +31,9 @@ namespace abbe {
 /// were run.
 [[nodiscard]] std::optional<std::string> rare_photons(const Guides* guides);
 
+/// A sentence on why the error of a film is not yet known, and what to do about it; nothing if it is known.
+[[nodiscard]] std::optional<std::string> unknown_error(const RelativeError& error);
+
 /// Which settings of the scene its integrator makes no use of, as a sentence; nothing when it uses all.
 [[nodiscard]] std::optional<std::string> unused_settings(const Scene& scene);
 

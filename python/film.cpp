@@ -154,6 +154,8 @@ py::object stats(const FilmHandle& film) {
   all["rays"] = stats.rays;
   all["relative_error"] = known(stats.error.median);
   all["frame_mean_error"] = known(stats.error.frame_mean);
+  all["half_noise_samples"] = py::none();
+  if (stats.error.few_samples) all["half_noise_samples"] = *stats.error.few_samples;
   all["nonfinite_samples"] = stats.nonfinite_samples;
   return all;
 }

@@ -97,6 +97,10 @@ py::dict told_of(const MeterMeasurement& measured) {
   told["integrator"] = integrator_name(measured.integrator);
   told["seed"] = measured.seed;
   told["samples"] = measured.stats.samples_per_pixel;
+  told["half_noise_samples"] = py::none();
+  if (measured.stats.error.few_samples) told["half_noise_samples"] = *measured.stats.error.few_samples;
+  told["hidden_noise"] = py::none();
+  if (measured.stats.error.hidden_noise > 0) told["hidden_noise"] = measured.stats.error.hidden_noise;
   return told;
 }
 

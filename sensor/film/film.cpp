@@ -221,6 +221,10 @@ std::optional<Film> Film::from_bytes(const FilmShape& shape, std::string_view by
   return film;
 }
 
+double Film::samples() const {
+  return static_cast<double>(std::accumulate(samples_.begin(), samples_.end(), std::uint64_t{0}));
+}
+
 int Film::filled_replicates() const {
   return static_cast<int>(
       std::count_if(samples_.begin(), samples_.end(), [](std::uint64_t n) { return n > 0; }));

@@ -102,6 +102,8 @@ class Film {
   /// Over x0 <= x < x1, y0 <= y < y1; each pixel divided by its own of `divisors`, where there are any.
   [[nodiscard]] Average average(int channel, int x0, int y0, int x1, int y1,
                                 std::span<const double> divisors = {}) const;
+  /// Samples per pixel, of all replicates together.
+  [[nodiscard]] double samples() const;
   /// How many replicates have samples.
   [[nodiscard]] int filled_replicates() const;
 

@@ -10,6 +10,10 @@ namespace abbe {
 /// these are 0 then.
 inline constexpr const char* kFrameMeanErrorKey = "frame_mean_error";
 
+/// The attribute of a film whose error is not yet known: how many samples carry half of the variance of its
+/// mean.
+inline constexpr const char* kHalfNoiseSamplesKey = "half_noise_samples";
+
 /// Whether the attributes of a film, or of what was developed of it, say that nothing is known of its error.
 [[nodiscard]] inline bool has_unknown_error(const std::map<std::string, std::string>& told) {
   const auto error = told.find(kFrameMeanErrorKey);
@@ -23,6 +27,7 @@ inline void tell_unknown_error(std::map<std::string, std::string>& told) {
 
 /// Drops what is said of the error of a film that is another now; that nothing is known of it stays true.
 inline void forget_error(std::map<std::string, std::string>& told) {
+  told.erase(kHalfNoiseSamplesKey);
   if (!has_unknown_error(told)) told.erase(kFrameMeanErrorKey);
 }
 

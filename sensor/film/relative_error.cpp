@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
+#include <functional>
 #include <numeric>
+#include <queue>
 
 #include "sensor/random.h"
 
@@ -13,6 +16,13 @@ namespace {
 constexpr double kStep = 0.025;  // of the logarithm of a deviation
 constexpr int kRounds = 200;
 constexpr std::size_t kMostValues = 1U << 17;
+
+// Fewer samples than these leave the error of a mean unknown.
+constexpr std::size_t kEnoughSamples = 10;
+// A negligible ratio of standard errors, and the standard deviations of its logarithm that make more
+// significant.
+constexpr double kUsualRatio = 1.5;
+constexpr double kSignificance = 3;
 
 // A distribution over logarithms, in steps from `first` on.
 struct Histogram {
@@ -139,6 +149,43 @@ Deviations deviations_of(const Film& film, std::span<const std::size_t> values) 
   return all;
 }
 
+// Variance of a pixel's mean, its planes taken together, and the effective number of samples behind it.
+struct NoisyPixel {
+  double variance;
+  double samples;
+
+  auto operator<=>(const NoisyPixel&) const = default;
+};
+NoisyPixel noisy_pixel(const Film& film, std::size_t pixel, std::size_t counting) {
+  const auto planes = static_cast<int>(std::min(counting, static_cast<std::size_t>(film.channels())));
+  double variance = 0;
+  double square = 0;
+  for (int plane = 0; plane < planes; ++plane) {
+    variance += film.variance(pixel, plane);
+    square += std::pow(film.mean(pixel, plane), 2);
+  }
+  return {variance, variance > 0 ? square / variance : 0};
+}
+
+// The mean over the whole film, its planes taken together: sums of the variances and of the squares of their
+// means, and the fewest degrees of freedom of a plane.
+struct FrameNoise {
+  double variance = 0;
+  double square = 0;
+  double degrees_of_freedom = std::numeric_limits<double>::infinity();
+};
+FrameNoise frame_noise(const Film& film, std::size_t counting) {
+  const auto planes = static_cast<int>(std::min(counting, static_cast<std::size_t>(film.channels())));
+  FrameNoise noise;
+  for (int plane = 0; plane < planes; ++plane) {
+    const Film::Average average = film.average(plane);
+    noise.variance += average.standard_error * average.standard_error;
+    noise.square += average.mean * average.mean;
+    noise.degrees_of_freedom = std::min(noise.degrees_of_freedom, average.degrees_of_freedom);
+  }
+  return noise;
+}
+
 }  // namespace
 
 std::vector<std::size_t> lit_values(const Film& pilot, std::size_t counting) {
@@ -175,17 +222,47 @@ std::vector<double> quantiles_of_deviation(std::span<const double> estimates, do
   return quantiles;
 }
 
-double frame_mean_error(const Film& film, std::size_t counting) {
-  const auto channels = static_cast<int>(std::min(counting, static_cast<std::size_t>(film.channels())));
+std::optional<std::uint64_t> few_samples(const Film& film, std::size_t counting) {
+  if (film.filled_replicates() < 2) return std::nullopt;
+  std::priority_queue<NoisyPixel, std::vector<NoisyPixel>, std::greater<>> noisiest;
   double variance = 0;
-  double square = 0;
-  for (int channel = 0; channel < channels; ++channel) {
-    const Film::Average average = film.average(channel);
-    variance += average.standard_error * average.standard_error;
-    square += average.mean * average.mean;
+  const Crop crop = film.crop();
+  for (int y = crop.y0; y < crop.y1; ++y)
+    for (int x = crop.x0; x < crop.x1; ++x) {
+      const NoisyPixel pixel = noisy_pixel(film, film.pixel_at(x, y), counting);
+      if (!(pixel.variance > 0)) continue;
+      variance += pixel.variance;
+      noisiest.push(pixel);
+      if (noisiest.size() > kEnoughSamples) noisiest.pop();
+    }
+  double of_noisiest = 0;
+  double samples = 0;
+  std::vector<NoisyPixel> descending;
+  for (; !noisiest.empty(); noisiest.pop()) descending.insert(descending.begin(), noisiest.top());
+  for (const NoisyPixel& pixel : descending) {
+    of_noisiest += pixel.variance;
+    samples += pixel.samples;
+    if (!(samples < kEnoughSamples)) return std::nullopt;
+    if (of_noisiest >= variance / 2) return static_cast<std::uint64_t>(std::lround(samples));
   }
-  return film.filled_replicates() > 1 && square > 0 ? std::sqrt(variance / square)
-                                                    : std::numeric_limits<double>::infinity();
+  return std::nullopt;
+}
+
+double hidden_noise(const Film& film, const Film& pilot, std::size_t counting) {
+  const FrameNoise own = frame_noise(film, counting);
+  const FrameNoise other = frame_noise(pilot, counting);
+  if (!(own.degrees_of_freedom > 0 && other.degrees_of_freedom > 0 && own.variance > 0)) return 0;
+  const double samples = film.samples() / pilot.samples();
+  const double ratio = std::sqrt(other.variance / own.variance) / std::max(std::sqrt(samples), samples);
+  // The logarithm of an estimate of f degrees has the variance 1/(2f), about.
+  const double spread = std::sqrt(0.5 / own.degrees_of_freedom + 0.5 / other.degrees_of_freedom);
+  return ratio > kUsualRatio * std::exp(kSignificance * spread) ? ratio : 0;
+}
+
+double frame_mean_error(const Film& film, std::size_t counting) {
+  const FrameNoise noise = frame_noise(film, counting);
+  return film.filled_replicates() > 1 && noise.square > 0 ? std::sqrt(noise.variance / noise.square)
+                                                          : std::numeric_limits<double>::infinity();
 }
 
 double worst_mean_error(const Film& film, int planes) {
@@ -200,6 +277,7 @@ double worst_mean_error(const Film& film, int planes) {
 RelativeError relative_error(const Film& film, std::span<const std::size_t> lit, std::size_t counting) {
   RelativeError error;
   error.frame_mean = frame_mean_error(film, counting);
+  error.few_samples = few_samples(film, counting);
   if (lit.empty() || film.filled_replicates() < 2) return error;
   const Deviations deviations = deviations_of(film, lit);
   const auto noisy = static_cast<double>(deviations.noisy.size());

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -24,7 +26,19 @@ struct RelativeError {
   double frame_mean = std::numeric_limits<double>::infinity();
   /// The largest of the means over the whole film of the planes that a target asks for, if it asks for some.
   double worst_mean = std::numeric_limits<double>::infinity();
+  /// Samples that carry half of the variance of the film's mean, as `few_samples` counts them; nothing if
+  /// these are enough for an estimate.
+  std::optional<std::uint64_t> few_samples = {};
+  /// Standard error of the film's mean that an independent pilot predicts, over the one that the film shows,
+  /// if `hidden_noise` finds it significantly larger; 0 otherwise.
+  double hidden_noise = 0;
 };
+
+/// False if the error of a film rests on too few samples, or a pilot predicts a larger one: its intervals are
+/// too narrow.
+[[nodiscard]] inline bool is_known(const RelativeError& error) {
+  return !error.few_samples && error.hidden_noise == 0;
+}
 
 /// The values of a film that have light, by pixel times planes plus plane: those that are not 0 in a pilot,
 /// which must be independent of the film to be judged; of very many, evenly spread ones. Only the first
@@ -45,6 +59,22 @@ struct RelativeError {
 /// together: root of the summed variances of their means over root of the summed squares. Infinite of a film
 /// without light, and of samples in fewer than two replicates.
 [[nodiscard]] double frame_mean_error(const Film& film, std::size_t counting = kAllPlanes);
+
+/// Effective number of samples that carry half of the variance of the mean over the whole film, its first
+/// `counting` planes taken together. Nothing if that number is large enough to estimate a variance, and with
+/// samples in fewer than two replicates. Rare bright samples have pixels of their own, so only the pixels of
+/// the largest variance V are counted. A pixel of mean M has n = M^2/V effective samples, about (sum w)^2 /
+/// sum w^2 over its samples w [Kish1965]. This is 1 if a single sample found all light of the pixel. It is
+/// large if all samples found light there, so that a film of few bright pixels passes.
+[[nodiscard]] std::optional<std::uint64_t> few_samples(const Film& film, std::size_t counting = kAllPlanes);
+
+/// Ratio of the standard error of the film's mean that a pilot predicts to the film's own, if it is
+/// significantly larger than 1. 0 otherwise, and with samples in fewer than two replicates of either. Only
+/// this ratio shows rare samples that the pilot has found and the film has not. The pilot is a film of the
+/// same estimator with independent random numbers. Its standard error scales with 1/sqrt(n) to a film of
+/// fewer samples per pixel. To one of more it scales with 1/n, as for a smooth integrand, so that the
+/// prediction is rather too small.
+[[nodiscard]] double hidden_noise(const Film& film, const Film& pilot, std::size_t counting = kAllPlanes);
 
 /// Quantiles, at ascending `probabilities`, of standard deviations of which there are only estimates: each is
 /// its true one times chi/sqrt(f), f the degrees of freedom, which spreads even equal ones. The distribution

@@ -160,6 +160,63 @@ TEST(RelativeError, WhatIsLitAndNotFoundYetIsInfinitelyFarOff) {
   EXPECT_LE(error.median, 0.011);
 }
 
+// 16 by 16 pixels of mean 1 with noise, and in some of them a single sample that is brighter than all of the
+// film.
+Film with_rare_samples(int replicates, std::size_t rare, double noise = 0.1) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  Film film(16, 16, 1, replicates, 1.0);
+  for (std::size_t pixel = 0; pixel < 256; ++pixel)
+    for (int r = 0; r < replicates; ++r) {
+      double value = 1 + noise * normal(random);
+      if (pixel % 5 == 2 && pixel / 5 < rare && r == static_cast<int>(pixel) % replicates) value += 1000;
+      film.add(pixel, r, {&value, 1});
+    }
+  film.set_samples(std::vector<std::uint64_t>(static_cast<std::size_t>(replicates), 1));
+  return film;
+}
+
+TEST(RelativeError, IsNotKnownWhereFewSamplesCarryTheNoise) {
+  for (const int replicates : {2, 8}) {
+    EXPECT_EQ(few_samples(with_rare_samples(replicates, 1)), 1U) << replicates;
+    EXPECT_EQ(few_samples(with_rare_samples(replicates, 5)), 3U) << replicates << ": three of five are half";
+    EXPECT_EQ(few_samples(with_rare_samples(replicates, 50)), std::nullopt) << replicates;
+    EXPECT_EQ(few_samples(with_rare_samples(replicates, 0)), std::nullopt) << replicates;
+  }
+  const Film film = with_rare_samples(8, 5);
+  EXPECT_EQ(relative_error(film, {}).few_samples, 3U) << "although nothing of it was lit";
+  EXPECT_FALSE(is_known(relative_error(film, {})));
+  EXPECT_TRUE(is_known(relative_error(with_rare_samples(8, 0), {})));
+}
+
+TEST(RelativeError, IsKnownOfFewBrightPixelsThatAllSamplesLight) {
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  Film film(64, 1, 2, 8, 1.0);
+  for (const std::size_t bright : {7, 8})
+    for (int r = 0; r < 8; ++r)
+      film.add(bright, r, std::vector<double>{100 + 10 * normal(random), 50 + 5 * normal(random)});
+  film.set_samples(std::vector<std::uint64_t>(8, 1));
+  EXPECT_EQ(few_samples(film), std::nullopt);
+}
+
+// A pilot of four times the samples: of the same noise its standard error is half as large.
+TEST(RelativeError, IsNotKnownWhereAPilotPredictsMoreNoise) {
+  const Film film = with_rare_samples(2, 0);
+  const double of_noise = 0.1 / std::sqrt(2.0);
+  const double of_rare_samples = std::sqrt(20.0 / 256) * 1000 / 8;
+  EXPECT_NEAR(hidden_noise(film, with_rare_samples(8, 20)) / (2 * of_rare_samples / of_noise), 1, 0.1);
+  EXPECT_EQ(hidden_noise(film, with_rare_samples(8, 0)), 0);
+  EXPECT_EQ(hidden_noise(film, with_rare_samples(8, 0, 0.14)), 0) << "an insignificant ratio";
+  EXPECT_NEAR(hidden_noise(film, with_rare_samples(8, 0, 0.25)), 2.5, 0.3);
+  EXPECT_EQ(hidden_noise(with_rare_samples(2, 3), with_rare_samples(8, 20)), 0) << "the film shows them";
+  EXPECT_EQ(hidden_noise(with_rare_samples(8, 0, 0.05), with_rare_samples(2, 0)), 0)
+      << "more samples of a smooth integrand may reduce the error by more than their root";
+  RelativeError error;
+  error.hidden_noise = 40;
+  EXPECT_FALSE(is_known(error));
+}
+
 TEST(RelativeError, IsUnknownBeforeTwoReplicates) {
   Film film(1, 1, 1, 2, 1.0);
   const double value = 1;
@@ -167,6 +224,7 @@ TEST(RelativeError, IsUnknownBeforeTwoReplicates) {
   film.set_samples({1, 0});
   const RelativeError error = relative_error(film, lit_values(film));
   EXPECT_TRUE(std::isinf(error.median) && std::isinf(error.p95) && std::isinf(error.frame_mean));
+  EXPECT_EQ(error.few_samples, std::nullopt);
 }
 
 }  // namespace

@@ -54,5 +54,15 @@ TEST(PartFilms, TheErrorIsThatOfIntensities) {
   EXPECT_NEAR(std::stod(image.metadata.at(kFrameMeanErrorKey)), 1.0 / 3, 1e-12);
 }
 
+// Two pixels of 65, each with all of its light in one replicate.
+TEST(PartFilms, FewSamplesThatCarryTheNoiseAreAnAttribute) {
+  Film film(65, 1, 1, 2, 1.0);
+  for (const std::size_t pixel : {3, 9}) film.add(pixel, 0, std::vector<double>{5});
+  film.set_samples({1, 1});
+  const RenderPart part{{{"sensor_channels", "V"}}, {std::move(film), {{0, 2}}, {}}};
+  EXPECT_EQ(image_of(part).metadata.at(kHalfNoiseSamplesKey), "1");
+  EXPECT_EQ(few_samples(left_and_right({{0, 2}}, {{0, 4}})), std::nullopt) << "pixels with different samples";
+}
+
 }  // namespace
 }  // namespace abbe

@@ -364,6 +364,8 @@ Image image_of(const RenderPart& part) {
     image.metadata["samples_per_pixel"] = fmt::format("{}", result.stats.samples_per_pixel);
   if (const auto error = frame_mean_error(part))
     image.metadata[kFrameMeanErrorKey] = fmt::format("{}", *error);
+  if (const auto samples = few_samples(part))
+    image.metadata[kHalfNoiseSamplesKey] = fmt::format("{}", *samples);
   return image;
 }
 

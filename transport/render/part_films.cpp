@@ -155,6 +155,11 @@ std::optional<double> frame_mean_error(const RenderPart& part) {
   return frame_mean_error(part.result.film, intensities(film_planes(part.identity)).size());
 }
 
+std::optional<std::uint64_t> few_samples(const RenderPart& part) {
+  if (lacks_variance(part) || part.result.samples.empty()) return std::nullopt;
+  return few_samples(part.result.film, intensities(film_planes(part.identity)).size());
+}
+
 Image developed(const Film& film, std::span<const std::string> names, const RenderPart& part) {
   Image image = film.image(names);
   if (part.result.samples.empty())

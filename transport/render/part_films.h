@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,6 +45,9 @@ void set_samples(RenderResult& films, const SampleRanges& samples);
 /// it. Infinite where the samples of some pixels are in fewer than two replicates, so that nothing is known
 /// of their variance; nothing where pixels have different samples else.
 [[nodiscard]] std::optional<double> frame_mean_error(const RenderPart& part);
+
+/// The samples that carry half of the variance of that mean, where these are too few to know its error.
+[[nodiscard]] std::optional<std::uint64_t> few_samples(const RenderPart& part);
 
 /// A film of the part's, each pixel by the samples it has, and the part's identity; where some have
 /// none, or other samples than others, by `kAreasKey` which have which.

@@ -76,6 +76,23 @@ void expose_photons(const Plan& plan, std::uint32_t batch, RayCaster& caster, Ex
     sums.add(tracer.starts()[i].light, std::span(values).subspan(i * planes, planes));
 }
 
+std::uint64_t pixel_total(const Plan& plan) {
+  const Camera& camera = plan.scene.camera;
+  return static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height);
+}
+
+std::optional<Film> film_of(const Plan& plan, int threads, const std::optional<Crop>& crop,
+                            const std::function<bool()>& stop, const SampleRange& samples, int replicates) {
+  const Camera& camera = plan.scene.camera;
+  Film film(camera.width, camera.height, static_cast<int>(plan.scene.film_planes().size()), replicates,
+            plan.nominal_value, replicates > 1 ? paths_to_any_pixel(plan) : 0, plan.path_interval, crop);
+  Pass pass(plan, film, crop, samples, 0, kSeedOfPilots);
+  pass.run(threads, stop);
+  if (!pass.finished()) return std::nullopt;
+  film.set_samples(count_per_replicate({samples}, replicates));
+  return film;
+}
+
 }  // namespace
 
 std::pair<int, int> pixel_of_pilot(const Camera& camera, std::uint32_t stream, std::uint32_t pilot) {
@@ -98,16 +115,17 @@ PixelNoise noise_of_pixel(std::span<const double> values, std::size_t paths_of_r
 
 std::optional<Film> pilot_film(const Plan& plan, int threads, std::optional<Crop> crop,
                                const std::function<bool()>& stop) {
-  const Camera& camera = plan.scene.camera;
-  Film film(camera.width, camera.height, static_cast<int>(plan.scene.film_planes().size()), 1,
-            plan.nominal_value, 0, 1, crop);
-  const auto pixels = static_cast<std::uint64_t>(camera.width) * static_cast<std::uint64_t>(camera.height);
-  const std::uint64_t samples = std::clamp<std::uint64_t>(kPaths / pixels, 1, kMostSamples);
-  Pass pass(plan, film, crop, {0, samples}, 0, kSeedOfPilots);
-  pass.run(threads, stop);
-  if (!pass.finished()) return std::nullopt;
-  film.set_samples({samples});
-  return film;
+  const std::uint64_t samples = std::clamp<std::uint64_t>(kPaths / pixel_total(plan), 1, kMostSamples);
+  return film_of(plan, threads, crop, stop, {0, samples}, 1);
+}
+
+std::optional<Film> noise_pilot(const Plan& plan, int threads, std::optional<Crop> crop,
+                                const std::function<bool()>& stop) {
+  constexpr int kReplicates = 8;
+  const std::uint64_t samples = kPaths / pixel_total(plan) / kReplicates * kReplicates;
+  if (samples == 0) return std::nullopt;
+  // The samples after those of `pilot_film`.
+  return film_of(plan, threads, crop, stop, {kMostSamples, kMostSamples + samples}, kReplicates);
 }
 
 void pilot_exposures(const Plan& plan, int threads, ExposureByLight& sums) {

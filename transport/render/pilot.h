@@ -54,6 +54,13 @@ struct PixelNoise {
     const Plan& plan, int threads, std::optional<Crop> crop = {},
     const std::function<bool()>& stop = [] { return false; });
 
+/// A film of eight replicates and about 65536 paths, for `hidden_noise` to compare a small film with. No
+/// render has its random numbers. Nothing for films of more than 8192 pixels, and if `stop` returns true
+/// before it is done.
+[[nodiscard]] std::optional<Film> noise_pilot(
+    const Plan& plan, int threads, std::optional<Crop> crop = {},
+    const std::function<bool()>& stop = [] { return false; });
+
 /// What each group of lights adds to such a film in all: to `sums.exposure`, from 16384 paths, and as many
 /// photons where these are traced, however many pixels there are.
 void pilot_exposures(const Plan& plan, int threads, ExposureByLight& sums);

@@ -35,6 +35,9 @@ constexpr int kNanosecond = -30;
 // Of the time, at most.
 constexpr double kCheckpointShare = 0.01;
 
+// An error that is not yet known ends a render if it is smaller than the target by this factor.
+constexpr double kUnknownErrorFactor = 4;
+
 constexpr std::uint64_t kMaxSamples = std::numeric_limits<std::uint32_t>::max();
 
 bool open_ended(const RenderOptions& options) {
@@ -261,6 +264,8 @@ class Rendering {
     RelativeError error =
         relative_error(result_.film, lit_ ? std::span(*lit_) : std::span<const std::size_t>(), counting);
     if (options_.target_planes > 0) error.worst_mean = worst_mean_error(result_.film, options_.target_planes);
+    if (!pilot_) pilot_ = noise_pilot(plan_, threads_, options_.crop, [this] { return stop_asked(); });
+    if (pilot_) error.hidden_noise = hidden_noise(result_.film, *pilot_, counting);
     return error;
   }
 
@@ -299,7 +304,7 @@ class Rendering {
     return 1 - static_cast<double>(count(missing(result_.samples, wanted_))) / all;
   }
   [[nodiscard]] double share_of_error() const {
-    return options_.target_error ? std::pow(*options_.target_error / targeted(), 2) : NAN;
+    return options_.target_error ? std::pow(*needed_error() / targeted(), 2) : NAN;
   }
   [[nodiscard]] double share() const {
     double share = share_of_samples();
@@ -317,6 +322,12 @@ class Rendering {
     return left < 0 ? 0 : left;
   }
 
+  // The target, or less while the error is not yet known: a sixteenth of the samples may have looked as good.
+  [[nodiscard]] std::optional<double> needed_error() const {
+    if (!options_.target_error || is_known(result_.stats.error)) return options_.target_error;
+    return *options_.target_error / kUnknownErrorFactor;
+  }
+
   [[nodiscard]] double targeted() const {
     return options_.target_planes > 0 ? result_.stats.error.worst_mean : result_.stats.error.median;
   }
@@ -326,7 +337,7 @@ class Rendering {
     if (result_.stats.interrupted) return true;
     if (options_.time_limit_s && samples() > 0 && elapsed() >= *options_.time_limit_s) return true;
     const bool unlit = !options_.time_limit_s && lit_ && lit_->empty();  // there is no error to wait for
-    return options_.target_error && (unlit || targeted() <= *options_.target_error);
+    return options_.target_error && (unlit || targeted() <= *needed_error());
   }
 
   const std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -340,6 +351,7 @@ class Rendering {
   std::uint64_t step_;
   RenderResult result_;
   std::optional<std::vector<std::size_t>> lit_;  // once asked for
+  std::optional<Film> pilot_;                    // likewise, of a small film
   std::uint64_t looked_at_ = 0;                  // samples of the film whose error was worked out last
   double planned_s_ = 0;                         // when the first of this run was begun
   double last_save_s_ = 0;

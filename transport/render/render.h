@@ -44,7 +44,7 @@ struct RenderOptions {
   int threads = 0;                          ///< 0: one per processor.
   std::optional<double> time_limit_s = {};  ///< Stops after the first pass that ends then.
   /// Stops after a pass whose relative error is no larger: the median, or that of the means of the first so
-  /// many planes over the whole film.
+  /// many planes over the whole film. An error that is not yet known (`is_known`) must be four times smaller.
   std::optional<double> target_error = {};
   int target_planes = 0;
   std::optional<Crop> crop = {};
