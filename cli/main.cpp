@@ -48,6 +48,7 @@ int run(int argc, char** argv) {
       arguments[i] += '=' + arguments[i + 1];
       arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i) + 1);
     }
+  if (arguments.empty()) arguments = {"help"};
   check_names(app, arguments);
   std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
   try {

@@ -38,12 +38,16 @@ MeterMeasurement measure(Scene scene, const Meter& meter, const MeterOptions& op
                          const InterruptWatch& watch, Inputs& inputs) {
   set_sampling(options, scene.render);
   ProgressDisplay display;
+  if (!options.quiet) display.prepare();
   const auto render_and_finish = [&display](const Scene& seen, const abbe::RenderOptions& how) {
     RenderResult result = abbe::render(seen, how);
     display.finish();
     return result;
   };
-  const auto warn = [](const std::string& sentence) { say("warning: " + sentence); };
+  const auto warn = [&display](const std::string& sentence) {
+    display.clear();
+    say("warning: " + sentence);
+  };
   return measure_meter(std::move(scene), meter, how_to_render(options, watch, display),
                        {render_and_finish, warn, "--error", options.strict}, inputs);
 }
@@ -106,6 +110,9 @@ Json json_of(const MeterMeasurement& measured) {
   told["integrator"] = integrator_name(measured.integrator);
   told["seed"] = measured.seed;
   told["samples"] = measured.stats.samples_per_pixel;
+  const RelativeError& error = measured.stats.error;
+  told["half_noise_samples"] = error.few_samples ? Json(*error.few_samples) : Json();
+  told["hidden_noise"] = error.hidden_noise > 0 ? Json(error.hidden_noise) : Json();
   if (measured.stats.interrupted) told["interrupted"] = true;
   told["wall_s"] = measured.stats.wall_s;
   return told;

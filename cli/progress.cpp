@@ -1,5 +1,6 @@
 #include "cli/progress.h"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -8,11 +9,15 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
+#include "film/shortcomings.h"
 
 namespace abbe::cli {
 namespace {
 
-constexpr int kBarWidth = 30;
+constexpr std::size_t kMaxBarWidth = 30;
+constexpr std::size_t kMinBarWidth = 8;
+constexpr std::size_t kBarFrame = 3;  // "[", "] "
+constexpr int kUsualColumns = 80;
 constexpr std::chrono::milliseconds kRedraw{200};
 
 std::string duration(double seconds) {
@@ -23,54 +28,113 @@ std::string duration(double seconds) {
   return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
 }
 
-}  // namespace
-
-std::string error_text(const RelativeError& error, std::string_view before) {
-  std::string text;
-  const auto tell = [&](double value, std::string_view of) {
-    if (std::isfinite(value)) text += fmt::format("{}{:.2g} %{}", text.empty() ? "" : ", ", 100 * value, of);
-  };
-  tell(error.median, " median");
-  tell(error.p95, " p95");
-  tell(error.frame_mean, " of the mean");
-  return text.empty() ? "" : fmt::format("{}error {}", before, text);
+// Two digits, and no exponent for percentages above 100.
+std::string percent(double fraction) {
+  const double value = 100 * fraction;
+  return value < 99.5 ? fmt::format("{:.2g} %", value) : fmt::format("{:.0f} %", value);
 }
 
-std::string progress_line(const Progress& progress, bool with_bar) {
-  const double share = std::clamp(progress.share, 0.0, 1.0);
+enum class Detail { full, brief };
+
+std::string pixel_noise(const RelativeError& error, Detail detail) {
+  if (const auto unknown = unknown_error(error))
+    return detail == Detail::full ? *unknown : "error not yet known";
+  if (!std::isfinite(error.median)) return "";
+  std::string text = fmt::format("noise {} per pixel", percent(error.median));
+  if (detail == Detail::full && std::isfinite(error.p95))
+    text += fmt::format(" ({} in the worst 5 %)", percent(error.p95));
+  return text;
+}
+
+/// Parts that a narrow terminal lacks, the least important first. Each implies those before it.
+enum Dropped { nothing, rate, error_samples, error_details, error, samples, percentage };
+
+std::string line_of(const Progress& progress, Dropped dropped) {
+  const double done = std::clamp(progress.share, 0.0, 1.0);
   std::string line;
-  if (with_bar) {
-    const auto filled = static_cast<std::size_t>(share * kBarWidth);
-    line = fmt::format("[{}{}] ", std::string(filled, '='), std::string(kBarWidth - filled, ' '));
+  const auto append = [&line](const std::string& part) {
+    if (!part.empty()) line += (line.empty() ? "" : "  ") + part;
+  };
+  if (dropped < percentage) append(fmt::format("{:3.0f} %", std::floor(100 * done)));
+  if (dropped < samples) append(fmt::format("{} spp", progress.samples));
+  if (dropped < rate && progress.rate > 0) append(fmt::format("{:.3g}/s", progress.rate));
+  if (dropped < error) {
+    const std::string noise =
+        pixel_noise(progress.error, dropped < error_details ? Detail::full : Detail::brief);
+    const bool is_older = !noise.empty() && progress.error_samples != progress.samples;
+    append(is_older && dropped < error_samples ? fmt::format("{} at {} spp", noise, progress.error_samples)
+                                               : noise);
   }
-  line += fmt::format("{:3.0f} %  {} samples/pixel", std::floor(100 * share), progress.samples);
-  if (progress.rate > 0) line += fmt::format("  {:.3g}/s", progress.rate);
-  const std::string error = error_text(progress.error, "  ");
-  line += error;
-  if (!error.empty() && progress.error_samples != progress.samples)
-    line += fmt::format(" at {}", progress.error_samples);
-  if (share < 1 && !std::isnan(progress.left_s)) line += fmt::format("  {} left", duration(progress.left_s));
+  if (done < 1 && !std::isnan(progress.left_s)) append(duration(progress.left_s) + " left");
   return line;
 }
 
+// The bar fills the room that the line leaves; a narrow one is empty.
+std::string bar(double done, std::size_t room) {
+  const std::size_t width = std::min(kMaxBarWidth, room < kBarFrame ? 0 : room - kBarFrame);
+  if (width < kMinBarWidth) return "";
+  const auto filled = static_cast<std::size_t>(done * static_cast<double>(width));
+  return fmt::format("[{}{}] ", std::string(filled, '='), std::string(width - filled, ' '));
+}
+
+// The width of the terminal on stderr.
+int terminal_columns() {
+  winsize size{};
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kUsualColumns;
+}
+
+}  // namespace
+
+std::string error_text(const RelativeError& error, std::string_view before) {
+  std::string text = pixel_noise(error, Detail::full);
+  if (is_known(error) && std::isfinite(error.frame_mean))
+    text += fmt::format("{}{} of the mean", text.empty() ? "error " : ", error ", percent(error.frame_mean));
+  return text.empty() ? "" : std::string(before) + text;
+}
+
+std::string progress_line(const Progress& progress, std::optional<int> columns) {
+  if (!columns) return line_of(progress, nothing);
+  const auto width = static_cast<std::size_t>(std::max(*columns - 1, 0));  // some terminals wrap a full line
+  std::string line;
+  for (const Dropped dropped : {nothing, rate, error_samples, error_details, error, samples, percentage}) {
+    line = line_of(progress, dropped);
+    if (line.size() <= width) break;
+  }
+  line.resize(std::min(line.size(), width));
+  return bar(std::clamp(progress.share, 0.0, 1.0), width - line.size()) + line;
+}
+
 ProgressDisplay::ProgressDisplay() : terminal_(isatty(STDERR_FILENO) == 1) {}
+
+void ProgressDisplay::prepare() {
+  if (!terminal_) return;
+  tell("\rpreparing: photons, guides\x1b[K");
+  preparing_ = true;
+}
+
+void ProgressDisplay::clear() {
+  if (preparing_) tell("\r\x1b[K");
+  preparing_ = false;
+}
 
 void ProgressDisplay::operator()(const Progress& progress) {
   const auto now = std::chrono::steady_clock::now();
   const auto tenths = static_cast<int>(10 * progress.share);
   if (terminal_) {
     if (now - shown_ < kRedraw && tenths < 10) return;
-    tell(fmt::format("\r{}\x1b[K", progress_line(progress, true)));
+    tell(fmt::format("\r{}\x1b[K", progress_line(progress, terminal_columns())));
     open_line_ = true;
+    preparing_ = false;
   } else {
     if (tenths <= tenths_) return;
-    say(progress_line(progress, false));
+    say(progress_line(progress));
   }
   tenths_ = tenths;
   shown_ = now;
 }
 
 void ProgressDisplay::finish() {
+  clear();
   if (open_line_) tell("\n");
   open_line_ = false;
 }

@@ -228,8 +228,7 @@ void show_to(Watchers& watchers, abbe::RenderOptions& how) {
 
 RenderPart develop(const Scene& scene, const RenderOptions& options,
                    const std::shared_ptr<const Guides>& guides, const InterruptWatch& watch,
-                   Watchers& watchers) {
-  ProgressDisplay display;
+                   Watchers& watchers, ProgressDisplay& display) {
   abbe::RenderOptions how = how_to_render(options, scene);
   const FilmIdentity identity = identity_of(scene, name_of(options.scene), how);
   how.stop = &watch.stop();
@@ -246,6 +245,7 @@ RenderPart develop(const Scene& scene, const RenderOptions& options,
     };
   std::optional<RenderResult> start = earlier(options, identity, how, scene.render.samples);
   require_same_render(how.crew, identity, how, start);
+  if (how.progress) display.prepare();
   RenderPart part{identity, abbe::render(scene, how, std::move(start))};
   display.finish();
   return part;
@@ -368,7 +368,8 @@ int render(const RenderOptions& options) {
     const IntegratorChoice choice = choose_integrator(scene, threads);
     scene.render.integrator = choice.integrator;
     Watchers none;
-    (void)develop(scene, options, choice.guides, InterruptWatch(), none);
+    ProgressDisplay display;
+    (void)develop(scene, options, choice.guides, InterruptWatch(), none, display);
     return 0;
   }
   const Outputs outputs = choose_outputs(options, scene, inputs);
@@ -381,9 +382,12 @@ int render(const RenderOptions& options) {
   const bool leaves_integrator = scene.render.integrator == Integrator::automatic;
   costs.load = costs.command.spent();
   const CostMeter planning;
+  ProgressDisplay progress;
+  if (!options.quiet) progress.prepare();
   const IntegratorChoice choice = choose_integrator(scene, threads);
   scene.render.integrator = choice.integrator;
   settle_white(scene, options.scene, threads, choice.guides);
+  progress.clear();
   costs.plan = planning.spent();
   std::optional<Showing> showing;
   if (!outputs.display.empty() || !outputs.gamut.empty())
@@ -403,7 +407,7 @@ int render(const RenderOptions& options) {
   inputs.take_memory("the paths from lights of a sample", bytes_of_light_paths(scene));
   Watchers watchers;
   call_watchers(watchers, scene, options, inputs);
-  const RenderPart part = develop(scene, options, choice.guides, watch, watchers);
+  const RenderPart part = develop(scene, options, choice.guides, watch, watchers, progress);
   write_results(options, outputs, showing, scene, part, costs);
   watchers.end(part.result);
   const RenderStats& stats = part.result.stats;

@@ -29,6 +29,10 @@ TEST(Program, HelpAndVersionGoToStdout) {
     EXPECT_NE(run.out.find("Usage"), std::string::npos) << text;
     EXPECT_TRUE(run.err.empty()) << text;
   }
+  const Outcome no_arguments = abbe("");
+  EXPECT_EQ(no_arguments.code, 0);
+  EXPECT_EQ(no_arguments.out, abbe("help").out);
+  EXPECT_TRUE(no_arguments.err.empty()) << no_arguments.err;
   for (const char* command : {"render", "info", "trace", "query", "compare", "calibrate"})
     EXPECT_NE(abbe("help").out.find(command), std::string::npos) << command;
 }
@@ -61,8 +65,7 @@ TEST(Program, HelpTellsTheKeysOfScenes) {
 }
 
 TEST(Program, UsageErrorsExitWith2) {
-  for (const char* text : {"",
-                           "rendr",
+  for (const char* text : {"rendr",
                            "render",
                            "--frobnicate",
                            "help rendr",
