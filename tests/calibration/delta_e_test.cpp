@@ -6,6 +6,7 @@
 
 #include <random>
 
+#include "io/reference_table.h"
 #include "spectral/colorimetry.h"
 
 namespace abbe {
@@ -18,6 +19,18 @@ Jet differentiated(const Lab& first, const Lab& second) {
   const std::array<Jet, 3> a{Jet(first[0]), Jet(first[1]), Jet(first[2])};
   const std::array<Jet, 3> b{Jet(second[0], 0), Jet(second[1], 1), Jet(second[2], 2)};
   return delta_e_2000(a, b);
+}
+
+// The 34 published pairs, which visit every branch of the formula [Sharma2005].
+TEST(DeltaE2000, SharmasPairsAreThePublishedOnes) {
+  const ReferenceTable table("ciede2000_sharma2005");
+  ASSERT_EQ(table.rows(), 34U);
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const Lab first{table.number(row, "L1"), table.number(row, "a1"), table.number(row, "b1")};
+    const Lab second{table.number(row, "L2"), table.number(row, "a2"), table.number(row, "b2")};
+    EXPECT_NEAR(delta_e_2000(first, second), table.number(row, "dE00"), 5.1e-5) << table.text(row, "pair");
+    EXPECT_NEAR(delta_e_2000(second, first), table.number(row, "dE00"), 5.1e-5) << table.text(row, "pair");
+  }
 }
 
 TEST(DeltaE2000, DerivativesAgreeWithFiniteDifferences) {

@@ -1,9 +1,11 @@
 #include <cfenv>
 #include <map>
+#include <memory>
 
 #include <gtest/gtest.h>
 
 #include "scene/shapes/disc.h"
+#include "scene/shapes/placed.h"
 #include "scene/shapes/quad.h"
 #include "scene/shapes/triangle.h"
 #include "scenes.h"
@@ -231,6 +233,39 @@ TEST(SceneIntersection, AgreesWithTheExactOne) {
     EXPECT_TRUE(scene.occluded(ray.origin, ray.origin + ray.direction * (fast->t * (1 + 1e-3F))));
   }
   EXPECT_GT(hits, 15000);
+}
+
+// Meshes of small and of large triangles, alone and as an instance, centred at up to 1e5 along any axis.
+TEST(SceneIntersection, MeshesFarFromTheOriginAreMetWhereTheyAre) {
+  Random random(10);
+  for (const double far : {500.0, 1500.0, 2e4, 1e5})
+    for (const double size : {1.0, 0.2 * far})
+      for (const V3d& along :
+           {V3d(1, 0, 0), V3d(-1, 0, 0), V3d(0, 1, 0), V3d(0, 0, -1), V3d(-0.6, 0.48, 0.64)}) {
+        const V3d center = along * far;
+        Mesh moved = globe(size, 12, 24);
+        for (V3d& vertex : moved.vertices) vertex += center;
+        const Shape placed =
+            PlacedShape{make_prototype(globe(size, 12, 24)),
+                        std::make_shared<Placement>(placement(Imath::M44d().setTranslation(center)))};
+        for (const Shape& shape : {Shape(moved), placed}) {
+          const Scene scene = scene_of({shape});
+          for (int i = 0; i < 100; ++i) {
+            const V3f origin(center + random.direction() * (3 * size));
+            const V3f direction = (V3f(center + random.direction() * (0.9 * size)) - origin).normalized();
+            const auto exact = intersect_exact(scene, {V3d(origin), V3d(direction)}, 0);
+            ASSERT_TRUE(exact) << far << ' ' << size;
+            const Ray ray{origin, direction};
+            const auto hit = scene.intersect(ray);
+            ASSERT_TRUE(hit) << far << ' ' << size;
+            const double rounding = 4e-7 * (far + 3 * size);  // of coordinates in single precision
+            EXPECT_NEAR(hit->t, exact->hit.t, 20 * rounding) << far << ' ' << size;
+            expect_near(V3d(hit->point), exact->hit.point, 20 * rounding);
+            EXPECT_TRUE(scene.occluded(ray)) << far << ' ' << size;
+            EXPECT_TRUE(scene.occluded(origin, V3f(center))) << far << ' ' << size;
+          }
+        }
+      }
 }
 
 TEST(SceneIntersection, RaysLeavingASphereNeverMeetItAgain) {

@@ -1,11 +1,17 @@
 #include "validation/statistics/image_difference.h"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+
+#include "io/reference_table.h"
+#include "spectral/rgb.h"
 
 namespace abbe {
 namespace {
@@ -63,6 +69,33 @@ TEST(ColorDifference, AFilmWhoseChannelsAreNamedXYZGoesByItsMatrixUnlessTheyAreP
   expect_xyz({0.95, 3, 4.36});
   film.metadata["channel.X"] = "photometric, lx s";
   expect_xyz({1, 2, 4});
+}
+
+// The published pairs [Sharma2005] as the pixels of two images, after one of white. Without pairs 10 and 14,
+// whose hues differ by 180 degrees, so that the rounding of pixels decides on a branch of the formula.
+TEST(Compare, SharmasPairsDifferAsPublished) {
+  const ReferenceTable table("ciede2000_sharma2005");
+  const XYZ white = unit_xyz(kD65);
+  std::array<std::vector<std::pair<std::string, std::vector<float>>>, 2> pixels;
+  std::vector<double> expected{0};
+  for (std::size_t k = 0; k < 2; ++k)
+    for (std::size_t i = 0; i < 3; ++i)
+      pixels.at(k).push_back({std::string(1, "XYZ"[i]), {static_cast<float>(white[i])}});
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (const std::string& pair = table.text(row, "pair"); pair == "10" || pair == "14") continue;
+    expected.push_back(table.number(row, "dE00"));
+    for (std::size_t k = 0; k < 2; ++k) {
+      const std::string number = std::to_string(k + 1);
+      const XYZ xyz = lab_to_xyz(
+          {table.number(row, "L" + number), table.number(row, "a" + number), table.number(row, "b" + number)},
+          white);
+      for (std::size_t i = 0; i < 3; ++i) pixels.at(k)[i].second.push_back(static_cast<float>(xyz[i]));
+    }
+  }
+  const Comparison c = compare_images(image(pixels[1]), image(pixels[0]));
+  ASSERT_TRUE(c.color);
+  ASSERT_EQ(c.color->pixels.size(), 33U);
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(c.color->pixels[i], expected[i], 3e-4) << i;
 }
 
 TEST(Compare, GreyOfLinearSrgbDiffersInLightnessAlone) {
