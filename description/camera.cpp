@@ -14,7 +14,7 @@ namespace {
 
 using namespace schema;
 
-constexpr Range kFNumber{0, 1e6, true, false};
+constexpr Range kFNumber{description::kFastestFNumber, 1e6};
 
 }  // namespace
 
@@ -22,8 +22,9 @@ static Fields fields(Tag<Aperture>) {
   return describe(
       "aperture", "How much light a lens passes.",
       {field("f_number", &Aperture::f_number, kFNumber,
-             "Focal length over the diameter of the opening; of a pinhole, which is sharp everywhere, it "
-             "sets the exposure only and is 4 when neither it nor `t_stop` is given."),
+             "Focal length over the diameter of the opening, 0.5 or more as of all lenses in air; of a "
+             "pinhole, which is sharp everywhere, it sets the exposure only and is 4 when neither it nor "
+             "`t_stop` is given."),
        field("t_stop", &Aperture::t_stop, kFNumber,
              "f-number over the root of the share of light that the lens passes, at least the f-number: it "
              "exposes as a round lens without losses of that f-number does, and alone stands for a lens "
@@ -86,18 +87,22 @@ struct Aperture {
 };
 
 // T = N/sqrt(s tau), s being the share of the circle that is open: a T-stop exposes as a round lens without
-// losses of that f-number does. Without an f-number the lens is taken for one without losses.
+// losses of that f-number does. Without an f-number the lens is taken for one without losses, of f/0.5 or
+// slower as all lenses in air.
 std::optional<Aperture> build(const spec::Aperture& aperture, double open_share, const LoadContext& context) {
   if (!aperture.t_stop) return Aperture{aperture.f_number.value_or(kDefaultFNumber), 1};
   const double t_stop = aperture.t_stop->value;
-  if (!aperture.f_number) return Aperture{t_stop * std::sqrt(open_share), 1};
-  const double f_number = *aperture.f_number;
+  const double without_losses = t_stop * std::sqrt(open_share);
+  if (!aperture.f_number && without_losses >= kFastestFNumber) return Aperture{without_losses, 1};
+  const double f_number = aperture.f_number.value_or(kFastestFNumber);
   const double fastest = f_number / std::sqrt(open_share);
   if (t_stop >= fastest) return Aperture{f_number, std::pow(fastest / t_stop, 2)};
+  const char* limit = open_share == 1     ? "its f-number"
+                      : aperture.f_number ? "its f-number and blades let it be"
+                                          : "its blades let it be";
   context.diagnostics.error(
       aperture.t_stop->where,
-      fmt::format("a T-stop is no faster than {} (got {}, allowed [{}, inf))",
-                  open_share < 1 ? "its f-number and blades let it be" : "its f-number", t_stop, fastest));
+      fmt::format("a T-stop is no faster than {} (got {}, allowed [{}, inf))", limit, t_stop, fastest));
   return std::nullopt;
 }
 

@@ -60,11 +60,13 @@ struct Camera {
 
 namespace abbe::description {
 
+/// The fastest lens in air: N = 1/(2 sin U'), where U' is the half-angle of the cone of light on the film.
+inline constexpr double kFastestFNumber = 0.5;
 /// The f-number that sets the exposure of a pinhole without one of its own.
 inline constexpr double kDefaultFNumber = 4;
 
-/// The camera before the sensor's film. Reports what no table can say: a T-stop faster than its f-number, a
-/// view of no direction, a lens that cannot focus; nothing after an error.
+/// The camera before the sensor's film. Reports what no table can say: a T-stop faster than its f-number or
+/// than blades allow a lens in air, a view of no direction, a lens that cannot focus; nothing after an error.
 [[nodiscard]] std::optional<Camera> build(const spec::Camera& camera, const Sensor& sensor,
                                           LoadContext& context);
 /// Lets a camera move from where it is described. Reports a probe, which does not.

@@ -27,6 +27,7 @@ SHARES_OF_Y = (0.212663651, 0.715178325, 0.072158024)
 RED, BLUE = (-1.83692275, 27.93408994, 51.38553635), (-3.54247104, 8.85485252, 35.69893127)
 ROUGHEST = 0.7767  # of diffuse surfaces: what slopes that deviate by 90 degrees have
 PINHOLE_F_NUMBER = 4  # by which Abbe exposes a pinhole that says none
+FASTEST_F_NUMBER = 0.5  # of a lens in air, whose cone of light then fills the hemisphere
 PHOTOMETRIC = {"radiant_flux_W": "luminous_flux_lm", "radiance": "luminance", "intensity": "luminous_intensity", "irradiance": "illuminance"}
 DROPPED = {"VOLUME": "volumes", "GPENCIL": "grease pencil", "CURVES": "hair", "POINTCLOUD": "clouds of points"}
 BLACK = np.zeros(3)
@@ -416,10 +417,12 @@ class Exporter:
             distance = (abs(axes.col[2].dot(target - at)) if target else camera.dof.focus_distance) * self.scale
             self.notes.add(where, "the blades and the ratio of an opening are left out: it is round", camera.dof.aperture_blades > 2 or camera.dof.aperture_ratio != 1)
             self.notes.add(where, "no lens is in focus within its focal length: a pinhole", distance <= focal_length)
+            self.notes.add(where, "no lens in air is faster than f/0.5: f/0.5", camera.dof.aperture_fstop < FASTEST_F_NUMBER)
             if distance > focal_length:
+                f_number = max(camera.dof.aperture_fstop, FASTEST_F_NUMBER)
                 extension = distance / (distance - focal_length)  # of the film's distance, and so of the film that has Blender's view
-                kind, pitch_mm, aperture = "thin_lens", pitch_mm * extension, 1 / (camera.dof.aperture_fstop * extension)
-                lens.update(f_number=tidy(camera.dof.aperture_fstop), focus_distance=tidy(distance))
+                kind, pitch_mm, aperture = "thin_lens", pitch_mm * extension, 1 / (f_number * extension)
+                lens.update(f_number=tidy(f_number), focus_distance=tidy(distance))
         is_plain = look.view_transform == "Standard" and look.look == "None" and look.gamma == 1 and not look.use_curve_mapping
         self.notes.add("scene", f'the view "{look.view_transform}" has no counterpart here: the picture\'s white is chosen from it', not is_plain)
         white = math.pi / 4 * aperture**2 * LUMENS_PER_WATT / 2**look.exposure

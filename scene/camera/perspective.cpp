@@ -19,10 +19,8 @@ std::optional<Imath::V2f> film_position(const FilmGrid& grid, const PlanePoint& 
   return film;
 }
 
-double least_cosine(const FilmGrid& grid, double opening, double image_distance) {
-  constexpr double kRounding = 1e-6;  // of cosines kept as floats
-  const double corner = std::hypot(grid.width, grid.height) / 2 * grid.pixel_pitch;
-  return cosine(PlanePoint((corner + opening) / image_distance, 0)) * (1 - kRounding);
+double corner_tangent(const FilmGrid& grid, double image_distance) {
+  return std::hypot(grid.width, grid.height) / 2 * grid.pixel_pitch / image_distance;
 }
 
 CameraRay ray_through(const Perspective& view, const LensCrossing& at, float time) {

@@ -24,8 +24,13 @@ using PlanePoint = Imath::V2d;
 [[nodiscard]] inline double cosine(const PlanePoint& tangent) {
   return 1 / std::sqrt(1 + tangent.dot(tangent));
 }
-/// The least of them to a film through an opening of that radius [m].
-[[nodiscard]] double least_cosine(const FilmGrid& grid, double opening, double image_distance);
+/// Tangent of the angle to the axis of the direction from the lens centre to a corner of the film.
+[[nodiscard]] double corner_tangent(const FilmGrid& grid, double image_distance);
+/// A cosine computed as a double, lowered by the rounding of cosines stored as floats.
+[[nodiscard]] inline double below_rounding(double cosine) {
+  constexpr double kRounding = 1e-6;
+  return cosine * (1 - kRounding);
+}
 
 /// What images a plane without distortion: the film behind an opening.
 struct Perspective {

@@ -45,7 +45,7 @@ std::optional<CameraDensity> Pinhole::density(const FilmGrid& grid, const Ray& r
 }
 
 double Pinhole::least_film_cosine(const FilmGrid& grid) const {
-  return least_cosine(grid, 0, image_distance);
+  return below_rounding(cosine(PlanePoint(corner_tangent(grid, image_distance), 0)));
 }
 
 CameraTraits Pinhole::traits() const {

@@ -1,5 +1,8 @@
 #include "scene/camera/thin_lens.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "materials/bsdf/warp.h"
 #include "scene/camera/perspective.h"
 
@@ -29,10 +32,24 @@ PlanePoint film_from(const ThinLens& camera, const PlanePoint& tangent, const Pl
   return (tangent + lens / camera.focus_distance) * camera.image_distance;
 }
 
-// The real image is upside down, so a ray in the camera runs from -film to the lens.
+// Cosine of the angle of incidence on the film. A sharp image of magnification m = v/s fixes the direction
+// cosines p' at the film: p' = p0 - (p - p0)/m. Those of the ray in the scene are p, and p0 are those of the
+// undeviated ray through the lens centre. On the axis this is Abbe's sine condition [Born1999, sec. 4.5].
+// The film point x and the lens point l give the tangents t0 = x/v and t = t0 - l/s, with the cosines c0 and
+// c. Then -s (p - p0) = c (l - t0 c0 (t + t0).l/(1/c + 1/c0)), which is finite for s = infinity too.
+double film_cosine(const ThinLens& camera, const PlanePoint& film, const PlanePoint& lens,
+                   const PlanePoint& tangent) {
+  const PlanePoint center = film / camera.image_distance;
+  const double c = cosine(tangent);
+  const double c0 = cosine(center);
+  const PlanePoint turned = (lens - center * (c0 * (tangent + center).dot(lens) / (1 / c + 1 / c0))) * c;
+  const PlanePoint sines = center * c0 + turned / camera.image_distance;
+  return std::sqrt(std::max(0.0, 1 - sines.dot(sines)));
+}
+
 LensCrossing crossing(const ThinLens& camera, const PlanePoint& film, const PlanePoint& lens,
                       const PlanePoint& tangent) {
-  return {lens, tangent, cosine(tangent), cosine((film + lens) / camera.image_distance)};
+  return {lens, tangent, cosine(tangent), film_cosine(camera, film, lens, tangent)};
 }
 
 }  // namespace
@@ -74,7 +91,9 @@ std::optional<CameraDensity> ThinLens::density(const FilmGrid& grid, const Ray& 
 }
 
 double ThinLens::least_film_cosine(const FilmGrid& grid) const {
-  return least_cosine(grid, aperture_radius, image_distance);
+  const double tangent = corner_tangent(grid, image_distance);
+  const double sine = tangent * cosine(PlanePoint(tangent, 0)) + aperture_radius / image_distance;
+  return below_rounding(std::sqrt(std::max(0.0, (1 - sine) * (1 + sine))));
 }
 
 CameraTraits ThinLens::traits() const {

@@ -236,6 +236,19 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
       {"two blades",
        R"({"camera": {"thin_lens": {"focal_length": 0.05, "f_number": 4, "blades": 2}, )" + at + "}",
        ErrorCode::scene, "/camera/thin_lens/blades: error: expected an integer (got 2, allowed [3, 32])"},
+      {"a lens faster than any in air",
+       R"({"camera": {"thin_lens": {"focal_length": 0.05, "f_number": 0.1, "focus_distance": "infinity"}, )" +
+           at + "}",
+       ErrorCode::scene,
+       "/camera/thin_lens/f_number: error: expected a number (got 0.1, allowed [0.5, 1000000])"},
+      {"a pinhole that exposes more than a hemisphere of light",
+       R"({"camera": {"pinhole": {"fov_deg": 9, "t_stop": 0.499}, )" + at + "}", ErrorCode::scene,
+       "/camera/pinhole/t_stop: error: expected a number (got 0.499, allowed [0.5, 1000000])"},
+      {"blades of a lens in air",
+       R"({"camera": {"thin_lens": {"focal_length": 0.05, "t_stop": 0.5, "blades": 4}, )" + at + "}",
+       ErrorCode::scene,
+       "/camera/thin_lens/t_stop: error: a T-stop is no faster than its blades let it be (got 0.5, allowed "
+       "[0.6266"},
       {"faster than blades let it be",
        R"({"camera": {"thin_lens": {"focal_length": 0.05, "f_number": 4, "t_stop": 4, "blades": 4}, )" + at +
            "}",

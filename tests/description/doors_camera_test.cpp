@@ -28,6 +28,19 @@ TEST_F(PbrtTest, LensesExposeAsThePinholeDoes) {
   }
 }
 
+// Beyond 7/8 of the focus distance the film of the pinhole's exposure would need a lens faster than f/0.5.
+TEST_F(PbrtTest, LensesWiderThanAnyInAirAreNarrowedWithANote) {
+  const auto made = convert("a.pbrt",
+                            "Film \"rgb\" \"integer xresolution\" 16 \"integer yresolution\" 8\nScale -1 1 "
+                            "1\nCamera \"perspective\" \"float fov\" 40 \"float lensradius\" 0.04 \"float "
+                            "focaldistance\" 0.02\nWorldBegin\n");
+  ASSERT_TRUE(made) << told_;
+  EXPECT_TRUE(tells("no lens in air is so wide for its focus: its radius is 0.0175, not 0.04")) << told_;
+  const auto& lens = std::get<spec::ThinLensCamera>(made->camera->kind).lens;
+  EXPECT_EQ(lens.aperture.f_number, 0.5);
+  EXPECT_NEAR(lens.focal_length, 0.0175, 1e-12);
+}
+
 // Its lens and its focus are in the camera's own coordinates.
 TEST_F(PbrtTest, ScaledCamerasHaveScaledLenses) {
   const auto lens_of = [this](const std::string& scale) {

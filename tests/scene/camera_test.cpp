@@ -95,14 +95,64 @@ TEST(Camera, RaysOfAFilmPointMeetInThePlaneInFocus) {
   }
 }
 
+// A narrow opening: the ray runs straight from the film to the lens.
 TEST(Camera, FilmCosineIsThatOfTheRayInsideTheCamera) {
   // The right edge of the picture is on the left of the film, which lies behind the lens.
-  const V3d film_point = V3d(1, 2, 3) + V3d(1, 0, 0) * 0.015 + V3d(0, 1, 0) * *traits(lens()).image_distance;
+  const double opening = 0.0005;
+  const Camera narrow{ThinLens{frame(), 1 / (1 / 0.05 - 1 / 0.5), 0.5, opening}, 6, 4, 0.005};
+  const V3d film_point = V3d(1, 2, 3) + V3d(1, 0, 0) * 0.015 + V3d(0, 1, 0) * *traits(narrow).image_distance;
   Random random(6);
   for (int i = 0; i < 100; ++i) {
-    const CameraRay start = ray_of(lens(), {6, 2}, random.pair());
+    const CameraRay start = ray_of(narrow, {6, 2}, random.pair());
     const V3d inside = (V3d(start.ray.origin) - film_point).normalized();
-    EXPECT_NEAR(static_cast<double>(start.cos_film), -inside.y, 1e-6);
+    EXPECT_NEAR(static_cast<double>(start.cos_film), -inside.y, 2e-5);
+  }
+}
+
+// On the axis the lens exposes by E = pi sin^2 U', U' being the half-angle of the cone of light on the film,
+// up to f/0.5 that fills the hemisphere; light of a uniform scene is uniform in the cone's projected solid
+// angle.
+TEST(Camera, ExposesByTheConeOfLightOnItsFilm) {
+  constexpr int kSide = 200;
+  const double focal_length = 0.05;
+  for (const double n : {0.5, 0.7, 1.0, 1.4, 8.0})
+    for (const double s : {static_cast<double>(INFINITY), 0.5, 0.1}) {
+      const double v = focal_length / (1 - focal_length / s);
+      const Camera camera{ThinLens{frame(), v, s, focal_length / (2 * n)}, 6, 4, 0.005};
+      double exposure = 0;
+      double largest = 0;  // sin^2 of the angle on the film
+      double mean = 0;
+      for (int j = 0; j < kSide; ++j)
+        for (int i = 0; i < kSide; ++i) {
+          const V2f u((static_cast<float>(i) + 0.5F) / kSide, (static_cast<float>(j) + 0.5F) / kSide);
+          const CameraRay start = ray_of(camera, {3, 2}, u);
+          const auto weight = static_cast<double>(start.weight[0]);
+          const double sine2 = 1 - std::pow(static_cast<double>(start.cos_film), 2);
+          exposure += weight / (kSide * kSide);
+          mean += weight * sine2 / (kSide * kSide);
+          largest = std::max(largest, sine2);
+        }
+      EXPECT_LT(exposure, kPi * 1.00001) << n << ' ' << s;
+      EXPECT_NEAR(exposure / (kPi * largest), 1, 0.012) << n << ' ' << s << ": the grid ends before the rim";
+      EXPECT_NEAR(mean / exposure / largest, 0.5, 0.006) << n << ' ' << s;
+      if (s > 1) {
+        EXPECT_NEAR(exposure, kPi / (4 * n * n), 1e-6) << n;
+      }
+    }
+}
+
+// Nothing comes to the film under a larger angle than the bound by which wavelengths are drawn.
+TEST(Camera, FilmAnglesStayWithinTheirBound) {
+  Random random(11);
+  for (const Camera& camera :
+       {narrow_pinhole(), wide_pinhole(), lens(), bladed_lens(), turned_lens(), wide_lens()}) {
+    const double least = least_film_cosine(camera);
+    double found = 1;
+    for (int i = 0; i < 20000; ++i) {
+      const V2f film(i % 2 == 0 ? 0 : 6 * random.uniform(), i % 2 == 0 ? 0 : 4 * random.uniform());
+      found = std::min(found, static_cast<double>(ray_of(camera, film, random.pair()).cos_film));
+    }
+    EXPECT_GE(found, least);
   }
 }
 
@@ -251,6 +301,17 @@ TEST(Camera, BothWaysCollectTheSameEnergy) {
   }
 }
 
+// Rounding of the cosine on the film when a ray is looked up again: of the direction, and through a lens that
+// of the lens point, 1.2e-7 m along each axis at coordinates of 2 to 4 m, over the image distance.
+double film_cosine_rounding(const Camera& camera, const CameraRay& ray) {
+  constexpr double kDirection = 1e-5;
+  const CameraTraits of = traits(camera);
+  if (!of.depth_of_field) return kDirection;
+  const auto cosine = static_cast<double>(ray.cos_film);
+  const double sine = std::sqrt(1 - cosine * cosine);
+  return kDirection + std::sqrt(2.0) * 1.2e-7 / of.image_distance.value() * sine / cosine;
+}
+
 TEST(Camera, DensitiesGiveTheWeightsOfBothWays) {
   Random random(7);
   for (const Camera& camera : {narrow_pinhole(), wide_pinhole(), lens(), bladed_lens(), turned_lens(),
@@ -266,7 +327,7 @@ TEST(Camera, DensitiesGiveTheWeightsOfBothWays) {
         EXPECT_LT(std::min({film.x, film.y, last.x - film.x, last.y - film.y}), 1e-3F);
         continue;
       }
-      EXPECT_NEAR(of->cos_film, start.cos_film, 1e-5);
+      EXPECT_NEAR(of->cos_film, start.cos_film, film_cosine_rounding(camera, start));
       const double flux = static_cast<double>(of->importance[3] / of->pdf_position * of->cos_theta);
       EXPECT_NEAR(flux / static_cast<double>(of->pdf_direction[3] * start.weight[3]), 1, 1e-5);
       if (camera.kind.index() != point_meter().kind.index()) {

@@ -67,12 +67,29 @@ double pixel_pitch_um(const GivenCamera& camera) {
   return 2 * half_film / pixels * 1e6;
 }
 
+// The largest opening that keeps the lens at f/0.5 or slower: with the film at v = 8 r and the focus at s,
+// N = f/(2 r) = 4/(1 + 8 r/s) for the radius r.
+double largest_radius(const GivenCamera& camera) {
+  constexpr double n = description::kDefaultFNumber;
+  return camera.focus_distance * (n / description::kFastestFNumber - 1) / (2 * n);
+}
+
+void limit_radius(GivenCamera& camera, Door& door) {
+  const double largest = largest_radius(camera);
+  if (!(camera.lens_radius > largest)) return;
+  door.note(camera.where,
+            fmt::format("no lens in air is so wide for its focus: its radius is {:.4g}, not {:.4g}", largest,
+                        camera.lens_radius));
+  camera.lens_radius = largest;
+}
+
 // The lens of that opening before that film: its focal length follows from the distances of film and focus.
 spec::ThinLens lens_of(const GivenCamera& camera) {
   const double film_distance = film_distance_of(camera);
   spec::ThinLens lens;
   lens.focal_length = 1 / (1 / camera.focus_distance + 1 / film_distance);
-  lens.aperture.f_number = lens.focal_length / (2 * camera.lens_radius);
+  lens.aperture.f_number =
+      std::max(lens.focal_length / (2 * camera.lens_radius), description::kFastestFNumber);
   lens.focus_distance = camera.focus_distance;
   lens.where = camera.where;
   return lens;
@@ -86,7 +103,7 @@ Imath::M44d upright_world(const Imath::M44d& camera_to_world) {
 }
 
 void set_camera(const GivenCamera& given, Door& door) {
-  const GivenCamera camera = in_world(given);
+  GivenCamera camera = in_world(given);
   const Imath::M44d& m = camera.to_world;
   const Imath::V3d from(m[3][0], m[3][1], m[3][2]);
   const Imath::V3d onwards = axis(camera, 2).normalized();
@@ -99,6 +116,7 @@ void set_camera(const GivenCamera& given, Door& door) {
   spec::Camera& said = door.scene.camera.emplace();
   said.where = camera.where;
   if (camera.lens_radius > 0 && camera.focus_distance > 0) {
+    limit_radius(camera, door);
     door.scene.sensor->pixel_pitch_um = pixel_pitch_um(camera);
     said.kind = spec::ThinLensCamera{lens_of(camera), view};
     return;
