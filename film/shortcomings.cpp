@@ -42,6 +42,10 @@ std::optional<std::string> lost_light(const Scene& scene) {
 }
 
 std::optional<std::string> dark_camera(const Scene& scene) {
+  if (const auto light = light_on_meter(scene))
+    return fmt::format(
+        "the meter lies, within rounding, on \"{}\" and receives nothing of what that emits: keep them apart",
+        scene.lights[*light].name);
   const auto shape = dark_enclosure(scene);
   if (!shape) return std::nullopt;
   return fmt::format("the camera stands within \"{}\", which is opaque and has no light inside",
@@ -49,10 +53,19 @@ std::optional<std::string> dark_camera(const Scene& scene) {
 }
 
 std::optional<std::string> hidden_sheet(const Scene& scene) {
-  const auto sheet = lost_sheet(scene);
-  if (!sheet) return std::nullopt;
-  return fmt::format("the thin sheet \"{}\" lies on \"{}\", which is met instead: keep them apart",
-                     scene.shapes[sheet->shape].name, scene.shapes[sheet->on].name);
+  if (const auto sheet = lost_sheet(scene))
+    return fmt::format("the thin sheet \"{}\" lies on \"{}\", which is met instead: keep them apart",
+                       scene.shapes[sheet->shape].name, scene.shapes[sheet->on].name);
+  const auto coat = lost_coat(scene);
+  if (!coat) return std::nullopt;
+  const std::string size = coat->reflectance
+                               ? fmt::format(" (a thin coat would take a reflectance of {} to {:.3g})",
+                                             LostCoat::kBelow, *coat->reflectance)
+                               : "";
+  return fmt::format(
+      "\"{}\" lies on all of the opaque \"{}\" and has no effect{}: keep them apart, or give that a coated "
+      "material",
+      scene.shapes[coat->shape].name, scene.shapes[coat->on].name, size);
 }
 
 std::optional<std::string> hidden_lamp(const Scene& scene) {

@@ -14,10 +14,12 @@ namespace abbe {
 /// as a sentence; nothing when it will lack none.
 [[nodiscard]] std::optional<std::string> lost_light(const Scene& scene);
 
-/// That the camera stands within opaque matter where no light is, as a sentence; nothing when it does not.
+/// That the camera stands within opaque matter where no light is, or a meter on a light that it misses,
+/// as a sentence; nothing when it does not.
 [[nodiscard]] std::optional<std::string> dark_camera(const Scene& scene);
 
-/// That a sheet lies on something that is met instead, as a sentence; nothing when none does.
+/// That a thin sheet, or all of a body of a medium, lies on something that is hit instead, as a sentence;
+/// nothing when none does.
 [[nodiscard]] std::optional<std::string> hidden_sheet(const Scene& scene);
 
 /// That light is lost of a lamp which touches something opaque, as a sentence; nothing when none does.

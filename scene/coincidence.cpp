@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -194,6 +195,20 @@ bool lies_on(const Shape& a, const Shape& b, double reach, FaceFinder& faces, Fa
     return (facing == Facing::any || one.normal.dot(other.normal) > 0) && lies_in(one, other, reach);
   };
   return any_pair(of_a, of_b, reach, fits).value_or(false);
+}
+
+bool coats(const Shape& coat, const Shape& body, double tolerance, FaceFinder& faces) {
+  if (ellipsoid_of(coat) || ellipsoid_of(body)) return lies_on(coat, body, tolerance, faces);
+  if (motion_of(coat) != nullptr || motion_of(body) != nullptr) return false;
+  const std::vector<Face> of_coat = sure_faces(coat, faces.box_of(coat), faces);
+  const std::vector<Face> of_body = sure_faces(body, faces.box_of(body), faces);
+  std::vector<bool> covered(of_coat.size(), false);
+  const auto cover = [&](const Face& one, const Face& other) {
+    if (one.normal.dot(other.normal) > 0 && lies_in(one, other, tolerance))
+      covered[static_cast<std::size_t>(&one - of_coat.data())] = true;
+    return false;
+  };
+  return any_pair(of_coat, of_body, tolerance, cover) && std::ranges::all_of(covered, std::identity());
 }
 
 bool lies_on_itself(const Shape& shape, double reach, FaceFinder& faces) {

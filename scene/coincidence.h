@@ -26,6 +26,11 @@ enum class Facing { any, same };
 [[nodiscard]] bool lies_on(const Shape& a, const Shape& b, double reach, FaceFinder& faces,
                            Facing facing = Facing::any);
 
+/// True if all of a closed shape beyond doubt lies on another: each of its faces in one of the other that is
+/// turned to the same side, or a ball in a ball, within the `tolerance` [m] of `lies_on`. False where so many
+/// faces are near each other that comparing them would take seconds.
+[[nodiscard]] bool coats(const Shape& coat, const Shape& body, double tolerance, FaceFinder& faces);
+
 /// Whether one of a shape's faces so lies in another of its own. None is found where so many are near each
 /// other that comparing them would take seconds.
 [[nodiscard]] bool lies_on_itself(const Shape& shape, double reach, FaceFinder& faces);

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include "materials/interface/fresnel.h"
+#include "materials/interface/hemispherical.h"
 #include "scene/coincidence.h"
 #include "scene/extent.h"
 #include "scene/shapes/solid.h"
@@ -90,6 +92,31 @@ std::optional<LampContact> contact_of(const Scene& scene, const BoxedLamp& lamp,
   if (wall != walls.end() && is_body(scene, lamp)) wall = hiding(Facing::same);
   if (wall == walls.end()) return std::nullopt;
   return LampContact{lamp.light, (*wall)->shape};
+}
+
+// The reflectance that `LostCoat` has: the interface reflects r and lets 1 - r in; what is scattered below
+// with the reflectance d leaves with the probability 1 - r_i, or returns: r + (1 - r) (1 - r_i) d/(1 - d r_i)
+// [Judd1942].
+std::optional<double> coated_reflectance(const Material& coat) {
+  constexpr double kNm = 550;
+  const RefractiveIndex* index = interior(coat);
+  if (index == nullptr) return std::nullopt;
+  const double n = index->n(kNm);
+  const double r = fresnel_dielectric(1.0, n).R();
+  const double inside = diffuse_reflectance_inside(n);
+  return r + (1 - r) * (1 - inside) * LostCoat::kBelow / (1 - LostCoat::kBelow * inside);
+}
+
+// True if rays from a film position of a meter start behind a surface of the light that emits towards it:
+// they start off the meter by the rounding of its coordinates.
+bool starts_behind(const Camera& meter, Imath::V2f film, const Shape& shape, const Light& light) {
+  const Imath::V3f start = meter_point(meter, film);
+  const Imath::V3f normal = meter_normal(meter, start);
+  const double rounding = static_cast<double>(offset_length(start));
+  const BasicRay<double> way{Imath::V3d(start) - Imath::V3d(normal) * (2 * rounding), Imath::V3d(normal),
+                             2 * rounding};
+  const auto hit = intersect(shape, way, 0.0);
+  return hit && emits_towards(light, Imath::V3f(hit->normal), -normal);
 }
 
 // Finds the walls that are near a shape of that box.
@@ -194,6 +221,41 @@ std::optional<Contact> lost_sheet(const Scene& scene) {
              scene.shapes[shape].material != scene.shapes[on.front()].material;
     };
     if (on.size() == 1 || std::any_of(on.begin(), on.end(), hides)) return Contact{sheet.shape, on.front()};
+  }
+  return std::nullopt;
+}
+
+std::optional<LostCoat> lost_coat(const Scene& scene) {
+  const std::vector<Boxed> media = shapes_of(scene, encloses_medium);
+  if (media.empty()) return std::nullopt;
+  const std::vector<Boxed> walls =
+      shapes_of(scene, [](const Material& material) { return opaque(material); });
+  const double tolerance = scene.touch_distance();
+  FaceFinder faces;
+  std::size_t pairs = 0;
+  for (const Boxed& medium : media)
+    for (const Boxed& wall : walls) {
+      if (++pairs > kMostPairs) return std::nullopt;
+      const bool same_box = medium.box.min.equalWithAbsError(wall.box.min, tolerance) &&
+                            medium.box.max.equalWithAbsError(wall.box.max, tolerance);
+      if (same_box &&
+          coats(scene.shapes[medium.shape].shape, scene.shapes[wall.shape].shape, tolerance, faces))
+        return LostCoat{medium.shape, wall.shape, coated_reflectance(material_of(scene, medium.shape))};
+    }
+  return std::nullopt;
+}
+
+std::optional<std::uint32_t> light_on_meter(const Scene& scene) {
+  if (!is_meter(scene.camera) || scene.camera.motion) return std::nullopt;
+  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
+    const auto* emitter = std::get_if<AreaLight>(&scene.lights[i].kind);
+    if (emitter == nullptr || !emits(scene.lights[i])) continue;
+    const Shape& shape = scene.shapes[emitter->shape].shape;
+    if (motion_of(shape) == nullptr &&
+        std::ranges::any_of(kSpreadOverLight, [&](const std::array<float, 2>& u) {
+          return starts_behind(scene.camera, {u[0], u[1]}, shape, scene.lights[i]);
+        }))
+      return i;
   }
   return std::nullopt;
 }

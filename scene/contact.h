@@ -27,6 +27,24 @@ struct Contact {
 /// material is not.
 [[nodiscard]] std::optional<Contact> lost_sheet(const Scene& scene);
 
+/// A body of a medium without thickness on an opaque body.
+struct LostCoat {
+  static constexpr double kBelow = 0.5;
+  std::uint32_t shape;
+  std::uint32_t on;
+  /// Reflectance along the normal, at 550 nm, of a diffuse surface of reflectance `kBelow` under such a coat;
+  /// nothing for a medium without an interface.
+  std::optional<double> reflectance;
+};
+/// The first body of a medium that has no effect, as an opaque surface is hit instead. All of its surface
+/// lies, by `coats`, on that of an opaque body. None is found where there are more than `kMostPairs` pairs of
+/// shapes.
+[[nodiscard]] std::optional<LostCoat> lost_coat(const Scene& scene);
+
+/// The first emitting shape in front of a meter whose light is missed, as an index into `Scene::lights`. It
+/// is within the rounding of one of the meter's points, so that rays from there start behind it.
+[[nodiscard]] std::optional<std::uint32_t> light_on_meter(const Scene& scene);
+
 /// A lamp, and the shape that it touches.
 struct LampContact {
   std::uint32_t light;  ///< Index into `Scene::lights`.

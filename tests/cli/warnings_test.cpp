@@ -201,6 +201,26 @@ TEST(Warnings, ACameraWithinOpaqueMatterIsTold) {
   EXPECT_EQ(warned(room(ball_of("white", "5"), kLamp)).err, "");
 }
 
+TEST(Warnings, GlassWithoutThicknessAndMetersOnLightsAreReported) {
+  const std::string coated = room(ball_of("white") + ", " + ball_of("glass"), kLamp);
+  const std::string lost =
+      "\"ball\" lies on all of the opaque \"ball\" and has no effect (a thin coat would take a reflectance "
+      "of "
+      "0.5 to 0.316): keep them apart, or give that a coated material";
+  EXPECT_NE(abbe("info " + coated).err.find("abbe: warning: " + lost + "\n"), std::string::npos);
+  EXPECT_EQ(warned(coated, " --strict").code, 3);
+  const std::string metered = scratch()
+                                  .write("meter_on_light.json", R"({"abbe": 1,
+    "camera": {"irradiance_probe": {"at": [1, 0, 0], "normal": [-1, 0, 0]}},
+    "sensor": {"resolution": [1, 1], "observer": "1931"},
+    "lights": [{"name": "bulb", "sphere": {"center": [0, 0, 0], "radius": 1}, "emission": {"spectrum": 1}}]})")
+                                  .string();
+  const std::string said =
+      "the meter lies, within rounding, on \"bulb\" and receives nothing of what that emits: keep them apart";
+  EXPECT_NE(abbe("info " + metered).err.find("abbe: warning: " + said + "\n"), std::string::npos);
+  EXPECT_NE(warned(metered).err.find("warning: " + said), std::string::npos);
+}
+
 TEST(Warnings, ALampOnSomethingOpaqueIsTold) {
   const auto lit_by = [](const std::string& lamp) {
     return room(

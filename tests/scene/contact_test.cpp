@@ -162,6 +162,54 @@ TEST(Contact, TellsBallsAtOnePlace) {
   EXPECT_EQ(lost_on({placed(ball, larger_by_half)}, {ball}), "");
 }
 
+// The shape that a body of glass without thickness lies on; "" of none.
+std::string coat_lost_on(const Shape& body, const Shape& glass, std::uint32_t material = kGlass) {
+  Scene scene = floor_scene();
+  scene.shapes = {{"body", body, kDiffuse}, {"glass", glass, material}};
+  scene.commit();
+  const auto lost = lost_coat(scene);
+  if (!lost) return "";
+  EXPECT_NEAR(lost->reflectance.value(), 0.3161, 1e-4) << "0.5 under glass of index 1.5";
+  return scene.shapes[lost->on].name;
+}
+
+TEST(Contact, FindsGlassWithoutThicknessOnOpaqueBodies) {
+  const Sphere ball{{0.1, 0.2, 0.3}, 1};
+  EXPECT_EQ(coat_lost_on(ball, ball), "body");
+  EXPECT_EQ(coat_lost_on(ball, placed(Sphere{{0, 0, 0}, 0.5},
+                                      Imath::M44d().setScale(2) * Imath::M44d().setTranslation(ball.center))),
+            "body");
+  EXPECT_EQ(coat_lost_on(ball, ball, kMirror), "") << "no medium";
+  EXPECT_EQ(coat_lost_on(ball, Sphere{ball.center, 1.001}), "");
+  EXPECT_EQ(coat_lost_on(ball, Sphere{{0.101, 0.2, 0.3}, 1}), "");
+  const Mesh block = box({-1, -1, 0}, {1, 1, 1});
+  EXPECT_EQ(coat_lost_on(block, block), "body");
+  EXPECT_EQ(coat_lost_on(block, box({-1, -1, 0}, {1, 1, 1.1})), "") << "its sides alone lie on it";
+  EXPECT_EQ(coat_lost_on(block, box({-2, -2, 0}, {2, 2, 2})), "") << "a candle in glass";
+  EXPECT_EQ(coat_lost_on(block, box({-1, -1, 1}, {1, 1, 2})), "") << "glass on a table";
+  EXPECT_EQ(coat_lost_on(inside_out(block), block), "") << "glass that fills a room";
+}
+
+// Whether a meter at x = `at` that looks along -x lies on a light.
+bool lies_on_light(double at, const Shape& light, double looks = -1, bool two_sided = false) {
+  Scene scene = lit_by(light, two_sided);
+  scene.camera = {Probe{PointOfMeter{{at, 0, 0}, {looks, 0, 0}}}, 1, 1, 1};
+  scene.commit();
+  return light_on_meter(scene).has_value();
+}
+
+TEST(Contact, FindsMetersOnLightsThatTheyFace) {
+  const Sphere bulb{{0, 0, 0}, 1};
+  for (const double at : {1.0, 1 + 1e-7, 1 + 3e-7}) EXPECT_TRUE(lies_on_light(at, bulb)) << at;
+  for (const double at : {1 + 1e-6, 1.1}) EXPECT_FALSE(lies_on_light(at, bulb)) << at;
+  EXPECT_FALSE(lies_on_light(1, bulb, 1)) << "it looks away";
+  const Quad panel{{1, -1, -1}, {0, 2, 0}, {0, 0, 2}};
+  EXPECT_TRUE(lies_on_light(1, panel));
+  EXPECT_FALSE(lies_on_light(1, panel, 1)) << "it looks away";
+  EXPECT_FALSE(lies_on_light(1.001, panel));
+  EXPECT_TRUE(lies_on_light(1, panel, 1, true)) << "which emits to both sides";
+}
+
 // A disc reaches to 1 from its middle, and the square around it to 1.41.
 TEST(Contact, ADiscCoversNoCornersOfTheSquareAroundIt) {
   const Disc disc{{0, 0, 0.5}, {0, 0, -1}, 1};

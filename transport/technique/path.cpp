@@ -7,6 +7,17 @@
 #include "transport/path/polarised_ends.h"
 
 namespace abbe {
+namespace {
+
+// What a meter takes from a direction of the world, on the side of its normal however grazing it is: unlike
+// that of a scattering surface, the plane of a meter is exact, and the sine of a grazing angle keeps its
+// digits where the light is far.
+SurfaceVertex::Departure towards_from_meter(const SurfaceVertex& meter, const Imath::V3f& world) {
+  const Imath::V3f wi = meter.frame.to_local(world);
+  return {wi, meter.f(world, wi, TransportMode::radiance), wi.z < 0};
+}
+
+}  // namespace
 
 PathTracer::PathTracer(const Plan& plan, RayCaster& caster)
     : plan_(plan),
@@ -93,7 +104,8 @@ void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const st
   const ChosenLight chosen = choose_light(vertex.place(), u, path.ray.time);
   if (!chosen.towards) return;
   const Imath::V3f& world = chosen.towards->wi;
-  const auto [wi, f, crosses] = vertex.towards(world, kMode);
+  const auto [wi, f, crosses] =
+      path.events == kMeterEvent ? towards_from_meter(vertex, world) : vertex.towards(world, kMode);
   if (f.is_zero()) return;
   SampledSpectrum contribution =
       f * (path.packet.throughput * emission_from(chosen.light, world, path.lambda_nm()) *

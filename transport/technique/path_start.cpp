@@ -59,7 +59,9 @@ bool PathTracer::start(const PixelSample& sample, const CameraRay& ray, CameraPa
   if (!camera_.meter_acceptance) return true;
   const Imath::V3f normal = meter_normal(scene_.camera, path.ray.origin);
   path.events = kMeterEvent;
-  const bool leaves = walks_.leave(*this, path, SurfaceVertex::meter(path.ray.origin, normal));
+  // The camera's ray starts beside the meter already, and rays that leave a surface are moved off it again.
+  const Imath::V3f point = offset_point(path.ray.origin, normal, -normal);
+  const bool leaves = walks_.leave(*this, path, SurfaceVertex::meter(point, normal));
   path.at.cos_film = path.ray.direction.dot(normal);
   return leaves;
 }

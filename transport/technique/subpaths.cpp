@@ -145,8 +145,11 @@ std::optional<PathVertex> light_for(const Plan& plan, const PathVertex& vertex,
   const std::optional<LightSample> to = sample_light(light, scene.shapes, place, {u[1], u[2]}, vertex.time);
   if (!to) return std::nullopt;
   const bool far = light.at_infinity();
+  // The vertex is the point of the surface itself, from which directions and distances are measured, not the
+  // end of the shadow ray beside it: `connect` moves both of its ends off their surfaces.
+  const Imath::V3f point = far ? to->wi : offset_point(to->end, to->normal, to->wi);
   std::optional<PathVertex> drawn(std::in_place);
-  drawn->at = LightVertex{pick.light, far ? to->wi : to->end, to->normal, far};
+  drawn->at = LightVertex{pick.light, point, to->normal, far};
   drawn->packet.wavelengths = vertex.packet.wavelengths;
   drawn->packet.hero = vertex.packet.hero;
   drawn->time = vertex.time;
