@@ -19,12 +19,12 @@ namespace {
 
 constexpr const char* kOption = "--ocio";
 
-std::string light_of(const CameraSpace& space) {
+std::string light_of(const OcioCameraSpace& space) {
   return space.name.substr(std::string_view(kCameraPrefix).size());
 }
 
 // Distance of chromaticities; infinite for a light that is no illuminant of the data directory.
-double distance(const CameraSpace& space, const Chromaticity& white) {
+double distance(const OcioCameraSpace& space, const Chromaticity& white) {
   Diagnostics unknown;
   const auto light = load_illuminant(light_of(space), {}, unknown);
   if (!light) return std::numeric_limits<double>::infinity();
@@ -32,13 +32,13 @@ double distance(const CameraSpace& space, const Chromaticity& white) {
   return std::hypot(xy[0] - white[0], xy[1] - white[1]);
 }
 
-const CameraSpace& choose(const std::vector<CameraSpace>& spaces, const std::string& white_name,
+const OcioCameraSpace& choose(const std::vector<OcioCameraSpace>& spaces, const std::string& white_name,
                           const std::optional<Chromaticity>& white) {
   if (spaces.size() == 1) return spaces.front();
   std::vector<std::string> names;
-  const CameraSpace* nearest = nullptr;
+  const OcioCameraSpace* nearest = nullptr;
   double least = std::numeric_limits<double>::infinity();
-  for (const CameraSpace& space : spaces) {
+  for (const OcioCameraSpace& space : spaces) {
     if (light_of(space) == white_name) return space;
     names.push_back(space.name);
     const double here = white ? distance(space, *white) : least;
@@ -69,9 +69,9 @@ std::optional<CameraMatrix> camera_matrix(const ViewOptions& view, std::span<con
                                           const std::string& white_name, std::optional<Chromaticity> white) {
   const bool is_observer = std::ranges::equal(channels, std::array<std::string, 3>{"X", "Y", "Z"});
   if (view.config.empty() || channels.size() != 3 || is_observer) return std::nullopt;
-  const std::vector<CameraSpace> spaces = camera_spaces(view.config);
+  const std::vector<OcioCameraSpace> spaces = camera_spaces(view.config);
   if (spaces.empty()) return std::nullopt;
-  const CameraSpace& space = choose(spaces, white_name, white);
+  const OcioCameraSpace& space = choose(spaces, white_name, white);
   if (!space.to_xyz_d65 || !is_invertible(*space.to_xyz_d65))
     throw Error(ErrorCode::usage, kOption,
                 fmt::format("\"{}\" is no matrix, which alone can show films (allowed: a configuration of "

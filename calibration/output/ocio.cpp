@@ -355,10 +355,10 @@ std::string ocio_config_text(std::span<const CameraProfile> profiles) {
   });
 }
 
-std::vector<CameraSpace> camera_spaces(const std::filesystem::path& config_file) {
+std::vector<OcioCameraSpace> camera_spaces(const std::filesystem::path& config_file) {
   return with_ocio_errors(ErrorCode::input, [&] {
     const OCIO::ConstConfigRcPtr config = OCIO::Config::CreateFromFile(config_file.c_str());
-    std::vector<CameraSpace> spaces;
+    std::vector<OcioCameraSpace> spaces;
     for (int i = 0; i < config->getNumColorSpaces(); ++i) {
       const char* name = config->getColorSpaceNameByIndex(i);
       const OCIO::ConstColorSpaceRcPtr space = config->getColorSpace(name);

@@ -46,7 +46,7 @@ struct DisplayCodes {
 [[nodiscard]] std::string ocio_config_text(std::span<const CameraProfile> profiles);
 
 /// A camera's colour space in a configuration that `write_ocio_config` wrote.
-struct CameraSpace {
+struct OcioCameraSpace {
   std::string name;  ///< E.g. "Camera D65".
   /// From linear values of R, G and B to XYZ relative to D65; nothing for a root polynomial. A response curve
   /// before it is left out.
@@ -54,7 +54,7 @@ struct CameraSpace {
 };
 /// The camera spaces of a configuration; none for one of another origin. Throws Error{input} for a file that
 /// OpenColorIO cannot read.
-[[nodiscard]] std::vector<CameraSpace> camera_spaces(const std::filesystem::path& config);
+[[nodiscard]] std::vector<OcioCameraSpace> camera_spaces(const std::filesystem::path& config);
 
 /// Creates a folder unless it is there. Throws Error{output}.
 void make_folder(const std::filesystem::path& folder);
