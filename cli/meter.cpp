@@ -57,7 +57,7 @@ Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }
 
-double half_interval(const Film::Average& value) {
+double half_interval_95(const Film::Average& value) {
   return abbe::half_interval(value.standard_error, value.degrees_of_freedom, kMeterLevel);
 }
 
@@ -69,7 +69,7 @@ Json json_of(const Film::Average& value, const char* unit) {
   return {{"value", value.mean},
           {"unit", unit},
           {"standard_error", error_of(value)},
-          {"half_interval_95", number(half_interval(value))}};
+          {"half_interval_95", number(half_interval_95(value))}};
 }
 
 Json cells_json(const MeterMeasurement& measured) {
@@ -119,7 +119,7 @@ Json json_of(const MeterMeasurement& measured) {
 }
 
 std::string in_words(const Film::Average& value, const char* unit) {
-  const double half = half_interval(value);
+  const double half = half_interval_95(value);
   const std::string interval = std::isfinite(half) ? fmt::format(" +- {:.2g}", half) : "";
   return fmt::format("{:.6g}{} {}", value.mean, interval, unit);
 }
