@@ -52,7 +52,7 @@ endfunction()
 # stops where the sources of a room, compiled as one, have grown by 40 %.
 function(abbe_compile_options target)
   abbe_common_options(${target})
-  if(target STREQUAL "abbe")
+  if(target MATCHES "^abbe(_commands)?$")
     abbe_plain_options(${target})
   endif()
   target_compile_options(${target} PRIVATE ${ABBE_SANITIZERS})

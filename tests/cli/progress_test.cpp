@@ -35,9 +35,12 @@ TEST(Progress, FitsTheTerminalAndShowsTheTimeLeft) {
     const std::string line = progress_line(full, columns);
     EXPECT_LT(line.size(), static_cast<std::size_t>(columns)) << line;
     EXPECT_TRUE(line.ends_with("2 h 05 min left")) << line;
-    if (columns >= 32) EXPECT_NE(line.find(" 25 %"), std::string::npos) << line;
-    if (columns >= 80)
+    if (columns >= 32) {
+      EXPECT_NE(line.find(" 25 %"), std::string::npos) << line;
+    }
+    if (columns >= 80) {
       EXPECT_NE(line.find("noise 2.8 % per pixel (43 % in the worst 5 %)"), std::string::npos) << line;
+    }
     longest = std::max(longest, line.size());
   }
   EXPECT_EQ(longest, progress_line(full).size() + 33) << "with the whole bar";

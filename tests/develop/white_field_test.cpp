@@ -12,14 +12,14 @@
 namespace abbe {
 namespace {
 
-const std::array<std::string, 3> kRgb{"R", "G", "B"};
+const std::array<std::string, 3> kColors{"R", "G", "B"};
 // Red falls to 0.8 at the corner, blue rises to 1.1.
 const WhiteField kTinted{{{1, 1, 1}, {0.95, 1, 1.05}, {0.8, 1, 1.1}}};
 
 Image even_planes(int width, int height) {
   Image planes{width, height, {}, {}};
   const auto pixels = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-  for (const std::string& name : kRgb) planes.channels.push_back({name, std::vector<float>(pixels, 1)});
+  for (const std::string& name : kColors) planes.channels.push_back({name, std::vector<float>(pixels, 1)});
   return planes;
 }
 
@@ -34,7 +34,7 @@ TEST(WhiteField, TextHoldsEveryDigit) {
 
 TEST(WhiteField, FlatteningDividesByTheResponseAtTheDistance) {
   Image planes = even_planes(8, 6);
-  flatten(planes, kRgb, kTinted);
+  flatten(planes, kColors, kTinted);
   const auto value = [&](std::size_t k, std::size_t x, std::size_t y) {
     return static_cast<double>(planes.channels[k].values[8 * y + x]);
   };
@@ -61,7 +61,7 @@ TEST(WhiteField, ATintIsWarnedOfAndADimmingIsNot) {
 TEST(WhiteField, IsReadFromTheFilmAndDividesPicturesOnRequest) {
   Image film = test::counting_film();
   film.channels.clear();
-  for (const std::string& name : kRgb) {
+  for (const std::string& name : kColors) {
     film.channels.push_back({name, {4e12F, 4e12F}});
     film.metadata["channel." + name] = film.metadata["channel.V"];
   }

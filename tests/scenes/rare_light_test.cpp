@@ -103,14 +103,14 @@ Scene silver_room() {
                                      box("0.2", "-0.2", "-0.999", "0.7", "0.4", "-0.2")));
 }
 
-struct Kind {
+struct LightScene {
   const char* name;
   std::function<Scene()> scene;
   /// The luminous plane's mean, by 8192 samples or more of a seed of their own; the mean of the seeds, where
   /// their light is not rare.
   std::optional<double> truth;
 };
-void PrintTo(const Kind& kind, std::ostream* out) {
+void PrintTo(const LightScene& kind, std::ostream* out) {
   *out << kind.name;
 }
 
@@ -118,15 +118,16 @@ Scene shipped(const char* file, const char* sensor) {
   return test::load(file, {{"/sensor", sensor}, {"/render/samples", "64"}});
 }
 
-constexpr const char* kObserver = R"({"observer": "1931", "resolution": [16, 16], "pixel_pitch_um": 1562.5})";
+constexpr const char* kSmallObserver =
+    R"({"observer": "1931", "resolution": [16, 16], "pixel_pitch_um": 1562.5})";
 
-const Kind kRare[] = {
+const LightScene kRare[] = {
     {"tiny_lamp", tiny_lamp, 0.1176},
     {"hot_texel", hot_texel, 12.08},
     {"silver_room", silver_room, 0.4151},
 };
-const Kind kOthers[] = {
-    {"diffuse", [] { return shipped("cornell.json", kObserver); }, {}},
+const LightScene kOthers[] = {
+    {"diffuse", [] { return shipped("cornell.json", kSmallObserver); }, {}},
     {"metal",
      [] {
        return shipped("materials/rough_metal.json",
@@ -178,7 +179,7 @@ struct Reported {
   bool is_known;
 };
 
-std::vector<Reported> render_seeds(const Kind& kind, int seeds) {
+std::vector<Reported> render_seeds(const LightScene& kind, int seeds) {
   Scene scene = kind.scene();
   const int plane = scene.channels.size() > 1 ? 1 : 0;
   std::vector<Reported> all;
@@ -190,7 +191,7 @@ std::vector<Reported> render_seeds(const Kind& kind, int seeds) {
   return all;
 }
 
-class RareLight : public testing::TestWithParam<Kind> {};
+class RareLight : public testing::TestWithParam<LightScene> {};
 
 TEST_P(RareLight, IntervalsHoldOrTheErrorIsNotYetKnown) {
   const int seeds = test::by_night(60, 4);
@@ -211,7 +212,9 @@ TEST_P(RareLight, IntervalsHoldOrTheErrorIsNotYetKnown) {
   fmt::print("{}: of {} seeds {} intervals hold, {} errors are not yet known, {} of either\n",
              GetParam().name, seeds, held, unknown, held_or_unknown);
   EXPECT_GE(held_or_unknown, kMinFraction * seeds);
-  if (!GetParam().truth) EXPECT_LE(unknown, 0.05 * seeds) << "false alarms";
+  if (!GetParam().truth) {
+    EXPECT_LE(unknown, 0.05 * seeds) << "false alarms";
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, RareLight, testing::ValuesIn(kRare),

@@ -26,7 +26,7 @@ Scene glass_on_card(Integrator integrator) {
   return scene;
 }
 
-constexpr SampleRange kSamples{0, 2};
+constexpr SampleRange kPassSamples{0, 2};
 
 Film film_of(const Plan& plan) {
   const Camera& camera = plan.scene.camera;
@@ -35,7 +35,7 @@ Film film_of(const Plan& plan) {
 
 // Runs the pass until that many more items are done, or one more where they end with a sample.
 std::uint32_t run_items(const Plan& plan, Film& film, std::uint32_t done, std::uint32_t more) {
-  Pass pass(plan, film, {}, kSamples, done, 7);
+  Pass pass(plan, film, {}, kPassSamples, done, 7);
   std::uint32_t count = 0;
   (void)pass.run(1, [&] { return ++count >= more; });
   return pass.done();
@@ -47,7 +47,7 @@ TEST(Pass, ResumedAfterAnyItemIsThePassThatWasLeftAlone) {
     const Scene scene = glass_on_card(integrator);
     const Plan plan = make_plan(scene);
     Film whole = film_of(plan);
-    Pass pass(plan, whole, {}, kSamples, 0, 7);
+    Pass pass(plan, whole, {}, kPassSamples, 0, 7);
     (void)pass.run(1, [] { return false; });
     ASSERT_TRUE(pass.finished());
     const std::uint32_t items = pass.done();
