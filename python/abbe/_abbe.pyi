@@ -195,8 +195,8 @@ def camera(name: str, wavelengths_nm: ArrayLike, *, response: str = '') -> dict:
     """Returns the responses of a measured camera at wavelengths as a dict by channel: relative to energy, or electrons per J for a quantum efficiency. `response` says what the camera's curves multiply, "energy" or "quantum"; without it those of columns named QE are quantum efficiencies, and all others responses to energy. Raises as `illuminant` does, and InputError for quantum efficiencies in percent."""
 
 
-def color(illuminant: typing.Any, reflectance: typing.Any = None, observer: str = '1931') -> dict:
-    """Returns the colour of a reflectance, or of the perfect diffuser, as a dict of XYZ (Y = 100 for the perfect diffuser), xy and Lab, summed every nanometre from 380 to 780 nm.
+def color(illuminant: typing.Any, reflectance: typing.Any = None, observer: str = '1931', *, range: str = '360-830') -> dict:
+    """Returns the colour of a reflectance, or of the perfect diffuser, as a dict of XYZ (Y = 100 for the perfect diffuser), xy and Lab, summed every nanometre from 360 to 830 nm, or with range="380-780" over that range, as other programs do.
 
     Illuminant and reflectance are names, or pairs of wavelengths in nm and values, taken as linear between them and as 0 beyond. Raises InputError for an unknown name and for a table of reflectances that are no shares of 1, UsageError for a pair with values outside [0, 1], or of an illuminant below 0, or with no wavelengths from 300 to 1100 nm."""
 
