@@ -218,7 +218,7 @@ ExposedFilm load(const DevelopOptions& options, Inputs& inputs) {
   return {std::move(film), std::move(sensor)};
 }
 
-/// What `develop` reports of the first exposure.
+/// Figures that `develop` reports about the first exposure.
 struct Report {
   std::vector<PlaneFigures> planes;
   std::optional<double> shown_as_white;  ///< Nothing where no display can show the film.

@@ -18,8 +18,8 @@ struct Costs {
   Cost write;    ///< Writing the film and the last checkpoint.
 };
 
-/// What `abbe render --stats` writes, as JSON; its command's cost is what was spent until now. Without a
-/// picture there is no film value that it shows as white.
+/// JSON that `abbe render --stats` writes. The cost of the command is that spent until this call.
+/// `shown_as_white` is empty without a picture.
 [[nodiscard]] std::string stats_text(const Scene& scene, const RenderResult& result, const Costs& costs,
                                      std::optional<double> shown_as_white);
 

@@ -39,8 +39,8 @@ struct DevelopedFilm {
 /// The seed of the render that made the film; 0 for one that does not tell.
 [[nodiscard]] std::uint64_t render_seed(const Image& film);
 
-/// What a display is given: every channel in every pixel, divided by the `WhiteField` if the sensor says so,
-/// and what saturated as white.
+/// Image for the display transform: every channel in every pixel, divided by the `WhiteField` if the sensor
+/// has one, with saturated pixels set to white.
 [[nodiscard]] Image display_planes(const FilmSensor& sensor, const Image& calibrated);
 
 /// The film value that pictures of the planes of `display_planes` show as white: the sensor's if it has one,

@@ -31,9 +31,9 @@ struct LinearImage {
   [[nodiscard]] std::size_t memory_bytes() const { return image.memory_bytes() * (exposed.empty() ? 1 : 2); }
 };
 
-/// Reads a film (its expected exposure), a spectral film (its bands), a raw DNG, FITS, TIFF or PNG (digital
-/// numbers above black, by what the file tells of them and as the opcodes of a DNG change them), or any other
-/// picture (its code values in [0, 1], linear or not). Throws Error{input} and Error{resource}.
+/// Reads a film (its expected exposure), a spectral film (its bands) or any other picture (its code values in
+/// [0, 1], linear or not). A raw DNG, FITS, TIFF or PNG gives digital numbers above black, scaled as the file
+/// declares and after the opcodes of a DNG. Throws Error{input} and Error{resource}.
 [[nodiscard]] LinearImage read_linear_image(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
 /// Divides each pixel by what a picture of an even surface has there, relative to the mean of its channel: so

@@ -12,9 +12,9 @@ namespace abbe {
 /// of incidence there (`incidence_angles`). Channels whose filters do not depend on the angle are unchanged.
 [[nodiscard]] std::vector<Channel> channels_at_center(const Scene& scene);
 
-/// The response to the scene's white over the field of its camera. Nothing for a sensor other than of three
-/// channels that count light, for channels that do not depend on the angle, and where a channel gets nothing
-/// of the white somewhere.
+/// Response to the scene's white over the field of its camera. Empty unless the sensor has three
+/// channels that count light and depend on the angle. Also empty if a channel receives none of the white at
+/// some position.
 [[nodiscard]] std::optional<WhiteField> white_field(const Scene& scene);
 
 /// The `neutral_shift` of that field in the colours of the scene's pictures; nothing where there is no field

@@ -84,7 +84,7 @@ GainMap read_gain_map(Cursor& cursor) {
   const bool is_sound = map.rows > 0 && map.columns > 0 && map.planes > 0 &&
                         (map.rows == 1 || map.row_spacing > 0) &&
                         (map.columns == 1 || map.column_spacing > 0);
-  // In 128 bits no product of three numbers of 32 overflows.
+  // A product of three 32-bit numbers fits into 128 bits.
   __extension__ using Wide = unsigned __int128;
   if (!is_sound || Wide{map.rows} * map.columns * map.planes != cursor.left() / sizeof(float))
     cursor.fail("a GainMap has another size than it states");

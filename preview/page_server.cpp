@@ -172,7 +172,7 @@ struct PageServer::Listener {
     // The library lets five connections wait to be accepted, and others try again after a second.
     void let_more_wait() { (void)::listen(svr_sock_, kWaiting); }
 
-    // What accepted connections are handed over by. The library owns it.
+    // Queue that hands over accepted connections. The library owns it.
     httplib::TaskQueue* hand_over() {
       return new HandOver([this] { end(); });
     }

@@ -67,7 +67,7 @@ void QuestionReader::wake() const {
   (void)!::write(wake_, &one, sizeof one);  // fails only if it is due anyway
 }
 
-// What has come of a question, without waiting for more.
+// Reads the bytes of a request that have arrived, without waiting for more.
 QuestionReader::Progress QuestionReader::read_some(Asking& asking) {
   std::array<char, 2048> block{};
   while (asking.question.size() < kMaxQuestionBytes) {

@@ -39,7 +39,7 @@ struct VolumeMeter {
   }
 };
 
-// Per material: a box around all of its shapes.
+// Bounding box of all shapes of each material.
 std::vector<Imath::Box3d> boxes_of_materials(const Scene& scene) {
   std::vector<Imath::Box3d> boxes(scene.materials.size());
   for (const ShapeInstance& instance : scene.shapes)

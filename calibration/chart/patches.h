@@ -15,8 +15,8 @@ namespace abbe {
 /// CIE 1931 tristimulus values, Y = 1 for the perfect diffuser.
 [[nodiscard]] XYZ unit_tristimulus(const Curve& illuminant, const Curve& reflectance, SumRange range = {});
 
-/// What channels are summed over: sensors count what eyes do not see, too, from 300 to 1100 nm; observers are
-/// summed as colours are.
+/// Wavelength range over which the channels are summed: 300-1100 nm for sensors, which also count light
+/// outside of the visible range, and the range of colorimetric sums for observers.
 [[nodiscard]] SumRange sensed(std::span<const Channel> channels);
 
 /// Raw values of a reflectance under an illuminant in channel order, divided by the value of the perfect

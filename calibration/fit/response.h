@@ -10,7 +10,7 @@
 
 namespace abbe {
 
-/// Where a recovered curve does not follow the codes, and by how much their exposures are off: medians.
+/// A range of codes that a recovered curve does not follow, with the median deviation of their exposures.
 struct ResponseMisfit {
   double low_code, high_code;  ///< Range in [0, 1].
   double exposure;             ///< Fraction of full scale.
@@ -35,10 +35,10 @@ struct ResponseFit {
   double roughness = 0;     ///< Weight of the curve's second differences that cross-validation chose.
   std::size_t samples = 0;  ///< Code values used: neither black nor clipped.
   int iterations = 0;       ///< Of all passes.
-  /// What neither noise nor single outliers explain, as a knee that is sharper than the curve can be: three
-  /// of nine neighbouring codes are off. `log_deviation` includes it in its range. Nothing where the curve
-  /// follows all codes to 0.2 % of full scale, and where the series does not state deviations, since these
-  /// are then learnt of the residuals themselves.
+  /// Misfit that neither noise nor single outliers explain, such as a knee that is sharper than the curve can
+  /// be: three of nine neighbouring codes are off. `log_deviation` includes it in its range. Empty if the
+  /// curve follows all codes to 0.2 % of full scale. Also empty if the series does not state deviations:
+  /// they are then estimated from the residuals themselves.
   std::optional<ResponseMisfit> misfit = {};
 };
 

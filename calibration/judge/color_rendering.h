@@ -17,10 +17,10 @@ struct ColorRendering {
   std::array<double, 14> special{};  ///< R1 to R14.
 };
 
-/// How alike the test-colour samples TCS01-TCS14 look under a light and under a black body (below 5000 K) or
-/// daylight of the same colour temperature: R_i = 100 - 4.6 times the distance in U*V*W*, von Kries'
-/// adaptation in u, v between the two lights [CIE13, sec. 5]; 1 nm sums over a range. Nothing for lights
-/// without a colour temperature up to 25 000 K.
+/// Colour rendering indices of the test-colour samples TCS01-TCS14: R_i = 100 - 4.6 d_i [CIE13, sec. 5]. d_i
+/// is the distance in U*V*W* between a sample under the light and under the reference of the same colour
+/// temperature: a black body below 5000 K, else daylight. Von Kries' adaptation in u, v; 1 nm sums over
+/// `range`. Empty for lights without a colour temperature up to 25 000 K.
 [[nodiscard]] std::optional<ColorRendering> color_rendering(const Curve& light, SumRange range = {});
 
 /// Where samples of one range of hue lie in the plane a', b', in the mean, and how they fare: NaN where the
@@ -44,12 +44,13 @@ struct ColorFidelity {
   std::array<HueBin, kBins> bins{};  ///< From the hue angle 0 on, 22.5 degrees each.
 };
 
-/// How the 99 colour evaluation samples look under a light compared with a reference of the same colour
-/// temperature: a black body (below 4000 K), daylight (above 5000 K) or a mixture of both. The colours are
-/// those of CAM02-UCS for the CIE 1964 observer, L_A = 100, Y_b = 20, complete adaptation; 1 nm sums over a
-/// range. R_f = 10 ln(1 + exp((100 - 6.73 dE)/10)) of the mean difference [CIE224, sec. 4]. R_g is 100 times
-/// the ratio of the areas of the polygons of the bins' means [TM30, sec. 4]. The hue under the reference
-/// decides the bin; without samples in each of the 16 there is no R_g. Nothing as for `color_rendering`.
+/// Colour fidelity and gamut of a light by the 99 colour evaluation samples, compared with a reference of the
+/// same colour temperature: a black body (below 4000 K), daylight (above 5000 K) or a mixture. The colours
+/// are those of CAM02-UCS for the CIE 1964 observer, L_A = 100, Y_b = 20, complete adaptation; 1 nm sums over
+/// a range. R_f = 10 ln(1 + exp((100 - 6.73 dE)/10)) of the mean difference [CIE224, sec. 4]. R_g is 100
+/// times the ratio of the areas of the polygons of the bins' means [TM30, sec. 4]. The hue under the
+/// reference decides the bin; without samples in each of the 16 there is no R_g. Nothing as for
+/// `color_rendering`.
 [[nodiscard]] std::optional<ColorFidelity> color_fidelity(const Curve& light, SumRange range = {});
 
 }  // namespace abbe

@@ -48,8 +48,8 @@ struct DisplayCodes {
 /// A camera's colour space in a configuration that `write_ocio_config` wrote.
 struct OcioCameraSpace {
   std::string name;  ///< E.g. "Camera D65".
-  /// From linear values of R, G and B to XYZ relative to D65; nothing for a root polynomial. A response curve
-  /// before it is left out.
+  /// Matrix from linear values of R, G and B to XYZ relative to D65; empty for a root polynomial. It does not
+  /// include the response curve that precedes it.
   std::optional<Matrix3> to_xyz_d65;
 };
 /// The camera spaces of a configuration; none for one of another origin. Throws Error{input} for a file that

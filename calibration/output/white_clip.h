@@ -10,9 +10,9 @@
 
 namespace abbe {
 
-/// Film values of the brightest neutral that a sensor holds: t r_k for channel k, with r the film values of a
-/// neutral, which `to_xyz_d65` takes to D65, and t = min_k saturation_k / r_k, where the first channel fills
-/// up in neutral light. Nothing where no neutral is positive in every channel below saturation.
+/// Film values of the brightest neutral below saturation: t r_k for channel k. r are the film values of a
+/// neutral, which `to_xyz_d65` takes to D65. t = min_k saturation_k / r_k is where the first channel
+/// saturates in neutral light. Empty if no neutral is positive in every channel below saturation.
 [[nodiscard]] std::optional<std::array<double, 3>> brightest_neutral(const Matrix3& to_xyz_d65,
                                                                      const std::vector<double>& saturation);
 

@@ -10,7 +10,7 @@ namespace {
 
 using Weights = std::array<SampledSpectrum, RoughInterface::kIndices>;
 
-// Per lane: the weights of the three indices that a surface is tabulated at.
+// Weights of the three tabulated indices, per wavelength sample.
 Weights weights(const RoughInterface& surface, const SampledSpectrum& n) {
   if (surface.crosses_one()) {
     const SampledSpectrum below = SampledSpectrum::map(
@@ -40,8 +40,8 @@ SampledSpectrum lost_energy(const RoughInterface& surface, bool inside, const We
   return at_lanes(surface, inside, weights, [&](const EnergyCompensation& table) { return table.at(place); });
 }
 
-// Per lane: the power sent from o into i times the cosine of i [1/sr], by a single facet and in all. The pdf
-// is the density of i if that lane is the hero.
+// BSDF from o to i times the cosine of i [1/sr], per wavelength sample: by single scattering and in all. `pdf`
+// is the density of i [1/sr] if that wavelength is the hero.
 struct Scattered {
   SampledSpectrum single, power, pdf;
 };

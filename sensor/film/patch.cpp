@@ -92,8 +92,8 @@ void describe_spread(std::vector<double> values, PatchChannel& found) {
   found.middle_levels = static_cast<std::size_t>(middle - (values.begin() + quarter));
 }
 
-// Whether all pixels but defective ones have one value, of so many that noise wider than a step hardly gives
-// them the same by chance.
+// True if all pixels but defective ones have one value, and the pixels are so many that noise wider than a
+// step is unlikely to make them equal.
 bool is_even(const PatchChannel& patch) {
   constexpr std::size_t kMinPixels = 16;
   return patch.pixels >= kMinPixels && !exceeds_defects(static_cast<double>(patch.pixels - patch.at_highest),

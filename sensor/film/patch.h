@@ -61,7 +61,7 @@ struct MeasuredPlanes {
   /// The planes before they were divided by a flat, which tell what is black or saturated; of none `planes`
   /// do.
   std::vector<const ImageChannel*> exposed = {};
-  /// Per channel, a value below `saturation` from which its pixels count as saturated too; empty: none.
+  /// A value below `saturation` per channel from which its pixels also count as saturated; empty if none.
   std::vector<std::optional<double>> clipped_at = {};
 
   /// The value from which a pixel of a channel counts as saturated.
@@ -83,7 +83,7 @@ struct MeasuredPlanes {
 [[nodiscard]] std::vector<std::optional<double>> clipping_levels(
     std::span<const std::vector<PatchChannel>> channels, std::optional<double> saturation);
 
-/// That of the channels of an image in which no more pixels are above it than may be defective.
+/// Clipping level of each channel: a value that no more pixels of the image exceed than may be defective.
 [[nodiscard]] std::vector<std::optional<double>> clipping_levels(const Image& image,
                                                                  const MeasuredPlanes& planes,
                                                                  std::span<const PatchValues> patches);

@@ -62,7 +62,7 @@ std::optional<RelativeBias> curvature_over_time(std::span<const LinearityPoint> 
   return RelativeBias{line->slope / line->at_zero, spread * std::sqrt(line->slope_variance) / line->at_zero};
 }
 
-// What a curvature b over the time does to the gain of the pairs.
+// Relative bias of the gain of the pairs by a curvature b over the exposure time.
 double bias_of(std::span<const LinearityPoint> points, double curvature) {
   double squares = 0;
   double products = 0;

@@ -267,7 +267,7 @@ double pattern(std::span<const FlatPair> pairs, const std::vector<PairMoments>& 
   return noise > kPatternNoise * by_nearest ? by_nearest : variance(line);
 }
 
-// How straight the lit pairs are, `below` being those that the gain is fitted to.
+// Adds the linearity of the illuminated pairs; `below` are those that the gain is fitted to.
 void judge_linearity(const std::vector<PairMoments>& lit, const std::vector<PairMoments>& below,
                      const Line& dark_mean, const Line& dark_variance, double saturation_dn,
                      PhotonTransfer& transfer) {

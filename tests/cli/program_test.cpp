@@ -53,7 +53,7 @@ TEST(Program, HelpTellsTheKeysOfScenes) {
         {"camera/pinhole/fov_deg",
          "\ncamera/pinhole/fov_deg\n  Field of view along the shorter image axis.\n"},
         {"lights/sun/angular_diameter_deg", "\n  number in [0.01, 60] degrees, default 0.533\n"},
-        {"camera/thin_lens", "\n      number in (0, 1e+06], required without t_stop\n"},
+        {"camera/thin_lens", "\n      number in [0.5, 1e+06], required without t_stop\n"},
         {"lights/two_sided", "\n  Beside `quad`, `sphere`, `disc`: Whether it emits from both sides.\n"},
         {"resolution", "\nsensor/resolution\n"},
         {"scale", "\nshapes/instance/transform/scale\n"},

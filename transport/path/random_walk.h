@@ -34,9 +34,9 @@ namespace abbe {
 /// matt surface by two numbers alone, so that those left over may draw its next direction; `parts_lanes()`,
 /// whether its paths are to go on lane by lane where smooth glass disperses them; and `connects_along()` with
 /// `connect_along(path, stretch, u)`, a connection from along matter that scatters evenly, before the event
-/// that ends the stretch; and `adds_path(path)`, which returns a random number in [0, 1) for roulette if a
-/// second path leaves the vertex that `path` has come to, with `scatter_added(path, vertex)`, which turns a
-/// copy of `path` into that second one and returns its event there. One that works out by itself with which
+/// that ends the stretch. `adds_path(path)` returns a random number in [0, 1) for roulette if a
+/// second path leaves the current vertex of `path`. `scatter_added(path, vertex)` then turns a copy of `path`
+/// into that second one and returns its event there. One that works out by itself with which
 /// density each event was drawn makes `kDrawsPolarised` false.
 template <typename T>
 concept WalkingTechnique = std::derived_from<typename T::Path, Walk> &&

@@ -141,7 +141,7 @@ float area_of(Photons photons) {
   return area * (n + 1) * (n + 1) / ((n - 1) * (n - 1));
 }
 
-// With q paths added per vertex, light from the lobes has the variance C^2/q and other light B^2. C is the
+// If q paths are added per vertex, light from the lobes has the variance C^2/q and other light B^2. C is the
 // irradiance of caustics and B that of the other light. Let k be the cost of an added path over that of one
 // vertex: (B^2 + C^2/q)(1 + k q) is least for q = C/(B sqrt(k)). C/(C + B) is that for k near 1 and small C,
 // and remains below one path. Lights are connected to, so that B is what comes by other surfaces, a quarter

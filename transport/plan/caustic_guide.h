@@ -51,7 +51,7 @@ class CausticLobes {
   [[nodiscard]] bool empty() const { return lobes_.empty(); }
   /// Probability that a path draws an additional direction from the lobes.
   [[nodiscard]] float share() const { return share_; }
-  /// The same lobes, drawn from `factor` times as often.
+  /// These lobes with their selection probability multiplied by `factor`.
   [[nodiscard]] CausticLobes scaled(float factor) const { return {lobes_, width_, share_ * factor}; }
   /// A direction to look in from a point, by `lobe` and `u` in [0, 1).
   [[nodiscard]] Imath::V3f sample(const Imath::V3f& point, float lobe, Imath::V2f u) const;

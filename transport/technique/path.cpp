@@ -9,9 +9,9 @@
 namespace abbe {
 namespace {
 
-// What a meter takes from a direction of the world, on the side of its normal however grazing it is: unlike
+// Response of a meter to a direction of the world, on the side of its normal however grazing it is. Unlike
 // that of a scattering surface, the plane of a meter is exact, and the sine of a grazing angle keeps its
-// digits where the light is far.
+// digits if the light is distant.
 SurfaceVertex::Departure towards_from_meter(const SurfaceVertex& meter, const Imath::V3f& world) {
   const Imath::V3f wi = meter.frame.to_local(world);
   return {wi, meter.f(world, wi, TransportMode::radiance), wi.z < 0};

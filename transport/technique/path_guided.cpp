@@ -14,9 +14,9 @@
 // multiplies weights by up to 1/(1 - q) at each event. In a room of albedo a the second moment of a path, the
 // sum over n of (a^2/(1 - q))^n, then diverges for q > 1 - a^2.
 //
-// q is the guide's probability times the throughput T of the path, at most 1. Of paths added at a vertex
-// where the others carry T the light has a variance in proportion to T^2/q and a cost in proportion to q, so
-// that q is best in proportion to T, as `kGoingOnOfCameraPaths` derives for roulette.
+// q is the guide's probability times the throughput T of the path, at most 1. Light of the paths added at a
+// vertex of throughput T has a variance in proportion to T^2/q and a cost in proportion to q. q is therefore
+// best in proportion to T, as `kGoingOnOfCameraPaths` derives for roulette.
 
 namespace abbe {
 

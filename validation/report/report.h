@@ -78,7 +78,7 @@ struct ChartSummary {
   double mean;   ///< Of its patches.
   double worst;  ///< Of one patch.
 };
-/// For a case measured by `RenderedChart`.
+/// Summary of a case measured by `RenderedChart`.
 [[nodiscard]] ChartSummary chart_summary(const CaseResult& result);
 /// All rendered charts as the table of README.md in Markdown: a column for each illuminant. Empty without
 /// any.

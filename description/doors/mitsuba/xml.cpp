@@ -18,8 +18,8 @@ constexpr std::size_t kMaxDepth = 64;  // of elements within one another, includ
 /// Longest value of an attribute once names are replaced [bytes]; defaults that name others may multiply.
 constexpr std::size_t kMaxValueBytes = std::size_t{1} << 20;
 
-// What pugixml takes for a text: a copy of it, nodes of 64 bytes for elements and what they hold, and
-// attributes of 40.
+// Memory of pugixml's document [bytes]: a copy of the text, 64 for each element or text node and 40 for each
+// attribute.
 std::size_t document_bytes(const std::string& text) {
   const auto count = [&text](char c) { return static_cast<std::size_t>(std::ranges::count(text, c)); };
   return text.size() + 2 * 64 * count('<') + 40 * count('=');

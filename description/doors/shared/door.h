@@ -48,7 +48,7 @@ struct Door {
   [[nodiscard]] std::shared_ptr<const SourceText> read(const std::filesystem::path& file) const;
   /// Counts the memory of JSON values and texts that the scene to be written is about to have.
   void add_values(std::size_t count, std::size_t bytes_of_texts = 0);
-  /// What writing them takes: their tree and its text.
+  /// Memory that writing the scene takes [bytes]: its JSON tree and the text.
   [[nodiscard]] std::size_t bytes_to_write() const;
   /// The name by which the scene to be written finds a file: as from its folder, but for what is named from
   /// the root and lies elsewhere.
