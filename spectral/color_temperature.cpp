@@ -16,6 +16,7 @@ constexpr double kFarthest = 0.05;
 constexpr double kLeastMired = 10;  // 1e6/T
 constexpr double kMostMired = 1000;
 constexpr int kScanSteps = 99;
+constexpr double kEndTolerance = 1e-6;  // Relative; the search finds 1000 K itself within rounding.
 
 Uv1960 planckian_uv(double mired) {
   const ColorMatching& cmf = color_matching(Observer::cie1931);
@@ -45,8 +46,10 @@ double nearest_mired(const Uv1960& uv) {
       least = d;
       best = i;
     }
-  double low = mired_at(std::max(best - 1, 0));
-  double high = mired_at(std::min(best + 1, kScanSteps));
+  // The search also covers some of the locus outside the ends: a colour at an end is found, one outside is
+  // not mistaken for it.
+  double low = std::max(mired_at(best - 1), kLeastMired / 2);
+  double high = mired_at(best + 1);
   const double golden = (std::sqrt(5.0) - 1) / 2;
   while (high - low > 1e-9 * high) {
     const double a = high - golden * (high - low);
@@ -80,16 +83,22 @@ std::optional<ColorTemperature> color_temperature(const XYZ& xyz) {
   const double mired = nearest_mired(uv);
   const Uv1960 nearest = planckian_uv(mired);
   const double far = distance(uv, nearest);
-  constexpr double kAtEnd = 1e-6;
-  if (far > kFarthest || mired < kLeastMired + kAtEnd || mired > kMostMired - kAtEnd) return std::nullopt;
+  if (far > kFarthest || mired < kLeastMired * (1 - kEndTolerance) ||
+      mired > kMostMired * (1 + kEndTolerance))
+    return std::nullopt;
   return ColorTemperature{1e6 / mired, std::copysign(far, uv[1] - nearest[1])};
 }
 
 double luminous_efficacy(const Curve& light) {
   constexpr auto kLow = static_cast<double>(kVisibleRange.low_nm);
   constexpr auto kHigh = static_cast<double>(kVisibleRange.high_nm);
-  return kLuminousEfficacy * integral_of_product(light, color_matching(Observer::cie1931).y, kLow, kHigh) /
-         light.integral(kLow, kHigh);
+  // The trapezoidal rule is the mean of the two sums that leave out one end each. The same rule gives the
+  // integral of S, which is straight between the nanometres.
+  const Curve& v = color_matching(Observer::cie1931).y;
+  const double luminous = (sum_product(light, v, {kVisibleRange.low_nm, kVisibleRange.high_nm - 1}) +
+                           sum_product(light, v, {kVisibleRange.low_nm + 1, kVisibleRange.high_nm})) /
+                          2;
+  return kLuminousEfficacy * luminous / light.integral(kLow, kHigh);
 }
 
 double scotopic_photopic_ratio(const Curve& light, SumRange range) {

@@ -22,12 +22,12 @@ struct ColorTemperature {
 /// The temperature of the black body whose chromaticity for the CIE 1931 observer is nearest in u, v, and the
 /// signed distance to it [CIE15, sec. 9.4; Ohno2014, eq. 8], found by minimising that distance itself; black
 /// bodies are summed over 360-830 nm. Nothing for colours farther than 0.05 from the locus, of which no
-/// colour temperature is told [CIE15, sec. 9.4], and for temperatures beyond 1000 and 100 000 K.
+/// colour temperature is told [CIE15, sec. 9.4], and for temperatures below 1000 K or above 100 000 K.
 [[nodiscard]] std::optional<ColorTemperature> color_temperature(const XYZ& xyz);
 
 /// Luminous efficacy of the visible part of a radiation [lm/W] (`kVisibleRange`): 683.002 lm/W times the
-/// integral of S V over that of S. The integrals are exact for the straight pieces of S and V: like the
-/// trapezoidal rule, they take half a nanometre at each end.
+/// integral of S V over that of S by the trapezoidal rule in steps of 1 nm [CIE15]. Spectra with structure
+/// between whole nanometres are integrated exactly.
 [[nodiscard]] double luminous_efficacy(const Curve& light);
 
 /// Ratio of scotopic to photopic luminous flux: 1700.06/683.002 times the quotient of the 1 nm sums with
