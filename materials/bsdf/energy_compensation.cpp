@@ -63,12 +63,6 @@ Imath::V3f table_direction(const Microfacets<float>& facets, float tilt, float t
   return Imath::V3f(x, y, t / std::max(1 - t, kHorizon) * tilted_alpha(facets, {x, y, 0})).normalized();
 }
 
-// The squared cosine at which slopes of the mean width give that tilt.
-float mean_cos2_at(const Microfacets<float>& facets, float tilt) {
-  const float tangent = (1 / (tilt * tilt) - 1) / mean_alpha(facets);
-  return 1 / (1 + tangent * tangent);
-}
-
 struct Cell {
   int number;
   float within;
@@ -87,16 +81,38 @@ float monotone_slope(float before, float after) {
   return std::clamp((before + after) / 2, -least, least);
 }
 
+// Cells of the density are even in the logarithm of the tangent of the angle, since 1 - E falls as its square
+// towards the normal. From the horizon to the first tangent 1 - E is nearly constant; what is lost about the
+// normal, below the last one, is negligible.
+struct DensityCells {
+  explicit DensityCells(const Microfacets<float>& facets, int count)
+      : log_first(std::log(30 / mean_alpha(facets))),
+        per_log(static_cast<float>(count - 2) / (log_first - kLogLast)) {}
+
+  [[nodiscard]] int at(const Imath::V3f& w) const {
+    const float log_tangent = std::log((w.x * w.x + w.y * w.y) / (w.z * w.z)) / 2;
+    const float scaled = 1 + (log_first - log_tangent) * per_log;
+    return static_cast<int>(std::clamp(scaled, 0.0F, 1 + (log_first - kLogLast) * per_log));
+  }
+  /// Squared cosine of the upper end of a cell.
+  [[nodiscard]] float end_cos2(int cell) const {
+    return 1 / (1 + std::exp(2 * (log_first - static_cast<float>(cell) / per_log)));
+  }
+
+  static constexpr float kLogLast = -4.6F;
+  float log_first, per_log;
+};
+
 }  // namespace
 
 EnergyCompensation::Place EnergyCompensation::place(const Microfacets<float>& facets, const Imath::V3f& w) {
   const float z = std::abs(w.z);
   const float tilt = tilt_of(z, tilted_alpha(facets, w));
   const Cell row = cell_of(tilt, kCells);
-  if (isotropic(facets)) return {row.number, 0, row.within, 0, cell_of(tilt, kDensityCells).number};
+  const int density_cell = DensityCells(facets, kDensityCells).at(w);
+  if (isotropic(facets)) return {row.number, 0, row.within, 0, density_cell};
   const Cell turn = cell_of(std::atan2(std::abs(w.y), std::abs(w.x)) / kQuarterTurn, kTurns - 1);
-  const float mean_tilt = tilt_of(z, mean_alpha(facets) * std::sqrt(w.x * w.x + w.y * w.y));
-  return {row.number, turn.number, row.within, turn.within, cell_of(mean_tilt, kDensityCells).number};
+  return {row.number, turn.number, row.within, turn.within, density_cell};
 }
 
 std::vector<EnergyCompensation> EnergyCompensation::tabulate(const Microfacets<float>& facets,
@@ -149,9 +165,10 @@ void EnergyCompensation::prepare_density(const Microfacets<float>& facets) {
     }
     return sum / azimuths;
   };
+  const DensityCells cells(facets, kDensityCells);
   double sum = 0;
   for (std::size_t k = 0; k < kDensityCells; ++k) {
-    cos2_[k + 1] = mean_cos2_at(facets, static_cast<float>(k + 1) / kDensityCells);
+    cos2_[k + 1] = k + 1 < kDensityCells ? cells.end_cos2(static_cast<int>(k)) : 1;
     const float width = cos2_[k + 1] - cos2_[k];
     double mean = kLeastDensity;
     for (int part = 0; part < kParts; ++part)

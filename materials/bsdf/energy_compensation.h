@@ -46,7 +46,7 @@ class EnergyCompensation {
   std::array<std::array<float, kTurns>, kTilts> lost_{};
   float total_ = 0;
   // The mean over azimuths in cells of squared cosine, from the horizon up, each of one density over
-  // projected solid angle. They are finer than those of the table, which grow too wide towards the normal.
+  // projected solid angle. They are narrower than those of the table, within which 1 - E varies manyfold.
   static constexpr int kDensityCells = 8 * kCells;
   std::array<float, kDensityCells + 1> cos2_{};
   std::array<float, kDensityCells + 1> cumulative_{};

@@ -2,7 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "materials/bsdf/energy_compensation.h"
 #include "materials/bsdf/event.h"
@@ -20,24 +23,29 @@ struct RoughMetal {
 };
 
 /// Microfacets between two media, the inner one of an index relative to the outer one in [low_n, high_n].
+///
+/// Energies are tabulated at some indices. From one of even number to the next they are quadratic in the
+/// coordinate x = sqrt(|n - 1|), which has the sign of n - 1: the angle at which total reflection begins is
+/// in proportion to x near n = 1, where they change fast. At n = 1 itself they have a kink, so that a range
+/// that holds 1 is divided there.
 struct RoughInterface {
-  /// Energies are quadratic in n between the ends of the range and its center. They have a kink at n = 1:
-  /// where that is within the range, they are linear on either side of it.
-  static constexpr int kIndices = 3;
+  static constexpr std::size_t kMostIndices = 17;
 
   RoughInterface(const Microfacets<float>& facets, float low_n, float high_n);
 
-  [[nodiscard]] bool crosses_one() const { return low_n < 1 && high_n > 1; }
+  [[nodiscard]] static float coordinate(float n) { return std::copysign(std::sqrt(std::abs(n - 1)), n - 1); }
   /// Largest distance of a relative index of [low, high] from [low_n, high_n].
   [[nodiscard]] float distance_to(float low, float high) const {
     return std::max({low_n - low, high - high_n, 0.0F});
   }
+  /// Number of the index whose tables multiple scattering is sampled by.
+  [[nodiscard]] std::size_t middle() const { return coordinates.size() / 2; }
 
   Microfacets<float> facets;
   float low_n, high_n;
-  std::array<std::array<EnergyCompensation, kIndices>, 2>
-      lost;            ///< For light from outside, from inside; by n.
-  float inside_share;  ///< Of what is scattered more than once, at the second index.
+  std::vector<float> coordinates;                       ///< Of the indices, ascending; an odd number of them.
+  std::array<std::vector<EnergyCompensation>, 2> lost;  ///< For light from outside, from inside; by index.
+  float inside_share;  ///< Fraction of multiple scattering that goes inside, at the middle index.
 };
 
 /// Rough conductor, opaque, reflecting on both sides; it refers to the material and sees the packet

@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include "materials/bsdf/facet_event.h"
 #include "materials/bsdf/mirror.h"
@@ -8,23 +11,27 @@
 namespace abbe {
 namespace {
 
-using Weights = std::array<SampledSpectrum, RoughInterface::kIndices>;
+using Weights = std::array<SampledSpectrum, RoughInterface::kMostIndices>;
 
-// Weights of the three tabulated indices, per wavelength sample.
+// Per lane: the weights of the indices that a surface is tabulated at.
 Weights weights(const RoughInterface& surface, const SampledSpectrum& n) {
-  if (surface.crosses_one()) {
-    const SampledSpectrum below = SampledSpectrum::map(
-        n, [&](float lane_n) { return std::clamp((1 - lane_n) / (1 - surface.low_n), 0.0F, 1.0F); });
-    const SampledSpectrum above = SampledSpectrum::map(
-        n, [&](float lane_n) { return std::clamp((lane_n - 1) / (surface.high_n - 1), 0.0F, 1.0F); });
-    return {below, SampledSpectrum(1) - below - above, above};
-  }
-  const float range = surface.high_n - surface.low_n;
+  const std::vector<float>& at = surface.coordinates;
+  Weights weights;
+  if (at.size() == 1) weights[0] = SampledSpectrum(1);
+  const SampledSpectrum x = SampledSpectrum::map(
+      n, [&](float lane_n) { return std::clamp(RoughInterface::coordinate(lane_n), at.front(), at.back()); });
   const SampledSpectrum one(1);
-  const SampledSpectrum w = SampledSpectrum::map(n, [&](float lane_n) {
-    return range > 0 ? std::clamp((lane_n - surface.low_n) / range, 0.0F, 1.0F) : 0.0F;
-  });
-  return {(one - w) * (one - 2 * w), 4 * w * (one - w), w * (2 * w - one)};
+  for (std::size_t k = 0; k + 2 < at.size(); k += 2) {
+    const float end = k + 3 < at.size() ? at[k + 2] : std::numeric_limits<float>::infinity();
+    const SampledSpectrum within =
+        SampledSpectrum::map(x, [&](float lane_x) { return lane_x >= at[k] && lane_x < end ? 1.0F : 0.0F; });
+    const SampledSpectrum w =
+        SampledSpectrum::map(x, [&](float lane_x) { return (lane_x - at[k]) / (at[k + 2] - at[k]); });
+    weights[k] += within * (one - w) * (one - 2 * w);
+    weights[k + 1] += within * 4 * w * (one - w);
+    weights[k + 2] += within * w * (2 * w - one);
+  }
+  return weights;
 }
 
 // Lane by lane, the value of the tables of one side by `read`.
@@ -32,7 +39,7 @@ template <typename F>
 SampledSpectrum at_lanes(const RoughInterface& surface, bool inside, const Weights& weights, F read) {
   const auto& tables = surface.lost[inside ? 1 : 0];
   SampledSpectrum sum;
-  for (std::size_t k = 0; k < weights.size(); ++k) sum += weights[k] * read(tables[k]);
+  for (std::size_t k = 0; k < tables.size(); ++k) sum += weights[k] * read(tables[k]);
   return SampledSpectrum::map(sum, [](float x) { return std::max(x, 0.0F); });
 }
 SampledSpectrum lost_energy(const RoughInterface& surface, bool inside, const Weights& weights,
@@ -40,8 +47,8 @@ SampledSpectrum lost_energy(const RoughInterface& surface, bool inside, const We
   return at_lanes(surface, inside, weights, [&](const EnergyCompensation& table) { return table.at(place); });
 }
 
-// BSDF from o to i times the cosine of i [1/sr], per wavelength sample: by single scattering and in all. `pdf`
-// is the density of i [1/sr] if that wavelength is the hero.
+// BSDF from o to i times the cosine of i [1/sr], per wavelength sample: by single scattering and in all.
+// `pdf` is the density of i [1/sr] if that wavelength is the hero.
 struct Scattered {
   SampledSpectrum single, power, pdf;
 };
@@ -83,7 +90,7 @@ Scattered scattered(const RoughDielectricBsdf& bsdf, bool inside, const Imath::V
   if (into_inside) fraction *= n * n;
 
   const float density = (into_inside ? surface.inside_share : 1 - surface.inside_share) *
-                        surface.lost[into_inside ? 1 : 0][1].pdf(place_i, std::abs(i.z));
+                        surface.lost[into_inside ? 1 : 0][surface.middle()].pdf(place_i, std::abs(i.z));
   return {once, once + lost * fraction, once + lost * density};
 }
 
@@ -113,7 +120,7 @@ std::optional<Imath::V3f> off_facet(const Microfacets<float>& facets, const Imat
 // A direction of multiple scattering: the lobe number selects the side.
 Imath::V3f off_surface(const RoughInterface& surface, bool inside, const BsdfRandom& u) {
   const bool into_inside = u.lobe < surface.inside_share;
-  const Imath::V3f i = surface.lost[into_inside ? 1 : 0][1].sample(u.direction);
+  const Imath::V3f i = surface.lost[into_inside ? 1 : 0][surface.middle()].sample(u.direction);
   return {i.x, i.y, into_inside == inside ? i.z : -i.z};
 }
 

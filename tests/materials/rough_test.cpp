@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <utility>
 
 #include "materials/bsdf/warp.h"
 #include "materials/interface/fresnel.h"
@@ -147,13 +148,22 @@ TEST(RoughDielectric, LosesNothingInAnyMedium) {
   std::printf("largest error in a medium %.2g\n", worst);
 }
 
-// The relative index passes 1 within the packet.
+// The relative index passes 1 within the packet, or comes close to it: there the energies of single
+// scattering change within a hundredth of the index, the faster the smoother the surface is.
 TEST(RoughDielectric, LosesNothingWhereIndicesCross) {
-  const RoughInterface surface({FacetShape::ggx, 0.8F, 0.8F}, 0.95F, 1.05F);
-  const RoughDielectricBsdf bsdf{ramp(0.95F, 1.05F), &surface};
-  for (int lane = 0; lane < kLanes; ++lane)
-    for (const double cos : {0.7, 0.1, -0.5})
-      EXPECT_NEAR(evaluated_albedo(bsdf, direction_at(cos, 1), lane), 1, 6e-3) << lane << " cos " << cos;
+  double worst = 0;
+  for (const float alpha : {0.1F, 0.3F, 0.8F})
+    for (const auto& [low, high] : {std::pair(0.95F, 1.05F), std::pair(1.002F, 1.04F)}) {
+      const RoughInterface surface({FacetShape::ggx, alpha, alpha}, low, high);
+      const RoughDielectricBsdf bsdf{ramp(low, high), &surface};
+      for (int lane = 0; lane < kLanes; ++lane)
+        for (const double cos : {0.7, 0.1, -0.1, -0.5}) {
+          const double albedo = evaluated_albedo(bsdf, direction_at(cos, 1), lane);
+          worst = std::max(worst, std::abs(albedo - 1));
+          EXPECT_NEAR(albedo, 1, 6e-3) << "alpha " << alpha << " n " << bsdf.n[lane] << " cos " << cos;
+        }
+    }
+  std::printf("largest error where indices cross %.2g\n", worst);
 }
 
 TEST(RoughDielectric, HasATableForEachRelativeIndex) {
@@ -378,7 +388,9 @@ TEST(RoughDielectric, ReflectsTotally) {
               fresnel_dielectric(0.9, 1 / 1.5).transmitted(), 5e-3);
 }
 
-// What visible normals buy: where single scattering is nearly all there is, samples weigh 1 at most.
+// Samples of a perfect mirror differ in weight from 1 by as much as 1 - E varies within half a cell of its
+// density, or 3.4 % of the tangent at the least roughness: 1 - E rises with the tangent to a power of 2 of
+// GGX facets, and of at most 7 of Beckmann's, of which few are steep.
 TEST(RoughSurfaces, WeighSamplesEvenly) {
   double largest = 0;
   int single = 0;
@@ -393,7 +405,7 @@ TEST(RoughSurfaces, WeighSamplesEvenly) {
       for (int i = 0; i < 2048; ++i) {
         BsdfRandom u = event(i);
         if (const auto s = sample(bsdf, wo, u, 0, TransportMode::power))
-          largest = std::max(largest, static_cast<double>(s->weight[0] * (1 - lost)));
+          largest = std::max(largest, static_cast<double>(s->weight[0]));
         u.lobe = 0;  // off a facet
         const auto s = sample(bsdf, wo, u, 0, TransportMode::power);
         if (s && lost < 1e-3F) {
@@ -404,7 +416,7 @@ TEST(RoughSurfaces, WeighSamplesEvenly) {
     }
   }
   std::printf("largest weight %.3f\n", largest);
-  EXPECT_LT(largest, 8);
+  EXPECT_LT(largest, 1.25);
   EXPECT_LE(heavy, single / 1000) << "the far tails, where the other lobe sends more";
 }
 
