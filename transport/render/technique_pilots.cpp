@@ -245,6 +245,32 @@ void part_where_cheaper(double variance, double rays, PilotFindings& told) {
   told.photon_rays = rays;
 }
 
+// Squared standard error of a weighted sum over regions of the variance of their paths. From two pixels of a
+// region on it is known without bias from their scatter. A single pixel shows none: its square is taken times
+// the ratio of the scatter of the other regions to their squares, which is near 1 where few pixels hold the
+// variance.
+class VarianceError {
+ public:
+  void add(const Region& region, double weight) {
+    const double squares = weight * weight * region.variance_squares;
+    if (!(region.pixels > 1)) {
+      single_squares_ += squares;
+      return;
+    }
+    const double mean_square = weight * weight * region.variance * region.variance / region.pixels;
+    squares_ += squares;
+    scatter_ += std::max(0.0, squares - mean_square) * region.pixels / (region.pixels - 1);
+  }
+  [[nodiscard]] double standard_error() const {
+    return std::sqrt(scatter_ + single_squares_ * (squares_ > 0 ? scatter_ / squares_ : 1));
+  }
+
+ private:
+  double single_squares_ = 0;  // of regions of one pixel
+  double squares_ = 0;         // of the others
+  double scatter_ = 0;
+};
+
 PilotFindings relative(const Findings& found, const Camera& camera, std::uint32_t tried) {
   const double pixels = static_cast<double>(camera.width) * camera.height;
   const double photons = std::max(1.0, found.photons_traced);
@@ -257,7 +283,7 @@ PilotFindings relative(const Findings& found, const Camera& camera, std::uint32_
     if (sizes[i] > 0) film_mean += mean(found.regions.at(i), sizes[i]) * sizes[i] / pixels;
   PilotFindings told;
   double parted_variance = 0;
-  double squared_error = 0;
+  VarianceError variance_error;
   for (std::size_t i = 0; i < sizes.size(); ++i) {
     const Region& region = found.regions.at(i);
     const double scale =
@@ -267,12 +293,11 @@ PilotFindings relative(const Findings& found, const Camera& camera, std::uint32_
     parted_variance += region.parted_squares / (std::max(1.0, found.photons_parted) * pixels) / scale;
     if (!(region.pixels > 0)) continue;
     told.path_variance += sizes[i] * region.variance / region.pixels / scale;
-    squared_error += std::pow(sizes[i] / region.pixels / scale, 2) *
-                     (region.variance_squares - region.variance * region.variance / region.pixels);
+    variance_error.add(region, sizes[i] / region.pixels / scale);
     told.path_square += sizes[i] * region.path_squares / region.pixels / scale;
     told.path_tracing_square += sizes[i] * region.path_tracing_squares / region.pixels / scale;
   }
-  told.path_variance_error = std::sqrt(std::max(0.0, squared_error));
+  told.path_variance_error = variance_error.standard_error();
   told.path_rays = static_cast<double>(found.path_rays) / (tried * kPilotPathsPerPixel);
   told.rays = found.path_rays + found.photon_rays + found.parted_rays;
   told.photon_rays = static_cast<double>(found.photon_rays) / photons;
