@@ -122,7 +122,8 @@ std::optional<Film> pilot_film(const Plan& plan, int threads, std::optional<Crop
 std::optional<Film> noise_pilot(const Plan& plan, int threads, std::optional<Crop> crop,
                                 const std::function<bool()>& stop) {
   constexpr int kReplicates = 8;
-  const std::uint64_t samples = kPaths / pixel_total(plan) / kReplicates * kReplicates;
+  const std::uint64_t samples =
+      kPaths / std::max(pixel_total(plan), plan.photons) / kReplicates * kReplicates;
   if (samples == 0) return std::nullopt;
   // The samples after those of `pilot_film`.
   return film_of(plan, threads, crop, stop, {kMostSamples, kMostSamples + samples}, kReplicates);

@@ -54,9 +54,9 @@ struct PixelNoise {
     const Plan& plan, int threads, std::optional<Crop> crop = {},
     const std::function<bool()>& stop = [] { return false; });
 
-/// A film of eight replicates and about 65536 paths, for `hidden_noise` to compare a small film with. No
-/// render has its random numbers. Nothing for films of more than 8192 pixels, and if `stop` returns true
-/// before it is done.
+/// A film of eight replicates and at most 65536 camera paths and as many photons, for `hidden_noise` to
+/// compare a small film with. No render has its random numbers. Nothing for films of more than 8192 pixels or
+/// photons per sample, and if `stop` returns true before it is done.
 [[nodiscard]] std::optional<Film> noise_pilot(
     const Plan& plan, int threads, std::optional<Crop> crop = {},
     const std::function<bool()>& stop = [] { return false; });
