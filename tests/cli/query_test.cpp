@@ -265,9 +265,9 @@ TEST(QueryColor, EveryWhitePointOfBothObservers) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const Observer observer = table.text(row, "observer") == "2" ? Observer::cie1931 : Observer::cie1964;
     const json found = json_output(cli::query_color, {table.text(row, "illuminant"), observer, ""});
-    EXPECT_NEAR(found["xy"][0].get<double>(), table.number(row, "x_1nm"), 5.1e-7)
+    EXPECT_NEAR(found["xy"][0].get<double>(), table.number(row, "x_360_830"), 5.1e-7)
         << table.text(row, "illuminant");
-    EXPECT_NEAR(found["xy"][1].get<double>(), table.number(row, "y_1nm"), 5.1e-7)
+    EXPECT_NEAR(found["xy"][1].get<double>(), table.number(row, "y_360_830"), 5.1e-7)
         << table.text(row, "illuminant");
     EXPECT_NEAR(found["XYZ"][1].get<double>(), 100, 1e-12);
     EXPECT_NEAR(found["Lab"][0].get<double>(), 100, 1e-12);
@@ -275,7 +275,7 @@ TEST(QueryColor, EveryWhitePointOfBothObservers) {
 }
 
 TEST(QueryColor, EveryPatchOfTheChart) {
-  const ReferenceTable table("colorchecker_babelcolor_2deg");
+  const ReferenceTable table("colorchecker_babelcolor_360_830");
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const json found = json_output(cli::query_color,
                                    {table.text(row, "illuminant"), Observer::cie1931,
