@@ -1,6 +1,5 @@
 #include "spectral/film_observer.h"
 
-#include <cmath>
 #include <cstddef>
 #include <utility>
 
@@ -22,9 +21,11 @@ Curve in_bands(const Curve& light, std::span<const double> edges_nm) {
 Chromaticity chromaticity(const Curve& light, const FilmObserver& film_observer) {
   const Chromaticity own = chromaticity(light, film_observer.observer);
   if (film_observer.band_edges_nm.empty()) return own;
-  const Chromaticity shown =
-      chromaticity(in_bands(light, film_observer.band_edges_nm), film_observer.observer);
-  return std::isfinite(shown[0]) ? shown : own;
+  // The observer tables end at 830 nm. Beyond visible light they give near infrared the colour of deep red,
+  // at a millionth of its luminance: no colour to show a picture in.
+  const Curve shown = in_bands(light, film_observer.band_edges_nm);
+  const bool is_visible = shown.integral(kVisibleRange.low_nm, kVisibleRange.high_nm) > 0;
+  return is_visible ? chromaticity(shown, film_observer.observer) : own;
 }
 
 }  // namespace abbe

@@ -17,8 +17,8 @@ struct FilmObserver {
 /// A light of which an image has bands alone: its mean over each, and nothing beyond.
 [[nodiscard]] Curve in_bands(const Curve& light, std::span<const double> edges_nm);
 
-/// Chromaticity of a light as it is seen, of one of which nothing is seen in bands as it is itself; not
-/// finite for a light that nobody sees.
+/// Chromaticity of a light in the bands of the image, or of the light itself if the bands hold none of it
+/// within `kVisibleRange`; not finite for a light that the observer does not see.
 [[nodiscard]] Chromaticity chromaticity(const Curve& light, const FilmObserver& film_observer);
 
 }  // namespace abbe
