@@ -178,6 +178,9 @@ TEST(GuidedBranches, KeepTheReflectionOfADropBesideItsBow) {
   std::printf("alone %.5g +- %.2g\n", reflection.sum, std::sqrt(reflection.squares));
   EXPECT_NEAR(found[branch].sum, reflection.sum, 4.5 * std::sqrt(found[branch].squares + reflection.squares));
   EXPECT_GT(found[branch].photons(), 50);
+  // The bow comes through two spots of some cells each, over which its grid is smoothed no farther.
+  for (const auto& [b, sum] : found) EXPECT_TRUE(b == branch || sum.photons() > 100) << sum.photons();
+  if (!test::nightly()) return;
   RenderOptions how;
   how.guides = std::make_shared<const Guides>(plan.guides);
   const Film::Average read =

@@ -120,12 +120,34 @@ std::size_t cell_of(const Imath::V2f& at) {
   return step(at.y) * kCells + step(at.x);
 }
 
+constexpr double kRaysAround = 16;
+constexpr int kMostReach = 16;
+
 // So many that a square of them holds about sixteen of the rays, were they all over the grid.
 int reach_for(std::size_t rays) {
-  constexpr double kRays = 16;
-  constexpr double kMost = 16;
-  const double side = std::sqrt(kRays * kGrid / static_cast<double>(rays));
-  return static_cast<int>(std::clamp(std::ceil((side - 1) / 2), 1.0, kMost));
+  const double side = std::sqrt(kRaysAround * kGrid / static_cast<double>(rays));
+  return static_cast<int>(std::clamp(std::ceil((side - 1) / 2), 1.0, double{kMostReach}));
+}
+
+// True if nine in ten of the rays have sixteen, themselves included, within so many cells on either side.
+// `cells` has the cell of each ray.
+bool rays_are_dense(const std::vector<std::size_t>& cells, int reach) {
+  std::vector<double> counts(kGrid, 0.0);
+  for (const std::size_t cell : cells) counts[cell] += 1;
+  const double square = (2 * reach + 1) * (2 * reach + 1);
+  average(counts, reach, 1, kCells);
+  average(counts, reach, kCells, 1);
+  constexpr double kRounding = 1e-6;
+  const auto lone = std::ranges::count_if(
+      cells, [&](std::size_t cell) { return counts[cell] * square < kRaysAround - kRounding; });
+  return 10 * lone <= std::ssize(cells);
+}
+
+// Rays that are concentrated on a few spots of the grid are dense at a smaller reach.
+int reach_for(const std::vector<std::size_t>& cells) {
+  int reach = reach_for(cells.size());
+  while (reach > 1 && rays_are_dense(cells, reach - 1)) --reach;
+  return reach;
 }
 
 }  // namespace
@@ -329,9 +351,13 @@ bool Aim::Window::holds(const Imath::V2f& at) const {
 Aim::Grid::Grid(const Window& over, const std::vector<WeighedPlace>& places)
     : window(over), density(kGrid), row_cdf(kCells), column_cdf(kGrid) {
   std::vector<double> cells(kGrid, 0.0);
-  for (const auto& [at, worth, branch] : places)
-    add_between(cells, (at - window.corner) / window.size, worth);
-  const std::vector<double> weights = smoothed(cells, reach_for(places.size()));
+  std::vector<std::size_t> ray_cells;
+  for (const auto& [at, worth, branch] : places) {
+    const Imath::V2f within = (at - window.corner) / window.size;
+    add_between(cells, within, worth);
+    ray_cells.push_back(cell_of(within));
+  }
+  const std::vector<double> weights = smoothed(cells, reach_for(ray_cells));
   const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
   double rows = 0;
   for (std::size_t row = 0; row < kCells; ++row) {
