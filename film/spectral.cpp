@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "develop/radiance.h"
-#include "film/field_response.h"
 #include "film/sensor_identity.h"
 #include "io/error.h"
 #include "io/text.h"
@@ -130,11 +129,9 @@ Image seen_by(const Scene& scene, const SpectralImage& image, const std::filesys
                 fmt::format("has other pixels than the sensor (got {} x {}, allowed {} x {})", image.width,
                             image.height, camera.width, camera.height));
   require_same_view(image, camera, path);
-  FilmIdentity identity = sensor_identity(scene);
-  identity.erase(kWhiteFieldKey);  // all pixels respond as those at the centre
-  return exposed_film(
-      image, {channels_at_center(scene), scene.mosaic, exposure_per_radiance(scene), std::move(identity)},
-      path, diagnostics);
+  return exposed_film(image,
+                      {scene.channels, scene.mosaic, exposure_per_radiance(scene), sensor_identity(scene)},
+                      path, diagnostics);
 }
 
 }  // namespace abbe

@@ -22,10 +22,10 @@ void add_spectral_identity(const Scene& scene, FilmIdentity& identity);
 [[nodiscard]] Image spectral_film_image(const Image& film);
 
 /// The film of a scene's sensor that looks at the radiances read from `path` through the scene's camera, with
-/// the metadata of both; with a mosaic, its one plane. Every pixel responds as one at the centre of the field
-/// does (`channels_at_center`). Warns of channels that respond beyond the image's
+/// the metadata of both; with a mosaic, its one plane. Warns of channels that respond beyond the image's
 /// bands. Throws Error{input} when sensor and image have different pixels or fields of view, or a channel
-/// sees nothing of the bands, Error{usage} for a scene whose sensor is spectral itself.
+/// sees nothing of the bands, Error{usage} for a scene whose sensor is spectral itself, and for a channel
+/// whose response depends on the angle of incidence, which the image does not record.
 [[nodiscard]] Image seen_by(const Scene& scene, const SpectralImage& image, const std::filesystem::path& path,
                             Diagnostics& diagnostics);
 
