@@ -31,7 +31,7 @@ TEST(Render, WritesImagePictureAndStats) {
   EXPECT_EQ(read_picture(file("a.png")).width, 24);
 
   const nlohmann::json stats = nlohmann::json::parse(read_file(file("a.stats")));
-  EXPECT_EQ(stats.size(), 25U);
+  EXPECT_EQ(stats.size(), 28U);
   EXPECT_EQ(stats["threads"], 2);
   EXPECT_EQ(stats["samples_per_pixel"], 8);
   EXPECT_EQ(stats["samples_before"], 0);
@@ -61,6 +61,11 @@ TEST(Render, WritesImagePictureAndStats) {
   EXPECT_EQ(stats["film"].size(), 3U);
   EXPECT_NEAR(stats["film"]["Y"]["mean"], sum / (24 * 16), 1e-6 * sum);
   EXPECT_GT(stats["film"]["Y"]["standard_error"], 0);
+  EXPECT_GT(stats["film"]["Y"]["half_interval_95"].get<double>(),
+            1.95 * stats["film"]["Y"]["standard_error"].get<double>());
+  EXPECT_GT(stats["display_exposure"], 0);
+  EXPECT_TRUE(stats["half_noise_samples"].is_null()) << "a lit ball has many samples of its noise";
+  EXPECT_TRUE(stats["hidden_noise"].is_null());
 }
 
 TEST(Render, ExpTimeIsTheExposure) {
