@@ -178,7 +178,7 @@ std::vector<double> tabulate(const ResponseUnknowns& unknowns, std::size_t size)
 
 // Distances of a sample from the curve.
 struct SampleError {
-  double code;
+  double code;          // by the curve, since outliers move from dense codes to sparse ones
   double deviations;    // of the code
   double log_exposure;  // absolute
   double exposure;      // as a fraction of full scale
@@ -191,8 +191,8 @@ std::vector<SampleError> sample_errors(const std::vector<ResponseSample>& sample
   const double full_scale = model(1.0);
   std::vector<SampleError> all;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const double code = samples[i].code;
-    const double log_exposure = errors[i] * model.slope(code);
+    const double code = predicted_code(unknowns, samples[i]);
+    const double log_exposure = errors[i] * model.slope(samples[i].code);
     all.push_back({code, errors[i] / std::max(kLeastDeviation, scale * samples[i].deviation), log_exposure,
                    log_exposure * std::exp(model(code) - full_scale)});
   }
@@ -201,23 +201,42 @@ std::vector<SampleError> sample_errors(const std::vector<ResponseSample>& sample
   return all;
 }
 
-// Neighbouring samples of which so many are off the curve that they are no outliers: where the curve is too
-// smooth for the codes, the loss takes some of them for these.
+constexpr double kOff = 6;          // deviations of a code that is off the curve
+constexpr std::size_t kWindow = 9;  // neighbouring codes
+constexpr std::size_t kMinOff = 3;  // of these
+
+// True if outliers that are as frequent as elsewhere would hardly ever fill one of `windows` windows with so
+// many codes off the curve. The probability is that of the binomial law, with the rate of the other codes by
+// Laplace's rule of succession.
+bool is_cluster(std::size_t off, std::size_t off_elsewhere, std::size_t elsewhere, std::size_t windows) {
+  constexpr double kSignificance = 0.01;  // over all windows
+  const double rate = (static_cast<double>(off_elsewhere) + 1) / (static_cast<double>(elsewhere) + 2);
+  double term = std::pow(1 - rate, static_cast<double>(kWindow));  // probability of k codes off
+  double fewer = 0;
+  for (std::size_t k = 0; k < off; ++k) {
+    fewer += term;
+    term *= static_cast<double>(kWindow - k) / static_cast<double>(k + 1) * rate / (1 - rate);
+  }
+  return off >= kMinOff && (1 - fewer) * static_cast<double>(windows) < kSignificance;
+}
+
+// Neighbouring samples of which significantly more are off the curve than elsewhere, so that they are no
+// outliers: where the curve is too smooth for the codes, the loss takes some of them for these.
 std::optional<ResponseMisfit> misfit_of(const std::vector<SampleError>& errors) {
-  constexpr std::size_t kWindow = 9;
-  constexpr std::size_t kMinOff = 3;
-  constexpr double kDeviations = 6;
   constexpr double kNegligible = 0.002;  // of full scale
+  const auto all_off = static_cast<std::size_t>(
+      std::count_if(errors.begin(), errors.end(), [](const SampleError& e) { return e.deviations > kOff; }));
   std::optional<ResponseMisfit> misfit;
   for (std::size_t first = 0; first + kWindow <= errors.size(); ++first) {
     std::vector<double> off;
     std::vector<double> log_off;
     for (std::size_t i = first; i < first + kWindow; ++i) {
-      if (errors[i].deviations <= kDeviations) continue;
+      if (errors[i].deviations <= kOff) continue;
       off.push_back(errors[i].exposure);
       log_off.push_back(errors[i].log_exposure);
     }
-    if (off.size() < kMinOff) continue;
+    if (!is_cluster(off.size(), all_off - off.size(), errors.size() - kWindow, errors.size() - kWindow + 1))
+      continue;
     const double exposure = median(std::move(off));
     if (exposure < kNegligible) continue;
     if (!misfit) misfit = {errors[first].code, 0, 0, 0};

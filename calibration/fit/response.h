@@ -35,10 +35,10 @@ struct ResponseFit {
   double roughness = 0;     ///< Weight of the curve's second differences that cross-validation chose.
   std::size_t samples = 0;  ///< Code values used: neither black nor clipped.
   int iterations = 0;       ///< Of all passes.
-  /// Misfit that neither noise nor single outliers explain, such as a knee that is sharper than the curve can
-  /// be: three of nine neighbouring codes are off. `log_deviation` includes it in its range. Empty if the
-  /// curve follows all codes to 0.2 % of full scale. Also empty if the series does not state deviations:
-  /// they are then estimated from the residuals themselves.
+  /// Misfit that neither noise nor outliers explain, such as a knee that is sharper than the curve can be: of
+  /// nine neighbouring codes at least three are off, and significantly more than elsewhere. `log_deviation`
+  /// includes it in its range. Empty if the curve follows all codes to 0.2 % of full scale. Also empty if the
+  /// series does not state deviations: they are then estimated from the residuals themselves.
   std::optional<ResponseMisfit> misfit = {};
 };
 
