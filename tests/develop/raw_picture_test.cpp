@@ -20,8 +20,8 @@ Curve light(const std::string& name) {
   return load_illuminant(name, {}, diagnostics).value().curve;
 }
 
-// A camera that sees what the observer sees where colours are summed, which leaves out 5e-4 of z, mixed by
-// `kFromXyz`: of which a DNG is to tell that very matrix.
+// A camera whose responses are the observer's, mixed by `kFromXyz`: the color matrix of its DNG is that
+// matrix.
 std::vector<Channel> mixed_observer() {
   const std::vector<Channel> xyz = observer_channels(Observer::cie1931);
   std::vector<Channel> camera;
@@ -29,7 +29,7 @@ std::vector<Channel> mixed_observer() {
     Curve weight = scaled(xyz[0].weight, kFromXyz[i][0]);
     for (int j = 1; j < 3; ++j)
       weight = sum(weight, scaled(xyz[static_cast<std::size_t>(j)].weight, kFromXyz[i][j]));
-    camera.push_back(energy_channel(std::string(1, "RGB"[i]), product(weight, abbe::band(380, 781))));
+    camera.push_back(energy_channel(std::string(1, "RGB"[i]), weight));
   }
   return camera;
 }
