@@ -146,12 +146,18 @@ Centroid of_pixel(const Scene& scene, int x, int y) {
       const double a = 2 * kPi * (j / kRings + 0.5) / kRings;
       const double lx = r * std::cos(a);
       const double ly = r * std::sin(a);
-      // From the film, which is upside down, to the opening, and from there to the point in focus.
-      const double run = std::hypot(fx + lx, fy + ly);
-      const double sine2 = run * run / (run * run + lens.image_distance * lens.image_distance);
-      const double ox = fx / lens.image_distance - lx;
-      const double oy = fy / lens.image_distance - ly;
-      mean.add(std::pow(1 + ox * ox + oy * oy, -2), shift(sine2));
+      // The direction cosines at the film are p0 + (p0 - p)/m: p of the ray from the opening to the point in
+      // focus, p0 of the ray through the centre of the lens, m = v/s the magnification [Born1999, sec. 4.5].
+      const double cx = fx / lens.image_distance;
+      const double cy = fy / lens.image_distance;
+      const double ox = cx - lx / lens.focus_distance;
+      const double oy = cy - ly / lens.focus_distance;
+      const double c0 = 1 / std::sqrt(1 + cx * cx + cy * cy);
+      const double c = 1 / std::sqrt(1 + ox * ox + oy * oy);
+      const double m = lens.image_distance / lens.focus_distance;
+      const double px = cx * c0 + (cx * c0 - ox * c) / m;
+      const double py = cy * c0 + (cy * c0 - oy * c) / m;
+      mean.add(std::pow(c, 4), shift(px * px + py * py));
     }
   return mean;
 }
