@@ -252,7 +252,7 @@ DisplayPicture DisplayTransform::operator()(const Image& film, std::optional<dou
   picture.outside = {film.width, film.height, {std::move(outside)}, film.metadata};
   picture.image = split_planes(packed, film, channels_.size() == 1);
   for (const auto& [key, text] : told) picture.image.metadata[key] = text;
-  picture.image.metadata[kDisplayExposureKey] = fmt::format("{}", 1 / picture.scale);
+  picture.image.metadata[kDisplayExposureKey] = fmt::format("{:.7g}", 1 / picture.scale);
   return picture;
 }
 

@@ -22,7 +22,7 @@ inline constexpr const char* kDisplayExposureKey = "display_exposure";
 struct DisplayPicture {
   /// Channels R, G, B (or Y for a film of one channel): code values in [0, 1]. Its attributes `kColorSpace`
   /// and `kPrimariesKey` tell how Abbe's own displays read them; those of a user's configuration it does not
-  /// know. `kDisplayExposureKey` is 1/scale.
+  /// know. `kDisplayExposureKey` is 1/scale to seven digits, those of a float.
   Image image;
   Image outside;             ///< Channel Y: 1 where the colour lay outside the gamut, 0 elsewhere.
   double scale = 1;          ///< What the film values were multiplied by.

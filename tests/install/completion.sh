@@ -25,7 +25,7 @@ completes "abbe render --integrator " "adjoint-brute auto bdpt light path photon
 completes "abbe render --integrator=l" "light"
 completes "abbe bench --int" "--integrator"
 completes "abbe render --layers " "bounces lights"
-completes "abbe render --spp 4 --e" "--error --explain"
+completes "abbe render --spp 4 --e" "--error --explain --exposure-of"
 completes "abbe render --integrator light --sta" "--stats"
 completes "abbe --vers" "--version"
 completes "abbe help comp" "compare"
