@@ -253,7 +253,8 @@ double hidden_noise(const Film& film, const Film& pilot, std::size_t counting) {
   const FrameNoise other = frame_noise(pilot, counting);
   if (!(own.degrees_of_freedom > 0 && other.degrees_of_freedom > 0 && own.variance > 0)) return 0;
   const double samples = film.samples() / pilot.samples();
-  const double ratio = std::sqrt(other.variance / own.variance) / std::max(std::sqrt(samples), samples);
+  const double growth = samples > 1 ? std::pow(samples, 1.5) : std::sqrt(samples);
+  const double ratio = std::sqrt(other.variance / own.variance) / growth;
   // The logarithm of an estimate of f degrees has the variance 1/(2f), about.
   const double spread = std::sqrt(0.5 / own.degrees_of_freedom + 0.5 / other.degrees_of_freedom);
   return ratio > kUsualRatio * std::exp(kSignificance * spread) ? ratio : 0;

@@ -72,8 +72,8 @@ struct RelativeError {
 /// significantly larger than 1. 0 otherwise, and with samples in fewer than two replicates of either. Only
 /// this ratio shows rare samples that the pilot has found and the film has not. The pilot is a film of the
 /// same estimator with independent random numbers. Its standard error scales with 1/sqrt(n) to a film of
-/// fewer samples per pixel. To one of more it scales with 1/n, as for a smooth integrand, so that the
-/// prediction is rather too small.
+/// fewer samples per pixel. To one of more it scales with n^(-3/2), as scrambled points sum a smooth
+/// integrand [Pharr2023, sec. 8.2.2], so that the prediction is rather too small.
 [[nodiscard]] double hidden_noise(const Film& film, const Film& pilot, std::size_t counting = kAllPlanes);
 
 /// Quantiles, at ascending `probabilities`, of standard deviations of which there are only estimates: each is
