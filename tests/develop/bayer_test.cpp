@@ -22,17 +22,17 @@ namespace {
 
 const std::vector<std::string> kRgb{"R", "G", "B"};
 constexpr std::array<float, 3> kElectrons{4000, 16000, 36000};
-constexpr int kWidth = 7;
-constexpr int kHeight = 5;
+constexpr int kBayerWidth = 7;
+constexpr int kBayerHeight = 5;
 
 // A film of an even field whose red, green and blue pixels expect `kElectrons`; its area is 1e-10 m^2.
 Image even_film(const Mosaic& mosaic) {
   Image film = test::counting_film();
-  film.width = kWidth;
-  film.height = kHeight;
+  film.width = kBayerWidth;
+  film.height = kBayerHeight;
   film.channels = {{"raw", {}}, {"Variance.raw", std::vector<float>(film.pixels(), 0)}};
-  for (int y = 0; y < kHeight; ++y)
-    for (int x = 0; x < kWidth; ++x)
+  for (int y = 0; y < kBayerHeight; ++y)
+    for (int x = 0; x < kBayerWidth; ++x)
       film.channels[0].values.push_back(1e10F * kElectrons.at(static_cast<std::size_t>(mosaic.at(x, y))));
   film.metadata["sensor_channels"] = "raw";
   film.metadata["mosaic"] = to_text(mosaic, kRgb);
