@@ -17,8 +17,8 @@ void require_finite(const Image& film, const std::filesystem::path& path);
 /// memory that `inputs` has left.
 [[nodiscard]] Image read_film(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
-/// Writes an .exr of parts: the exposure and its variance, and with a read-out the electrons and the codes. If
-/// a display can show them, a part has the `planes` of `display_planes` as linear Rec.709, in which 1 is
+/// Writes an .exr of parts: the exposure and its variance, and with a read-out the electrons and the codes.
+/// If a display can show them, a part has the `planes` of `display_planes` as linear Rec.709, in which 1 is
 /// `shown_as_white`. Throws Error{output}.
 void write_parts(const std::filesystem::path& path, const DevelopedFilm& developed, const Image& planes,
                  const FilmSensor& sensor);

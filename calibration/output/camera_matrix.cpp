@@ -33,7 +33,7 @@ double distance(const OcioCameraSpace& space, const Chromaticity& white) {
 }
 
 const OcioCameraSpace& choose(const std::vector<OcioCameraSpace>& spaces, const std::string& white_name,
-                          const std::optional<Chromaticity>& white) {
+                              const std::optional<Chromaticity>& white) {
   if (spaces.size() == 1) return spaces.front();
   std::vector<std::string> names;
   const OcioCameraSpace* nearest = nullptr;
