@@ -95,9 +95,17 @@ std::optional<std::string> unpolarised_measurement(const Scene& scene) {
 }
 
 std::optional<std::string> rare_photons(const Guides* guides) {
-  if (guides == nullptr || !guides->photons_are_rare) return std::nullopt;
-  return "too few photons find a way there to aim others by: what lamps send through mirrors and glass is "
-         "noisy, and its error uncertain";
+  constexpr double kNegligible = 0.01;
+  if (guides == nullptr) return std::nullopt;
+  if (guides->photons_are_rare)
+    return "too few pilot photons reach the sensor to guide others: light that arrives through mirrors and "
+           "glass is noisy, and its error is uncertain";
+  if (guides->undertrained_fraction > kNegligible)
+    return fmt::format(
+        "{:.2g} % of the light that pilot photons found takes paths that fewer than {} of them "
+        "took: that light is noisy, and its error is uncertain",
+        100 * guides->undertrained_fraction, Aim::kEnough);
+  return std::nullopt;
 }
 
 std::optional<std::string> unknown_error(const RelativeError& error) {

@@ -29,8 +29,8 @@ namespace abbe {
 /// nothing when it does not.
 [[nodiscard]] std::optional<std::string> unpolarised_measurement(const Scene& scene);
 
-/// That pilots found too few photons to aim by, as a sentence; nothing where they found enough, or no pilots
-/// were run.
+/// A sentence that too few pilot photons trained the photon guide, for all light or for more than 1 % of it,
+/// so that the error of this light is uncertain; nothing if they were enough or no pilots were traced.
 [[nodiscard]] std::optional<std::string> rare_photons(const Guides* guides);
 
 /// A sentence on why the error of a film is not yet known, and what to do about it; nothing if it is known.

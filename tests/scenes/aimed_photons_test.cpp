@@ -1,7 +1,11 @@
 // Where pilots aim photons: at what lets light through to the film.
 #include <algorithm>
+#include <optional>
 #include <string>
 
+#include <fmt/format.h>
+
+#include "film/shortcomings.h"
 #include "tests/scenes/scene_fixture.h"
 #include "transport/render/learnt_plan.h"
 #include "transport/technique/light.h"
@@ -69,6 +73,45 @@ TEST(AimedPhotons, AreNotRareWhereManyLampsAreShownByFewEach) {
   EXPECT_FALSE(make_learnt_plan(floor_below_pane(8, 64), 2).guides.photons_are_rare);
   EXPECT_TRUE(make_learnt_plan(floor_below_pane(3, 128), 2).guides.photons_are_rare);
   EXPECT_TRUE(make_learnt_plan(floor_below_pane(0.5, 4), 2).guides.photons_are_rare);
+}
+
+// A mirror of this width [m] that sends some of the light of one lamp into the view of 4 degrees.
+Scene floor_below_pane_and_mirror(double fov_deg, double width) {
+  return test::load_text(fmt::format(R"({{"abbe": 1, "sensor": {{"resolution": [4, 4], "observer": "1931"}},
+    "camera": {{"pinhole": {{"fov_deg": {4}}}, "from": [0.2, 0.1, 0.9], "to": [0.2, 0.1, 0], "up": [0, 1, 0]}},
+    "materials": {{"pane": {{"thin_glass": {{"ior": 1.5}}}}, "white": {{"diffuse": {{"reflectance": 1}}}},
+                  "mirror": {{"mirror": {{"reflectance": 1}}}}}},
+    "shapes": [{{"quad": {{"corner": [-1, -1, 1], "edge_u": [2, 0, 0], "edge_v": [0, 2, 0]}}, "material": "pane"}},
+               {{"quad": {{"corner": [-2, -2, 0], "edge_u": [4, 0, 0], "edge_v": [0, 4, 0]}}, "material": "white"}},
+               {{"quad": {{"corner": [0.5, 0.1, 0.3], "edge_u": [0, {0}, {1}], "edge_v": [{2}, 0, {3}]}}, "material": "mirror"}}],
+    "lights": [{{"point": {{"at": [0, 0, 4]}}, "emission": {{"illuminant": "E", "intensity": 1}}}}]}})",
+                                     width, 0.094 * width, 0.32 * width, 0.947 * width, fov_deg));
+}
+
+// A mirror of 5 mm brings about 1 % of the light by a few pilot photons; one of 3 cm is found by many.
+TEST(AimedPhotons, TellHowMuchLightFewPilotsFound) {
+  const Scene few = floor_below_pane_and_mirror(2, 0.005);
+  EXPECT_NEAR(make_learnt_plan(few, 2).guides.undertrained_fraction, 0.01, 0.007);
+  const Scene many = floor_below_pane_and_mirror(2, 0.03);
+  EXPECT_EQ(make_learnt_plan(many, 2).guides.undertrained_fraction, 0);
+}
+
+TEST(AimedPhotons, AreReportedIfFewTrainedTheGuide) {
+  Guides guides{.aims = {}, .photon_wavelengths = {std::span<const Curve>(), std::span<const Curve>()}};
+  EXPECT_EQ(rare_photons(nullptr), std::nullopt);
+  EXPECT_EQ(rare_photons(&guides), std::nullopt);
+  guides.undertrained_fraction = 0.009;
+  EXPECT_EQ(rare_photons(&guides), std::nullopt);
+  guides.undertrained_fraction = 0.031;
+  EXPECT_EQ(
+      rare_photons(&guides).value_or(""),
+      "3.1 % of the light that pilot photons found takes paths that fewer than 50 of them took: that light "
+      "is noisy, and its error is uncertain");
+  guides.photons_are_rare = true;
+  EXPECT_EQ(
+      rare_photons(&guides).value_or(""),
+      "too few pilot photons reach the sensor to guide others: light that arrives through mirrors and glass "
+      "is noisy, and its error is uncertain");
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 #include <ostream>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -215,6 +216,23 @@ TEST_P(RareLight, IntervalsHoldOrTheErrorIsNotYetKnown) {
   if (!GetParam().truth) {
     EXPECT_LE(unknown, 0.05 * seeds) << "false alarms";
   }
+}
+
+// A target of the error is not reached by an error that is not yet known, but by a quarter of the target.
+TEST(RareLight, ATargetWaitsUntilTheErrorIsKnown) {
+  constexpr double kTarget = 0.0035;
+  constexpr double kUnknownFactor = 4;
+  std::set<std::uint64_t> samples;
+  for (std::uint64_t seed = 2000; seed < 2006; ++seed) {
+    Scene scene = hot_texel();
+    scene.render.samples = 1 << 16;
+    scene.render.seed = seed;
+    const RenderResult result = render(scene, {.target_error = kTarget});
+    const RelativeError& error = result.stats.error;
+    EXPECT_LE(error.median, is_known(error) ? kTarget : kTarget / kUnknownFactor) << seed;
+    samples.insert(result.stats.samples_per_pixel);
+  }
+  EXPECT_GT(samples.size(), 1) << "no error was unknown at the target: the test needs other seeds";
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, RareLight, testing::ValuesIn(kRare),

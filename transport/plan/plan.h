@@ -28,8 +28,8 @@ struct Guides {
   CausticGuide caustics_seen_through = {};
   /// Whether a tenth of what photons of pilots bring the film, or more, is brought by too few to aim by.
   bool photons_are_rare = false;
-  /// Fraction of what photons of pilots bring the film, weighted as they train the aims, by branches that
-  /// fewer than `Aim::kEnough` of them have shown each: what is found by them may be incomplete.
+  /// Fraction of the film's light, as weighted in training, on branches that fewer than `Aim::kEnough` pilot
+  /// photons took. The guide knows these branches badly, so that their error is uncertain.
   double undertrained_fraction = 0;
 };
 

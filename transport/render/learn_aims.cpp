@@ -150,12 +150,14 @@ std::map<std::pair<std::uint32_t, std::uint32_t>, Count> count_branches(const Sh
   return branches;
 }
 
+// Fraction of the weight on branches that too few pilot photons took, of lights whose guides are trained.
+// Lights with too few pilot photons in all are the subject of `photons_of_few`.
 double undertrained_fraction(const Shown& shown) {
   double all = 0;
   double few = 0;
   for (const auto& [branch, count] : count_branches(shown)) {
     all += count.worth;
-    if (!is_shown_enough(count)) few += count.worth;
+    if (is_shown_enough(shown.lights[branch.first]) && !is_shown_enough(count)) few += count.worth;
   }
   return all > 0 ? few / all : 0;
 }
