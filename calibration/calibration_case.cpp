@@ -15,7 +15,7 @@
 #include "io/invalid_input.h"
 #include "io/rgb_order.h"
 #include "io/text.h"
-#include "sensor/response/coverage.h"
+#include "sensor/response/table_range.h"
 #include "spectral/library.h"
 #include "spectral/sources.h"
 
@@ -24,7 +24,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// "400-500": the two wavelengths of an ideal filter.
+// Ideal filter from the text of its two wavelengths, such as "400-500".
 Curve box_filter(const std::string& text) {
   const std::vector<std::string> ends = split(text, '-');
   const auto end = [&](std::size_t i) { return ends.size() == 2 ? parse_number(ends[i]).value_or(-1) : -1; };
@@ -35,7 +35,7 @@ Curve box_filter(const std::string& text) {
   return band(end(0), end(1));
 }
 
-// "400-500,500-600,600-700": ideal filters from B to R, in the order R, G, B.
+// Ideal filters from B to R, such as "400-500,500-600,600-700", returned in the order R, G, B.
 std::vector<Channel> box_channels(const std::string& bands) {
   const std::vector<std::string> pieces = split(bands, ',');
   if (pieces.size() != 3)
@@ -44,7 +44,7 @@ std::vector<Channel> box_channels(const std::string& bands) {
           energy_channel("B", box_filter(pieces[0]))};
 }
 
-// The channels of a camera that is no table.
+// Channels of a camera that is given by a formula; empty for a table.
 std::optional<std::vector<Channel>> formula_channels(const std::string& camera) {
   constexpr std::string_view kBox = "box:";
   if (camera.starts_with(kBox)) return box_channels(camera.substr(kBox.size()));
@@ -53,15 +53,16 @@ std::optional<std::vector<Channel>> formula_channels(const std::string& camera) 
   return std::nullopt;
 }
 
-// All patches of several tables of reflectances.
+// Patches of all training tables.
 Chart load_training(const CalibrationSource& source, Diagnostics& diagnostics) {
   Chart all{source.training, {}};
   if (source.training.empty()) return all;
   for (const std::string& name : split(source.training, ',')) {
     if (name == source.chart)
-      throw Error(
-          ErrorCode::usage, "--training",
-          fmt::format("got {}, the chart itself, which is shown by a fit that has not seen it", name));
+      throw Error(ErrorCode::usage, "--training",
+                  fmt::format("got {}, which is the chart itself: the correction must be tested on patches "
+                              "to which it was not fitted",
+                              name));
     auto chart = load_chart(name, {}, diagnostics);
     if (chart) std::move(chart->patches.begin(), chart->patches.end(), std::back_inserter(all.patches));
   }
@@ -75,18 +76,18 @@ std::vector<std::string> names_of(const std::vector<T>& all, std::string T::*nam
   return names;
 }
 
-// What has the names R, G and B in that order, which the columns of tables and the planes of pictures have;
-// all else as it is.
+// Sorts elements that are named R, G and B into that order, which the columns of tables and the planes of
+// pictures have. Leaves all others unchanged.
 template <typename T>
 std::vector<T> in_rgb_order(std::vector<T> all, std::string T::*name) {
   const auto order = rgb_order(names_of(all, name));
   if (!order) return all;
   std::vector<T> sorted;
-  for (const std::size_t place : *order) sorted.push_back(std::move(all[place]));
+  for (const std::size_t index : *order) sorted.push_back(std::move(all[index]));
   return sorted;
 }
 
-// Columns of measured patches are matched with these by name.
+// Throws Error{input} unless the names are R, G and B, by which measured columns are matched.
 template <typename T>
 void require_rgb(const std::vector<T>& all, std::string T::*name, const char* what) {
   const std::vector<std::string> names = names_of(all, name);
@@ -96,20 +97,20 @@ void require_rgb(const std::vector<T>& all, std::string T::*name, const char* wh
                             fmt::join(names, ", ")));
 }
 
-// Colours that a table states are those in its own light, whatever light is named.
+// Throws Error{usage} if a table states its colours in another light than the requested one.
 void require_light_of(const ChartTargets& chart, const NamedCurve& light) {
   const Chromaticity own = chromaticity(chart.white);
   const Chromaticity named = chromaticity(light.curve);
-  const bool is_seen = own[0] > 0;  // else that is said where the white is adapted
-  if (is_seen && !is_same_white(own, named))
-    throw Error(ErrorCode::usage, "--illuminant",
-                fmt::format("got {} with the white ({:.4f}, {:.4f}), but the chart tells its colours in a "
-                            "light with the white ({:.4f}, {:.4f}): name that light, or a chart of "
-                            "reflectances",
-                            light.name, named[0], named[1], own[0], own[1]));
+  const bool is_visible = own[0] > 0;  // otherwise the chromatic adaptation reports it
+  if (is_visible && !is_same_white(own, named))
+    throw Error(
+        ErrorCode::usage, "--illuminant",
+        fmt::format("got {} with the white ({:.4f}, {:.4f}), but the chart states its colours in a light "
+                    "with the white ({:.4f}, {:.4f}): name that light, or use a chart of reflectances",
+                    light.name, named[0], named[1], own[0], own[1]));
 }
 
-// Code values to linear ones, with their noise.
+// Converts code values and their deviations to linear ones.
 void linearise_all(MeasuredPatches& patches, const std::vector<ChannelResponse>& responses) {
   for (std::size_t i = 0; i < patches.values.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
@@ -128,11 +129,10 @@ void warn_of_misfit(const ChannelResponse& response, const fs::path& series, Dia
   const auto source = std::make_shared<const SourceText>(SourceText{series.string(), ""});
   diagnostics.warning(
       {source, SourcePosition::kWholeFile, ""},
-      fmt::format(
-          "the curve of {} does not follow its codes: from {:.3g} to {:.3g} their exposures are off by "
-          "{:.2g} % of full scale, which noise does not explain, and its 95 % interval is wider "
-          "there for it; at a knee, add exposures whose codes lie near it",
-          response.channel, misfit->low_code, misfit->high_code, 100 * misfit->exposure));
+      fmt::format("the curve of {} does not follow its codes: from {:.3g} to {:.3g} their exposures are off "
+                  "by {:.2g} % of full scale, more than noise explains, and its 95 % interval is widened "
+                  "there; at a knee, add exposures with codes near it",
+                  response.channel, misfit->low_code, misfit->high_code, 100 * misfit->exposure));
 }
 
 }  // namespace
@@ -142,8 +142,9 @@ std::optional<std::vector<Channel>> camera_channels(const std::string& camera,
                                                     Diagnostics& diagnostics) {
   if (auto channels = formula_channels(camera)) {
     if (response)
-      throw Error(ErrorCode::usage, "camera response",
-                  fmt::format("goes with measured curves (got {}, which has its own)", camera));
+      throw Error(
+          ErrorCode::usage, "camera response",
+          fmt::format("applies to measured curves only (got {}, which has its own response)", camera));
     return channels;
   }
   auto channels = load_camera(camera, {}, diagnostics, response, ResponseScale::relative);
@@ -156,24 +157,25 @@ CalibrationCase simulated_calibration(const CalibrationSource& source, const std
   const auto channels = camera_channels(source.camera, source.camera_response, diagnostics);
   const NeededRange needed = channels ? needed_by(*channels) : NeededRange();
   const auto light = load_illuminant(illuminant, {}, diagnostics, needed);
-  if (channels && light) check_ends_of_light(*light, *channels, {}, diagnostics);
+  if (channels && light) check_light_range(*light, *channels, {}, diagnostics);
   const auto chart = load_chart(source.chart, {}, diagnostics, kReflectanceFactorUse, needed);
   const auto test =
       source.test.empty() ? Chart{} : load_chart(source.test, {}, diagnostics, kReflectanceFactorUse, needed);
   const Chart training = load_training(source, diagnostics);
-  require_sound(diagnostics);
-  CalibrationCase made{source.camera, source.chart, source.planted_response, source.bits, {}, {}};
-  made.result = calibrate_camera({source.camera, illuminant, source.planted_response, source.bits, *channels,
-                                  light->curve, *chart, training},
-                                 source.how);
+  require_no_errors(diagnostics);
+  CalibrationCase calibration{source.camera, source.chart, source.planted_response, source.bits, {}, {}};
+  calibration.result = calibrate_camera({source.camera, illuminant, source.planted_response, source.bits,
+                                         *channels, light->curve, *chart, training},
+                                        source.how);
   if (!source.test.empty())
-    made.test = patch_errors(integrate(*test, *channels, light->curve), made.result.correction.correction);
-  return made;
+    calibration.test =
+        patch_errors(integrate(*test, *channels, light->curve), calibration.result.correction.correction);
+  return calibration;
 }
 
 RecoveredResponses recover_responses(const fs::path& series, Inputs& inputs, Diagnostics& diagnostics) {
   const auto photographs = read_series(series, diagnostics, &inputs);
-  require_sound(diagnostics);
+  require_no_errors(diagnostics);
   RecoveredResponses recovered{{}, photographs->full_scale};
   for (std::size_t k = 0; k < photographs->channels.size(); ++k) {
     recovered.channels.push_back({photographs->channels[k], recover_response(photographs->series[k]), {}});
@@ -191,7 +193,7 @@ CalibrationCase measured_calibration(const CalibrationSource& source, const std:
   std::optional<std::vector<Channel>> channels;
   if (!training.patches.empty())
     channels = camera_channels(source.camera, source.camera_response, diagnostics);
-  require_sound(diagnostics);
+  require_no_errors(diagnostics);
   require_light_of(*chart, *light);
   if (channels) require_rgb(*channels, &Channel::name, "--camera");
   MeasuredCamera camera{source.measured.stem().string(), illuminant, {}, {}, {}};

@@ -12,56 +12,62 @@
 
 namespace abbe {
 
-/// What a calibration is made of: a camera whose curves are known, or photographs of a real one.
+/// Inputs of a calibration: a camera whose spectral responses are known, or photographs of a real camera.
 struct CalibrationSource {
-  std::string camera;              ///< As `camera_channels` takes it.
-  std::filesystem::path measured;  ///< Values of a real camera's photograph of the chart.
-  std::filesystem::path series;    ///< Photographs of a real camera with their exposure times.
+  std::string camera;  ///< Name or formula, as `camera_channels` takes it.
+  /// File with the values that a real camera recorded of the chart's patches.
+  std::filesystem::path measured;
+  std::filesystem::path series;  ///< Listing of a real camera's photographs with their exposure times.
   std::string chart = "colorchecker24_babelcolor_average";
-  std::string test;      ///< Another chart that the fitted correction is tried on.
-  std::string training;  ///< Reflectances that the correction is fitted to instead, with commas between.
-  std::string planted_response;  ///< "linear", "gamma:G" or "s-curve"; empty: linear, and known to be.
+  std::string test;  ///< Another chart, on which the fitted correction is tested.
+  /// Tables of reflectances, separated by commas, to which the correction is fitted instead.
+  std::string training;
+  /// "linear", "gamma:G" or "s-curve"; if empty, the camera is known to be linear.
+  std::string planted_response;
   int bits = 12;
   CharacterisationOptions how;
-  std::optional<ResponseKind> camera_response = {};  ///< What the camera's curves multiply, where it is told.
+  /// Quantity that the camera's responses multiply; empty for that of the table.
+  std::optional<ResponseKind> camera_response = {};
 };
 
-/// One calibration and what was asked of it.
+/// A calibration with the inputs that it was requested for.
 struct CalibrationCase {
   std::string camera;
   std::string chart;
-  std::string response;  ///< The planted one; empty for a measured camera.
+  std::string response;  ///< Planted response; empty for a measured camera.
   int bits = 0;
   CameraCalibration result;
-  std::optional<PatchErrors> test;  ///< Of another chart.
+  std::optional<PatchErrors> test;  ///< Errors on the test chart, if there is one.
 };
 
-/// The channels of a camera of `data/camera` or of a file, of ideal filters "box:a-b,c-d,e-f" [nm] from blue
-/// to red, or of an "observer:1931" or "observer:1964". R, G and B, or red, green and blue, come in this
-/// order, whatever that of the file: so tables and pictures have them. Reports a name that is none of these;
-/// throws Error{usage} for bands that cannot be, and for a response of what has its own, as filters and
-/// observers do.
+/// Channels of a camera: a name in `data/camera`, a file, ideal filters "box:a-b,c-d,e-f" [nm] from blue to
+/// red, "observer:1931" or "observer:1964". Channels R, G and B (or red, green and blue) are returned in this
+/// order, as tables and pictures have them. Reports an unknown name in `diagnostics`. Throws Error{usage} for
+/// impossible bands, and for a `response` of filters and observers, which have their own.
 [[nodiscard]] std::optional<std::vector<Channel>> camera_channels(const std::string& camera,
                                                                   std::optional<ResponseKind> response,
                                                                   Diagnostics& diagnostics);
 
-/// Calibrates the camera of the source, simulated in a light; adds warnings to `diagnostics`. Throws as
+/// Calibrates the simulated camera of `source` under `illuminant`. Adds warnings to `diagnostics`. Throws as
 /// `calibrate_camera`, and InvalidInput for unknown names.
 [[nodiscard]] CalibrationCase simulated_calibration(const CalibrationSource& source,
                                                     const std::string& illuminant, Diagnostics& diagnostics);
-/// Calibrates the real camera that photographed the chart in that light; by `series`, if there is one, its
-/// values are made linear before. The files that are read are added to `inputs`. Throws as above, and
-/// Error{input} where the channels of the camera or of the photographs are not those of the measured values.
+/// Calibrates the real camera that photographed the chart under `illuminant`. If `source.series` is set, the
+/// response curves of that series first make its values linear. Adds the files that it reads to `inputs`.
+/// Throws as `simulated_calibration`, and Error{input} if the channels of the camera or of the photographs
+/// are not those of the measured values.
 [[nodiscard]] CalibrationCase measured_calibration(const CalibrationSource& source,
                                                    const std::string& illuminant, Inputs& inputs,
                                                    Diagnostics& diagnostics);
 
-/// The curves of a real camera's channels, of a series of photographs.
+/// Response curves of a real camera's channels, recovered from a series of photographs.
 struct RecoveredResponses {
   std::vector<ChannelResponse> channels;
-  FullScale full_scale = {};  ///< Of which they are.
+  FullScale full_scale = {};  ///< Full scale of the codes to which the curves apply.
 };
-/// Throws InvalidInput for a series that cannot be read, Error{input} for one that determines no curve.
+/// Recovers the response curves from a listing of photographs. Warns of curves that do not follow their
+/// codes. Throws InvalidInput for a series that cannot be read, Error{input} for one that does not determine
+/// a curve.
 [[nodiscard]] RecoveredResponses recover_responses(const std::filesystem::path& series, Inputs& inputs,
                                                    Diagnostics& diagnostics);
 

@@ -13,7 +13,7 @@ namespace abbe {
 namespace {
 
 constexpr double kPhotographLevel =
-    0.95;  // linear exposure of the brightest value in the photograph the matrix is fitted to
+    0.95;  // linear exposure of the brightest value in the photograph to which the matrix is fitted
 constexpr double kLowestStop = -9;
 constexpr double kHighestStop = 6;
 constexpr double kStopsPerExposure = 1.0 / 3;
@@ -43,7 +43,7 @@ std::vector<std::vector<double>> photographed_values(const CalibrationSetup& set
   return values;
 }
 
-// The largest linear value of a patch before white was balanced.
+// Largest linear value of a patch before white balance.
 double brightest_patch(const MeasuredCamera& camera) {
   double brightest = 0;
   for (const Raw& raw : camera.colors.raw)
@@ -76,7 +76,7 @@ CameraCalibration calibrate_measured(const MeasuredCamera& camera, const Charact
   CorrectionOptions how = options.fit;
   const std::optional<Matrix3> to_d65 = adaptation(colors.white, unit_xyz(kD65), options.adaptation);
   if (!to_d65)
-    throw Error(ErrorCode::input, camera.light, "the light has no white that a display could show");
+    throw Error(ErrorCode::input, camera.light, "chromatic adaptation of its white to D65 is impossible");
   CameraCalibration result;
   if (options.choose) {
     result.candidates = cross_validate_models(colors, how, options.folds);

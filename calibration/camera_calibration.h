@@ -18,75 +18,80 @@
 
 namespace abbe {
 
-/// What a simulated calibration starts from.
+/// Inputs of a simulated calibration.
 struct CalibrationSetup {
   std::string camera;
   std::string illuminant;
-  /// See PlantedResponse; empty for a camera whose values are linear and known to be.
+  /// Description of a PlantedResponse; empty for a camera whose values are known to be linear.
   std::string planted_response;
-  int bits = 12;  ///< Of the code values, 1 to 16; 0 for no rounding.
+  int bits = 12;  ///< Bits of the code values, 1 to 16; 0 for no rounding.
   std::vector<Channel> channels;
   Curve light;
   Chart chart;
-  Chart training = {};  ///< What the correction is fitted to instead of the chart, if it has patches.
+  Chart training = {};  ///< Patches to which the correction is fitted instead of the chart, if there are any.
 };
 
-/// One channel's recovered curve, judged by the response that was planted, if one was.
+/// Recovered response curve of one channel, compared with the planted response if there was one.
 struct ChannelResponse {
   std::string channel;
   ResponseFit fit;
-  std::optional<double> max_error;  ///< Largest error of linear exposure between 1 % and 99 % of the code
-                                    ///< range, as a share of full scale.
+  /// Largest error of linear exposure between 1 % and 99 % of the code range, as a fraction of full scale.
+  std::optional<double> max_error;
 };
 
-/// How a camera's colours are fitted and judged.
+/// Options of the colour correction and of its validation.
 struct CharacterisationOptions {
   CorrectionOptions fit;
-  Adaptation adaptation = Adaptation::bradford;  ///< From the light's white to D65.
-  std::size_t folds = 0;  ///< Of the cross-validation; 0 leaves one patch out at a time.
-  bool choose = false;    ///< Take the model that shows unseen patches best instead of that of `fit`.
+  Adaptation adaptation = Adaptation::bradford;  ///< Chromatic adaptation from the light's white to D65.
+  std::size_t folds = 0;  ///< Folds of the cross-validation; 0 leaves one patch out at a time.
+  bool choose = false;  ///< Choose the model with the least cross-validation error instead of that of `fit`.
   BootstrapOptions bootstrap;
 };
 
-/// Fits the model of that name, or, for "auto", the one that shows unseen patches best. False, and nothing
-/// done, for another name.
+/// Selects the correction model by its name; "auto" selects the one with the least cross-validation error.
+/// Returns false and changes nothing for an unknown name.
 [[nodiscard]] bool choose_correction(CharacterisationOptions& options, std::string_view name);
 
-/// A camera, calibrated under one light.
+/// Calibration of a camera under one light.
 struct CameraCalibration {
   std::vector<std::string> patches;
-  std::vector<double> times_s;             ///< Of the exposure series.
-  std::vector<ChannelResponse> responses;  ///< None for a camera whose values are linear.
-  PatchColors colors;                      ///< Of the chart, white balanced.
-  CorrectionFit correction;                ///< Its errors are those of the chart.
-  std::vector<ModelCandidate> candidates;  ///< Among which the model was chosen; none when it was given.
-  std::size_t training_patches = 0;        ///< Other than the chart's, to which the correction was fitted.
-  PatchErrors unseen;                      ///< Each patch shown by a fit that has not seen it.
-  Interval unseen_mean;  ///< 95 % of the mean of `unseen`, the patches being drawn at random.
-  std::vector<std::array<Interval, 3>> columns;  ///< 95 % of the correction's columns.
+  std::vector<double> times_s;             ///< Exposure times of the series.
+  std::vector<ChannelResponse> responses;  ///< Empty for a camera whose values are linear.
+  PatchColors colors;                      ///< White-balanced colours of the chart.
+  CorrectionFit correction;                ///< Fitted correction with its errors on the chart.
+  std::vector<ModelCandidate> candidates;  ///< Models that were compared; empty if the model was given.
+  /// Number of patches, other than the chart's, to which the correction was fitted.
+  std::size_t training_patches = 0;
+  PatchErrors unseen;    ///< Cross-validation errors: each patch is predicted by a fit without it.
+  Interval unseen_mean;  ///< 95 % interval of the mean of `unseen`, for patches drawn at random.
+  std::vector<std::array<Interval, 3>> columns;  ///< 95 % intervals of the correction's columns.
   CameraProfile profile;
 };
 
-/// The whole chain on integrated colours: the chart and a white tile photographed in whole codes, linear
-/// ones; or through the planted response at exposures one third of a stop apart, each channel's curve
-/// recovered from that series without knowing the response or the patches; the brightest unclipped photograph
-/// linearised by the recovered curves, balanced on the tile, and the white-preserving correction fitted to
-/// it. Errors per patch are therefore those of curve, code values and correction together. Throws
-/// Error{usage} for bits out of range, a camera without three channels or a chart too small for the
-/// correction, Error{input} when a fit fails.
+/// Simulates the whole calibration on integrated colours of the chart and a white tile.
+///
+/// - A linear camera photographs them once, in whole codes.
+/// - Otherwise a series is exposed through the planted response, in steps of one third of a stop. The curve
+///   of each channel is recovered from that series, without knowledge of the response or the patches. The
+///   curves linearise the brightest photograph that is not clipped.
+/// - The values are balanced on the tile, and the white-preserving correction is fitted to them.
+///
+/// Errors per patch therefore include those of curve, code values and correction. Throws Error{usage} for
+/// bits out of range, for a camera without three channels and for a chart too small for the correction.
+/// Throws Error{input} if a fit fails.
 [[nodiscard]] CameraCalibration calibrate_camera(const CalibrationSetup& setup,
                                                  const CharacterisationOptions& options = {});
 
-/// What a real camera's calibration starts from.
+/// Inputs of a real camera's calibration.
 struct MeasuredCamera {
   std::string name;
   std::string light;
-  PatchColors colors;                      ///< White balanced, linear.
-  std::array<double, 3> gains{1, 1, 1};    ///< What balanced them.
-  std::vector<ChannelResponse> responses;  ///< What made them linear: three, or none.
-  /// What the correction is fitted to instead of `colors`, in the same light; none without patches.
+  PatchColors colors;                      ///< Linear, white-balanced values of the chart.
+  std::array<double, 3> gains{1, 1, 1};    ///< Factors that balanced them.
+  std::vector<ChannelResponse> responses;  ///< Curves that linearised them: three, or none.
+  /// Patches in the same light to which the correction is fitted instead of `colors`, if there are any.
   PatchColors training = {};
-  /// Standard deviations of the values of `colors`, by which its patches are weighed; empty: all alike.
+  /// Standard deviations of the values of `colors`, which weight its patches; empty for equal weights.
   std::vector<Raw> deviations = {};
 };
 

@@ -14,7 +14,7 @@
 namespace abbe::cli {
 namespace {
 
-// What JSON has as null is "-", numbers that are not finite too.
+// Text of a value. Null and numbers that are not finite become "-".
 std::string cell(const Json& value) {
   if (value.is_string()) return value.get<std::string>();
   if (value.is_null() || (value.is_number_float() && !std::isfinite(value.get<double>()))) return "-";
@@ -26,7 +26,7 @@ std::string cell(const Json& value) {
   return cells;
 }
 
-// Lists of one length side by side, under their names.
+// Table with one column per list below its name. All lists have the same length.
 std::string table(const std::vector<std::pair<std::string, Json>>& columns) {
   std::string all;
   std::vector<std::vector<std::string>> cells;
@@ -46,7 +46,7 @@ std::string table(const std::vector<std::pair<std::string, Json>>& columns) {
   return all;
 }
 
-// What the first list of a table may be.
+// Keys of the lists that can start a table.
 constexpr std::array<std::string_view, 4> kFirstColumns{"wavelength_nm", "surface", "field_deg",
                                                         "object_height_mm"};
 
@@ -95,18 +95,18 @@ Json without_lists_of_one(Json answer) {
   return answer.is_array() ? one_or_all(std::move(answer)) : answer;
 }
 
-void tell(const std::string& text) {
+void print_to_stderr(const std::string& text) {
   (void)!std::fwrite(text.data(), 1, text.size(), stderr);
   std::fflush(stderr);
 }
 
-void say(const std::string& message) {
-  tell(fmt::format("abbe: {}\n", message));
+void print_message(const std::string& message) {
+  print_to_stderr(fmt::format("abbe: {}\n", message));
 }
 
 void check(const Diagnostics& diagnostics) {
-  require_sound(diagnostics);
-  tell(diagnostics.text());
+  require_no_errors(diagnostics);
+  print_to_stderr(diagnostics.text());
 }
 
 }  // namespace abbe::cli

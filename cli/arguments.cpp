@@ -19,14 +19,14 @@ namespace {
   throw Error(ErrorCode::usage, option, fmt::format("got {}, allowed {}", got, allowed));
 }
 
-ServerAddress parse_address(const std::string& option, const std::string& text, int least_port) {
+ServerAddress parse_address(const std::string& option, const std::string& text, int min_port) {
   ServerAddress address;
   const std::size_t colon = text.rfind(':');
   if (colon != std::string::npos) address.host = text.substr(0, colon);
   if (address.host.starts_with('[') && address.host.ends_with(']'))
     address.host = address.host.substr(1, address.host.size() - 2);
   if (address.host.empty()) refuse(option, "\"" + text + "\"", "port or address:port");
-  address.port = static_cast<int>(parse_integer(option, text.substr(colon + 1), least_port, 65535));
+  address.port = static_cast<int>(parse_integer(option, text.substr(colon + 1), min_port, 65535));
   return address;
 }
 
@@ -47,7 +47,7 @@ std::vector<double> parse_numbers(const std::string& option, const std::string& 
 
 std::int64_t parse_integer(const std::string& option, const std::string& text, std::int64_t low,
                            std::int64_t high) {
-  std::int64_t exact = 0;  // of more digits than a double may have
+  std::int64_t exact = 0;  // exact above 2^53, where doubles have gaps
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), exact);
   const bool digits = error == std::errc() && end == text.data() + text.size();
   const std::optional<double> number = parse_number(text);
@@ -91,13 +91,13 @@ std::size_t parse_bytes(const std::string& option, const std::string& text) {
   return static_cast<std::size_t>(bytes);
 }
 
-double parse_share(const std::string& option, const std::string& text) {
+double parse_fraction(const std::string& option, const std::string& text) {
   const bool percent = text.ends_with('%');
   const std::optional<double> number = parse_number(text.substr(0, text.size() - (percent ? 1 : 0)));
-  const double share = number.value_or(0) / (percent ? 100 : 1);
-  if (!(share > 0 && share < 1))
-    refuse(option, "\"" + text + "\"", "a share in (0, 1) such as 0.5% or 0.005");
-  return share;
+  const double fraction = number.value_or(0) / (percent ? 100 : 1);
+  if (!(fraction > 0 && fraction < 1))
+    refuse(option, "\"" + text + "\"", "a fraction in (0, 1) such as 0.5% or 0.005");
+  return fraction;
 }
 
 CalibrationFrame parse_calibration_frame(const std::string& option, const std::string& text) {
@@ -106,7 +106,8 @@ CalibrationFrame parse_calibration_frame(const std::string& option, const std::s
   constexpr std::string_view kFlat = "flat:";
   if (text + ":" == kFlat) return FlatFrame{};
   if (!text.starts_with(kFlat))
-    throw Error(ErrorCode::usage, option, "got \"" + text + "\", allowed bias, dark or flat, as flat:0.5");
+    throw Error(ErrorCode::usage, option,
+                "got \"" + text + "\", allowed bias, dark, flat or flat:FRACTION such as flat:0.5");
   return FlatFrame{parse_numbers(option, text.substr(kFlat.size()), 1e-9, 10).at(0)};
 }
 
@@ -123,30 +124,32 @@ LightFactor parse_light_factor(const std::string& option, const std::string& tex
   return {text.substr(0, sign), parse_numbers(option, text.substr(sign + 1), 0, kMost)};
 }
 
-Crop asked_pixels(const Image& film, const std::optional<Crop>& asked) {
+Crop requested_pixels(const Image& film, const std::optional<Crop>& requested) {
   const std::vector<Crop> areas = recorded_areas(film);
   const std::string allowed = "within " + to_text(areas);
-  if (!asked) {
-    if (areas.size() > 1) refuse("--crop", "none, though the film has gaps", allowed);
+  if (!requested) {
+    if (areas.size() > 1) refuse("--crop", "no rectangle for a film with gaps", allowed);
     return areas.front();
   }
-  std::size_t held = 0;
+  std::size_t covered = 0;
   for (const Crop& area : areas)
-    if (const auto common = common_pixels(area, *asked)) held += pixel_count(*common);
-  if (held < pixel_count(*asked)) refuse("--crop", to_text(*asked), allowed);
-  return *asked;
+    if (const auto common = common_pixels(area, *requested)) covered += pixel_count(*common);
+  if (covered < pixel_count(*requested)) refuse("--crop", to_text(*requested), allowed);
+  return *requested;
 }
 
 LayerChoice parse_layer_choice(const std::string& option, const std::string& text) {
-  constexpr int kUsualBounces = 8;
-  constexpr int kMostBounces = 64;
+  constexpr int kDefaultBounces = 8;
+  constexpr int kMaxBounces = 64;
   const std::size_t colon = text.find(':');
-  const std::string word = text.substr(0, colon);
-  const std::string more = colon == std::string::npos ? "" : text.substr(colon + 1);
-  if ((word != "lights" && word != "bounces") || (colon != std::string::npos && more.empty()))
+  const std::string kind = text.substr(0, colon);
+  const std::string argument = colon == std::string::npos ? "" : text.substr(colon + 1);
+  if ((kind != "lights" && kind != "bounces") || (colon != std::string::npos && argument.empty()))
     refuse(option, "\"" + text + "\"", "lights, lights:NAME,..., bounces or bounces:N");
-  if (word == "lights") return {{}, more.empty() ? std::vector<std::string>() : split(more, ',')};
-  return {more.empty() ? kUsualBounces : static_cast<int>(parse_integer(option, more, 1, kMostBounces)), {}};
+  if (kind == "lights") return {{}, argument.empty() ? std::vector<std::string>() : split(argument, ',')};
+  return {
+      argument.empty() ? kDefaultBounces : static_cast<int>(parse_integer(option, argument, 1, kMaxBounces)),
+      {}};
 }
 
 std::vector<Feature> parse_feature_list(const std::string& option, const std::string& text) {

@@ -24,7 +24,8 @@ fs::path default_cache() {
   const char* home = std::getenv("HOME");
   if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache != nullptr && *cache != '\0')
     return fs::path(cache) / "abbe" / "bench";
-  if (home == nullptr) throw Error(ErrorCode::usage, "--cache", "needed where HOME is not set");
+  if (home == nullptr)
+    throw Error(ErrorCode::usage, "--cache", "is required if neither XDG_CACHE_HOME nor HOME is set");
   return fs::path(home) / ".cache" / "abbe" / "bench";
 }
 
@@ -38,7 +39,7 @@ BenchSettings settings_of(const BenchOptions& options) {
   settings.quick = options.quick;
   settings.cache = options.cache.empty() ? default_cache() : options.cache;
   settings.version = ABBE_VERSION;
-  settings.say = say;
+  settings.say = print_message;
   return settings;
 }
 
@@ -70,10 +71,11 @@ int scale(const BenchOptions& options) {
 
 int soak(const BenchOptions& options) {
   if (!options.output.empty() && !options.cache.empty())
-    throw Error(ErrorCode::usage, "--cache", "has nothing of a soak whose folder --output names");
+    throw Error(ErrorCode::usage, "--cache",
+                "has no effect on --soak with --output, which names the folder (allowed without --output)");
   const fs::path folder = options.output.empty() ? settings_of(options).cache / "soak" : options.output;
   require_report_folder(folder);
-  const SoakResult result = run_soak({options.soak_paths, options.soak_seed, folder, say});
+  const SoakResult result = run_soak({options.soak_paths, options.soak_seed, folder, print_message});
   const Json answer{{"scenes", result.scenes},
                     {"paths", result.paths},
                     {"rays", result.rays},
@@ -89,37 +91,39 @@ Baseline read_baseline(const fs::path& path) {
   return accepted(load_baseline(path, diagnostics), diagnostics);
 }
 
-// Scenes are loaded once more for it, so that nothing is rendered that cannot be compared.
+// Loads the scenes of the suites once more, so that a suite that cannot be compared is reported before any
+// render.
 void require_comparable_suites(const Baseline& before, const std::vector<BenchSuite>& suites,
                                const BenchSettings& settings) {
   Diagnostics diagnostics;
-  for (const BaselineSuite& then : before.suites)
+  for (const BaselineSuite& recorded : before.suites)
     for (const BenchSuite& suite : suites)
-      if (suite.name == then.name) require_comparable(then, conditions_of(suite, settings), diagnostics);
+      if (suite.name == recorded.name)
+        require_comparable(recorded, conditions_of(suite, settings), diagnostics);
   check(diagnostics);
 }
 
-// In ascending order, each once.
+// Values in ascending order without duplicates.
 template <typename T>
-std::vector<T> in_order(std::vector<T> values) {
+std::vector<T> sorted_unique(std::vector<T> values) {
   std::sort(values.begin(), values.end());
   values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
 }
 
-bool got_worse(const Change& change) {
-  const auto worse = [](const Ratio& ratio) { return ratio.changed() && ratio.value > 1; };
-  return worse(change.cpu_per_path) || worse(change.rel_mse);
+bool is_regression(const Change& change) {
+  const auto regressed = [](const Ratio& ratio) { return ratio.changed() && ratio.value > 1; };
+  return regressed(change.cpu_per_path) || regressed(change.rel_mse);
 }
 
 }  // namespace
 
 std::vector<int> parse_sample_counts(const std::string& option, const std::string& text) {
-  constexpr int kMostSamples = 1 << 20;
+  constexpr int kMaxSampleCount = 1 << 20;
   std::vector<int> counts;
   for (const std::string& piece : split(text, ','))
-    counts.push_back(static_cast<int>(parse_integer(option, piece, 1, kMostSamples)));
-  return in_order(std::move(counts));
+    counts.push_back(static_cast<int>(parse_integer(option, piece, 1, kMaxSampleCount)));
+  return sorted_unique(std::move(counts));
 }
 
 std::vector<Integrator> parse_integrators(const std::string& option, const std::string& text) {
@@ -127,7 +131,7 @@ std::vector<Integrator> parse_integrators(const std::string& option, const std::
   for (const std::string& piece : split(text, ','))
     integrators.push_back(static_cast<Integrator>(
         parse_choice(option, piece, {kIntegratorNames.begin(), kIntegratorNames.end()})));
-  return in_order(std::move(integrators));
+  return sorted_unique(std::move(integrators));
 }
 
 int bench(const BenchOptions& options) {
@@ -142,15 +146,17 @@ int bench(const BenchOptions& options) {
   const Baseline before = read_baseline(options.baseline);
   BenchReport report{this_machine(), settings_of(options), {}, {}, {}};
   require_comparable_suites(before, suites, report.settings);
-  if (!options.quick) report.rivals = load_rivals();
+  if (!options.quick) report.other_renderers = load_other_renderers();
   for (const BenchSuite& suite : suites) report.runs.push_back(run_suite(suite, report.settings));
   report.changes = compare_runs(before.rows, baseline_rows(report.runs));
   if (!options.baseline.empty() && report.changes.empty())
-    say("warning: no render of the baseline is of the same suite, integrator, sample count and seed");
+    print_message(
+        "warning: nothing is compared: no render of the baseline has the same suite, integrator, sample "
+        "count and seed");
   if (!options.output.empty()) write_report(options.output, report);
   fmt::print("{}", options.json ? json_text(report) : readable_text(report));
-  const bool worse = std::any_of(report.changes.begin(), report.changes.end(), got_worse);
-  return options.strict && worse ? 1 : 0;
+  const bool regressed = std::any_of(report.changes.begin(), report.changes.end(), is_regression);
+  return options.strict && regressed ? 1 : 0;
 }
 
 }  // namespace abbe::cli

@@ -9,33 +9,39 @@
 
 namespace abbe::cli {
 
-/// What `abbe bench` was asked for.
+/// Options of `abbe bench`.
 struct BenchOptions {
-  std::vector<std::string> suites;  ///< All when empty.
-  std::filesystem::path output;     ///< Folder for the report; nothing is written when empty.
+  std::vector<std::string> suites;  ///< Names of suites; empty for all.
+  std::filesystem::path output;     ///< Folder of the report; empty for none.
   std::vector<Integrator> integrators{Integrator::automatic};
   std::vector<int> samples{4, 8, 16, 32, 64};
-  int seeds = 3;
-  int threads = 0;
-  int reference_samples = 0;  ///< 0: 64 times the largest of `samples`.
-  std::filesystem::path baseline;
-  std::filesystem::path cache;  ///< Empty: `$XDG_CACHE_HOME/abbe/bench`, else `~/.cache/abbe/bench`.
-  bool quick = false;           ///< Small films, compared with no rival.
-  bool strict = false;          ///< Exit with 1 when something got worse than the baseline.
-  bool list = false;
-  bool scale = false;            ///< Measure instead what scenes of growing size cost.
-  std::uint64_t soak_paths = 0;  ///< Not 0: look instead whether anything goes wrong in drawn scenes.
-  std::uint64_t soak_seed = 0;
+  int seeds = 3;    ///< Renders with different seeds per suite, integrator and number of samples.
+  int threads = 0;  ///< Number of threads; 0 for one per processor.
+  /// Samples per pixel of the reference; 0 for 64 times the largest of `samples`.
+  int reference_samples = 0;
+  std::filesystem::path baseline;  ///< File bench.json of an earlier run; empty for none.
+  /// Folder for references and generated meshes; empty for `$XDG_CACHE_HOME/abbe/bench` or else
+  /// `~/.cache/abbe/bench`.
+  std::filesystem::path cache;
+  bool quick = false;            ///< Use small films without comparison with other renderers.
+  bool strict = false;           ///< Exit with 1 if a figure became worse than the baseline.
+  bool list = false;             ///< List the suites instead.
+  bool scale = false;            ///< Measure the cost of scenes of growing size instead.
+  std::uint64_t soak_paths = 0;  ///< If not 0, run a soak test with this number of paths instead.
+  std::uint64_t soak_seed = 0;   ///< Seed of the first random scene.
   bool json = false;
 };
 
-/// Numbers of samples per pixel, ascending, from "4,8,16". Throws Error{usage} naming the option.
+/// Numbers of samples per pixel from a list such as "4,8,16", in ascending order without duplicates. Throws
+/// Error{usage} that names the option.
 [[nodiscard]] std::vector<int> parse_sample_counts(const std::string& option, const std::string& text);
 
-/// Integrators in the order of their list, from "auto,path". Throws Error{usage} naming the option.
+/// Integrators from a list such as "auto,path", in the order of `kIntegratorNames` without duplicates. Throws
+/// Error{usage} that names the option.
 [[nodiscard]] std::vector<Integrator> parse_integrators(const std::string& option, const std::string& text);
 
-/// Renders the suites against the clock and their references, and prints the figures. Returns the exit code.
+/// Renders the suites, compares them with their references and prints times and errors. Returns the exit
+/// code.
 int bench(const BenchOptions& options);
 
 }  // namespace abbe::cli

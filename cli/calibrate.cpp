@@ -9,11 +9,11 @@
 
 #include "calibration/output/ocio.h"
 #include "calibration/output/sensitivities.h"
-#include "cli/bench_plots.h"
 #include "cli/calibrate_folder.h"
 #include "cli/calibrate_page.h"
 #include "cli/calibrate_report.h"
 #include "cli/output_files.h"
+#include "cli/sensor_plots.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/invalid_input.h"
@@ -30,20 +30,19 @@ std::vector<fs::path> output_files(const CalibrateOptions& options) {
                                 : calibration_files(options.output, options.illuminants);
 }
 
-// In files as names of OpenColorIO's colour spaces, which ignore case: a later light would replace an earlier
-// one.
+// Rejects illuminants that are named twice. Written files compare the names without case, as OpenColorIO does
+// for colour spaces: one illuminant would replace the other.
 void require_named_once(const std::string& illuminants, bool are_written) {
-  std::map<std::string, std::string> seen;
+  std::map<std::string, std::string> by_key;
   for (const std::string& illuminant : split(illuminants, ',')) {
     const auto [earlier, is_new] =
-        seen.emplace(are_written ? lower_case(illuminant) : illuminant, illuminant);
+        by_key.emplace(are_written ? lower_case(illuminant) : illuminant, illuminant);
     if (is_new) continue;
     if (earlier->second == illuminant)
       throw Error(ErrorCode::usage, "--illuminant", fmt::format("{} is named twice", illuminant));
     throw Error(
         ErrorCode::usage, "--illuminant",
-        fmt::format("{} differs from {} in case only, of which the names of OpenColorIO know nothing: "
-                    "give one of them another name",
+        fmt::format("{} differs from {} only in case, which OpenColorIO ignores in names: rename one of them",
                     illuminant, earlier->second));
   }
 }
@@ -85,16 +84,16 @@ int calibrate_all(const CalibrateOptions& options) {
   return 0;
 }
 
-BenchAnswers read_bench(const CalibrateOptions& options) {
+MeasurementAnswers read_measurements(const CalibrateOptions& options) {
   Inputs inputs(options.max_memory_bytes);
-  BenchAnswers bench;
-  if (!options.transfer.empty()) bench.transfer = read_answer(options.transfer, transfer_plot, inputs);
-  if (!options.mtf.empty()) bench.mtf = read_answer(options.mtf, mtf_plot, inputs);
-  return bench;
+  MeasurementAnswers measurements;
+  if (!options.transfer.empty()) measurements.transfer = read_answer(options.transfer, transfer_plot, inputs);
+  if (!options.mtf.empty()) measurements.mtf = read_answer(options.mtf, mtf_plot, inputs);
+  return measurements;
 }
 
 void write_calibrations(const CalibrateOptions& options, const std::vector<CalibrationCase>& cases,
-                        const BenchAnswers& bench, Json& report) {
+                        const MeasurementAnswers& measurements, Json& report) {
   std::vector<CameraProfile> profiles;
   for (const CalibrationCase& one : cases) profiles.push_back(one.result.profile);
   const std::vector<fs::path> earlier = earlier_files(options.output);
@@ -113,13 +112,13 @@ void write_calibrations(const CalibrateOptions& options, const std::vector<Calib
   }
   std::vector<Channel> channels;
   if (!options.camera.empty()) {
-    Diagnostics again;  // whose warnings have been told with the calibrations
-    auto camera = camera_channels(options.camera, options.camera_response, again);
-    require_sound(again);
+    Diagnostics repeated;  // its warnings were printed with the calibrations
+    auto camera = camera_channels(options.camera, options.camera_response, repeated);
+    require_no_errors(repeated);
     channels = *std::move(camera);
     write("sensitivities.json", sensitivities_json(options.camera, channels));
   }
-  write("report.html", page_of(cases, channels, bench));
+  write("report.html", page_of(cases, channels, measurements));
   write("report.json", text(report, true));
   remove_unless_written(earlier, written.files);
 }
@@ -128,18 +127,19 @@ void write_calibrations(const CalibrateOptions& options, const std::vector<Calib
 
 int calibrate(const CalibrateOptions& options) {
   const bool is_real = !options.measured.empty() || !options.series.empty();
-  // The training set of a photographed chart is seen through the camera's curves.
+  // The raw values of the training reflectances are computed with the spectral responses of the photographed
+  // camera.
   const bool has_curves = !options.measured.empty() && !options.training.empty();
   if (has_curves && options.camera.empty())
-    throw Error(ErrorCode::usage, "--training", "needs --camera: the curves that it is seen through");
+    throw Error(ErrorCode::usage, "--training",
+                "needs --camera, whose spectral responses give the raw values of the training reflectances");
   if (int{options.all_cameras} + int{!options.camera.empty() && !has_curves} + int{is_real} != 1)
     throw Error(ErrorCode::usage, "calibrate",
-                "needs one of --camera, --all-cameras, or --measured, --series or both; --camera with "
-                "--measured only "
-                "for --training");
+                "needs either --camera, or --all-cameras, or --measured, --series or both (--camera with "
+                "--measured only for --training)");
   if ((is_real || options.all_cameras) && options.illuminants.find(',') != std::string::npos)
     throw Error(ErrorCode::usage, "--illuminant",
-                fmt::format("got {}, allowed one light, or several with --camera", options.illuminants));
+                fmt::format("got {}, allowed one illuminant, or several with --camera", options.illuminants));
   require_named_once(options.illuminants, !options.output.empty());
   std::vector<fs::path> inputs =
       files_among({options.camera, options.chart, options.test, options.measured.string()});
@@ -148,11 +148,12 @@ int calibrate(const CalibrateOptions& options) {
   for (const fs::path& file : {options.transfer, options.mtf}) {
     if (file.empty()) continue;
     if (options.output.empty())
-      throw Error(ErrorCode::usage, file.string(), "is for the page, which is written with --output alone");
+      throw Error(ErrorCode::usage, file.string(),
+                  "is used only on the page of the report, which needs --output");
     inputs.push_back(file);
   }
   require_distinct(output_files(options), inputs);
-  const BenchAnswers bench = read_bench(options);
+  const MeasurementAnswers measurements = read_measurements(options);
   if (options.all_cameras) return calibrate_all(options);
   if (is_real && options.measured.empty()) return calibrate_response(options);
   Inputs photographs(options.max_memory_bytes);
@@ -166,7 +167,7 @@ int calibrate(const CalibrateOptions& options) {
   require_distinct(output_files(options), photographs.files());
   Json report{{"calibrations", Json::array()}};
   for (const CalibrationCase& one : cases) report["calibrations"].push_back(json_of(one));
-  if (!options.output.empty()) write_calibrations(options, cases, bench, report);
+  if (!options.output.empty()) write_calibrations(options, cases, measurements, report);
   if (options.json)
     print(one_or_all(report["calibrations"]), true);
   else

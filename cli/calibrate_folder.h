@@ -7,14 +7,16 @@
 
 namespace abbe::cli {
 
-/// Every file that `abbe calibrate` may write into its folder for these illuminants, which commas separate.
+/// All files that `abbe calibrate` may write to its folder for these illuminants, which are separated by
+/// commas.
 [[nodiscard]] std::vector<std::filesystem::path> calibration_files(const std::filesystem::path& folder,
                                                                    const std::string& illuminants);
 
-/// The files of the folder that an earlier `abbe calibrate` left there, by its report and the names it gives.
+/// Files of an earlier `abbe calibrate` in the folder, from its report and the names in it.
 [[nodiscard]] std::vector<std::filesystem::path> earlier_files(const std::filesystem::path& folder);
 
-/// Removes those that are not among the written ones: they may be of another camera. Throws Error{output}.
+/// Removes the earlier files that are not among the written ones, since they may belong to another camera.
+/// Throws Error{output}.
 void remove_unless_written(std::span<const std::filesystem::path> earlier,
                            std::span<const std::filesystem::path> written);
 

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "calibration/judge/camera_space.h"
-#include "cli/bench_plots.h"
+#include "calibration/metrics/camera_space.h"
 #include "cli/page.h"
+#include "cli/sensor_plots.h"
 #include "validation/picture/display_color.h"
 #include "validation/plot/line_plot.h"
 #include "validation/plot/svg.h"
@@ -16,24 +16,24 @@ namespace {
 
 constexpr double kHistogramStep = 0.25;
 
-std::string curves(const std::vector<Channel>& channels) {
-  double greatest = 0;
-  for (const Channel& channel : channels) greatest = std::max(greatest, channel.weight.max());
-  LinePlot plot{"Energy responses", "wavelength [nm]", "share of the greatest", {}};
+std::string response_plot(const std::vector<Channel>& channels) {
+  double max_weight = 0;
+  for (const Channel& channel : channels) max_weight = std::max(max_weight, channel.weight.max());
+  LinePlot plot{"Spectral responses to energy", "wavelength [nm]", "relative to the maximum", {}};
   for (std::size_t i = 0; i < channels.size(); ++i) {
     PlotSeries series{channels[i].name, {}, line_color(channels[i].name, i)};
     for (int nm = SumRange{}.low_nm; nm <= SumRange{}.high_nm; nm += 2)
-      series.points.emplace_back(nm, channels[i].weight(nm) / greatest);
+      series.points.emplace_back(nm, channels[i].weight(nm) / max_weight);
     plot.series.push_back(std::move(series));
   }
   return inline_svg(svg(plot));
 }
 
-std::string judged(const std::vector<Channel>& channels) {
+std::string camera_metrics(const std::vector<Channel>& channels) {
   const CameraSpace space = camera_space(channels);
   return fmt::format(
-      "<p>Vora value {:.3f}; left of x, y, z by the best combination of the channels: {:.0f}, {:.0f}, "
-      "{:.0f} %; sensitivity index {:.1f}.</p>\n",
+      "<p>Vora value {:.3f}; residual of x, y and z after the best fit by the channels: {:.0f}, {:.0f} and "
+      "{:.0f} %; sensitivity metamerism index {:.1f}.</p>\n",
       space.vora, 100 * space.luther[0], 100 * space.luther[1], 100 * space.luther[2],
       sensitivity_index(channels));
 }
@@ -43,21 +43,21 @@ std::string css(const XYZ& xyz) {
   return fmt::format("rgb({:.1f}% {:.1f}% {:.1f}%)", 100 * code[0], 100 * code[1], 100 * code[2]);
 }
 
-// What the patch is, what the balanced camera values look like, and what the correction makes of them.
-std::string patch(const CameraCalibration& c, std::size_t i) {
+// Patch in three colours: the reference, the camera values with white balance only, and the corrected values.
+std::string patch_html(const CameraCalibration& c, std::size_t i) {
   const auto to_d65 = [&](const XYZ& xyz) { return multiply(c.profile.adaptation, xyz); };
   const Raw& raw = c.colors.raw[i];
-  const DisplayColor plain = display_code({raw[0], raw[1], raw[2]});
+  const DisplayColor balanced = display_code({raw[0], raw[1], raw[2]});
   return fmt::format(
       "<div class=\"patch\"><div class=\"swatch\"><div style=\"background: {}\"></div><div "
       "style=\"background: rgb({:.1f}% {:.1f}% {:.1f}%)\"></div><div style=\"background: "
       "{}\"></div></div>{}<br><span class=\"soft\">{:.2f}, left out {:.2f}</span></div>\n",
-      css(to_d65(c.colors.xyz[i])), 100 * plain[0], 100 * plain[1], 100 * plain[2],
+      css(to_d65(c.colors.xyz[i])), 100 * balanced[0], 100 * balanced[1], 100 * balanced[2],
       css(to_d65(c.correction.correction(raw))), escaped(c.patches[i]), c.correction.errors.delta_e[i],
       c.unseen.delta_e[i]);
 }
 
-std::string figures(const CameraCalibration& c) {
+std::string error_table(const CameraCalibration& c) {
   const auto row = [](const char* name, const PatchErrors& errors) {
     return fmt::format("<tr><td>{}</td><td>{:.3f}</td><td>{:.3f}</td></tr>\n", name, errors.mean, errors.max);
   };
@@ -70,9 +70,9 @@ std::string figure_cell(const Json& value) {
   return value.is_number() ? fmt::format("{:.4g}", value.get<double>()) : table_cell(value);
 }
 
-// Figures of each channel by name, but for those that are lists.
+// Table of the figures of each channel, without those that are lists.
 std::string noise_section(const Json& answer) {
-  std::string html = "<h2>Noise and range</h2>\n<table>\n";
+  std::string html = "<h2>Noise and dynamic range</h2>\n<table>\n";
   for (const auto& [name, values] : answer.items()) {
     if (!values.is_array() || values.empty() || values.front().is_array()) continue;
     html += fmt::format("<tr><td>{}</td>", escaped(name));
@@ -83,20 +83,20 @@ std::string noise_section(const Json& answer) {
 }
 
 std::string sharpness_section(const Json& answer) {
-  return fmt::format("<h2>Sharpness</h2>\n<p>Modulation of one half at {} cycles per pixel.</p>\n",
+  return fmt::format("<h2>Sharpness</h2>\n<p>MTF50: the modulation is one half at {} cycles per pixel.</p>\n",
                      figure_cell(answer.value("mtf50", Json()))) +
          inline_svg(mtf_plot(answer));
 }
 
-std::string section(const CalibrationCase& one) {
+std::string calibration_section(const CalibrationCase& one) {
   const CameraCalibration& c = one.result;
   std::string html = fmt::format(
-      "<h2>{} under {}</h2>\n<p>Chart {}. Each patch: as it is, as the balanced camera "
-      "sees it, corrected; its CIEDE2000 under the fit, and under one that has not seen "
-      "it.</p>\n<div class=\"patches\">\n",
+      "<h2>{} under {}</h2>\n<p>Chart {}. Each patch shows the reference colour, the camera values with "
+      "white balance only, and the corrected colour. The numbers are CIEDE2000 of the fit, and of a fit that "
+      "left the patch out.</p>\n<div class=\"patches\">\n",
       escaped(one.camera), escaped(c.profile.light), escaped(one.chart));
-  for (std::size_t i = 0; i < c.patches.size(); ++i) html += patch(c, i);
-  html += "</div>\n" + figures(c);
+  for (std::size_t i = 0; i < c.patches.size(); ++i) html += patch_html(c, i);
+  html += "</div>\n" + error_table(c);
   return html + inline_svg(histogram_svg(c.unseen.delta_e, kHistogramStep, "Patches left out of the fit",
                                          "CIEDE2000"));
 }
@@ -104,13 +104,13 @@ std::string section(const CalibrationCase& one) {
 }  // namespace
 
 std::string page_of(const std::vector<CalibrationCase>& cases, const std::vector<Channel>& channels,
-                    const BenchAnswers& bench) {
+                    const MeasurementAnswers& measurements) {
   const std::string camera = cases.empty() ? "" : cases.front().camera;
   std::string html = page_head(camera);
-  if (channels.size() == 3) html += curves(channels) + judged(channels);
-  if (!bench.transfer.is_null()) html += noise_section(bench.transfer);
-  if (!bench.mtf.is_null()) html += sharpness_section(bench.mtf);
-  for (const CalibrationCase& one : cases) html += section(one);
+  if (channels.size() == 3) html += response_plot(channels) + camera_metrics(channels);
+  if (!measurements.transfer.is_null()) html += noise_section(measurements.transfer);
+  if (!measurements.mtf.is_null()) html += sharpness_section(measurements.mtf);
+  for (const CalibrationCase& one : cases) html += calibration_section(one);
   return html + kPageEnd;
 }
 

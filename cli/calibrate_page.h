@@ -8,18 +8,19 @@
 
 namespace abbe::cli {
 
-/// What a page tells of a sensor besides its colours: answers of `abbe transfer` and `abbe mtf`; null:
-/// nothing.
-struct BenchAnswers {
+/// Answers of `abbe transfer` and `abbe mtf` for a page; null if absent.
+struct MeasurementAnswers {
   Json transfer;
   Json mtf;
 };
 
-/// Calibrations as one page of HTML: the camera's curves and how near they come to an observer (when
-/// `channels` are known), noise, range and modulation transfer as they were measured, and under each light
-/// the patches as they are, balanced only, and corrected, the distribution of their differences, and the
-/// figures.
+/// HTML page of calibrations. It shows:
+/// - the camera's spectral responses and their fit to an observer, if `channels` are known;
+/// - the measured noise, dynamic range and modulation transfer;
+/// - the reference patches under each illuminant, with white balance only, and corrected;
+/// - the distribution of their colour differences, and all figures.
 [[nodiscard]] std::string page_of(const std::vector<CalibrationCase>& cases,
-                                  const std::vector<Channel>& channels, const BenchAnswers& bench);
+                                  const std::vector<Channel>& channels,
+                                  const MeasurementAnswers& measurements);
 
 }  // namespace abbe::cli

@@ -42,7 +42,7 @@ Json correction_json(const CameraCalibration& c) {
   return correction;
 }
 
-// The colours as they look when the light's white is another.
+// Patch colours after chromatic adaptation to another white.
 PatchColors adapted(PatchColors colors, const XYZ& white) {
   const Matrix3 to_white = adaptation(colors.white, white).value();
   for (XYZ& xyz : colors.xyz) xyz = multiply(to_white, xyz);
@@ -54,12 +54,12 @@ std::string row(const std::string& name, double fit, double start, double unseen
   return fmt::format("{:<28}{:>10.4f}{:>16.4f}{:>12.4f}\n", name, fit, start, unseen);
 }
 
-// The figures of a camera as the table shows them, with their headings.
-struct Figure {
+// Column of the table of cameras.
+struct QualityColumn {
   const char* heading;
-  double (*of)(const CameraQuality&);
+  double (*value)(const CameraQuality&);
 };
-constexpr Figure kFigures[] = {
+constexpr QualityColumn kQualityColumns[] = {
     {"LS mean", [](const CameraQuality& q) { return q.least_squares.mean; }},
     {"max", [](const CameraQuality& q) { return q.least_squares.max; }},
     {"matrix", [](const CameraQuality& q) { return q.matrix.mean; }},
@@ -97,7 +97,7 @@ Json json_of(const ChannelResponse& r) {
 }
 
 std::string table_of(const std::vector<ChannelResponse>& responses) {
-  const auto percent = [](double share) { return fmt::format("{:.4f}", 100 * share); };
+  const auto percent = [](double fraction) { return fmt::format("{:.4f}", 100 * fraction); };
   std::string text = fmt::format("{:<10}{:>22}{:>18}{:>14}{:>9}\n", "channel", "response error [%]",
                                  "uncertainty [%]", "residual [%]", "samples");
   for (const ChannelResponse& r : responses)
@@ -124,17 +124,17 @@ std::string csv_of(const std::vector<ChannelResponse>& responses, const std::str
   return text + "\n";
 }
 
-Json json_of(const CalibrationCase& one) {
-  const CameraCalibration& c = one.result;
+Json json_of(const CalibrationCase& calibration) {
+  const CameraCalibration& c = calibration.result;
   Json answer;
-  answer["camera"] = one.camera;
+  answer["camera"] = calibration.camera;
   answer["illuminant"] = c.profile.light;
-  answer["chart"] = one.chart;
-  if (!one.response.empty()) {
-    answer["planted_response"] = one.response;
+  answer["chart"] = calibration.chart;
+  if (!calibration.response.empty()) {
+    answer["planted_response"] = calibration.response;
     answer["times_s"] = c.times_s;
   }
-  if (one.bits > 0) answer["bits"] = one.bits;
+  if (calibration.bits > 0) answer["bits"] = calibration.bits;
   answer["responses"] = Json::array();
   for (const ChannelResponse& r : c.responses) answer["responses"].push_back(json_of(r));
   answer["gains"] = c.profile.gains;
@@ -154,9 +154,9 @@ Json json_of(const CalibrationCase& one) {
   answer["unseen_dE00_mean"] = c.unseen.mean;
   answer["unseen_dE00_mean_95"] = json_of(c.unseen_mean);
   answer["unseen_dE00_max"] = c.unseen.max;
-  if (one.test) {
-    answer["test_dE00_mean"] = one.test->mean;
-    answer["test_dE00_max"] = one.test->max;
+  if (calibration.test) {
+    answer["test_dE00_mean"] = calibration.test->mean;
+    answer["test_dE00_max"] = calibration.test->max;
   }
   answer["patches"] = Json::array();
   for (std::size_t i = 0; i < c.patches.size(); ++i)
@@ -166,10 +166,11 @@ Json json_of(const CalibrationCase& one) {
   return answer;
 }
 
-std::string table_of(const CalibrationCase& one) {
-  const CameraCalibration& c = one.result;
-  std::string text = fmt::format("{} under {}, chart {}", one.camera, c.profile.light, one.chart);
-  text += one.bits == 0 ? "\n" : fmt::format(", {} bits\n", one.bits);
+std::string table_of(const CalibrationCase& calibration) {
+  const CameraCalibration& c = calibration.result;
+  std::string text =
+      fmt::format("{} under {}, chart {}", calibration.camera, c.profile.light, calibration.chart);
+  text += calibration.bits == 0 ? "\n" : fmt::format(", {} bits\n", calibration.bits);
   if (!c.responses.empty()) text += "\n" + table_of(c.responses);
   const CorrectionFit& fit = c.correction;
   text += fmt::format("\n{:<28}{:>10}{:>16}{:>12}\n", "patch", "dE2000", "least squares", "left out");
@@ -182,15 +183,17 @@ std::string table_of(const CalibrationCase& one) {
   for (const ModelCandidate& candidate : c.candidates)
     text += fmt::format("{}: mean left out {:.4f}{}\n", name_of(candidate.model), candidate.unseen_mean,
                         candidate.model == fit.correction.model ? ", chosen" : "");
-  if (one.test)
-    text += fmt::format("on the test chart: mean {:.4f}, max {:.4f}\n", one.test->mean, one.test->max);
+  if (calibration.test)
+    text += fmt::format("on the test chart: mean {:.4f}, max {:.4f}\n", calibration.test->mean,
+                        calibration.test->max);
   return text;
 }
 
 Json dng_json(const std::vector<CalibrationCase>& cases) {
   std::vector<DngLight> lights;
-  for (const CalibrationCase& one : cases)
-    if (const auto light = dng_light(one.result.profile, one.result.colors.white)) lights.push_back(*light);
+  for (const CalibrationCase& calibration : cases)
+    if (const auto light = dng_light(calibration.result.profile, calibration.result.colors.white))
+      lights.push_back(*light);
   if (lights.size() < 2 || lights.size() < cases.size()) return {};
   const auto [warm, cool] = std::minmax_element(
       lights.begin(), lights.end(), [](const DngLight& a, const DngLight& b) { return a.kelvin < b.kelvin; });
@@ -204,13 +207,13 @@ Json dng_json(const std::vector<CalibrationCase>& cases) {
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const DngLight& light = lights[i];
     if (&light == &*warm || &light == &*cool) continue;
-    const CameraCalibration& own = cases[i].result;
-    const PatchColors seen = adapted(own.colors, dng_white());
-    const ColorCorrection between = linear_correction(forward_between(*warm, *cool, light.kelvin));
+    const CameraCalibration& calibration = cases[i].result;
+    const PatchColors adapted_colors = adapted(calibration.colors, dng_white());
+    const ColorCorrection interpolated = linear_correction(forward_between(*warm, *cool, light.kelvin));
     answer["between"].push_back({{"light", light.light},
                                  {"CCT_K", light.kelvin},
-                                 {"dE00_mean", patch_errors(seen, between).mean},
-                                 {"own_dE00_mean", own.correction.errors.mean}});
+                                 {"dE00_mean", patch_errors(adapted_colors, interpolated).mean},
+                                 {"own_dE00_mean", calibration.correction.errors.mean}});
   }
   return answer;
 }
@@ -234,13 +237,13 @@ std::string table_of(const std::vector<CameraQuality>& all) {
   std::string text;
   for (const CameraQuality& q : all) {
     text += fmt::format("{:<36}", q.camera);
-    for (const Figure& figure : kFigures) text += fmt::format("{:>9.2f}", figure.of(q));
+    for (const QualityColumn& column : kQualityColumns) text += fmt::format("{:>9.2f}", column.value(q));
     text += '\n';
   }
-  for (const Figure& figure : kFigures) {
+  for (const QualityColumn& column : kQualityColumns) {
     std::vector<double> values;
-    for (const CameraQuality& q : all) values.push_back(figure.of(q));
-    heading += fmt::format("{:>9}", figure.heading);
+    for (const CameraQuality& q : all) values.push_back(column.value(q));
+    heading += fmt::format("{:>9}", column.heading);
     medians += fmt::format("{:>9.2f}", median(std::move(values)));
   }
   return heading + '\n' + text + medians + '\n';

@@ -21,21 +21,21 @@ namespace abbe::cli {
 
 inline constexpr double kAnyNumber = std::numeric_limits<double>::max();
 
-/// A subcommand with its own options, which outlive the parsing.
+/// A subcommand and its options, which outlive the parsing.
 template <typename Options>
-struct Sub {
+struct Subcommand {
   CLI::App* app;
   std::shared_ptr<Options> options = std::make_shared<Options>();
 
-  Sub(CLI::App& parent, const std::string& name, const std::string& help, Command& command,
-      int (*run)(const Options&))
+  Subcommand(CLI::App& parent, const std::string& name, const std::string& help, Command& command,
+             int (*run)(const Options&))
       : app(parent.add_subcommand(name, help)) {
-    app->callback([&command, run, kept = options] { command = [run, kept] { return run(*kept); }; });
+    app->callback([&command, run, owned = options] { command = [run, owned] { return run(*owned); }; });
   }
   Options* operator->() const { return options.get(); }
 };
 
-/// An option whose text `parse` turns into a value.
+/// Adds an option whose text `parse` converts to a value.
 template <typename T, typename Parse>
 CLI::Option* add_parsed(CLI::App& app, const std::string& flag, T& value, Parse parse,
                         const std::string& help, const std::string& type) {
@@ -45,7 +45,7 @@ CLI::Option* add_parsed(CLI::App& app, const std::string& flag, T& value, Parse 
       ->type_name(type);
 }
 
-/// What `add_parsed` parses by: values within limits, both included.
+/// Parsers for `add_parsed` of numbers in [low, high].
 inline auto numbers_in(double low, double high) {
   return [low, high](const std::string& option, const std::string& text) {
     return parse_numbers(option, text, low, high);
@@ -68,7 +68,7 @@ auto integer_in(std::int64_t low, std::int64_t high) {
   };
 }
 
-/// One of some names, whose values count from 0 in their order.
+/// Parser for one of some names; the enumerator is the index of the name.
 template <typename T>
 auto one_of(std::vector<std::string> names) {
   return [names = std::move(names)](const std::string& option, const std::string& text) {
@@ -76,11 +76,11 @@ auto one_of(std::vector<std::string> names) {
   };
 }
 
-/// What the curves of a camera multiply.
+/// Adds the option for the quantity that a camera's spectral responses multiply, energy or photons.
 inline CLI::Option* add_response(CLI::App& app, const std::string& flag, std::optional<ResponseKind>& value) {
   return add_parsed(app, flag, value, one_of<ResponseKind>({"energy", "quantum"}),
-                    "What the camera's curves multiply, energy or photons (default: photons for columns "
-                    "named QE, else energy)",
+                    "Quantity that the camera's spectral responses multiply: energy, or photons for quantum "
+                    "(default: quantum for columns named QE, otherwise energy)",
                     "energy|quantum");
 }
 
@@ -90,21 +90,23 @@ inline Imath::V3d parse_vector(const std::string& option, const std::string& tex
 }
 
 inline void add_json(CLI::App& app, bool& json) {
-  app.add_flag("--json", json, "Print one JSON object");
+  app.add_flag("--json", json, "Print the answer as one JSON object");
 }
 
-/// `--max-memory`, of commands that read scenes, films or photographs.
+/// Adds `--max-memory` for commands that read scenes, films or photographs.
 template <typename Options>
 void add_max_memory(CLI::App& app, const std::shared_ptr<Options>& options) {
   add_parsed(app, "--max-memory", options->max_memory_bytes, parse_bytes,
-             "Memory that scenes, images, meshes and films may take, as 4G (default: 80 % of the machine's)",
+             "Maximum memory of scenes, images, meshes and films in bytes, or with k, M or G such as 4G "
+             "(default: 80 % of the machine's memory)",
              "SIZE");
 }
 
-/// `--set`, which may be repeated.
+/// Adds `--set`, which may be repeated.
 template <typename Options>
 void add_overrides(CLI::App& app, const std::shared_ptr<Options>& options,
-                   const std::string& help = "Replace a value of the scene file; may be repeated") {
+                   const std::string& help =
+                       "Replace a value of the scene file, such as /render/samples=64; may be repeated") {
   app.add_option_function<std::vector<std::string>>(
          "--set",
          [options](const std::vector<std::string>& texts) {

@@ -8,10 +8,11 @@ class App;
 
 namespace abbe::cli {
 
-/// What the parsed command line asks to be run; gives the exit code.
+/// A chosen command with its options; returns the exit code of the program.
 using Command = std::function<int()>;
 
-/// Describes every command and its options to `app`, whose parsing then sets `command`. Both outlive it.
+/// Adds all commands with their options to `app`, whose parsing sets `command`. Both must outlive the
+/// parsing.
 void add_commands(CLI::App& app, Command& command);
 
 }  // namespace abbe::cli

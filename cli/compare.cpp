@@ -16,7 +16,7 @@
 #include "sensor/film/recorded_white.h"
 #include "validation/picture/difference_maps.h"
 #include "validation/statistics/chart_difference.h"
-#include "validation/statistics/common_part.h"
+#include "validation/statistics/common_areas.h"
 #include "validation/statistics/polarisation_difference.h"
 
 namespace abbe::cli {
@@ -44,10 +44,10 @@ void add_color(Json& answer, const std::string& key, const std::optional<ColorDi
   answer[key + "_max"] = color ? Json(color->max) : Json();
 }
 
-// Of films that measure it.
+// Adds the difference in polarisation if both films measure it.
 void add_polarisation(Json& answer, const std::optional<PolarisationDifference>& difference) {
   if (!difference) return;
-  answer["polarised_share"] = difference->polarised_share;
+  answer["polarised_share"] = difference->polarised_fraction;
   answer["degree_mean"] = difference->degree_mean;
   answer["degree_max"] = difference->degree_max;
   answer["angle_deg_mean"] = difference->angle_deg_mean;
@@ -95,7 +95,7 @@ std::string histogram_of(const std::string& map) {
   return map + "_histogram";
 }
 
-// The files that maps may be written to, none of which may be read.
+// Files that maps may be written to. None of them may be an input.
 std::vector<std::filesystem::path> map_files(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   if (folder.empty()) return files;
@@ -121,15 +121,16 @@ Scene load_chart_scene(const std::filesystem::path& path, Inputs& inputs) {
   return accepted(load_scene(path, {}, diagnostics, &inputs), diagnostics);
 }
 
-// The figures of two images, and their maps if wanted.
+// Adds the figures of two images and writes their maps if requested.
 void compare_pixels(const CompareOptions& options, const Image& image, const Image& reference, Json& answer) {
   std::optional<Chromaticity> white;
   if (!options.white.empty())
-    white = asked_white(options.white, recorded_white(reference) ? reference : image, "--white").xy;
+    white = requested_white(options.white, recorded_white(reference) ? reference : image, "--white").xy;
   const Comparison c = compare_images(image, reference, white);
-  if (const auto untold = channel_of_untold_unit(image, reference))
-    say(fmt::format("warning: only one of the images tells the unit of channel {}", *untold));
-  if (const auto uncompared = uncompared_channels(image, reference)) say("warning: " + *uncompared);
+  if (const auto undeclared = channel_with_undeclared_unit(image, reference))
+    print_message(
+        fmt::format("warning: only one of the images declares the unit of channel {}", *undeclared));
+  if (const auto uncompared = uncompared_channels(image, reference)) print_message("warning: " + *uncompared);
   answer["relMSE"] = c.rel_mse;
   answer["rmse"] = c.rmse;
   answer["mean_ratio"] = c.mean_ratio;
@@ -144,34 +145,35 @@ void compare_pixels(const CompareOptions& options, const Image& image, const Ima
       options.maps, difference_maps(relative_errors(image, reference), color, image.width, image.height));
 }
 
-// Of films with crops or gaps the pixels that both have: all others are black for want of a render.
+// Compares the pixels that both films contain. Pixels outside the crops of a film are black because they were
+// not rendered.
 void compare_films(const CompareOptions& options, const Image& image, const Image& reference, Json& answer) {
-  const std::vector<Crop> part = common_part(image, reference);
+  const std::vector<Crop> part = common_areas(image, reference);
   if (part.front() == Crop{0, 0, image.width, image.height})
     return compare_pixels(options, image, reference, answer);
   if (part.size() > 1 && !options.maps.empty())
     throw Error(
         ErrorCode::usage, "--maps",
-        fmt::format("needs films that have a rectangle of pixels in common (got areas {})", to_text(part)));
+        fmt::format("needs films whose common pixels form one rectangle (got the areas {})", to_text(part)));
   Json areas = Json::array();
   for (const Crop& area : part) areas.push_back({area.x0, area.y0, area.x1, area.y1});
   if (part.size() == 1)
     answer["crop"] = areas.front();
   else
     answer["areas"] = std::move(areas);
-  compare_pixels(options, part_of(image, part), part_of(reference, part), answer);
+  compare_pixels(options, extract_areas(image, part), extract_areas(reference, part), answer);
 }
 
 }  // namespace
 
 int compare(const CompareOptions& options) {
   if (options.reference.empty() && options.chart.empty())
-    throw Error(ErrorCode::usage, options.image.string(),
-                "is compared with nothing: a reference or --chart is needed");
+    throw Error(ErrorCode::usage, options.image.string(), "needs a reference or --chart to compare with");
   if (options.reference.empty() && !options.maps.empty())
     throw Error(ErrorCode::usage, "--maps", "needs a reference");
   if (options.reference.empty() && !options.white.empty())
-    throw Error(ErrorCode::usage, "--white", "needs a reference: a chart is seen in its scene's light");
+    throw Error(ErrorCode::usage, "--white",
+                "needs a reference, since a chart is evaluated under the light of its scene");
   if (!options.maps.empty()) {
     std::error_code ignored;
     std::filesystem::create_directories(options.maps, ignored);

@@ -12,12 +12,12 @@
 namespace abbe::cli {
 namespace {
 
-// Finds the command and the place of the word to complete. Works on the line itself, because bash cuts its
-// words at = and :, and takes from the answers what stands before the last of these, as bash will not replace
-// it.
+// Finds the command and the position of the word to complete. It reads the line itself, since bash splits
+// words at = and :. For the same reason it removes the text up to the last colon from the answers, which bash
+// does not replace.
 constexpr std::string_view kScript = R"BASH(
 _abbe() {
-  local line=${COMP_LINE:0:COMP_POINT} path=abbe place=0 kind= commands= options= i
+  local line=${COMP_LINE:0:COMP_POINT} path=abbe position=0 kind= commands= options= i
   local -a words
   read -ra words <<<"$line"
   [[ $line == *[[:space:]] ]] && words+=("")
@@ -34,7 +34,7 @@ _abbe() {
           path+=" ${words[i]}"
           _abbe_words "$path"
         else
-          ((++place))
+          ((++position))
         fi
         ;;
     esac
@@ -50,7 +50,7 @@ _abbe() {
     elif [[ $commands ]]; then
       kind="words $commands"
     else
-      _abbe_kind "$path $((place + 1))" || kind="words $options"
+      _abbe_kind "$path $((position + 1))" || kind="words $options"
     fi
   fi
   _abbe_answer "$program" "$value" $kind
@@ -99,7 +99,7 @@ std::string without(std::string text, std::string_view characters) {
   return text;
 }
 
-// "FILE.exr|FILE.abbepart" and the like.
+// True for placeholders of files, such as "FILE.exr|FILE.abbepart".
 bool names_files(const std::vector<std::string>& words) {
   return std::all_of(words.begin(), words.end(), [](const std::string& word) {
     const std::size_t dot = word.find('.');
@@ -107,9 +107,9 @@ bool names_files(const std::vector<std::string>& words) {
   });
 }
 
-// What `_abbe_answer` is told of a value.
+// Arguments of `_abbe_answer` for the placeholder of a value.
 std::string kind_of(const std::string& value, const CommandUsage& program) {
-  const std::vector<std::string> kinds = name_kinds();
+  const std::vector<std::string> kinds = table_kinds();
   std::vector<std::string> words = split(without(value, "[]"), '|');
   if (names_files(words)) {
     for (std::string& word : words) word = without(word.substr(word.find('.') + 1), ".");
@@ -128,13 +128,13 @@ std::string kind_of(const std::string& value, const CommandUsage& program) {
   return std::find(kinds.begin(), kinds.end(), kind) != kinds.end() ? "names " + kind : "none";
 }
 
-// What `_abbe_kind` is asked for: every name of an option, or the place of an argument, or of all from there
-// on.
-std::string keys_of(const OptionUsage& option, const std::string& command, int& place) {
+// Patterns of `_abbe_kind` for one option: all its names, or the position of an argument. A repeated argument
+// matches all positions.
+std::string keys_of(const OptionUsage& option, const std::string& command, int& position) {
   std::vector<std::string> keys;
   for (const std::string& name : option.names) keys.push_back(fmt::format("'{} {}'", command, name));
   if (keys.empty() && option.value.ends_with("...")) return fmt::format("'{} '[1-9]*", command);
-  if (keys.empty()) keys.push_back(fmt::format("'{} {}'", command, ++place));
+  if (keys.empty()) keys.push_back(fmt::format("'{} {}'", command, ++position));
   return fmt::format("{}", fmt::join(keys, " | "));
 }
 
@@ -150,10 +150,10 @@ void add_words(const CommandUsage& command, std::string& script) {
 }
 
 void add_kinds(const CommandUsage& command, const CommandUsage& program, std::string& script) {
-  int place = 0;
+  int position = 0;
   for (const OptionUsage& option : command.options)
     if (!option.value.empty())
-      script += fmt::format("    {}) kind='{}' ;;\n", keys_of(option, command.name, place),
+      script += fmt::format("    {}) kind='{}' ;;\n", keys_of(option, command.name, position),
                             kind_of(option.value, program));
   for (const CommandUsage& inner : command.commands) add_kinds(inner, program, script);
 }
@@ -166,7 +166,8 @@ std::string bash_completion(const CommandUsage& program) {
       "_abbe_words() {  # COMMAND: sets the commands and options that may follow\n  case $1 in\n";
   add_words(program, script);
   script +=
-      "  esac\n}\n\n_abbe_kind() {  # COMMAND OPTION or COMMAND PLACE: sets the kind of its value, if it has "
+      "  esac\n}\n\n_abbe_kind() {  # COMMAND OPTION or COMMAND POSITION: sets the kind of its value, if it "
+      "has "
       "one\n  case $1 in\n";
   add_kinds(program, program, script);
   script += "    *) return 1 ;;\n  esac\n}\n";

@@ -36,7 +36,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// The file of an exposure among several, counted from 1: "dark_0003.tif".
+// File of one of several exposures, numbered from 1: "dark_0003.tif".
 fs::path numbered(const fs::path& path, std::uint32_t frame, const DevelopOptions& options) {
   if (path.empty() || options.frames == 1) return path;
   return path.parent_path() /
@@ -50,7 +50,7 @@ fs::path values_file(const DevelopOptions& options) {
   return options.polarisation / "polarisation.exr";
 }
 
-// The files that tell of polarisation, in a folder that is made for them.
+// Files of the polarisation maps and values. Creates their folder.
 std::vector<fs::path> polarisation_files(const DevelopOptions& options) {
   if (options.polarisation.empty()) return {};
   std::error_code ignored;
@@ -60,35 +60,38 @@ std::vector<fs::path> polarisation_files(const DevelopOptions& options) {
   return files;
 }
 
-bool sets(const DevelopOptions& options, std::string_view pointer) {
+bool overrides_pointer(const DevelopOptions& options, std::string_view pointer) {
   return std::any_of(options.overrides.begin(), options.overrides.end(),
                      [pointer](const Override& o) { return o.pointer == pointer; });
 }
 
-// Refuses options that others leave without effect.
+// Rejects options that have no effect because of others.
 void require_effect(const DevelopOptions& options) {
-  const auto refuse = [](const char* option, std::string_view why) {
+  const auto reject = [](const char* option, std::string_view why) {
     throw Error(ErrorCode::usage, option, std::string(why));
   };
-  const auto one_of_two = [&](const char* option, std::string_view pointer) {
-    if (sets(options, pointer))
-      refuse(option, fmt::format("is what --set {} says too: one of them", pointer));
+  const auto reject_override = [&](const char* option, std::string_view pointer) {
+    if (overrides_pointer(options, pointer))
+      reject(option, fmt::format("sets the same value as --set {}: give only one of them", pointer));
   };
-  if (options.iso) one_of_two("--iso", kIsoPointer);
-  if (options.white) one_of_two("--white", kWhitePointer);
-  const char* shows = options.display_exposure       ? "--exposure"
-                      : !options.exposure_of.empty() ? "--exposure-of"
-                      : options.flattens_field       ? "--field"
-                      : options.white                ? "--white"
-                      : sets(options, kWhitePointer) ? kWhitePointer
-                                                     : "";
-  if (*shows != 0 && options.display.empty() && options.outputs.empty())
-    refuse(shows, "only what is written takes it (allowed with --display or -o)");
+  if (options.iso) reject_override("--iso", kIsoPointer);
+  if (options.white) reject_override("--white", kWhitePointer);
+  const char* display_option = options.display_exposure                    ? "--exposure"
+                               : !options.exposure_of.empty()              ? "--exposure-of"
+                               : options.flattens_field                    ? "--field"
+                               : options.white                             ? "--white"
+                               : overrides_pointer(options, kWhitePointer) ? kWhitePointer
+                                                                           : "";
+  if (*display_option != 0 && options.display.empty() && options.outputs.empty())
+    reject(display_option, "has no effect without an output (allowed with --display or -o)");
   if (!options.frame) return;
   if (!options.lights.empty())
-    refuse("--light", "a frame of --frame sees no scene, and no light of one (allowed without --frame)");
+    reject(
+        "--light",
+        "has no effect on a calibration frame, which does not contain the scene (allowed without --frame)");
   if (options.exposure_s && std::holds_alternative<BiasFrame>(*options.frame))
-    refuse("--exposure-s", "a bias frame is exposed for no time (allowed with --frame dark or flat)");
+    reject("--exposure-s",
+           "has no effect on a bias frame, whose exposure time is zero (allowed with --frame dark or flat)");
 }
 
 std::vector<fs::path> check_outputs(const DevelopOptions& options) {
@@ -107,7 +110,7 @@ std::vector<fs::path> check_outputs(const DevelopOptions& options) {
   return files;
 }
 
-// What the picture is shown by; a user's configuration matters to nothing else.
+// View of the picture. The configuration in $OCIO is ignored if no picture is written.
 ViewOptions view_of(const DevelopOptions& options) {
   if (options.display.empty()) return {};
   ViewOptions view = options.view;
@@ -115,23 +118,23 @@ ViewOptions view_of(const DevelopOptions& options) {
   return view;
 }
 
-// The white asked for, of --set the last, and what is left to ask for.
-struct Asked {
+// Requested white, from --white or the last --set, and the other overrides.
+struct RequestedChanges {
   std::optional<std::string> white;
-  std::vector<Override> others;
+  std::vector<Override> overrides;
 };
-Asked asked(const DevelopOptions& options) {
-  Asked all{options.white, {}};
+RequestedChanges requested_changes(const DevelopOptions& options) {
+  RequestedChanges all{options.white, {}};
   for (const Override& o : options.overrides)
     if (o.pointer == kWhitePointer)
       all.white = o.value;
     else
-      all.others.push_back(o);
-  if (options.iso) all.others.push_back({kIsoPointer, fmt::format("{}", *options.iso), "--iso"});
+      all.overrides.push_back(o);
+  if (options.iso) all.overrides.push_back({kIsoPointer, fmt::format("{}", *options.iso), "--iso"});
   return all;
 }
 
-// The option that asks for the white.
+// Option that requests the white, for error messages.
 const char* white_option(const DevelopOptions& options) {
   return options.white ? "--white" : "--set";
 }
@@ -141,50 +144,50 @@ FilmSensor sensor_of(const Image& film, const fs::path& path, const std::vector<
   Diagnostics diagnostics;
   const auto xy = white ? std::optional(white->xy) : std::nullopt;
   FilmSensor sensor =
-      accepted(film_sensor(film, path, overrides, view_of(options), xy, diagnostics), diagnostics);
+      accepted(read_film_sensor(film, path, overrides, view_of(options), xy, diagnostics), diagnostics);
   if (white) sensor.white_name = white->name;
   require_planes(film, sensor, options.film);
   return sensor;
 }
 
 ExposedFilm expose_spectral(Image file, const DevelopOptions& options, Inputs& inputs) {
-  const auto [white, others] = asked(options);
-  Image told{0, 0, {}, file.metadata};
-  for (const ImageChannel& channel : file.channels) told.channels.push_back({channel.name, {}});
+  const auto [white, overrides] = requested_changes(options);
+  Image header{0, 0, {}, file.metadata};
+  for (const ImageChannel& channel : file.channels) header.channels.push_back({channel.name, {}});
   const SpectralImage image = spectral_image(std::move(file), options.film.string());
   if (!options.scene.empty()) {
     Diagnostics diagnostics;
     std::optional<Scene> scene = load_scene(options.scene, {}, diagnostics, &inputs);
-    if (!scene) check(diagnostics);  // warnings are about what nobody renders here
-    settle_white(*scene, options.scene, told, white, white_option(options));
-    Diagnostics of_bands;
-    Image film = seen_by(*scene, image, options.film, of_bands);
-    check(of_bands);
-    FilmSensor sensor = sensor_of(film, options.scene, others, options);
+    if (!scene) check(diagnostics);  // its warnings concern renders only
+    resolve_white(*scene, options.scene, header, white, white_option(options));
+    Diagnostics band_diagnostics;
+    Image film = expose_radiances(*scene, image, options.film, band_diagnostics);
+    check(band_diagnostics);
+    FilmSensor sensor = sensor_of(film, options.scene, overrides, options);
     return {std::move(film), std::move(sensor)};
   }
-  const char* unmet = !options.outputs.empty() ? "-o"
-                      : options.iso            ? "--iso"
-                      : !others.empty()        ? "--set"
-                                               : "";
-  if (*unmet != 0)
-    throw Error(ErrorCode::usage, unmet, "a spectral film needs a sensor that looks at it: --scene");
+  const char* unsupported = !options.outputs.empty() ? "-o"
+                            : options.iso            ? "--iso"
+                            : !overrides.empty()     ? "--set"
+                                                     : "";
+  if (*unsupported != 0)
+    throw Error(ErrorCode::usage, unsupported, "needs a sensor for a spectral film (allowed with --scene)");
   if (!white) return observed_film(image, options.film, view_of(options), {});
-  const White chosen = asked_white(*white, told, white_option(options));
-  ExposedFilm seen = observed_film(image, options.film, view_of(options), chosen.xy);
-  seen.sensor.white_name = chosen.name;
-  return seen;
+  const White chosen = requested_white(*white, header, white_option(options));
+  ExposedFilm exposed = observed_film(image, options.film, view_of(options), chosen.xy);
+  exposed.sensor.white_name = chosen.name;
+  return exposed;
 }
 
-// What a film tells of polarisation, whatever looks at it: itself, or by what lies behind its polarisers.
+// Writes the polarisation that a film records, in Stokes planes or in channels behind polarisers.
 void write_polarisation(const Image& film, const DevelopOptions& options) {
   const Image solved = stokes_planes(film).empty() ? stokes_of_polarisers(film) : Image{};
   const Image& measured = solved.channels.empty() ? film : solved;
   Image values = polarisation_image(measured);
   values.channels.insert(values.channels.end(), solved.channels.begin(), solved.channels.end());
-  const std::vector<PolarisationMap> maps =
-      polarisation_maps(polarisation_of_light(measured),
-                        solved.channels.empty() ? Measured::all : Measured::linear, film.width, film.height);
+  const std::vector<PolarisationMap> maps = polarisation_maps(
+      polarisation_of_light(measured), solved.channels.empty() ? MeasuredStokes::all : MeasuredStokes::linear,
+      film.width, film.height);
   std::vector<std::function<void()>> writers;
   writers.emplace_back([&] { write_exr(values_file(options), values); });
   for (const PolarisationMap& map : maps)
@@ -192,36 +195,37 @@ void write_polarisation(const Image& film, const DevelopOptions& options) {
   write_all(writers);
 }
 
-// Lets the lights of a film count as the options ask: the white that it then has of its lights, where that
-// is another and none is asked for.
-std::optional<White> relight_as_asked(Image& film, const DevelopOptions& options) {
+// Applies the factors of --light to the film. Returns the white of the weighted lights if it differs from
+// that of the film and no other white is requested.
+std::optional<White> apply_light_factors(Image& film, const DevelopOptions& options) {
   if (options.lights.empty()) return std::nullopt;
-  const RelitWhite relit = asked(options).white ? RelitWhite{} : relit_white(film, options.lights);
-  if (!relit.shortcoming.empty()) say("warning: --light: " + relit.shortcoming);
+  const RelitWhite relit =
+      requested_changes(options).white ? RelitWhite{} : relit_white(film, options.lights);
+  if (!relit.warning.empty()) print_message("warning: --light: " + relit.warning);
   relight(film, options.lights);
   return relit.white;
 }
 
 ExposedFilm load(const DevelopOptions& options, Inputs& inputs) {
   Image film = read_film(options.film, &inputs);
-  const std::optional<White> relit = relight_as_asked(film, options);
+  const std::optional<White> relit = apply_light_factors(film, options);
   if (!options.polarisation.empty()) write_polarisation(film, options);
   if (is_spectral(film)) {
-    if (relit) record_white(relit->name, relit->xy, relit->asked, film.metadata);
+    if (relit) record_white(relit->name, relit->xy, relit->requested, film.metadata);
     return expose_spectral(std::move(film), options, inputs);
   }
   if (!options.scene.empty())
-    throw Error(ErrorCode::usage, "--scene", "only a spectral film takes a sensor: this one has its own");
-  const auto [white, others] = asked(options);
-  const auto chosen = white ? std::optional(asked_white(*white, film, white_option(options))) : relit;
-  FilmSensor sensor = sensor_of(film, options.film, others, options, chosen);
+    throw Error(ErrorCode::usage, "--scene", "applies to spectral films only: this film has its own sensor");
+  const auto [white, overrides] = requested_changes(options);
+  const auto chosen = white ? std::optional(requested_white(*white, film, white_option(options))) : relit;
+  FilmSensor sensor = sensor_of(film, options.film, overrides, options, chosen);
   return {std::move(film), std::move(sensor)};
 }
 
 /// Figures that `develop` reports about the first exposure.
 struct Report {
   std::vector<PlaneFigures> planes;
-  std::optional<double> shown_as_white;  ///< Nothing where no display can show the film.
+  std::optional<double> display_white;  ///< Absent if no display can show the film.
 };
 
 Json json_of(const FilmSensor& sensor, const Report& report) {
@@ -243,48 +247,49 @@ Json json_of(const FilmSensor& sensor, const Report& report) {
     answer["quantisation_noise_e"].push_back(plane.noise.quantisation_e);
     answer["sensor_noise_e"].push_back(plane.noise.total_e);
     answer["render_error_e"].push_back(render_error);
-    answer["saturated_share"].push_back(plane.saturated_share);
+    answer["saturated_share"].push_back(plane.saturated_fraction);
   }
   if (sensor.readout && sensor.electrons_per_lx_s)
     answer["iso_speed"] = saturation_speed(*sensor.readout, *sensor.electrons_per_lx_s);
   if (!sensor.camera_space.empty()) answer["camera_space"] = sensor.camera_space;
-  if (report.shown_as_white) answer[kDisplayExposureKey] = *report.shown_as_white;
+  if (report.display_white) answer[kDisplayExposureKey] = *report.display_white;
   return answer;
 }
 
-// Changes what was exposed as the options ask. `diagnostics` gets the warnings about the film's own scene.
-void expose_anew(ExposedFilm& exposed, const DevelopOptions& options, Diagnostics& diagnostics) {
+// Applies --exposure-s, --frame and --exposure. `diagnostics` receives warnings about the scene of the film.
+void apply_exposure(ExposedFilm& exposed, const DevelopOptions& options, Diagnostics& diagnostics) {
   if (options.exposure_s) expose_for(exposed, *options.exposure_s, diagnostics);
-  if (options.frame) expose_to(exposed, *options.frame);
+  if (options.frame) replace_with_frame(exposed, *options.frame);
   if (options.display_exposure) exposed.sensor.display_exposure = options.display_exposure;
 }
 
-// Warns of neutrals that are tinted, and flattens the field if that was requested.
+// Applies --field, and warns of neutral surfaces that are tinted without it.
 void set_field(FilmSensor& sensor, const DevelopOptions& options) {
   sensor.flattens_field = options.flattens_field;
   if (!sensor.white_field || !sensor.display || options.frame) {
     if (options.flattens_field)
-      say("warning: --field: without effect, as the response of the film's channels to white does not change "
-          "over the field, or the film does not record it");
+      print_message(
+          "warning: --field: has no effect, since the response of the channels to white does not vary over "
+          "the field or is not recorded in the film");
     return;
   }
   const std::string remedy =
       options.outputs.empty() ? "--field balances pictures over the field"
                               : "--field balances pictures over the field, and raw files need a flat field";
   const double shift = neutral_shift(*sensor.white_field, sensor.display->to_xyz_d65());
-  const auto warning = tinted_corners(shift, remedy);
+  const auto warning = field_tint_warning(shift, remedy);
   const bool is_flat = options.flattens_field && options.outputs.empty();
-  if (warning && !is_flat) say("warning: " + *warning);
+  if (warning && !is_flat) print_message("warning: " + *warning);
 }
 
-void take_profile(FilmSensor& sensor, const DevelopOptions& options, Inputs& inputs) {
+void add_profile(FilmSensor& sensor, const DevelopOptions& options, Inputs& inputs) {
   if (options.profile.empty()) return;
   const auto is_dng = [](const fs::path& path) { return extension_of(path) == ".dng"; };
   if (std::none_of(options.outputs.begin(), options.outputs.end(), is_dng))
-    throw Error(ErrorCode::usage, "--profile", "only a .dng takes it (allowed with -o FILE.dng)");
+    throw Error(ErrorCode::usage, "--profile", "applies to .dng files only (allowed with -o FILE.dng)");
   if (sensor.channels.size() != 3)
     throw Error(ErrorCode::usage, "--profile",
-                fmt::format("its matrices are for three channels (got {})", sensor.channels.size()));
+                fmt::format("needs a sensor with three channels (got {})", sensor.channels.size()));
   Diagnostics diagnostics;
   inputs.add_file(options.profile);
   const DngProfile profile = accepted(read_dng_profile(options.profile, diagnostics), diagnostics);
@@ -292,21 +297,21 @@ void take_profile(FilmSensor& sensor, const DevelopOptions& options, Inputs& inp
   for (const RawLight& light : profile.lights) sensor.lights.push_back(light_for(sensor.channels, light));
 }
 
-// The noise of a read-out is all that exposures of one film differ by.
+// Several exposures and a seed require a readout, since exposures of one film differ by its noise only.
 void require_noise(const FilmSensor& sensor, const DevelopOptions& options) {
-  const char* unmet = options.frames > 1 ? "--frames" : options.seed ? "--seed" : "";
-  if (*unmet != 0 && !sensor.readout)
-    throw Error(ErrorCode::usage, unmet,
-                "the film has no read-out whose noise it could draw (allowed: --set '/readout={...}')");
+  const char* unsupported = options.frames > 1 ? "--frames" : options.seed ? "--seed" : "";
+  if (*unsupported != 0 && !sensor.readout)
+    throw Error(ErrorCode::usage, unsupported,
+                "needs a film with a readout, which has the noise (allowed: --set '/readout={...}')");
 }
 
 Report report_of(const FilmSensor& sensor, const DevelopedFilm& developed, const Image& planes) {
   Report report{plane_figures(sensor, developed), {}};
-  if (sensor.display) report.shown_as_white = shown_as_white(sensor, planes);
+  if (sensor.display) report.display_white = display_white(sensor, planes);
   return report;
 }
 
-// Develops one exposure into all its files, each whatever becomes of the others.
+// Develops one exposure and writes all its files, even if one of them fails.
 Report develop_frame(const ExposedFilm& exposed, const DevelopOptions& options, std::uint32_t frame) {
   const FilmSensor& sensor = exposed.sensor;
   const std::uint64_t seed = options.seed.value_or(render_seed(exposed.film));
@@ -326,34 +331,34 @@ Report develop_frame(const ExposedFilm& exposed, const DevelopOptions& options, 
   return frame == 0 ? report_of(sensor, developed, planes) : Report{};
 }
 
-// The figures of the first exposure; of all, the files are written, and the first failure is thrown in the
-// end.
+// Develops all exposures and returns the figures of the first. A failure is thrown after all files were
+// tried.
 Report develop_frames(const ExposedFilm& exposed, const DevelopOptions& options) {
   Report report;
   std::vector<std::function<void()>> writers;
   for (std::uint32_t frame = 0; frame < options.frames; ++frame)
     writers.emplace_back([&, frame] {
-      Report of_frame = develop_frame(exposed, options, frame);
-      if (frame == 0) report = std::move(of_frame);
+      Report frame_report = develop_frame(exposed, options, frame);
+      if (frame == 0) report = std::move(frame_report);
     });
   write_all(writers);
   return report;
 }
 
-// The display exposure that this command would find for the film of --exposure-of.
+// Display exposure that this command would choose for the film of --exposure-of.
 double exposure_of_film(const DevelopOptions& options, Inputs& inputs) {
   DevelopOptions other = options;
   other.film = options.exposure_of;
   other.polarisation.clear();
   other.frame.reset();
-  Diagnostics warnings;  // of the film that is developed, which are given for that one
+  Diagnostics warnings;  // the developed film gives the same ones
   ExposedFilm exposed = load(other, inputs);
   require_display(exposed.sensor);
-  expose_anew(exposed, other, warnings);
+  apply_exposure(exposed, other, warnings);
   exposed.sensor.flattens_field = options.flattens_field;
   const std::uint64_t seed = options.seed.value_or(render_seed(exposed.film));
-  return shown_as_white(exposed.sensor,
-                        display_planes(exposed.sensor, abbe::develop(exposed, seed).calibrated));
+  return display_white(exposed.sensor,
+                       display_planes(exposed.sensor, abbe::develop(exposed, seed).calibrated));
 }
 
 }  // namespace
@@ -364,25 +369,27 @@ int develop(const DevelopOptions& options) {
   for (const fs::path& file : writable_among(outputs)) locks.emplace_back(file);
   Inputs inputs(options.max_memory_bytes);
   ExposedFilm exposed = load(options, inputs);
-  take_profile(exposed.sensor, options, inputs);
+  add_profile(exposed.sensor, options, inputs);
   if (!options.exposure_of.empty()) exposed.sensor.display_exposure = exposure_of_film(options, inputs);
   require_distinct(outputs, inputs.files());
   const FilmSensor& sensor = exposed.sensor;
   if (sensor.display) require_distinct(outputs, sensor.display->files());
   const bool wants_raw = std::any_of(options.outputs.begin(), options.outputs.end(), is_raw_file);
   if (wants_raw && !sensor.readout)
-    throw Error(ErrorCode::usage, "-o",
-                "the film has no read-out to make codes with (allowed: --set '/readout={...}', or a .exr)");
+    throw Error(
+        ErrorCode::usage, "-o",
+        "needs a film with a readout to write digital numbers (allowed: --set '/readout={...}', or a .exr)");
   require_noise(sensor, options);
   if (!options.display.empty()) require_display(sensor);
   Diagnostics warnings;
-  expose_anew(exposed, options, warnings);
-  if (!options.frame) check(warnings);  // of what a frame does not see
+  apply_exposure(exposed, options, warnings);
+  if (!options.frame) check(warnings);  // calibration frames do not contain the scene
   set_field(exposed.sensor, options);
-  if (const auto dark = wants_raw ? own_dark_signals(sensor) : std::nullopt) say("warning: " + *dark);
+  if (const auto dark = wants_raw ? unequal_dark_signals_warning(sensor) : std::nullopt)
+    print_message("warning: " + *dark);
 
-  // At most three planes beside each of the film and of its variance.
-  inputs.take_memory("developing", 3 * exposed.film.memory_bytes());
+  // At most three further planes exist for each plane of the film and of its variance.
+  inputs.reserve_memory("developing", 3 * exposed.film.memory_bytes());
   print(json_of(sensor, develop_frames(exposed, options)), options.json);
   return 0;
 }

@@ -16,29 +16,30 @@ namespace abbe::cli {
 /// Options of `abbe develop`.
 struct DevelopOptions {
   std::filesystem::path film;
-  std::vector<std::filesystem::path> outputs;  ///< Raw pictures and multi-part images.
-  std::filesystem::path display;               ///< Empty when no picture is wanted.
-  std::filesystem::path polarisation;          ///< Folder for maps of it; empty when none are wanted.
-  std::filesystem::path scene;                 ///< Whose sensor looks at a spectral film; else empty.
-  std::vector<Override> overrides;             ///< Of the read-out and the white.
-  std::optional<std::string> white;            ///< What pictures show as white, as output/white of a scene.
-  std::vector<LightFactor> lights;             ///< That count otherwise than in the film.
-  std::optional<double> exposure_s;            ///< Of the sensor; that of the film when absent.
-  std::optional<double> iso;                   ///< Speed of the sensor, in place of its gain.
-  std::optional<CalibrationFrame> frame;       ///< What the camera sees instead of the scene.
-  std::uint32_t frames = 1;                ///< Exposures of one film, numbered in the files' names if more.
-  std::optional<double> display_exposure;  ///< Film value shown as white.
-  std::filesystem::path exposure_of;  ///< Film whose display exposure pictures take; empty for their own.
-  bool flattens_field = false;        ///< True to balance white over the field, not for its centre alone.
-  ViewOptions view;                   ///< Of the display.
-  std::filesystem::path profile;      ///< Matrices of a calibration for a DNG; else empty.
-  std::optional<std::uint64_t> seed;  ///< Of the noise; that of the render when absent.
+  std::vector<std::filesystem::path> outputs;  ///< Raw files and multi-part images.
+  std::filesystem::path display;               ///< Display picture; empty for none.
+  std::filesystem::path polarisation;          ///< Folder for maps of the polarisation; empty for none.
+  std::filesystem::path scene;            ///< Scene whose sensor records a spectral film; otherwise empty.
+  std::vector<Override> overrides;        ///< Overrides of the read-out and of the white.
+  std::optional<std::string> white;       ///< White of the pictures, as output/white of a scene.
+  std::vector<LightFactor> lights;        ///< Lights that are weighted differently from the film.
+  std::optional<double> exposure_s;       ///< Exposure time of the sensor; that of the film without a value.
+  std::optional<double> iso;              ///< Sensitivity of the sensor, instead of its gain.
+  std::optional<CalibrationFrame> frame;  ///< Calibration frame that replaces the scene.
+  std::uint32_t frames = 1;  ///< Number of simulated exposures; more than one are numbered in the file names.
+  std::optional<double> display_exposure;  ///< Film value that is displayed as white.
+  std::filesystem::path exposure_of;  ///< Film whose display exposure the pictures use; empty for their own.
+  /// Balance white at every position of the field instead of at its centre only.
+  bool flattens_field = false;
+  ViewOptions view;                   ///< View of the display.
+  std::filesystem::path profile;      ///< Calibration whose matrices a DNG uses; otherwise empty.
+  std::optional<std::uint64_t> seed;  ///< Seed of the noise; that of the render without a value.
   std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;
 };
 
-/// A film to digital numbers, files and pictures without rendering; prints what the sensor's noise and the
-/// render's own error are. Returns the exit code.
+/// Converts a film to digital numbers, files and pictures without rendering. Prints the sensor's noise and
+/// the error of the render. Returns the exit code.
 int develop(const DevelopOptions& options);
 
 }  // namespace abbe::cli

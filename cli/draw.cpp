@@ -10,8 +10,8 @@
 #include "io/atomic_file.h"
 #include "io/extension.h"
 #include "io/standard_stream.h"
-#include "validation/layout/lamp_rays.h"
 #include "validation/layout/layout.h"
+#include "validation/layout/light_rays.h"
 
 namespace abbe::cli {
 namespace {
@@ -22,7 +22,7 @@ std::vector<BasicRay<double>> rays_of(const Scene& scene, const DrawOptions& opt
   std::vector<BasicRay<double>> rays;
   if (options.rays == 0) return rays;
   for (const Light& light : scene.lights)
-    for (const BasicRay<double>& ray : lamp_rays(scene, light, options.rays)) rays.push_back(ray);
+    for (const BasicRay<double>& ray : light_rays(scene, light, options.rays)) rays.push_back(ray);
   return rays;
 }
 
@@ -38,18 +38,18 @@ int draw(const DrawOptions& options) {
   const Scene scene =
       accepted(load_scene(options.scene, options.overrides, diagnostics, &inputs), diagnostics);
   require_distinct(std::array{options.output}, inputs.files());
-  const FollowLimits limits{.max_events = options.max_events, .least_share = kLeastDrawnShare};
+  const FollowLimits limits{.max_events = options.max_events, .min_power_fraction = kMinDrawnFraction};
   std::vector<DrawnRay> drawn;
-  std::optional<std::string> held;
+  std::optional<std::string> warning;
   for (const double nm : options.wavelengths_nm)
     for (const BasicRay<double>& ray : rays_of(scene, options)) {
       const RayTree tree = follow_ray(scene, ray, nm, options.follow, limits);
-      if (!held) held = held_index(scene, tree, nm);
-      for (DrawnRay& way : drawn_rays(scene, tree, nm)) drawn.push_back(std::move(way));
+      if (!warning) warning = extrapolated_index_warning(scene, tree, nm);
+      for (DrawnRay& drawn_ray : drawn_rays(scene, tree, nm)) drawn.push_back(std::move(drawn_ray));
     }
   const std::string name = options.scene == kStandardStream ? "stdin" : options.scene.filename().string();
   write_atomically(options.output, layout_drawing(scene, drawn, name));
-  if (held) say("warning: " + *held);
+  if (warning) print_message("warning: " + *warning);
   return 0;
 }
 

@@ -4,9 +4,9 @@
 
 namespace abbe::cli {
 
-/// `abbe develop`.
+/// Adds `abbe develop`.
 void add_develop(CLI::App& app, Command& command);
-/// `abbe measure`.
+/// Adds `abbe measure`.
 void add_measure(CLI::App& app, Command& command);
 
 }  // namespace abbe::cli

@@ -17,28 +17,28 @@
 #include "io/inputs.h"
 #include "lens/paraxial.h"
 #include "scene/camera/lens_optics.h"
-#include "scene/unreached.h"
-#include "transport/render/collect.h"
-#include "transport/render/learn_splitting.h"
-#include "transport/render/learnt_plan.h"
-#include "transport/render/technique_shares.h"
+#include "scene/unsampled_paths.h"
+#include "transport/render/choose_path_splitting.h"
+#include "transport/render/light_subpaths.h"
+#include "transport/render/technique_balance.h"
 #include "transport/render/threads.h"
+#include "transport/render/trained_plan.h"
 
 namespace abbe::cli {
 namespace {
 
-// The channels of a mosaic by name, rows from the top.
+// Channel names of a mosaic, rows from the top.
 std::string pattern(const Scene& scene) {
   std::vector<std::string> names;
   for (const Channel& channel : scene.channels) names.push_back(channel.name);
   return to_text(*scene.mosaic, names);
 }
 
-/// What a render would do, of which only its techniques are told where no plan can be made.
+/// Plan of a render. Only the techniques are set if no plan can be made.
 struct PlannedRender {
   std::vector<Technique> techniques;
-  std::optional<std::array<double, 2>> wavelengths_nm = {};  ///< From and to.
-  Json shares = nullptr;                                     ///< Of the techniques, where there are two.
+  std::optional<std::array<double, 2>> wavelengths_nm = {};  ///< Minimum and maximum.
+  Json technique_costs = nullptr;  ///< Costs of camera paths and photons; null without photons.
   int path_splitting = 1;
 };
 
@@ -46,36 +46,36 @@ Json json_of(const TechniqueCost& cost) {
   return {{"relative_variance", cost.relative_variance}, {"rays", cost.rays}};
 }
 
-PlannedRender planned(const Scene& scene, const std::shared_ptr<const Guides>& guides) {
+PlannedRender plan_render(const Scene& scene, const std::shared_ptr<const GuidingData>& guides) {
   if (refusal(scene)) return {chosen_techniques(scene)};
   const int threads = thread_count(0);
-  Plan plan = make_learnt_plan(scene, threads, guides);
-  learn_splitting(plan, threads);
-  const std::optional<TechniqueCosts> costs = set_technique_shares(plan, threads);
+  Plan plan = make_trained_plan(scene, threads, guides);
+  choose_path_splitting(plan, threads);
+  const std::optional<TechniqueCosts> costs = balance_techniques(plan, threads);
   PlannedRender render{plan.techniques, {{plan.wavelengths.low_nm(), plan.wavelengths.high_nm()}}};
-  render.path_splitting = 1 << plan.split_bits;
+  render.path_splitting = 1 << plan.log2_splits;
   if (costs)
-    render.shares = {{"photons_per_sample", plan.photons},
-                     {"photons_part", plan.photons_part},
-                     {"path_interval", plan.path_interval},
-                     {"camera_paths", json_of(costs->camera_paths)},
-                     {"photons", json_of(costs->photons)}};
+    render.technique_costs = {{"photons_per_sample", plan.photons},
+                              {"photons_part", plan.photons_split_wavelengths},
+                              {"path_interval", plan.path_interval},
+                              {"camera_paths", json_of(costs->camera_paths)},
+                              {"photons", json_of(costs->photons)}};
   return render;
 }
 
-// What the bench says of a camera's lens at its primary wavelength; null of other cameras.
+// Figures of the lens of a camera at its primary wavelength. Null for cameras without a lens system.
 Json lens_answer(const Camera& camera) {
-  const auto* kind = std::get_if<LensSystem>(&camera.kind);
-  if (kind == nullptr) return nullptr;
-  const lens::SpectralSystem& system = kind->optics->system;
+  const auto* lens_system = std::get_if<LensSystem>(&camera.kind);
+  if (lens_system == nullptr) return nullptr;
+  const lens::SpectralSystem& system = lens_system->optics->system;
   const lens::SystemAt at(system.system(), system.system().primary_nm());
   Json answer{{"title", system.system().title},
               {"wavelength_nm", at.wavelength_nm},
               {"focal_length_mm", lens::first_order(at).focal_length_mm},
               {"stop_radius_mm", system.stop_radius_mm()},
               {"image_mm", system.system().surfaces.back().thickness_mm},
-              {"ghosts", kind->optics->routes.size() - 1}};
-  if (const auto& speed = kind->optics->speed)
+              {"ghosts", lens_system->optics->routes.size() - 1}};
+  if (const auto& speed = lens_system->optics->speed)
     answer.update({{"f_number", speed->f_number},
                    {"working_f_number", speed->working_f_number},
                    {"t_stop", speed->t_stop},
@@ -84,17 +84,17 @@ Json lens_answer(const Camera& camera) {
 }
 
 Json answer_for(const Scene& scene, const IntegratorChoice& choice) {
-  const PlannedRender render = planned(scene, choice.guides);
+  const PlannedRender render = plan_render(scene, choice.guides);
   Json answer;
   answer["shapes"] = scene.shapes.size();
   answer["triangles"] = scene.triangle_count();
   answer["lights"] = scene.lights.size();
   answer["materials"] = scene.materials.size();
-  for (const NeedName& need : need_names()) answer["needs"][need.key] = scene.needs.*need.member;
-  answer["because"] = scene.needs.because;
-  answer["integrator"] = {{"name", integrator_name(choice.integrator)}, {"because", choice.because}};
+  for (const FeatureName& need : feature_names()) answer["needs"][need.key] = scene.features.*need.member;
+  answer["because"] = scene.features.reasons;
+  answer["integrator"] = {{"name", integrator_name(choice.integrator)}, {"because", choice.reason}};
   if (choice.cost_ratio)
-    answer["integrator"][fmt::format("cost_of_path_over_{}", integrator_name(choice.other))] =
+    answer["integrator"][fmt::format("cost_of_path_over_{}", integrator_name(choice.alternative))] =
         *choice.cost_ratio;
   answer["techniques"] = Json::array();
   answer["owned"] = Json::object();
@@ -105,10 +105,10 @@ Json answer_for(const Scene& scene, const IntegratorChoice& choice) {
   answer["bias"] = nullptr;
   for (const Technique technique : render.techniques)
     if (!bias_of(technique).empty()) answer["bias"] = bias_of(technique);
-  answer["shares"] = render.shares;
+  answer["shares"] = render.technique_costs;
   answer["path_splitting"] = render.path_splitting;
   answer["lens"] = lens_answer(scene.camera);
-  answer["unreached"] = unreached(scene, scene.needs, uses(render.techniques, Technique::light));
+  answer["unreached"] = unsampled_paths(scene, scene.features, uses(render.techniques, Technique::light));
   if (scene.mosaic) answer["mosaic"] = pattern(scene);
   if (scene.output.white)
     answer["white"] = {{"name", scene.output.white->name},
@@ -124,18 +124,18 @@ std::string joined(const Json& words) {
   return words.empty() ? "none" : fmt::format("{}", fmt::join(words.get<std::vector<std::string>>(), ", "));
 }
 
-// How many photons and camera paths a sample has, and what the pilots found that made it so.
-std::string shares_line(const Json& shares) {
-  const auto cost = [&shares](const char* technique) {
-    const Json& found = shares[technique];
-    return fmt::format("{:.3g} at {:.3g} rays", found["relative_variance"].get<double>(),
-                       found["rays"].get<double>());
+// Numbers of photons and camera paths per sample, and the pilot statistics that determine them.
+std::string technique_costs_line(const Json& technique_costs) {
+  const auto cost = [&technique_costs](const char* technique) {
+    const Json& statistics = technique_costs[technique];
+    return fmt::format("{:.3g} at {:.3g} rays", statistics["relative_variance"].get<double>(),
+                       statistics["rays"].get<double>());
   };
   return fmt::format(
-      "shares       {} photons a sample, a camera path of a pixel in 1 of {} samples: relative variance of a "
-      "camera path {}, of a photon for each pixel {}\n",
-      shares["photons_per_sample"].get<std::uint64_t>(), shares["path_interval"].get<std::uint32_t>(),
-      cost("camera_paths"), cost("photons"));
+      "balance      {} photons per sample, a camera path per pixel in 1 of {} samples; relative variance {} "
+      "per camera path, {} per photon and pixel\n",
+      technique_costs["photons_per_sample"].get<std::uint64_t>(),
+      technique_costs["path_interval"].get<std::uint32_t>(), cost("camera_paths"), cost("photons"));
 }
 
 std::string lens_line(const Json& lens) {
@@ -150,7 +150,7 @@ std::string lens_line(const Json& lens) {
   if (!lens.contains("f_number")) return line + "\n";
   if (std::isfinite(number("f_number")))
     line += fmt::format(", f/{:.4g} (T/{:.4g})", number("f_number"), number("t_stop"));
-  return line + fmt::format(", Airy radius {:.3g} um at {:g} nm, which no picture shows\n",
+  return line + fmt::format(", Airy radius {:.3g} um at {:g} nm (diffraction is not rendered)\n",
                             number("airy_radius_um"), number("wavelength_nm"));
 }
 
@@ -167,22 +167,23 @@ std::string describe(const Scene& scene, const IntegratorChoice& choice) {
   lines += "\n";
   if (!answer["lens"].is_null()) lines += lens_line(answer["lens"]);
   lines += "needs\n";
-  for (const NeedName& need : need_names())
-    if (scene.needs.*need.member)
-      lines += fmt::format("  {:<21} {} ({})\n", need.key, need.meaning, scene.needs.because.at(need.key));
+  for (const FeatureName& need : feature_names())
+    if (scene.features.*need.member)
+      lines += fmt::format("  {:<21} {} ({})\n", need.key, need.meaning, scene.features.reasons.at(need.key));
   lines += "skips\n";
-  for (const NeedName& need : need_names())
-    if (!(scene.needs.*need.member)) lines += fmt::format("  {}\n", need.key);
+  for (const FeatureName& need : feature_names())
+    if (!(scene.features.*need.member)) lines += fmt::format("  {}\n", need.key);
   lines += fmt::format("integrator   {}{}\n", integrator_name(choice.integrator),
-                       choice.because.empty() ? "" : fmt::format(" ({})", choice.because));
+                       choice.reason.empty() ? "" : fmt::format(" ({})", choice.reason));
   lines += "techniques\n";
   for (const auto& [technique, paths] : answer["owned"].items())
     lines += fmt::format("  {:<10} {}\n", technique, paths.get<std::string>());
-  if (!answer["shares"].is_null()) lines += shares_line(answer["shares"]);
+  if (!answer["shares"].is_null()) lines += technique_costs_line(answer["shares"]);
   if (const int parts = answer["path_splitting"].get<int>(); parts > 1)
-    lines += fmt::format("splitting    camera paths go on in {} where they first scatter\n", parts);
+    lines += fmt::format("splitting    camera paths continue in {} directions from their first scattering\n",
+                         parts);
   if (!answer["bias"].is_null()) lines += fmt::format("bias         {}\n", answer["bias"].get<std::string>());
-  lines += fmt::format("not reached  {}\n", joined(answer["unreached"]));
+  lines += fmt::format("not sampled  {}\n", joined(answer["unreached"]));
   if (answer.contains("wavelength_range_nm"))
     lines += fmt::format("wavelengths  {:g} to {:g} nm\n", answer["wavelength_range_nm"][0].get<double>(),
                          answer["wavelength_range_nm"][1].get<double>());
@@ -198,17 +199,17 @@ int info(const InfoOptions& options) {
   Scene scene = accepted(load_scene(options.scene, options.overrides, diagnostics, &inputs), diagnostics);
   const IntegratorChoice choice = choose_integrator(scene, thread_count(0));
   scene.render.integrator = choice.integrator;
-  settle_white(scene, options.scene, 1, choice.guides);
+  resolve_white(scene, options.scene, 1, choice.guides);
   if (options.json)
     print(answer_for(scene, choice), true);
   else
     fmt::print("{}", describe(scene, choice));
-  if (const auto refused = refusal(scene)) say(fmt::format("warning: {}", refused->what()));
-  warn_of_unpolarised_measurement(scene, false);
+  if (const auto refused = refusal(scene)) print_message(fmt::format("warning: {}", refused->what()));
+  warn_of_ignored_polarisation(scene, false);
   warn_of_tinted_corners(scene);
   warn_of_dark_camera(scene, false);
   warn_of_hidden_sheet(scene, false);
-  warn_of_hidden_lamp(scene, false);
+  warn_of_hidden_light(scene, false);
   warn_of_unused_settings(scene);
   note_polarisation(scene);
   return 0;

@@ -11,18 +11,18 @@
 
 namespace abbe::cli {
 
-/// What `abbe info` was asked for.
+/// Options of `abbe info`.
 struct InfoOptions {
-  std::filesystem::path scene;  ///< "-" is standard input.
+  std::filesystem::path scene;  ///< Scene file; "-" is standard input.
   std::vector<Override> overrides = {};
   std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;
 };
 
-/// Prints what a scene contains, needs and skips. Returns the exit code.
+/// Prints what a scene contains, which features it needs and which it skips. Returns the exit code.
 int info(const InfoOptions& options);
 
-/// What `abbe info` tells of a scene whose integrator is what was chosen, in lines for reading.
+/// Report of `abbe info` in plain text, for a scene whose integrator has been chosen.
 [[nodiscard]] std::string describe(const Scene& scene, const IntegratorChoice& choice);
 
 }  // namespace abbe::cli

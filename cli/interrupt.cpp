@@ -6,9 +6,9 @@
 namespace abbe::cli {
 namespace {
 
-// Signal handlers can reach only globals; lock-free atomics are the ones they may write.
-std::atomic<bool> stop_asked{false};
-std::atomic<int> signal_seen{0};
+// Signal handlers can access globals only, and may write lock-free atomics only.
+std::atomic<bool> stop_requested{false};
+std::atomic<int> received_signal{0};
 static_assert(std::atomic<bool>::is_always_lock_free && std::atomic<int>::is_always_lock_free);
 
 // Requests of users: a second one ends the program at once.
@@ -18,39 +18,40 @@ constexpr std::array kRequests{SIGINT, SIGTERM};
 // reached (SIGXCPU, each second from then on), or a timer ends (SIGALRM).
 constexpr std::array kAnnouncements{SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU, SIGALRM, SIGPWR};
 
-void use_default() {
+void restore_default() {
   for (const int number : kRequests) std::signal(number, SIG_DFL);
 }
 
-void remember(int number) {
-  signal_seen = number;
-  stop_asked = true;
-  use_default();
+void record_signal(int number) {
+  received_signal = number;
+  stop_requested = true;
+  restore_default();
   for (const int announcement : kAnnouncements) std::signal(announcement, SIG_IGN);
 }
 
 }  // namespace
 
 InterruptWatch::InterruptWatch() {
-  signal_seen = 0;
-  stop_asked = false;
-  for (const int number : kRequests) std::signal(number, remember);
+  received_signal = 0;
+  stop_requested = false;
+  for (const int number : kRequests) std::signal(number, record_signal);
   for (const int number : kAnnouncements)
-    if (std::signal(number, remember) == SIG_IGN) std::signal(number, SIG_IGN);  // as nohup wants it
+    if (std::signal(number, record_signal) == SIG_IGN)
+      std::signal(number, SIG_IGN);  // stays ignored under nohup
 }
 
 InterruptWatch::~InterruptWatch() {
-  use_default();
+  restore_default();
   for (const int number : kAnnouncements)
-    if (std::signal(number, SIG_IGN) == remember) std::signal(number, SIG_DFL);
+    if (std::signal(number, SIG_IGN) == record_signal) std::signal(number, SIG_DFL);
 }
 
 const std::atomic<bool>& InterruptWatch::stop() const {
-  return stop_asked;
+  return stop_requested;
 }
 
 int InterruptWatch::signal() const {
-  return signal_seen;
+  return received_signal;
 }
 
 }  // namespace abbe::cli

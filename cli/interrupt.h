@@ -4,13 +4,13 @@
 
 namespace abbe::cli {
 
-/// What is added to a signal's number where it ends a command early.
+/// Added to the number of a signal to form the exit code of an interrupted command.
 inline constexpr int kSignalExit = 128;
 
-/// Remembers the first signal that asks the program to end or announces that it will be ended: SIGINT,
-/// SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU, SIGALRM or SIGPWR. After it another SIGINT or SIGTERM kills as
-/// usual, and the others are ignored. A signal of these others that was ignored before stays so. One watch at
-/// a time.
+/// Records the first signal that requests or announces the end of the program: SIGINT, SIGTERM, SIGHUP,
+/// SIGUSR1, SIGUSR2, SIGXCPU, SIGALRM or SIGPWR. A second SIGINT or SIGTERM kills the program as usual; the
+/// others are then ignored. Signals other than SIGINT and SIGTERM that were ignored before stay ignored. Only
+/// one watch may exist at a time.
 class InterruptWatch {
  public:
   InterruptWatch();
@@ -20,7 +20,7 @@ class InterruptWatch {
 
   /// True from the first signal on.
   [[nodiscard]] const std::atomic<bool>& stop() const;
-  /// The signal's number, or 0.
+  /// Number of the signal, or 0.
   [[nodiscard]] int signal() const;
 };
 

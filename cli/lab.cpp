@@ -15,7 +15,7 @@
 #include "io/atomic_file.h"
 #include "io/extension.h"
 #include "io/picture.h"
-#include "sensor/response/coverage.h"
+#include "sensor/response/table_range.h"
 #include "spectral/library.h"
 #include "validation/goniometer/lobe_plot.h"
 #include "validation/goniometer/map.h"
@@ -27,34 +27,35 @@ namespace {
 GoniometerSettings settings_of(const LabOptions& options) {
   Diagnostics diagnostics;
   const auto light = load_illuminant(options.illuminant, {}, diagnostics);
-  if (light) check_ends_of_light(*light, observer_channels(options.observer), {}, diagnostics);
+  if (light) check_light_range(*light, observer_channels(options.observer), {}, diagnostics);
   NamedCurve illuminant = accepted(light, diagnostics);
   return {options.at_nm,    options.angles_deg, options.inside, std::move(illuminant.curve),
           options.observer, options.samples};
 }
 
-// The first thing that `said_of` has to say of a material at one of some wavelengths.
-std::optional<std::string> first_said(const Material& material, const std::vector<double>& nm,
-                                      std::optional<std::string> (*said_of)(const Material&, double)) {
+// First warning of `warning_of` for a material at one of the wavelengths [nm]; empty without a warning.
+std::optional<std::string> first_warning(const Material& material, const std::vector<double>& nm,
+                                         std::optional<std::string> (*warning_of)(const Material&, double)) {
   for (const double at : nm)
-    if (auto said = said_of(material, at)) return said;
+    if (auto warning = warning_of(material, at)) return warning;
   return std::nullopt;
 }
 
-// What its formulas do not hold for is refused where it is asked for, and told where colours alone look; what
-// its data do not reach is told of both.
-void check_matter(const Material& material, const std::vector<double>& at_nm) {
-  if (const auto fault = first_said(material, at_nm, clear_fault)) throw Error(ErrorCode::scene, "", *fault);
+// Rejects requested wavelengths at which the formulas of a transparent material do not hold. Warns if that
+// concerns the colours only, and of extrapolated data in both cases.
+void check_material(const Material& material, const std::vector<double>& at_nm) {
+  if (const auto fault = first_warning(material, at_nm, transparency_fault))
+    throw Error(ErrorCode::scene, "", *fault);
   const std::vector<double> visible = visible_wavelengths();
-  const auto say_of_colors = [&](const std::string& said) {
-    say(fmt::format("warning: {}; colours are sums from {:g} to {:g} nm", said, visible.front(),
-                    visible.back()));
+  const auto warn_of_colors = [&](const std::string& warning) {
+    print_message(fmt::format("warning: {}; colours are integrated from {:g} to {:g} nm", warning,
+                              visible.front(), visible.back()));
   };
-  if (const auto fault = first_said(material, visible, clear_fault)) say_of_colors(*fault);
-  const auto asked = first_said(material, at_nm, held_index);
-  const auto seen = first_said(material, visible, held_index);
-  if (seen) say_of_colors(*seen);
-  if (asked && asked != seen) say("warning: " + *asked);
+  if (const auto fault = first_warning(material, visible, transparency_fault)) warn_of_colors(*fault);
+  const auto at_requested = first_warning(material, at_nm, extrapolated_index_warning);
+  const auto at_visible = first_warning(material, visible, extrapolated_index_warning);
+  if (at_visible) warn_of_colors(*at_visible);
+  if (at_requested && at_requested != at_visible) print_message("warning: " + *at_requested);
 }
 
 Json means(const std::vector<Estimate>& estimates) {
@@ -69,7 +70,7 @@ Json errors(const std::vector<Estimate>& estimates) {
   return list;
 }
 
-// One row per angle.
+// Rows of the answer, one per angle of incidence.
 Json rows_of(const GoniometerReport& report) {
   Json rows = Json::array();
   for (const GoniometerAngle& at : report.angles)
@@ -85,7 +86,7 @@ Json rows_of(const GoniometerReport& report) {
                     {"transmitted_Y_error", at.transmitted_color.Y_error},
                     {"transmitted_Lab", at.transmitted_color.lab},
                     {"sampling_p", at.sampling_p},
-                    {"spread", at.spread_integral}});
+                    {"spread", at.non_delta_probability}});
   return rows;
 }
 
@@ -99,7 +100,7 @@ Json answer_of(const std::string& name, const LabOptions& options, const Goniome
           {"dispersive", report.dispersive},
           {"reciprocity_error_max", report.reciprocity.largest},
           {"reciprocity_error_mean", report.reciprocity.mean},
-          {"energy_max", report.most_energy},
+          {"energy_max", report.max_albedo},
           {"angles", rows_of(report)}};
 }
 
@@ -118,9 +119,9 @@ void print_table(const Json& answer, const LabOptions& options, const Goniometer
   head.erase("angles");
   head.erase("wavelength_nm");
   print(head, false);
-  const auto columns = [&](const char* what) {
+  const auto columns = [&](const char* quantity) {
     std::string all;
-    for (const double nm : options.at_nm) all += fmt::format("{:>10}", fmt::format("{}({:g})", what, nm));
+    for (const double nm : options.at_nm) all += fmt::format("{:>10}", fmt::format("{}({:g})", quantity, nm));
     return all;
   };
   fmt::print("\n{:>7}{}{}      X      Y      Z     L*     a*     b*   sampling p\n", "angle", columns("R"),
@@ -139,7 +140,7 @@ int lab(const LabOptions& options) {
   Diagnostics diagnostics;
   Inputs inputs(options.max_memory_bytes);
   const Material material = accepted(load_material(options.material, diagnostics, &inputs), diagnostics);
-  check_matter(material, options.at_nm);
+  check_material(material, options.at_nm);
   for (std::filesystem::path& file : files_among({options.illuminant})) inputs.add_file(std::move(file));
   require_distinct(std::array{options.plot, options.map}, inputs.files());
   if (!options.plot.empty()) require_extension(options.plot, {".svg"});

@@ -20,8 +20,8 @@ lens::System load(const LensOptions& options, Inputs& inputs) {
   return accepted(load_lens(options.lens, diagnostics, &inputs, {}, options.wavelengths_nm), diagnostics);
 }
 
-// A table of columns with a line for each.
-std::string turned(const Json& columns) {
+// Transposed table with a line per column.
+std::string transposed(const Json& columns) {
   std::string lines;
   for (const auto& [name, values] : columns.items()) {
     lines += fmt::format("{:<22}", name);
@@ -36,8 +36,9 @@ std::string turned(const Json& columns) {
 
 void print_tables(const LensFigures& figures) {
   const LensTables tables = lens_tables(figures);
-  fmt::print("{}\n{}\n{}\n{}\nbrightest ghosts\n{}", text(tables.whole, false), turned(tables.wavelengths),
-             text(tables.surfaces, false), text(tables.fields, false), text(tables.ghosts, false));
+  fmt::print("{}\n{}\n{}\n{}\nbrightest ghosts\n{}", text(tables.whole, false),
+             transposed(tables.wavelengths), text(tables.surfaces, false), text(tables.fields, false),
+             text(tables.ghosts, false));
 }
 
 }  // namespace

@@ -135,7 +135,7 @@ Json whole_answer(const LensFigures& figures) {
   return answer;
 }
 
-// The figures of a field for one line of a table.
+// Adds the figures of a field as one line of a table.
 void add_row(const LensFigures& figures, const LensFieldFigures& field, Json& table) {
   const std::size_t primary = figures.system.primary;
   const auto size = lens::size_of(field.spots);
@@ -153,28 +153,28 @@ void add_row(const LensFigures& figures, const LensFieldFigures& field, Json& ta
   }
 }
 
-// The first of them, as columns.
-Json ghosts_answer(const LensFigures& figures, std::size_t most) {
+// Columns of the brightest ghosts, of which there are at most `max_count`.
+Json ghosts_answer(const LensFigures& figures, std::size_t max_count) {
   Json answer = Json::object();
   for (const char* name : {"surface", "then", "reflectance", "focus_mm", "diameter_mm"})
     answer[name] = Json::array();
-  for (std::size_t i = 0; i < std::min(most, figures.ghosts.size()); ++i) {
-    const GhostFigures& of = figures.ghosts[i];
-    answer["surface"].push_back(of.ghost.first + 1);
-    answer["then"].push_back(of.ghost.second + 1);
-    answer["reflectance"].push_back(of.ghost.reflectance);
-    answer["focus_mm"].push_back(finite(of.focus_mm));
-    answer["diameter_mm"].push_back(finite(of.diameter_mm));
+  for (std::size_t i = 0; i < std::min(max_count, figures.ghosts.size()); ++i) {
+    const GhostFigures& ghost_figures = figures.ghosts[i];
+    answer["surface"].push_back(ghost_figures.ghost.first + 1);
+    answer["then"].push_back(ghost_figures.ghost.second + 1);
+    answer["reflectance"].push_back(ghost_figures.ghost.reflectance);
+    answer["focus_mm"].push_back(finite(ghost_figures.focus_mm));
+    answer["diameter_mm"].push_back(finite(ghost_figures.diameter_mm));
   }
   return answer;
 }
 
-// Digits that a table has room for.
+// Rounds numbers to the digits that fit into a table.
 Json rounded(Json table) {
   for (auto& [name, values] : table.items())
     for (Json& value : values)
       if (value.is_number_float())
-        value = fmt::format("{:.7g}", value.get<double>() + 0.0);  // no negative zeros
+        value = fmt::format("{:.7g}", value.get<double>() + 0.0);  // removes negative zeros
   return table;
 }
 

@@ -7,11 +7,11 @@
 
 namespace abbe::cli {
 
-/// All figures of a lens, for scripts.
+/// All figures of a lens as JSON.
 [[nodiscard]] Json lens_answer(const LensFigures& figures);
 
-/// The figures of a lens for reading: of the whole lens, by wavelength, by surface, by field, and of the
-/// brightest ghosts.
+/// Figures of a lens as tables in plain text: of the whole lens, by wavelength, by surface, by field, and of
+/// the brightest ghosts.
 struct LensTables {
   Json whole;
   Json wavelengths;
@@ -21,7 +21,7 @@ struct LensTables {
 };
 [[nodiscard]] LensTables lens_tables(const LensFigures& figures);
 
-/// One HTML page of tables, drawing and plots that needs nothing else.
+/// Self-contained HTML page with tables, drawing and plots.
 [[nodiscard]] std::string lens_page(const LensFigures& figures);
 
 }  // namespace abbe::cli

@@ -9,7 +9,7 @@
 namespace abbe::cli {
 namespace {
 
-// A table whose lists are its columns.
+// HTML table with a column per list.
 std::string columns_table(const Json& table) {
   std::string html = "<table>\n<tr>";
   for (const auto& [name, values] : table.items()) html += fmt::format("<th>{}</th>", escaped(name));
@@ -22,7 +22,7 @@ std::string columns_table(const Json& table) {
   return html + "</table>\n";
 }
 
-// One whose lists are its rows, or values of their own.
+// HTML table with a row per list or per single value.
 std::string rows_table(const Json& table) {
   std::string html = "<table>\n";
   for (const auto& [name, values] : table.items()) {
@@ -43,8 +43,8 @@ std::string lens_page(const LensFigures& figures) {
   html += "<h2>By wavelength</h2>\n" + rows_table(tables.wavelengths) + inline_svg(focal_shift_plot(figures));
   html += "<h2>Seidel sums [mm]</h2>\n" + columns_table(tables.surfaces);
   html +=
-      "<h2>By field</h2>\n<p>Diffraction is left out: of lines as fine as the Airy disc the modulation is "
-      "less than this.</p>\n" +
+      "<h2>By field</h2>\n<p>The modulation is geometric. Diffraction lowers it further for lines as fine as "
+      "the Airy disc.</p>\n" +
       columns_table(tables.fields);
   html += "<h2>Brightest ghosts of a point on the axis</h2>\n" + columns_table(tables.ghosts);
   html += inline_svg(spot_plot(figures)) + inline_svg(lens_mtf_plot(figures));

@@ -16,23 +16,24 @@
 
 #include "cli/answer.h"
 #include "cli/commands.h"
-#include "cli/crew.h"
+#include "cli/mpi_group.h"
 #include "cli/usage.h"
 
 namespace abbe::cli {
 namespace {
 
-// A reader that leaves must not end a render that only tells its progress. And a closed standard stream must
-// not be the number of the next file opened: the stand-in gives an end of file or refuses what is written.
+// Ignores the signals of failed writes, so that a closed pipe does not end a render that reports its
+// progress. Opens /dev/null for closed standard streams, since the next opened file would get their numbers.
+// Reading it gives the end of the file, and writing fails.
 void prepare_streams() {
-  // Writing fails then, and that is told.
+  // Failed writes are reported at the end.
   for (const int signal : {SIGPIPE, SIGXFSZ}) std::signal(signal, SIG_IGN);
   for (const int stream : {0, 1, 2})
     if (::fcntl(stream, F_GETFD) < 0) (void)!::open("/dev/null", O_RDONLY);
 }
 
-// Whether standard output is a pipe that nobody reads any more.
-bool reader_has_left() {
+// True if standard output is a pipe whose reader has closed it.
+bool reader_has_closed() {
   pollfd output{STDOUT_FILENO, 0, 0};
   return ::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
 }
@@ -42,7 +43,7 @@ int run(int argc, char** argv) {
   Command command;
   add_commands(app, command);
   std::vector<std::string> arguments(argv + 1, argv + argc);
-  // Some kinds are questions too, and CLI11 would take `--list camera` for the question.
+  // Some kinds are also names of queries, and CLI11 would take `--list camera` for the query.
   for (std::size_t i = 0; i + 1 < arguments.size(); ++i)
     if (arguments[i] == "--list" && !arguments[i + 1].starts_with('-')) {
       arguments[i] += '=' + arguments[i + 1];
@@ -50,7 +51,7 @@ int run(int argc, char** argv) {
     }
   if (arguments.empty()) arguments = {"help"};
   check_names(app, arguments);
-  std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
+  std::reverse(arguments.begin(), arguments.end());  // the order that CLI11 expects
   try {
     app.parse(std::move(arguments));
   } catch (const CLI::ParseError& e) {
@@ -64,17 +65,18 @@ int guarded(int argc, char** argv) {
   try {
     return run(argc, argv);
   } catch (const Error& e) {
-    say(e.what());
+    print_message(e.what());
     return static_cast<int>(e.code);
   } catch (const std::bad_alloc&) {
-    say("out of memory");
+    print_message("out of memory");
     return static_cast<int>(ErrorCode::resource);
   } catch (const std::exception& e) {
-    if (std::ferror(stdout) != 0) return 0;  // of which main tells
+    if (std::ferror(stdout) != 0) return 0;  // reported by main
     const auto* system = dynamic_cast<const std::system_error*>(&e);
-    const bool no_threads = system != nullptr && system->code() == std::errc::resource_unavailable_try_again;
-    say(fmt::format("{}: {}", no_threads ? "out of threads" : "internal error", e.what()));
-    return static_cast<int>(no_threads ? ErrorCode::resource : ErrorCode::internal);
+    const bool out_of_threads =
+        system != nullptr && system->code() == std::errc::resource_unavailable_try_again;
+    print_message(fmt::format("{}: {}", out_of_threads ? "out of threads" : "internal error", e.what()));
+    return static_cast<int>(out_of_threads ? ErrorCode::resource : ErrorCode::internal);
   }
 }
 
@@ -84,12 +86,11 @@ int guarded(int argc, char** argv) {
 int main(int argc, char** argv) {
   abbe::cli::prepare_streams();
   const int code = abbe::cli::guarded(argc, argv);
-  if (code != 0) abbe::cli::abandon_crew(code);
-  // An answer that did not reach its reader is no answer; but one who leaves, as `head` does, has read
-  // enough.
-  const bool told = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.flush();
-  if (!told && !abbe::cli::reader_has_left()) {
-    abbe::cli::say("cannot write to standard output");
+  if (code != 0) abbe::cli::abort_mpi_group(code);
+  // An answer that could not be written is an error, unless the reader closed the pipe early, as `head` does.
+  const bool is_written = std::fflush(stdout) == 0 && std::ferror(stdout) == 0 && std::cout.flush();
+  if (!is_written && !abbe::cli::reader_has_closed()) {
+    abbe::cli::print_message("cannot write to standard output");
     return static_cast<int>(abbe::ErrorCode::output);
   }
   return code;

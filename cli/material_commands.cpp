@@ -8,37 +8,37 @@
 #include <fmt/format.h>
 
 #include "cli/arguments.h"
-#include "cli/bench_measurements.h"
 #include "cli/lab.h"
 #include "cli/query.h"
+#include "cli/sensor_measurements.h"
 #include "spectral/colorimetry.h"
 
 namespace abbe::cli {
 namespace {
 
-// Far beyond all colours, and near enough for formulas to stay numbers.
+// Coordinates of CIELAB within 1e6: far outside all colours, but small enough for finite results.
 Lab parse_lab(const std::string& option, const std::string& text) {
-  constexpr double kMost = 1e6;
-  (void)parse_numbers(option, text, -kMost, kMost);
+  constexpr double kMaxMagnitude = 1e6;
+  (void)parse_numbers(option, text, -kMaxMagnitude, kMaxMagnitude);
   return parse_triple(option, text);
 }
 
 void add_at(CLI::App& app, std::vector<double>& at_nm) {
-  add_parsed(app, "--at", at_nm, numbers_in(0, kAnyNumber), "Wavelengths in standard air", "NM[,NM...]")
+  add_parsed(app, "--at", at_nm, numbers_in(0, kAnyNumber), "Wavelengths in standard air in nm", "NM[,NM...]")
       ->required();
 }
 
 void add_json_with_arrays(CLI::App& app, bool& json, bool& arrays) {
   add_json(app, json);
-  app.add_flag("--arrays", arrays, "In JSON, give lists for a single wavelength or angle too")
+  app.add_flag("--arrays", arrays, "Print lists in JSON even for a single wavelength or angle")
       ->needs(app.get_option("--json"));
 }
 
-constexpr const char* kMaterialHelp = "Material, FILE.csv or FILE.yml of refractiveindex.info";
+constexpr const char* kMaterialHelp = "Name of a material, FILE.csv, or FILE.yml of refractiveindex.info";
 
-Sub<IndexOptions> add_index_query(CLI::App& query, const std::string& name, const std::string& help,
-                                  Command& command, int (*run)(const IndexOptions&)) {
-  Sub<IndexOptions> sub(query, name, help, command, run);
+Subcommand<IndexOptions> add_index_query(CLI::App& query, const std::string& name, const std::string& help,
+                                         Command& command, int (*run)(const IndexOptions&)) {
+  Subcommand<IndexOptions> sub(query, name, help, command, run);
   sub.app->add_option("name", sub->name, kMaterialHelp)->required()->type_name("MATERIAL");
   add_at(*sub.app, sub->at_nm);
   add_json_with_arrays(*sub.app, sub->json, sub->arrays);
@@ -46,42 +46,48 @@ Sub<IndexOptions> add_index_query(CLI::App& query, const std::string& name, cons
 }
 
 void add_material_queries(CLI::App& query, Command& command) {
-  const Sub<IndexOptions> ior =
-      add_index_query(query, "ior", "Refractive index n + ik as catalogued; k is - where it is not measured",
+  const Subcommand<IndexOptions> ior =
+      add_index_query(query, "ior", "Refractive index n + ik as catalogued; k is - if it is not measured",
                       command, query_ior);
   add_parsed(*ior.app, "--thickness", ior->thickness_mm, number_in(0, kAnyNumber),
-             "Also tell the internal transmittance of that many millimetres", "MM");
-  add_index_query(query, "critical", "Critical angle from inside, in air", command, query_critical);
+             "Thickness of a sample in mm, whose internal transmittance is also printed", "MM");
+  add_index_query(query, "critical", "Critical angle of total reflection inside a material in air", command,
+                  query_critical);
   add_index_query(query, "brewster",
-                  "Brewster's angle from air, or of metals the pseudo-Brewster angle, where Rp is least",
+                  "Brewster's angle for light from air; for metals the pseudo-Brewster angle of minimum Rp",
                   command, query_brewster);
 
-  const Sub<ReflectanceOptions> reflectance(
+  const Subcommand<ReflectanceOptions> reflectance(
       query, "reflectance",
-      "Reflectance of a polished surface in air, or in what else its index is relative to", command,
+      "Reflectance of a polished surface in air, or in the medium to which its index is relative", command,
       query_reflectance);
   reflectance.app->add_option("name", reflectance->name, kMaterialHelp)->required()->type_name("MATERIAL");
   add_at(*reflectance.app, reflectance->at_nm);
   add_parsed(*reflectance.app, "--angle", reflectance->angles_deg, numbers_in(0, 90),
-             "Angles of incidence (default 0)", "DEG[,DEG...]");
+             "Angles of incidence in degrees, 0 to 90 (default 0)", "DEG[,DEG...]");
   reflectance.app
       ->add_option("--coating", reflectance->coating,
-                   "Thin films on it, from outside inwards; light then comes from air, and T is told too")
+                   "Thin films on the surface with their thicknesses in nm, from outside inwards; light then "
+                   "comes from air, and the transmittance T is also printed")
       ->type_name("MATERIAL:NM[,MATERIAL:NM...]");
   add_json_with_arrays(*reflectance.app, reflectance->json, reflectance->arrays);
 
-  const Sub<PrismOptions> prism(query, "prism", "Deviation by a prism in air, least or at one incidence",
-                                command, query_prism);
+  const Subcommand<PrismOptions> prism(
+      query, "prism", "Deviation by a prism in air, at minimum deviation or at a given incidence", command,
+      query_prism);
   prism.app->add_option("name", prism->name, kMaterialHelp)->required()->type_name("MATERIAL");
   add_at(*prism.app, prism->at_nm);
-  add_parsed(*prism.app, "--apex", prism->apex_deg, number_in(1e-6, 180 - 1e-6), "Apex angle", "DEG")
+  add_parsed(*prism.app, "--apex", prism->apex_deg, number_in(1e-6, 180 - 1e-6),
+             "Apex angle in degrees, between 0 and 180", "DEG")
       ->required();
-  add_parsed(*prism.app, "--incidence", prism->incidence_deg, number_in(-90 + 1e-6, 90 - 1e-6),
-             "Incidence at the first face (default: least deviation)", "DEG");
+  add_parsed(
+      *prism.app, "--incidence", prism->incidence_deg, number_in(-90 + 1e-6, 90 - 1e-6),
+      "Angle of incidence at the first face in degrees, within 90 (default: that of minimum deviation)",
+      "DEG");
   add_json_with_arrays(*prism.app, prism->json, prism->arrays);
 }
 
-// The ranges of colorimetric sums that can be chosen by name.
+// Adds --range, which selects one of the ranges of colorimetric sums.
 template <typename Range>
 void add_sum_range(CLI::App& app, Range& range) {
   const auto parse = [](const std::string& option, const std::string& text) {
@@ -91,49 +97,62 @@ void add_sum_range(CLI::App& app, Range& range) {
     return kRanges.at(static_cast<std::size_t>(parse_choice(option, text, names)));
   };
   add_parsed(app, "--range", range, parse,
-             "Wavelengths in nm of the sums: those of the CIE's observers (default 360-830), or fewer, for "
-             "comparison with programs that truncate them",
+             "Wavelengths in nm over which colours are summed: those of the CIE observers (default 360-830), "
+             "or fewer for comparison with programs that truncate them",
              "360-830|380-780");
 }
 
 void add_color_queries(CLI::App& query, Command& command) {
-  const Sub<ColorOptions> color(query, "color", "Colour of a reflectance under an illuminant", command,
-                                query_color);
-  color.app->add_option("--illuminant", color->illuminant, "Illuminant, blackbody:K or daylight:K")
+  const Subcommand<ColorOptions> color(query, "color", "Colour of a reflectance under an illuminant", command,
+                                       query_color);
+  color.app
+      ->add_option("--illuminant", color->illuminant,
+                   "Name of an illuminant, blackbody:K or daylight:K with a temperature in K")
       ->required()
       ->type_name("ILLUMINANT");
   add_parsed(*color.app, "--observer", color->observer, one_of<Observer>({"1931", "1964"}),
-             "Standard observer (default 1931)", "1931|1964");
+             "Standard observer of the CIE: 1931 (2 degrees) or 1964 (10 degrees) (default 1931)",
+             "1931|1964");
   color.app
-      ->add_option("--reflectance", color->reflectance, "NAME or FILE.csv:COLUMN (default: perfect diffuser)")
+      ->add_option("--reflectance", color->reflectance,
+                   "Name of a reflectance, or FILE.csv:COLUMN (default: perfect diffuser)")
       ->type_name("REFLECTANCE");
   add_parsed(
       *color.app, "--method", color->method, one_of<ColorMethod>({"1nm", "astm-e308"}),
-      "Sum over every nanometre, or over the measured wavelengths by the weights of ASTM E308 (default "
-      "1nm)",
+      "Sum in steps of 1 nm, or over the measured wavelengths with the weights of ASTM E308 (default 1nm)",
       "1nm|astm-e308");
   add_sum_range(*color.app, color->range);
   add_json(*color.app, color->json);
 
-  const Sub<DeltaEOptions> delta_e(query, "delta-e", "Difference of two colours", command, query_delta_e);
-  add_parsed(*delta_e.app, "standard", delta_e->lab1, parse_lab, "First colour", "L,a,b")->required();
-  add_parsed(*delta_e.app, "sample", delta_e->lab2, parse_lab, "Second colour", "L,a,b")->required();
+  const Subcommand<DeltaEOptions> delta_e(
+      query, "delta-e", "Differences of two CIELAB colours by several formulas", command, query_delta_e);
+  add_parsed(*delta_e.app, "standard", delta_e->lab1, parse_lab,
+             "CIELAB coordinates L*,a*,b* of the standard", "L,a,b")
+      ->required();
+  add_parsed(*delta_e.app, "sample", delta_e->lab2, parse_lab, "CIELAB coordinates L*,a*,b* of the sample",
+             "L,a,b")
+      ->required();
   add_json(*delta_e.app, delta_e->json);
 
-  const Sub<CameraOptions> camera(query, "camera", "Raw values of a camera, green of the perfect diffuser 1",
-                                  command, query_camera);
-  camera.app->add_option("name", camera->name, "Camera or FILE.csv")->required()->type_name("CAMERA");
+  const Subcommand<CameraOptions> camera(
+      query, "camera", "Raw values of a camera, scaled to 1 for green of the perfect diffuser", command,
+      query_camera);
+  camera.app->add_option("name", camera->name, "Name of a camera, or FILE.csv of spectral responses")
+      ->required()
+      ->type_name("CAMERA");
   CLI::Option* illuminant =
-      camera.app->add_option("--illuminant", camera->illuminant, "Illuminant, blackbody:K or daylight:K")
+      camera.app
+          ->add_option("--illuminant", camera->illuminant,
+                       "Name of an illuminant, blackbody:K or daylight:K with a temperature in K")
           ->type_name("ILLUMINANT");
   camera.app
       ->add_option("--reflectance", camera->reflectance,
-                   "NAME or FILE.csv:COLUMN (default: perfect diffuser)")
+                   "Name of a reflectance, or FILE.csv:COLUMN (default: perfect diffuser)")
       ->needs(illuminant)
       ->type_name("REFLECTANCE");
   camera.app
-      ->add_flag("--judge", camera->judge,
-                 "Instead, how near the camera comes to an observer: Vora value, Luther's condition, "
+      ->add_flag("--judge", camera->metrics,
+                 "Print metrics of colour accuracy instead: Vora value, residuals of Luther's condition, "
                  "sensitivity metamerism index")
       ->excludes(illuminant);
   add_response(*camera.app, "--response", camera->response);
@@ -141,38 +160,46 @@ void add_color_queries(CLI::App& query, Command& command) {
 }
 
 void add_light_queries(CLI::App& query, Command& command) {
-  const Sub<LightOptions> light(query, "light",
-                                "Colour temperature, colour rendering (Ra, TM-30) and efficacy of a light",
-                                command, query_light);
+  const Subcommand<LightOptions> light(
+      query, "light", "Colour temperature, colour rendering (Ra, TM-30) and luminous efficacy of a light",
+      command, query_light);
   light.app
-      ->add_option("name", light->name,
-                   "Illuminant, blackbody:K or daylight:K, FILE.csv:COLUMN, or a spectral FILE.exr")
+      ->add_option(
+          "name", light->name,
+          "Name of an illuminant, blackbody:K, daylight:K, FILE.csv:COLUMN, or a spectral image FILE.exr")
       ->required()
       ->type_name("ILLUMINANT");
-  light.app->add_option("--filter", light->filters, "Filters that it goes through")
+  light.app->add_option("--filter", light->filters, "Filters through which the light passes: names or files")
       ->type_name("FILTER[,FILTER...]");
-  light.app->add_option("--reflectance", light->reflectance, "Surface that it comes from")
+  light.app
+      ->add_option("--reflectance", light->reflectance,
+                   "Surface that reflects the light: a name or FILE.csv:COLUMN")
       ->type_name("REFLECTANCE");
-  add_parsed(*light.app, "--crop", light->crop, parse_crop, "Of a spectral image: these pixels alone",
+  add_parsed(*light.app, "--crop", light->crop, parse_crop,
+             "Pixels of a spectral image to average, X0 <= x < X1 and Y0 <= y < Y1 (default: all)",
              "X0,Y0,X1,Y1");
-  light.app->add_option("--plot", light->plot, "Write the colour vector graphic of TM-30")
+  light.app->add_option("--plot", light->plot, "Colour vector graphic of TM-30 to write")
       ->type_name("FILE.svg");
-  light.app->add_flag("--samples", light->samples, "Print the colour fidelity of each of the 99 samples too");
+  light.app->add_flag("--samples", light->samples,
+                      "Also print the colour fidelity of each of the 99 samples");
   add_sum_range(*light.app, light->range);
   add_max_memory(*light.app, light.options);
   add_json(*light.app, light->json);
 
-  const Sub<MetamerismOptions> metamers(query, "metamerism",
-                                        "How two surfaces that look alike in one light differ in another",
-                                        command, query_metamerism);
+  const Subcommand<MetamerismOptions> metamers(
+      query, "metamerism",
+      "Colour difference, under a test illuminant, of two surfaces that match under a reference illuminant",
+      command, query_metamerism);
   for (auto* name : {&metamers->first, &metamers->second})
-    metamers.app->add_option(name == &metamers->first ? "first" : "second", *name, "NAME or FILE.csv:COLUMN")
+    metamers.app
+        ->add_option(name == &metamers->first ? "first" : "second", *name,
+                     "Name of a reflectance, or FILE.csv:COLUMN")
         ->required()
         ->type_name("REFLECTANCE");
-  metamers.app->add_option("--reference", metamers->reference, "Light in which they look alike")
+  metamers.app->add_option("--reference", metamers->reference, "Illuminant under which the surfaces match")
       ->capture_default_str()
       ->type_name("ILLUMINANT");
-  metamers.app->add_option("--test", metamers->test, "The other light")
+  metamers.app->add_option("--test", metamers->test, "Illuminant under which the surfaces are compared")
       ->capture_default_str()
       ->type_name("ILLUMINANT");
   add_sum_range(*metamers.app, metamers->range);
@@ -182,7 +209,7 @@ void add_light_queries(CLI::App& query, Command& command) {
 }  // namespace
 
 void add_query(CLI::App& app, Command& command) {
-  CLI::App* query = app.add_subcommand("query", "Ask the data and the closed forms");
+  CLI::App* query = app.add_subcommand("query", "Look up data and evaluate closed forms");
   auto options = std::make_shared<ListOptions>();
   CLI::Option* list =
       query->add_option("--list", options->kind, "List the names of all kinds of data, or of one")
@@ -196,66 +223,77 @@ void add_query(CLI::App& app, Command& command) {
     if (const auto questions = query->get_subcommands(); !questions.empty()) {
       if (list->count() == 0) return;
       throw Error(ErrorCode::usage, "--list",
-                  fmt::format("lists names, and answers no question beside (got {}, allowed alone)",
+                  fmt::format("lists names only and cannot be combined with a query (got {}, allowed alone)",
                               questions.front()->get_name()));
     }
-    if (list->count() == 0) throw CLI::RequiredError("query: a question or --list");
+    if (list->count() == 0) throw CLI::RequiredError("query: the name of a query, or --list,");
     command = [options] { return query_list(*options); };
   });
 }
 
 void add_transfer(CLI::App& app, Command& command) {
-  const Sub<TransferOptions> sub(app, "transfer",
-                                 "Gain, noise and range of a sensor from pairs of flat and dark raw files",
-                                 command, transfer);
+  const Subcommand<TransferOptions> sub(
+      app, "transfer", "Gain, noise and dynamic range of a sensor from pairs of flat and dark raw files",
+      command, transfer);
   sub.app
       ->add_option("--dark", sub->dark,
-                   "Dark frames, two of each exposure one after the other, of two exposure times or more")
+                   "Dark frames in successive pairs of equal exposure, with at least two exposure times")
       ->required()
       ->type_name("FILE...");
   sub.app
-      ->add_option("--lit", sub->lit, "Evenly lit frames, two of each, from weak light to beyond saturation")
+      ->add_option("--lit", sub->flat,
+                   "Uniformly illuminated (flat) frames in successive pairs of equal exposure, from weak "
+                   "light to above saturation")
       ->required()
       ->type_name("FILE...");
-  sub.app->add_option("--plot", sub->plot, "Write the photon-transfer curves")->type_name("FILE.svg");
+  sub.app->add_option("--plot", sub->plot, "Plot of the photon-transfer curves to write")
+      ->type_name("FILE.svg");
   add_max_memory(*sub.app, sub.options);
   add_json(*sub.app, sub->json);
 }
 
 void add_mtf(CLI::App& app, Command& command) {
-  const Sub<MtfOptions> sub(app, "mtf", "Modulation transfer function of a slanted edge in a linear image",
-                            command, mtf);
-  sub.app->add_option("image", sub->image, "Film or linear picture")->required()->type_name("FILE");
-  add_parsed(*sub.app, "--crop", sub->crop, parse_crop, "Pixels around the edge (default: all)",
-             "X0,Y0,X1,Y1");
-  sub.app->add_option("--channel", sub->channel, "Channel (default: G, else Y, else the first)")
+  const Subcommand<MtfOptions> sub(
+      app, "mtf", "Modulation transfer function of a slanted edge in a linear image", command, mtf);
+  sub.app->add_option("image", sub->image, "Film or linear picture with a slanted edge")
+      ->required()
+      ->type_name("FILE");
+  add_parsed(*sub.app, "--crop", sub->crop, parse_crop,
+             "Pixels around the edge, X0 <= x < X1 and Y0 <= y < Y1 (default: all)", "X0,Y0,X1,Y1");
+  sub.app
+      ->add_option("--channel", sub->channel,
+                   "Channel to evaluate (default: G, otherwise Y, otherwise the first)")
       ->type_name("NAME");
-  sub.app->add_option("--plot", sub->plot, "Write the curve")->type_name("FILE.svg");
+  sub.app->add_option("--plot", sub->plot, "Plot of the function to write")->type_name("FILE.svg");
   add_max_memory(*sub.app, sub.options);
   add_json(*sub.app, sub->json);
 }
 
 void add_lab(CLI::App& app, Command& command) {
-  const Sub<LabOptions> sub(app, "lab", "Measure how a material scatters", command, lab);
+  const Subcommand<LabOptions> sub(app, "lab", "Measure the scattering of a material on the BSDF bench",
+                                   command, lab);
   CLI::App& options = *sub.app;
   options
-      .add_option("material", sub->material,
-                  "Scene file and name of one of its materials, a file of one material, or its JSON")
+      .add_option(
+          "material", sub->material,
+          "Scene file and name of one of its materials, file of a single material, or the JSON of a material")
       ->required()
       ->type_name("FILE.json[:NAME]|JSON");
   add_parsed(options, "--at", sub->at_nm, numbers_in(kMinWavelengthNm, kMaxWavelengthNm),
-             "Wavelengths in standard air (default 450,550,650)", "NM[,NM...]");
+             "Wavelengths in standard air in nm (default 450,550,650)", "NM[,NM...]");
   add_parsed(options, "--angle", sub->angles_deg, numbers_in(0, 89.9),
-             "Angles of incidence (default 0,15,30,45,60,75,85)", "DEG[,DEG...]");
-  options.add_flag("--inside", sub->inside, "Let the beam come from within");
+             "Angles of incidence in degrees, 0 to 89.9 (default 0,15,30,45,60,75,85)", "DEG[,DEG...]");
+  options.add_flag("--inside", sub->inside, "Illuminate the surface from inside the material");
   options.add_option("--illuminant", sub->illuminant, "Illuminant of the colours (default D65)")
       ->type_name("ILLUMINANT");
   add_parsed(options, "--observer", sub->observer, one_of<Observer>({"1931", "1964"}),
-             "Standard observer (default 1931)", "1931|1964");
+             "Standard observer of the CIE: 1931 (2 degrees) or 1964 (10 degrees) (default 1931)",
+             "1931|1964");
   add_parsed(options, "--samples", sub->samples, integer_in<int>(256, kMaxSamples),
-             "Samples per angle and eight wavelengths (default 8192)", "N");
-  options.add_option("--plot", sub->plot, "Write polar plots of the lobes")->type_name("FILE.svg");
-  options.add_option("--map", sub->map, "Write pictures of the hemispheres")->type_name("FILE.png");
+             "Samples per angle of incidence and group of eight wavelengths, at least 256 (default 8192)",
+             "N");
+  options.add_option("--plot", sub->plot, "Polar plots of the lobes to write")->type_name("FILE.svg");
+  options.add_option("--map", sub->map, "Pictures of the hemispheres to write")->type_name("FILE.png");
   add_max_memory(options, sub.options);
   add_json(options, sub->json);
 }

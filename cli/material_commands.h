@@ -4,12 +4,12 @@
 
 namespace abbe::cli {
 
-/// `abbe query` with all its questions.
+/// Adds `abbe query` with all its subcommands.
 void add_query(CLI::App& app, Command& command);
-/// `abbe lab`.
+/// Adds `abbe lab`.
 void add_lab(CLI::App& app, Command& command);
 
-/// `abbe transfer` and `abbe mtf`.
+/// Adds `abbe transfer` and `abbe mtf`.
 void add_transfer(CLI::App& app, Command& command);
 void add_mtf(CLI::App& app, Command& command);
 

@@ -25,11 +25,11 @@ namespace fs = std::filesystem;
 
 using Corners = std::array<Imath::V2d, 4>;
 
-/// A chart to be found in images, and the scene that says where, if one does.
+/// Chart to measure, with its scene if a scene gives its position.
 struct ChartToMeasure {
   std::optional<Scene> scene;
-  std::vector<PatchOutline> outlines;  ///< Empty where they are to be found in each image.
-  std::vector<std::string> names;      ///< As the chart's table has them.
+  std::vector<PatchOutline> outlines;  ///< Empty if they are detected in each image.
+  std::vector<std::string> names;      ///< Names in the table of the chart.
 };
 
 ChartToMeasure chart_of_scene(const fs::path& path, Inputs& inputs) {
@@ -46,8 +46,9 @@ ChartToMeasure chart_of_scene(const fs::path& path, Inputs& inputs) {
 ChartToMeasure find_chart(const MeasureOptions& options, Inputs& inputs) {
   std::error_code ignored;
   if (!options.corners && !fs::is_regular_file(options.chart, ignored))
-    throw Error(ErrorCode::usage, "--chart",
-                fmt::format("no such scene; a table of patches needs --corners (got {})", options.chart));
+    throw Error(
+        ErrorCode::usage, "--chart",
+        fmt::format("is not a scene file, and a table of patches needs --corners (got {})", options.chart));
   if (!options.corners) return chart_of_scene(options.chart, inputs);
   for (const fs::path& file : files_among({options.chart})) inputs.add_file(file);
   Diagnostics diagnostics;
@@ -56,124 +57,126 @@ ChartToMeasure find_chart(const MeasureOptions& options, Inputs& inputs) {
   if (const auto* corners = std::get_if<Corners>(&*options.corners))
     chart.outlines = outlines_between(*corners, chart.names, options.columns);
   else if (chart.names.size() != 24 || options.columns != 6)
-    throw Error(ErrorCode::usage, "--corners find",
-                fmt::format("finds ColorCheckers of 24 patches alone, 6 to a row (got {} with {} patches, {} "
-                            "to a row)",
-                            options.chart, chart.names.size(), options.columns));
+    throw Error(
+        ErrorCode::usage, "--corners find",
+        fmt::format(
+            "detects only ColorCheckers of 24 patches, 6 per row (got {} with {} patches, {} per row)",
+            options.chart, chart.names.size(), options.columns));
   return chart;
 }
 
-/// One image's patches.
+/// Patches of one image.
 struct Measurement {
   fs::path file;
   std::vector<std::string> channels;
   std::string unit;
   std::vector<PatchValues> patches;
-  std::optional<Corners> found;                     // where the chart was, if it had to be found
-  std::optional<double> saturation;                 // as the file declares it
-  std::vector<std::optional<double>> clipped_at{};  // per channel, where that is lower
+  std::optional<Corners> detected_corners;          ///< Corners of the chart [pixels], if they were detected.
+  std::optional<double> saturation;                 ///< Level that the file declares, in `unit`.
+  std::vector<std::optional<double>> clipped_at{};  ///< Clipping level per channel, if below `saturation`.
 };
 
-// Where the chart is in an image, and whether that had to be found.
+// Outlines of the patches in an image. Detected corners are stored in `measured`.
 std::vector<PatchOutline> outlines_in(const LinearImage& image, const ChartToMeasure& chart,
                                       const MeasureOptions& options, Measurement& measured) {
   if (chart.scene) require_film_of(*chart.scene, chart.scene->charts.front(), image.image);
   if (!chart.outlines.empty()) return chart.outlines;
-  measured.found = find_chart(image);
-  return outlines_between(*measured.found, chart.names, options.columns);
+  measured.detected_corners = find_chart(image);
+  return outlines_between(*measured.detected_corners, chart.names, options.columns);
 }
 
-// A curve makes of light divided by light no ratio of their codes.
+// Warns of pictures with a tone curve, whose code values divided by those of the flat are not ratios of
+// light.
 void warn_of_flat(const LinearImage& divided, const fs::path& file) {
   if (divided.unit != kCodeValues) return;
   Diagnostics diagnostics;
-  warn_unless_linear(
-      divided.image, file,
-      "a --flat divides light, so that it needs raw files, or pictures that say that they are linear",
-      diagnostics);
+  warn_unless_linear(divided.image, file,
+                     "--flat divides light, so use raw files, or pictures that declare that they are linear",
+                     diagnostics);
   check(diagnostics);
 }
 
-// Measures the patches, and once more where they show that the image is clipped below what its file declares.
-void measure_planes(const LinearImage& read, const std::vector<PatchOutline>& outlines,
+// Measures the patches. If they show that the image clips below the declared saturation, measures them again
+// with the lower level.
+void measure_planes(const LinearImage& linear, const std::vector<PatchOutline>& outlines,
                     Measurement& measured) {
-  MeasuredPlanes planes = read.planes();
-  measured.patches = measure_patches(read.image, planes, outlines);
+  MeasuredPlanes planes = linear.planes();
+  measured.patches = measure_patches(linear.image, planes, outlines);
   if (!planes.saturation) return;
-  measured.clipped_at = planes.clipped_at = clipping_levels(read.image, planes, measured.patches);
+  measured.clipped_at = planes.clipped_at = clipping_levels(linear.image, planes, measured.patches);
   if (std::any_of(planes.clipped_at.begin(), planes.clipped_at.end(),
                   [](const auto& level) { return level; }))
-    measured.patches = measure_patches(read.image, planes, outlines);
+    measured.patches = measure_patches(linear.image, planes, outlines);
 }
 
-// An image's name stands before what is wrong with it.
+// Measures one image. The name of the image precedes its errors.
 Measurement measure_image(const fs::path& file, const ChartToMeasure& chart,
                           const std::optional<LinearImage>& flat, const MeasureOptions& options,
                           Inputs& inputs) {
-  LinearImage read = read_linear_image(file, &inputs);
-  for (const std::string& warning : read.warnings) say("warning: " + warning);
-  Measurement measured{file, read.channels, read.unit, {}, {}, read.saturation};
+  LinearImage linear = read_linear_image(file, &inputs);
+  for (const std::string& warning : linear.warnings) print_message("warning: " + warning);
+  Measurement measured{file, linear.channels, linear.unit, {}, {}, linear.saturation};
   try {
-    const std::vector<PatchOutline> outlines = outlines_in(read, chart, options, measured);
-    if (flat) warn_of_flat(read, file);
-    if (flat && read.exposed.empty()) inputs.take_memory(file.string(), read.image.memory_bytes());
-    if (flat) flat_field(read, *flat, options.flat);
-    measure_planes(read, outlines, measured);
+    const std::vector<PatchOutline> outlines = outlines_in(linear, chart, options, measured);
+    if (flat) warn_of_flat(linear, file);
+    if (flat && linear.exposed.empty()) inputs.reserve_memory(file.string(), linear.image.memory_bytes());
+    if (flat) flat_field(linear, *flat, options.flat);
+    measure_planes(linear, outlines, measured);
   } catch (const Error& error) {
     throw Error(error.code, file.string(), error.what());
   }
   for (std::size_t i = 0; i < chart.names.size(); ++i) measured.patches[i].name = chart.names[i];
-  inputs.give_back_memory(read.memory_bytes());
+  inputs.release_memory(linear.memory_bytes());
   return measured;
 }
 
-// So that one can check them, and give them for others of the same place.
-void tell_found(const Measurement& measured) {
-  if (!measured.found) return;
+// Prints detected corners, so that the user can check them and pass them for images with the same framing.
+void report_detected_corners(const Measurement& measured) {
+  if (!measured.detected_corners) return;
   std::string numbers;
-  for (const Imath::V2d& corner : *measured.found)
+  for (const Imath::V2d& corner : *measured.detected_corners)
     numbers += fmt::format("{}{:.1f},{:.1f}", numbers.empty() ? "" : ",", corner.x, corner.y);
-  say(fmt::format("{}: the chart was found at --corners {}", measured.file.string(), numbers));
+  print_message(fmt::format("{}: the chart was found at --corners {}", measured.file.string(), numbers));
 }
 
-// Warns of a saturation that the file declares too high, or not at all.
+// Warns if the file declares a saturation that is too high, or none.
 void warn_of_clipping(const Measurement& measured) {
   std::string levels;
   for (std::size_t k = 0; k < measured.clipped_at.size(); ++k)
     if (const auto& level = measured.clipped_at[k])
       levels += fmt::format("{}{:.6g} in {}", levels.empty() ? "" : ", ", *level, measured.channels[k]);
   if (!levels.empty())
-    say(fmt::format(
-        "warning: {}: patches without any noise hold the highest value of the picture ({}), so that it is "
-        "clipped there, not at the {:.6g} that the file declares or its format allows",
-        measured.file.string(), levels, *measured.saturation));
+    print_message(
+        fmt::format("warning: {}: the picture clips at {}, not at the {:.6g} that the file declares or its "
+                    "format allows: patches at its highest value have no noise",
+                    measured.file.string(), levels, *measured.saturation));
 }
 
-// The highest mean of a channel in patches that are saturated in all pixels but differ by more than noise, as
-// none do that the camera clips; nothing where there are none.
+// Highest mean of a channel in patches whose pixels are all saturated but which differ by more than noise.
+// Patches that the camera clips do not differ. Empty if there are no such patches.
 std::optional<double> unclipped_mean(const Measurement& measured, std::size_t channel) {
   constexpr double kDeviations = 5;
   double lowest = std::numeric_limits<double>::infinity();
   double highest = 0;
   double deviation = 0;
   for (const PatchValues& patch : measured.patches) {
-    const PatchChannel& own = patch.channels[channel];
-    if (own.saturated < own.pixels) continue;
-    lowest = std::min(lowest, own.mean);
-    highest = std::max(highest, own.mean);
-    deviation = std::max(deviation, own.deviation.value_or(0));
+    const PatchChannel& values = patch.channels[channel];
+    if (values.saturated < values.pixels) continue;
+    lowest = std::min(lowest, values.mean);
+    highest = std::max(highest, values.mean);
+    deviation = std::max(deviation, values.deviation.value_or(0));
   }
   return deviation > 0 && highest - lowest > kDeviations * deviation ? std::optional(highest) : std::nullopt;
 }
 
-// Warns of a saturation that the file declares too low.
+// Warns if the file declares a saturation that is too low.
 void warn_of_low_saturation(const Measurement& measured) {
   for (std::size_t k = 0; k < measured.channels.size(); ++k)
     if (const auto mean = unclipped_mean(measured, k))
-      say(fmt::format(
-          "warning: {}: patches of {} differ up to {:.6g}, above the {:.6g} from which the file declares "
-          "pixels to be saturated: declare the level where the camera clips, if that is higher",
-          measured.file.string(), measured.channels[k], *mean, *measured.saturation));
+      print_message(
+          fmt::format("warning: {}: patches in {} differ at values up to {:.6g}, although the file declares "
+                      "saturation from {:.6g}: declare the level at which the camera clips, if it is higher",
+                      measured.file.string(), measured.channels[k], *mean, *measured.saturation));
 }
 
 void warn_of_saturation(const Measurement& measured) {
@@ -183,34 +186,35 @@ void warn_of_saturation(const Measurement& measured) {
                     [](const PatchChannel& channel) { return channel.is_saturated(); }))
       names.push_back(patch.name);
   if (names.empty()) return;
-  say(
-      fmt::format("warning: {}: saturated pixels, whose values are too low, in {} (more than {:g} %, up to "
-                  "which they are taken for defective and left out)",
-                  measured.file.string(), fmt::join(names, ", "), 100 * kMostDefective));
+  print_message(
+      fmt::format("warning: {}: saturated pixels make the means too low in {} (more than {:g} % of the "
+                  "pixels; fewer are ignored as defective)",
+                  measured.file.string(), fmt::join(names, ", "), 100 * kMaxDefectiveFraction));
 }
 
 Json json_of(const Measurement& measured) {
   Json patches = Json::array();
   for (const PatchValues& patch : measured.patches) {
-    Json told{{"patch", patch.name}};
+    Json answer{{"patch", patch.name}};
     for (const PatchChannel& channel : patch.channels) {
-      told["pixels"].push_back(channel.pixels);
-      told["mean"].push_back(channel.mean);
-      told["deviation"].push_back(channel.deviation ? Json(*channel.deviation) : Json());
-      told["saturated"].push_back(channel.saturated);
+      answer["pixels"].push_back(channel.pixels);
+      answer["mean"].push_back(channel.mean);
+      answer["deviation"].push_back(channel.deviation ? Json(*channel.deviation) : Json());
+      answer["saturated"].push_back(channel.saturated);
     }
-    patches.push_back(std::move(told));
+    patches.push_back(std::move(answer));
   }
-  Json told{{"image", measured.file.string()},
-            {"unit", measured.unit},
-            {"channels", measured.channels},
-            {"patches", std::move(patches)}};
-  if (measured.found)
-    for (const Imath::V2d& corner : *measured.found) told["corners"].push_back({corner.x, corner.y});
-  return told;
+  Json answer{{"image", measured.file.string()},
+              {"unit", measured.unit},
+              {"channels", measured.channels},
+              {"patches", std::move(patches)}};
+  if (measured.detected_corners)
+    for (const Imath::V2d& corner : *measured.detected_corners)
+      answer["corners"].push_back({corner.x, corner.y});
+  return answer;
 }
 
-// As `calibrate --measured` takes it; of several images a line each, told by the first column.
+// CSV table for `calibrate --measured`. The first column names the image if there are several.
 std::string csv_of(const std::vector<Measurement>& all) {
   const bool several = all.size() > 1;
   std::string text = fmt::format("# unit: {}\n{}patch", all.front().unit, several ? "image," : "");
@@ -250,9 +254,10 @@ void require_one_table(const std::vector<Measurement>& all) {
     if (measured.channels != all.front().channels || measured.unit != all.front().unit)
       throw Error(
           ErrorCode::usage, "-o",
-          fmt::format("one table holds images of the same channels and unit (got {} of {} and {} of {})",
-                      fmt::join(all.front().channels, ", "), all.front().file.string(),
-                      fmt::join(measured.channels, ", "), measured.file.string()));
+          fmt::format(
+              "needs images with the same channels and unit for one table (got {} in {} and {} in {})",
+              fmt::join(all.front().channels, ", "), all.front().file.string(),
+              fmt::join(measured.channels, ", "), measured.file.string()));
 }
 
 }  // namespace
@@ -277,7 +282,7 @@ int measure(const MeasureOptions& options) {
   std::vector<Measurement> all;
   for (const fs::path& image : options.images) {
     all.push_back(measure_image(image, chart, flat, options, inputs));
-    tell_found(all.back());
+    report_detected_corners(all.back());
     warn_of_clipping(all.back());
     warn_of_low_saturation(all.back());
     warn_of_saturation(all.back());

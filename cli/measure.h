@@ -13,25 +13,25 @@
 
 namespace abbe::cli {
 
-/// The corners of a chart are to be found in each image.
+/// Request to detect the corners of a chart in each image.
 struct FindCorners {};
-/// Where a chart is in images without a scene: where its corners are [pixels], or where they are found.
+/// Corners of a chart [pixels] in images without a scene, or the request to detect them.
 using ChartCorners = std::variant<FindCorners, std::array<Imath::V2d, 4>>;
 
-/// What `abbe measure` was asked for.
+/// Options of `abbe measure`.
 struct MeasureOptions {
   std::vector<std::filesystem::path> images;
-  std::string chart;                    ///< A scene with a chart; with corners a table of one.
-  std::optional<ChartCorners> corners;  ///< Of a chart without a scene.
-  std::size_t columns = 6;              ///< Patches in a row of a chart with corners.
-  std::filesystem::path flat;           ///< A picture of an even surface, or empty.
-  std::filesystem::path output;         ///< A table, or empty.
+  std::string chart;  ///< A scene with a chart; if corners are given, a table of its patches.
+  std::optional<ChartCorners> corners;  ///< Corners of a chart without a scene.
+  std::size_t columns = 6;              ///< Patches per row of a chart with corners.
+  std::filesystem::path flat;           ///< Picture of a uniform surface for flat-fielding; empty for none.
+  std::filesystem::path output;         ///< CSV table of the results; empty for none.
   std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;
 };
 
-/// Measures the patches of a chart in images of any kind; prints and writes what each has. Returns the exit
-/// code.
+/// Measures the patches of a chart in images of any kind; prints the results and writes the table. Returns
+/// the exit code.
 int measure(const MeasureOptions& options);
 
 }  // namespace abbe::cli

@@ -16,8 +16,8 @@
 #include "cli/progress.h"
 #include "develop/film_file.h"
 #include "develop/radiance.h"
+#include "film/film_attributes.h"
 #include "film/rendered_film.h"
-#include "film/sensor_identity.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/file_lock.h"
@@ -28,13 +28,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What all parts together are, and the most that one of them takes.
+/// Header of the merged film, and the memory that its largest part needs.
 struct Headers {
   PartHeader sum;
   std::size_t largest_bytes = 0;
 };
 
-// Thousands of parts are judged by their headers before the first sum is read.
+// Checks all parts by their headers before the first sum is read, since there may be thousands.
 Headers read_headers(const MergeOptions& options) {
   std::vector<std::string> absent;
   std::error_code ignored;
@@ -48,8 +48,8 @@ Headers read_headers(const MergeOptions& options) {
     const std::size_t bytes = bytes_of_sums(part);
     if (options.crop && !contains(*options.crop, pixels_of(part.shape)))
       throw Error(ErrorCode::input, path.string(),
-                  fmt::format("has pixels beyond --crop (got {}, allowed {})", to_text(pixels_of(part.shape)),
-                              to_text(*options.crop)));
+                  fmt::format("has pixels outside --crop (got {}, allowed {})",
+                              to_text(pixels_of(part.shape)), to_text(*options.crop)));
     if (!all) {
       all = Headers{std::move(part), bytes};
       continue;
@@ -60,33 +60,34 @@ Headers read_headers(const MergeOptions& options) {
   return *std::move(all);
 }
 
-// Beside the sum are the film of a part and the bytes it is read from.
+// Memory holds the sum, the film of one part and the bytes from which it is read.
 RenderPart sum_of(const MergeOptions& options, const Headers& headers) {
   Inputs inputs(options.max_memory_bytes);
-  inputs.take_memory(options.parts.front().string(), bytes_of_sums(headers.sum) + 2 * headers.largest_bytes);
+  inputs.reserve_memory(options.parts.front().string(),
+                        bytes_of_sums(headers.sum) + 2 * headers.largest_bytes);
   RenderPart sum = empty_part(headers.sum);
   for (const fs::path& path : options.parts) abbe::merge(sum, read_part(path), path);
   return sum;
 }
 
-// Of the sensor whose film it is, told before any sums are read, what a picture takes. As `render`, it shows
-// what the light gave, without the noise of a read-out.
-FilmSensor shown_sensor(const FilmIdentity& identity, const fs::path& part) {
-  const Image told{0, 0, {}, identity};
+// Sensor for the picture, from the attributes of the film before any sums are read. Like `render`, it omits
+// the readout, so that the picture shows the light without noise.
+FilmSensor display_sensor(const FilmIdentity& identity, const fs::path& part) {
+  const Image header{0, 0, {}, identity};
   const ViewOptions view{users_configuration(), {}, {}};
   FilmSensor sensor;
   if (identity.contains(kSpectralBinsKey)) {
-    sensor = observer_of(told, part, view, {});
+    sensor = observer_of(header, part, view, {});
   } else {
     Diagnostics diagnostics;
-    sensor = accepted(film_sensor(told, part, {}, view, {}, diagnostics), diagnostics);
+    sensor = accepted(read_film_sensor(header, part, {}, view, {}, diagnostics), diagnostics);
     sensor.readout.reset();
   }
   require_display(sensor);
   return sensor;
 }
 
-// Where to write, checked before any part is read.
+// Output files, which are checked before any part is read.
 std::vector<fs::path> check_outputs(const MergeOptions& options) {
   std::vector<fs::path> files = options.outputs;
   for (const fs::path& output : options.outputs) require_film_output(output);
@@ -108,24 +109,23 @@ int merge(const MergeOptions& options) {
   const PartHeader& all = headers.sum;
   const SampledAreas missing = missing_samples(all, options.crop);
   if (!missing.empty() && !options.partial)
-    throw Error(
-        ErrorCode::input, options.outputs.front().string(),
-        fmt::format(
-            "{} are missing of those that the render is to have; --partial writes what the others give",
-            in_words(missing, all.shape)));
-  std::optional<FilmSensor> shown;
-  if (!options.display.empty()) shown = shown_sensor(all.identity, options.parts.front());
+    throw Error(ErrorCode::input, options.outputs.front().string(),
+                fmt::format("{} are missing from the whole render (--partial writes the film without them)",
+                            describe_samples(missing, all.shape)));
+  std::optional<FilmSensor> sensor;
+  if (!options.display.empty()) sensor = display_sensor(all.identity, options.parts.front());
   const RenderPart sum = sum_of(options, headers);
   std::vector<std::function<void()>> writers;
   for (const fs::path& output : options.outputs) writers.emplace_back([&] { write_film(output, sum); });
-  if (shown)
+  if (sensor)
     writers.emplace_back(
-        [&] { write_display(options.display, display_planes(*shown, film_image(sum)), *shown); });
+        [&] { write_display(options.display, display_planes(*sensor, film_image(sum)), *sensor); });
   write_all(writers);
   const double error = frame_mean_error(sum).value_or(std::numeric_limits<double>::infinity());
-  say(fmt::format("{} from {} parts: {}{}{}", options.outputs.front().string(), options.parts.size(),
-                  in_words(all.areas, all.shape, " of every pixel"),
-                  missing.empty() ? "" : fmt::format("; missing: {}", in_words(missing, all.shape)),
+  print_message(
+      fmt::format("{} from {} parts: {}{}{}", options.outputs.front().string(), options.parts.size(),
+                  describe_samples(all.areas, all.shape, " of every pixel"),
+                  missing.empty() ? "" : fmt::format("; missing: {}", describe_samples(missing, all.shape)),
                   error_text({.frame_mean = error, .few_samples = few_samples(sum)}, ", ")));
   return 0;
 }

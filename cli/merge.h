@@ -9,19 +9,18 @@
 
 namespace abbe::cli {
 
-/// What `abbe merge` was asked for.
+/// Options of `abbe merge`.
 struct MergeOptions {
   std::vector<std::filesystem::path> parts;
-  std::vector<std::filesystem::path> outputs;  ///< Films `.exr`, and parts again `.abbepart`.
-  std::optional<Crop> crop;                    ///< Which pixels there are to be; all when absent.
-  std::filesystem::path display;               ///< Picture of the film; empty when none is wanted.
-  bool partial = false;                        ///< Whether samples may be missing of those that were stated.
+  std::vector<std::filesystem::path> outputs;  ///< Films `.exr` and partial films `.abbepart`.
+  std::optional<Crop> crop;                    ///< Pixels that must be present; all without a crop.
+  std::filesystem::path display;               ///< Display picture of the film; empty for none.
+  bool partial = false;                        ///< Accept missing samples of those that the parts declare.
   std::size_t max_memory_bytes = default_memory_limit();
 };
 
-/// Adds up parts of one render, ranges of samples and crops, and writes their film. Whatever their number, no
-/// more memory is taken than three films need: their sum, and what a part is read into and from. Returns the
-/// exit code.
+/// Adds parts of one render, which are ranges of samples and crops, and writes their film. The memory is that
+/// of three films for any number of parts. Returns the exit code.
 int merge(const MergeOptions& options);
 
 }  // namespace abbe::cli

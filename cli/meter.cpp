@@ -23,15 +23,15 @@
 namespace abbe::cli {
 namespace {
 
-abbe::RenderOptions how_to_render(const MeterOptions& options, const InterruptWatch& watch,
-                                  ProgressDisplay& display) {
-  abbe::RenderOptions how;
-  how.threads = options.threads;
-  how.time_limit_s = options.time_limit_s;
-  how.target_error = options.target_error;
-  how.stop = &watch.stop();
-  if (!options.quiet) how.progress = [&display](const Progress& progress) { display(progress); };
-  return how;
+abbe::RenderOptions render_options_of(const MeterOptions& options, const InterruptWatch& watch,
+                                      ProgressDisplay& display) {
+  abbe::RenderOptions render_options;
+  render_options.threads = options.threads;
+  render_options.time_limit_s = options.time_limit_s;
+  render_options.target_error = options.target_error;
+  render_options.stop = &watch.stop();
+  if (!options.quiet) render_options.progress = [&display](const Progress& progress) { display(progress); };
+  return render_options;
 }
 
 MeterMeasurement measure(Scene scene, const Meter& meter, const MeterOptions& options,
@@ -39,26 +39,27 @@ MeterMeasurement measure(Scene scene, const Meter& meter, const MeterOptions& op
   set_sampling(options, scene.render);
   ProgressDisplay display;
   if (!options.quiet) display.prepare();
-  const auto render_and_finish = [&display](const Scene& seen, const abbe::RenderOptions& how) {
-    RenderResult result = abbe::render(seen, how);
+  const auto render_and_finish = [&display](const Scene& metered_scene,
+                                            const abbe::RenderOptions& render_options) {
+    RenderResult result = abbe::render(metered_scene, render_options);
     display.finish();
     return result;
   };
   const auto warn = [&display](const std::string& sentence) {
     display.clear();
-    say("warning: " + sentence);
+    print_message("warning: " + sentence);
   };
-  return measure_meter(std::move(scene), meter, how_to_render(options, watch, display),
+  return measure_meter(std::move(scene), meter, render_options_of(options, watch, display),
                        {render_and_finish, warn, "--error", options.strict}, inputs);
 }
 
-// Null where nothing is known.
+// Null if the value is not finite.
 Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }
 
 double half_interval_95(const Film::Average& value) {
-  return abbe::half_interval(value.standard_error, value.degrees_of_freedom, kMeterLevel);
+  return abbe::half_interval(value.standard_error, value.degrees_of_freedom, kMeterConfidence);
 }
 
 Json error_of(const Film::Average& value) {
@@ -73,52 +74,52 @@ Json json_of(const Film::Average& value, const char* unit) {
 }
 
 Json cells_json(const MeterMeasurement& measured) {
-  Json told{{"columns", measured.meter.cells[0]}, {"rows", measured.meter.cells[1]}};
-  const auto list = [&](const std::string& name, Film::Average LightReading::*which) {
+  Json answer{{"columns", measured.meter.cells[0]}, {"rows", measured.meter.cells[1]}};
+  const auto list = [&](const std::string& name, Film::Average LightReading::*quantity) {
     for (const LightReading& cell : measured.reading.cells) {
-      told[name].push_back((cell.*which).mean);
-      told[name + "_standard_error"].push_back(error_of(cell.*which));
+      answer[name].push_back((cell.*quantity).mean);
+      answer[name + "_standard_error"].push_back(error_of(cell.*quantity));
     }
   };
   list("radiant", &LightReading::radiant);
   list("luminous", &LightReading::luminous);
   list("photons", &LightReading::photons);
-  return told;
+  return answer;
 }
 
 Json spectrum_json(const MeterMeasurement& measured) {
-  Json told{{"wavelength_nm", Json::array()}, {"per_nm", Json::array()}, {"standard_error", Json::array()}};
+  Json answer{{"wavelength_nm", Json::array()}, {"per_nm", Json::array()}, {"standard_error", Json::array()}};
   for (int bin = 0; bin < measured.meter.spectrum->count; ++bin) {
     const Film::Average& value = measured.reading.spectrum[static_cast<std::size_t>(bin)];
-    told["wavelength_nm"].push_back(measured.meter.spectrum->center_nm(bin));
-    told["per_nm"].push_back(value.mean);
-    told["standard_error"].push_back(error_of(value));
+    answer["wavelength_nm"].push_back(measured.meter.spectrum->center_nm(bin));
+    answer["per_nm"].push_back(value.mean);
+    answer["standard_error"].push_back(error_of(value));
   }
-  return told;
+  return answer;
 }
 
 Json json_of(const MeterMeasurement& measured) {
   const MeterUnits& units = units_of(measured.meter.quantity);
   const LightReading& whole = measured.reading.whole;
-  Json told{{"name", measured.meter.name},
-            {"measures", kMeterQuantityNames.at(static_cast<std::size_t>(measured.meter.quantity))},
-            {"radiant", json_of(whole.radiant, units.radiant)},
-            {"luminous", json_of(whole.luminous, units.luminous)},
-            {"photons", json_of(whole.photons, units.photons)}};
-  if (!measured.reading.cells.empty()) told["cells"] = cells_json(measured);
-  if (measured.meter.spectrum) told["spectrum"] = spectrum_json(measured);
-  told["integrator"] = integrator_name(measured.integrator);
-  told["seed"] = measured.seed;
-  told["samples"] = measured.stats.samples_per_pixel;
+  Json answer{{"name", measured.meter.name},
+              {"measures", kMeterQuantityNames.at(static_cast<std::size_t>(measured.meter.quantity))},
+              {"radiant", json_of(whole.radiant, units.radiant)},
+              {"luminous", json_of(whole.luminous, units.luminous)},
+              {"photons", json_of(whole.photons, units.photons)}};
+  if (!measured.reading.cells.empty()) answer["cells"] = cells_json(measured);
+  if (measured.meter.spectrum) answer["spectrum"] = spectrum_json(measured);
+  answer["integrator"] = integrator_name(measured.integrator);
+  answer["seed"] = measured.seed;
+  answer["samples"] = measured.stats.samples_per_pixel;
   const RelativeError& error = measured.stats.error;
-  told["half_noise_samples"] = error.few_samples ? Json(*error.few_samples) : Json();
-  told["hidden_noise"] = error.hidden_noise > 0 ? Json(error.hidden_noise) : Json();
-  if (measured.stats.interrupted) told["interrupted"] = true;
-  told["wall_s"] = measured.stats.wall_s;
-  return told;
+  answer["half_noise_samples"] = error.few_samples ? Json(*error.few_samples) : Json();
+  answer["hidden_noise"] = error.hidden_noise > 0 ? Json(error.hidden_noise) : Json();
+  if (measured.stats.interrupted) answer["interrupted"] = true;
+  answer["wall_s"] = measured.stats.wall_s;
+  return answer;
 }
 
-std::string in_words(const Film::Average& value, const char* unit) {
+std::string value_text(const Film::Average& value, const char* unit) {
   const double half = half_interval_95(value);
   const std::string interval = std::isfinite(half) ? fmt::format(" +- {:.2g}", half) : "";
   return fmt::format("{:.6g}{} {}", value.mean, interval, unit);
@@ -129,18 +130,18 @@ void print_text(const MeterMeasurement& measured) {
   const LightReading& whole = measured.reading.whole;
   fmt::print("{}  {}  {}  {}  {}\n", measured.meter.name,
              kMeterQuantityNames.at(static_cast<std::size_t>(measured.meter.quantity)),
-             in_words(whole.radiant, units.radiant), in_words(whole.luminous, units.luminous),
-             in_words(whole.photons, units.photons));
+             value_text(whole.radiant, units.radiant), value_text(whole.luminous, units.luminous),
+             value_text(whole.photons, units.photons));
   const std::vector<LightReading>& cells = measured.reading.cells;
   if (cells.empty()) return;
-  std::vector<double> of_cells;
-  for (const LightReading& cell : cells) of_cells.push_back(cell.luminous.mean);
-  const auto [least, greatest] = std::minmax_element(of_cells.begin(), of_cells.end());
-  const double sum = std::accumulate(of_cells.begin(), of_cells.end(), 0.0);
+  std::vector<double> cell_values;
+  for (const LightReading& cell : cells) cell_values.push_back(cell.luminous.mean);
+  const auto [min_value, max_value] = std::minmax_element(cell_values.begin(), cell_values.end());
+  const double sum = std::accumulate(cell_values.begin(), cell_values.end(), 0.0);
   fmt::print("  {} x {} cells from {:.6g} to {:.6g} {}{}\n", measured.meter.cells[0], measured.meter.cells[1],
-             *least, *greatest, units.luminous,
-             sum > 0 ? fmt::format(", the least {:.3g} of the mean",
-                                   *least * static_cast<double>(of_cells.size()) / sum)
+             *min_value, *max_value, units.luminous,
+             sum > 0 ? fmt::format(", minimum / mean {:.3g}",
+                                   *min_value * static_cast<double>(cell_values.size()) / sum)
                      : "");
 }
 
@@ -168,24 +169,24 @@ void check_spectra(const MeterOptions& options, const std::vector<const Meter*>&
   require_writable(options.spectra);
 }
 
-// Reads the meters in turn. What their scene holds besides their films is counted once, and so are its files
-// and warnings told.
+// Reads the meters one after the other. The memory, the files and the warnings of their scene are counted and
+// reported once.
 std::vector<MeterMeasurement> measure_all(const MeteredScene& metered,
                                           const std::vector<const Meter*>& meters,
                                           const MeterOptions& options, const InterruptWatch& watch,
                                           Inputs& inputs) {
   std::vector<MeterMeasurement> all;
-  for (const Meter* one : meters) {
+  for (const Meter* meter : meters) {
     if (watch.stop()) break;
     Diagnostics diagnostics(options.strict ? Strictness::strict : Strictness::lenient);
-    std::optional<Scene> scene = scene_of(metered, *one, diagnostics, all.empty() ? &inputs : nullptr);
+    std::optional<Scene> scene = scene_of(metered, *meter, diagnostics, all.empty() ? &inputs : nullptr);
     if (all.empty() || !scene) scene = accepted(std::move(scene), diagnostics);
     if (all.empty()) {
       require_distinct(std::array{options.spectra}, inputs.files());
       warn_of_hidden_sheet(*scene, options.strict);
-      warn_of_hidden_lamp(*scene, options.strict);
+      warn_of_hidden_light(*scene, options.strict);
     }
-    all.push_back(measure(*std::move(scene), *one, options, watch, inputs));
+    all.push_back(measure(*std::move(scene), *meter, options, watch, inputs));
     if (!options.json) print_text(all.back());
   }
   return all;
@@ -202,11 +203,12 @@ int meter(const MeterOptions& options) {
   check_spectra(options, meters);
   const InterruptWatch watch;
   const std::vector<MeterMeasurement> all = measure_all(scene, meters, options, watch, inputs);
-  if (watch.stop()) say(fmt::format("interrupted: {} of {} meters were read", all.size(), meters.size()));
+  if (watch.stop())
+    print_message(fmt::format("interrupted: {} of {} meters were read", all.size(), meters.size()));
   if (options.json) {
-    Json told = Json::array();
-    for (const MeterMeasurement& measured : all) told.push_back(json_of(measured));
-    print({{"meters", told}}, true);
+    Json answer = Json::array();
+    for (const MeterMeasurement& measured : all) answer.push_back(json_of(measured));
+    print({{"meters", answer}}, true);
   }
   const auto has_spectrum = [](const MeterMeasurement& measured) {
     return !measured.reading.spectrum.empty();
@@ -214,8 +216,10 @@ int meter(const MeterOptions& options) {
   if (!options.spectra.empty() && std::any_of(all.begin(), all.end(), has_spectrum))
     write_atomically(options.spectra, spectra_table(all));
   if (watch.stop()) return kSignalExit + watch.signal();
-  const auto dropped = [](const MeterMeasurement& measured) { return measured.stats.nonfinite_samples > 0; };
-  return options.strict && std::any_of(all.begin(), all.end(), dropped)
+  const auto has_dropped_samples = [](const MeterMeasurement& measured) {
+    return measured.stats.nonfinite_samples > 0;
+  };
+  return options.strict && std::any_of(all.begin(), all.end(), has_dropped_samples)
              ? static_cast<int>(ErrorCode::internal)
              : 0;
 }

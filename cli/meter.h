@@ -7,16 +7,16 @@
 
 namespace abbe::cli {
 
-/// What `abbe meter` was asked for.
+/// Options of `abbe meter`.
 struct MeterOptions : SamplingOptions {
-  std::filesystem::path scene;      ///< "-" is standard input.
-  std::vector<std::string> meters;  ///< By name; none for all.
-  std::filesystem::path spectra;    ///< A table of the meters' spectra, or empty.
+  std::filesystem::path scene;      ///< Scene file; "-" is standard input.
+  std::vector<std::string> meters;  ///< Names of meters; empty for all.
+  std::filesystem::path spectra;    ///< CSV table of the meters' spectra; empty for none.
   bool json = false;
 };
 
-/// Prints what the meters of a scene read. Returns the exit code: 0, or 128 plus the signal that stopped it
-/// early, the readings done printed and valid.
+/// Prints the readings of a scene's meters. Returns 0, or 128 plus the number of the signal that stopped it.
+/// In that case the readings so far are printed and valid.
 int meter(const MeterOptions& options);
 
 }  // namespace abbe::cli

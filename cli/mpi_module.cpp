@@ -1,4 +1,4 @@
-// The module for MPI: all of Abbe's use of it, behind the functions of cli/crew.h.
+// All of Abbe's use of MPI, behind the functions of `MpiModule`.
 #include <mpi.h>
 
 #include <algorithm>
@@ -6,14 +6,14 @@
 #include <cstdlib>
 #include <vector>
 
-#include "cli/crew.h"
+#include "cli/mpi_group.h"
 #include "io/error.h"
 
 namespace abbe::cli {
 namespace {
 
-// At a time, so that neither the counts of MPI's calls nor its buffers grow with the film.
-constexpr std::size_t kNumbersAtOnce = std::size_t{1} << 20;
+// Numbers per call of MPI, so that neither its counts nor its buffers grow with the film.
+constexpr std::size_t kMaxNumbersPerCall = std::size_t{1} << 20;
 
 void add(void* from, void* to, int* count, MPI_Datatype*) {
   const auto* numbers = static_cast<const Int128*>(from);
@@ -25,7 +25,7 @@ void add(void* from, void* to, int* count, MPI_Datatype*) {
     }
 }
 
-/// The type of the film's sums, and how to add them, which commutes and associates to the bit.
+/// MPI type of the film's sums and operation that adds them. The addition commutes and associates to the bit.
 struct ExactSum {
   MPI_Datatype type = MPI_DATATYPE_NULL;
   MPI_Op op = MPI_OP_NULL;
@@ -37,40 +37,43 @@ struct ExactSum {
   }
 };
 
-void collect(std::span<Int128> numbers, int rank) {
+void reduce_to_root(std::span<Int128> numbers, int rank) {
   static const ExactSum kSum;
-  for (std::size_t first = 0; first < numbers.size(); first += kNumbersAtOnce) {
-    const std::span<Int128> some = numbers.subspan(first, std::min(kNumbersAtOnce, numbers.size() - first));
-    const auto count = static_cast<int>(some.size());
+  for (std::size_t first = 0; first < numbers.size(); first += kMaxNumbersPerCall) {
+    const std::span<Int128> chunk =
+        numbers.subspan(first, std::min(kMaxNumbersPerCall, numbers.size() - first));
+    const auto count = static_cast<int>(chunk.size());
     if (rank == 0)
-      MPI_Reduce(MPI_IN_PLACE, some.data(), count, kSum.type, kSum.op, 0, MPI_COMM_WORLD);
+      MPI_Reduce(MPI_IN_PLACE, chunk.data(), count, kSum.type, kSum.op, 0, MPI_COMM_WORLD);
     else
-      MPI_Reduce(some.data(), nullptr, count, kSum.type, kSum.op, 0, MPI_COMM_WORLD);
+      MPI_Reduce(chunk.data(), nullptr, count, kSum.type, kSum.op, 0, MPI_COMM_WORLD);
   }
   if (rank != 0) std::fill(numbers.begin(), numbers.end(), Int128{0});
 }
 
-std::uint64_t follow(std::uint64_t said) {
-  MPI_Bcast(&said, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
-  return said;
+std::uint64_t broadcast_from_root(std::uint64_t value) {
+  MPI_Bcast(&value, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
+  return value;
 }
 
-CrewModule join() {
+MpiModule start_mpi() {
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);
   (void)std::atexit([] { MPI_Finalize(); });
-  CrewModule module{{}, [](int code) { MPI_Abort(MPI_COMM_WORLD, code); }};
-  MPI_Comm_rank(MPI_COMM_WORLD, &module.crew.rank);
-  MPI_Comm_size(MPI_COMM_WORLD, &module.crew.size);
-  module.crew.collect = [rank = module.crew.rank](std::span<Int128> numbers) { collect(numbers, rank); };
-  module.crew.follow = follow;
+  MpiModule module{{}, [](int code) { MPI_Abort(MPI_COMM_WORLD, code); }};
+  MPI_Comm_rank(MPI_COMM_WORLD, &module.mpi_group.rank);
+  MPI_Comm_size(MPI_COMM_WORLD, &module.mpi_group.size);
+  module.mpi_group.reduce = [rank = module.mpi_group.rank](std::span<Int128> numbers) {
+    reduce_to_root(numbers, rank);
+  };
+  module.mpi_group.broadcast = broadcast_from_root;
   return module;
 }
 
 }  // namespace
 }  // namespace abbe::cli
 
-extern "C" __attribute__((visibility("default"))) const abbe::cli::CrewModule* abbe_mpi() {
-  static const abbe::cli::CrewModule kModule = abbe::cli::join();
+extern "C" __attribute__((visibility("default"))) const abbe::cli::MpiModule* abbe_mpi() {
+  static const abbe::cli::MpiModule kModule = abbe::cli::start_mpi();
   return &kModule;
 }

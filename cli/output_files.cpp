@@ -21,7 +21,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Device and inode of a file that is there, wherever links lead; the place of one that is not.
+// Device and inode of an existing file, with links resolved; the canonical path of a file that does not
+// exist.
 std::string identity_of(const fs::path& file) {
   struct stat status {};
   if (::stat(file.c_str(), &status) == 0) return fmt::format("{}:{}", status.st_dev, status.st_ino);
@@ -45,28 +46,29 @@ void require_picture_extension(const fs::path& path) {
 }
 
 void require_no_view(const ViewOptions& view, std::string_view pictures) {
-  const char* unmet = !view.view.empty()      ? "--view"
-                      : !view.display.empty() ? "--screen"
-                      : !view.config.empty()  ? "--ocio"
-                                              : "";
-  if (*unmet != 0)
-    throw Error(ErrorCode::usage, unmet, fmt::format("only a picture takes it (allowed with {})", pictures));
+  const char* option = !view.view.empty()      ? "--view"
+                       : !view.display.empty() ? "--screen"
+                       : !view.config.empty()  ? "--ocio"
+                                               : "";
+  if (*option != 0)
+    throw Error(ErrorCode::usage, option,
+                fmt::format("applies to pictures only (allowed with {})", pictures));
 }
 
 void require_distinct(std::span<const fs::path> outputs, std::span<const fs::path> inputs) {
-  constexpr std::string_view kIsRead = ", which is read: an output needs a place of its own";
+  constexpr std::string_view kIsRead = ", which is an input: choose another output file";
   std::map<std::string, fs::path> written;
   bool replaces = false;
   for (const fs::path& output : outputs) {
     if (output.empty()) continue;
-    const auto [there, added] = written.emplace(identity_of(output), output);
-    if (!added) refuse(output, there->second, ": each output needs a place of its own");
+    const auto [earlier, added] = written.emplace(identity_of(output), output);
+    if (!added) refuse(output, earlier->second, ": choose a different file for each output");
     std::error_code ignored;
     replaces = replaces || fs::exists(output, ignored);
   }
   const auto guard = [&written, kIsRead](const fs::path& input) {
-    const auto found = written.find(identity_of(input));
-    if (found != written.end()) refuse(found->second, input, kIsRead);
+    const auto output = written.find(identity_of(input));
+    if (output != written.end()) refuse(output->second, input, kIsRead);
   };
   for (const fs::path& input : inputs)
     if (!input.empty()) guard(input);
@@ -93,7 +95,7 @@ void write_all(std::span<const std::function<void()>> writers) {
       write();
     } catch (const Error& error) {
       if (failure)
-        say(error.what());
+        print_message(error.what());
       else
         failure = error;
     }

@@ -4,18 +4,18 @@
 
 #include "cli/answer.h"
 
-// What pages of commands have in common.
+// Beginning of an HTML document, with its style and the title as its first heading.
 namespace abbe::cli {
 
-/// The beginning of an HTML document, with its style and the title as its first heading.
+/// Start of an HTML document up to its heading, which is `title`.
 [[nodiscard]] std::string page_head(const std::string& title);
-/// What ends it.
+/// End of an HTML document.
 inline constexpr const char* kPageEnd = "</body></html>\n";
 
-/// A value as a table shows it: a text, what JSON calls a number, or a dash for null.
+/// Text of a table cell: a text, a number as JSON writes it, or a dash for null.
 [[nodiscard]] std::string table_cell(const Json& value);
 
-/// A picture of its own within the page.
+/// SVG document for embedding in a page, without its XML declaration.
 [[nodiscard]] std::string inline_svg(const std::string& document);
 
 }  // namespace abbe::cli

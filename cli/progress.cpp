@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
-#include "film/shortcomings.h"
+#include "film/scene_warnings.h"
 
 namespace abbe::cli {
 namespace {
@@ -17,8 +17,8 @@ namespace {
 constexpr std::size_t kMaxBarWidth = 30;
 constexpr std::size_t kMinBarWidth = 8;
 constexpr std::size_t kBarFrame = 3;  // "[", "] "
-constexpr int kUsualColumns = 80;
-constexpr std::chrono::milliseconds kRedraw{200};
+constexpr int kDefaultColumns = 80;
+constexpr std::chrono::milliseconds kRedrawInterval{200};
 
 std::string duration(double seconds) {
   if (!(seconds < 360000)) return "a long time";
@@ -28,7 +28,7 @@ std::string duration(double seconds) {
   return fmt::format("{} h {:02} min", s / 3600, s % 3600 / 60);
 }
 
-// Two digits, and no exponent for percentages above 100.
+// Percentage with two digits, without an exponent above 100 %.
 std::string percent(double fraction) {
   const double value = 100 * fraction;
   return value < 99.5 ? fmt::format("{:.2g} %", value) : fmt::format("{:.0f} %", value);
@@ -37,7 +37,7 @@ std::string percent(double fraction) {
 enum class Detail { full, brief };
 
 std::string pixel_noise(const RelativeError& error, Detail detail) {
-  if (const auto unknown = unknown_error(error))
+  if (const auto unknown = unknown_error_warning(error))
     return detail == Detail::full ? *unknown : "error not yet known";
   if (!std::isfinite(error.median)) return "";
   std::string text = fmt::format("noise {} per pixel", percent(error.median));
@@ -46,11 +46,11 @@ std::string pixel_noise(const RelativeError& error, Detail detail) {
   return text;
 }
 
-/// Parts that a narrow terminal lacks, the least important first. Each implies those before it.
+/// Parts that are omitted on a narrow terminal, the least important first. Each implies those before it.
 enum Dropped { nothing, rate, error_samples, error_details, error, samples, percentage };
 
 std::string line_of(const Progress& progress, Dropped dropped) {
-  const double done = std::clamp(progress.share, 0.0, 1.0);
+  const double done = std::clamp(progress.fraction_done, 0.0, 1.0);
   std::string line;
   const auto append = [&line](const std::string& part) {
     if (!part.empty()) line += (line.empty() ? "" : "  ") + part;
@@ -69,27 +69,27 @@ std::string line_of(const Progress& progress, Dropped dropped) {
   return line;
 }
 
-// The bar fills the room that the line leaves; a narrow one is empty.
-std::string bar(double done, std::size_t room) {
-  const std::size_t width = std::min(kMaxBarWidth, room < kBarFrame ? 0 : room - kBarFrame);
+// Bar that fills the available columns; empty if they are too few.
+std::string bar(double done, std::size_t available) {
+  const std::size_t width = std::min(kMaxBarWidth, available < kBarFrame ? 0 : available - kBarFrame);
   if (width < kMinBarWidth) return "";
   const auto filled = static_cast<std::size_t>(done * static_cast<double>(width));
   return fmt::format("[{}{}] ", std::string(filled, '='), std::string(width - filled, ' '));
 }
 
-// The width of the terminal on stderr.
+// Columns of the terminal on stderr.
 int terminal_columns() {
   winsize size{};
-  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kUsualColumns;
+  return ::ioctl(STDERR_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : kDefaultColumns;
 }
 
 }  // namespace
 
-std::string error_text(const RelativeError& error, std::string_view before) {
+std::string error_text(const RelativeError& error, std::string_view prefix) {
   std::string text = pixel_noise(error, Detail::full);
   if (is_known(error) && std::isfinite(error.frame_mean))
     text += fmt::format("{}{} of the mean", text.empty() ? "error " : ", error ", percent(error.frame_mean));
-  return text.empty() ? "" : std::string(before) + text;
+  return text.empty() ? "" : std::string(prefix) + text;
 }
 
 std::string progress_line(const Progress& progress, std::optional<int> columns) {
@@ -101,41 +101,41 @@ std::string progress_line(const Progress& progress, std::optional<int> columns) 
     if (line.size() <= width) break;
   }
   line.resize(std::min(line.size(), width));
-  return bar(std::clamp(progress.share, 0.0, 1.0), width - line.size()) + line;
+  return bar(std::clamp(progress.fraction_done, 0.0, 1.0), width - line.size()) + line;
 }
 
 ProgressDisplay::ProgressDisplay() : terminal_(isatty(STDERR_FILENO) == 1) {}
 
 void ProgressDisplay::prepare() {
   if (!terminal_) return;
-  tell("\rpreparing: photons, guides\x1b[K");
+  print_to_stderr("\rpreparing: tracing pilot rays and photons\x1b[K");
   preparing_ = true;
 }
 
 void ProgressDisplay::clear() {
-  if (preparing_) tell("\r\x1b[K");
+  if (preparing_) print_to_stderr("\r\x1b[K");
   preparing_ = false;
 }
 
 void ProgressDisplay::operator()(const Progress& progress) {
   const auto now = std::chrono::steady_clock::now();
-  const auto tenths = static_cast<int>(10 * progress.share);
+  const auto tenths = static_cast<int>(10 * progress.fraction_done);
   if (terminal_) {
-    if (now - shown_ < kRedraw && tenths < 10) return;
-    tell(fmt::format("\r{}\x1b[K", progress_line(progress, terminal_columns())));
+    if (now - last_drawn_ < kRedrawInterval && tenths < 10) return;
+    print_to_stderr(fmt::format("\r{}\x1b[K", progress_line(progress, terminal_columns())));
     open_line_ = true;
     preparing_ = false;
   } else {
     if (tenths <= tenths_) return;
-    say(progress_line(progress));
+    print_message(progress_line(progress));
   }
   tenths_ = tenths;
-  shown_ = now;
+  last_drawn_ = now;
 }
 
 void ProgressDisplay::finish() {
   clear();
-  if (open_line_) tell("\n");
+  if (open_line_) print_to_stderr("\n");
   open_line_ = false;
 }
 

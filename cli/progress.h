@@ -9,30 +9,29 @@
 
 namespace abbe::cli {
 
-/// `before` and the error of a film in words: the noise of its pixels and of its mean, or that the error is
-/// not yet known. Empty if nothing was measured, as after one sample.
-[[nodiscard]] std::string error_text(const RelativeError& error, std::string_view before);
+/// `prefix`, followed by the error of a film: the noise of its pixels and of its mean, or a note that the
+/// error is not yet known. Empty if nothing was measured, as after one sample.
+[[nodiscard]] std::string error_text(const RelativeError& error, std::string_view prefix);
 
-/// One line on how far a render has come: percentage, samples per pixel and their rate, noise, time left. A
-/// log gets all of it. A terminal of `columns` columns gets a bar too, and a
-/// line that does not wrap: rate, noise, samples and percentage are dropped, in this order, before the time
-/// left.
+/// Progress of a render in one line: percentage, samples per pixel and their rate, noise, time left. A log
+/// contains all of it. A terminal of `columns` columns also has a bar. To fit its width, rate, noise, samples
+/// and percentage are omitted in this order; the time left always stays.
 [[nodiscard]] std::string progress_line(const Progress& progress, std::optional<int> columns = {});
 
-/// Shows progress on stderr: on a terminal one line redrawn at most five times a second, otherwise a line per
-/// tenth of the work.
+/// Shows progress on stderr. A terminal has one line that is redrawn at most five times a second; otherwise
+/// there is a line per tenth of the work.
 class ProgressDisplay {
  public:
   ProgressDisplay();
   ~ProgressDisplay() { clear(); }
   ProgressDisplay(const ProgressDisplay&) = delete;
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
-  /// Shows on a terminal that pilots run, until the next call.
+  /// Shows on a terminal that pilot rays are being traced, until the next call.
   void prepare();
   void operator()(const Progress& progress);
-  /// Removes the line of `prepare` from a terminal, for other text to take its place.
+  /// Removes the line of `prepare` from a terminal before other text is printed.
   void clear();
-  /// Ends the line of a progress on a terminal, so that it stays.
+  /// Ends the progress line on a terminal, so that it remains visible.
   void finish();
 
  private:
@@ -40,7 +39,7 @@ class ProgressDisplay {
   int tenths_ = 0;
   bool preparing_ = false;
   bool open_line_ = false;
-  std::chrono::steady_clock::time_point shown_{};
+  std::chrono::steady_clock::time_point last_drawn_{};
 };
 
 }  // namespace abbe::cli

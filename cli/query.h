@@ -13,96 +13,97 @@
 
 namespace abbe::cli {
 
-/// Questions about data and closed forms. `query ior` prints indices as catalogued; all answers about
-/// surfaces are for a surface in air, as in scenes, by indices relative to air. Wavelengths are those the
-/// table covers; a name that is not found throws Error{input} with the nearest one, a wavelength outside the
-/// table Error{usage}, as does one at which k is not measured where an answer hangs on it. Each prints its
-/// answer and returns the exit code.
+/// Queries about data and closed forms. Each prints its answer and returns the exit code.
+/// `query ior` prints indices as catalogued. All answers about surfaces are for a surface in air, as in
+/// scenes, with indices relative to air. Wavelengths must be inside the range of the table.
+/// An unknown name throws Error{input} with the nearest name. A wavelength outside the table throws
+/// Error{usage}. So does one without a measured k, if the answer depends on k.
 
-/// `query ior`, `query critical`, `query brewster`.
+/// Options of `query ior`, `query critical` and `query brewster`.
 struct IndexOptions {
   std::string name;
   std::vector<double> at_nm;
   bool json = false;
-  std::optional<double> thickness_mm = {};  ///< Of `query ior`: of the piece whose inside is asked about.
-  bool arrays = false;                      ///< Lists of wavelengths stay lists where they hold only one.
+  std::optional<double> thickness_mm = {};  ///< For `query ior`: thickness of the sample.
+  bool arrays = false;  ///< Print lists of wavelengths as lists even if they have one element.
 };
-/// Prints the index n + ik as catalogued. With a thickness d, also the share of the light between two faces
-/// that reaches the second: exp(-4 pi k d / lambda). That and k are null where k is not measured.
+/// Prints the index n + ik as catalogued. With a thickness d it also prints the internal transmittance exp(-4
+/// pi k d/lambda). Both k and the transmittance are null if k is not measured.
 int query_ior(const IndexOptions& options);
-/// Angle of total reflection against air; null where n <= 1, and where the material absorbs
-/// so much, 4 pi k >= 1, that no wave goes on within for a wavelength, as in metals.
+/// Prints the critical angle against air. It is null for n <= 1 and for 4 pi k >= 1, as in metals, where no
+/// wave propagates for a wavelength.
 int query_critical(const IndexOptions& options);
-/// Angle of least R_p for light from outside, with that R_p: Brewster's, atan(n), where it is none; of what
-/// absorbs the pseudo-Brewster angle, where it is not.
+/// Prints the angle of minimum R_p for light from outside, and R_p there. It is Brewster's angle atan(n) with
+/// R_p = 0, or the pseudo-Brewster angle of an absorbing material.
 int query_brewster(const IndexOptions& options);
 
-/// `query reflectance`: of a polished surface, perhaps under thin films, for light from air; with the phases
-/// of the reflected fields, which go as exp(-i omega t) and of which that in the plane of incidence has the
-/// sign of `FresnelAmplitudes`.
+/// Options of `query reflectance`: a polished surface, optionally under thin films, for light from air. The
+/// phases of the reflected fields follow exp(-i omega t); the sign of the field in the plane of incidence is
+/// that of `FresnelAmplitudes`.
 struct ReflectanceOptions {
   std::string name;
   std::vector<double> at_nm;
   std::vector<double> angles_deg{0};
   bool json = false;
-  std::string coating = {};  ///< Films on it, from outside inwards, as "MATERIAL:NM,MATERIAL:NM".
-  bool arrays = false;       ///< As of `IndexOptions`; lists of angles too.
+  std::string coating = {};  ///< Thin films from outside inwards, as "MATERIAL:NM,MATERIAL:NM".
+  bool arrays = false;       ///< As in `IndexOptions`; also for lists of angles.
 };
 int query_reflectance(const ReflectanceOptions& options);
 
-/// `query prism`: minimum deviation in air, or the deviation at one incidence.
+/// Options of `query prism`: minimum deviation in air, or the deviation at one incidence.
 struct PrismOptions {
   std::string name;
   double apex_deg = 60;
   std::vector<double> at_nm;
   std::optional<double> incidence_deg;
   bool json = false;
-  bool arrays = false;  ///< As of `IndexOptions`.
+  bool arrays = false;  ///< As in `IndexOptions`.
 };
 int query_prism(const PrismOptions& options);
 
-/// How colours are summed: every nanometre, or by the weights of ASTM E308 at the measured wavelengths.
+/// Integration of colours: in steps of 1 nm, or by the weights of ASTM E308 at the measured wavelengths.
 enum class ColorMethod { one_nm, astm_e308 };
 
-/// `query color`: of a reflectance, or of the perfect diffuser when none is named.
+/// Options of `query color`: a reflectance, or the perfect diffuser without a name.
 struct ColorOptions {
   std::string illuminant;
   Observer observer = Observer::cie1931;
   std::string reflectance = {};
   bool json = false;
   ColorMethod method = ColorMethod::one_nm;
-  std::optional<SumRange> range = {};  ///< Of `ColorMethod::one_nm`; ASTM E308 has its own.
+  std::optional<SumRange> range = {};  ///< Range of `ColorMethod::one_nm`; ASTM E308 has its own.
 };
-/// Throws Error{usage} for a range with `ColorMethod::astm_e308`.
+/// Prints the colour. Throws Error{usage} for a range with `ColorMethod::astm_e308`.
 int query_color(const ColorOptions& options);
 
-/// `query delta-e`: between two L*, a*, b*; the first is the standard.
+/// Options of `query delta-e`: two colours L*, a*, b*; the first is the standard.
 struct DeltaEOptions {
   std::array<double, 3> lab1{};
   std::array<double, 3> lab2{};
   bool json = false;
 };
-/// CIEDE2000, CIE 1976 and 1994; CAM16-UCS and ITP of colours relative to a white D65, that of ITP at 203
-/// cd/m^2.
+/// Prints the differences by CIEDE2000, CIE 1976 and CIE 1994. For colours relative to a D65 white it also
+/// prints CAM16-UCS and ITP, the latter with a white of 203 cd/m^2.
 int query_delta_e(const DeltaEOptions& options);
 
-/// `query light`: of a lamp, or of pixels of a spectral image, perhaps through filters and from a surface.
+/// Options of `query light`: an illuminant or pixels of a spectral image, optionally through filters and
+/// after reflection.
 struct LightOptions {
-  std::string name;          ///< An illuminant, or a spectral EXR.
-  std::string filters = {};  ///< Of `data/filter` or files, with commas between them.
+  std::string name;          ///< An illuminant or a spectral EXR.
+  std::string filters = {};  ///< Files or names in `data/filter`, separated by commas.
   std::string reflectance = {};
-  std::optional<Crop> crop = {};    ///< Of an image: these pixels, all it has without it.
-  std::filesystem::path plot = {};  ///< SVG of the colour vector graphic; empty: none.
-  bool samples = false;             ///< Print the fidelity of each of the 99 samples too.
+  std::optional<Crop> crop = {};    ///< Pixels of an image; all without a crop.
+  std::filesystem::path plot = {};  ///< SVG of the colour vector graphic; empty for none.
+  bool samples = false;             ///< Also print the fidelity of each of the 99 samples.
   SumRange range = {};
   std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;
 };
-/// Prints chromaticity, colour temperature (null where there is none, and then what needs one),
-/// efficacy, scotopic ratio, colour rendering and fidelity.
+/// Prints chromaticity, colour temperature, luminous efficacy, scotopic ratio, colour rendering and fidelity.
+/// The colour temperature and what depends on it are null if there is none.
 int query_light(const LightOptions& options);
 
-/// `query metamerism`: of two reflectances that look alike in one light, in another.
+/// Options of `query metamerism`: two reflectances that match under one illuminant, compared under another.
 struct MetamerismOptions {
   std::string first;
   std::string second;
@@ -113,26 +114,29 @@ struct MetamerismOptions {
 };
 int query_metamerism(const MetamerismOptions& options);
 
-/// `query camera`: raw values of a reflectance, or of the perfect diffuser when none is named; or how near
-/// the camera comes to an observer.
+/// Options of `query camera`: raw values of a reflectance, or of the perfect diffuser without a name; or
+/// metrics of the camera's colour accuracy.
 struct CameraOptions {
   std::string name;
   std::string illuminant;
   std::string reflectance;
-  bool judge = false;  ///< Print the Vora value, what is left of x, y, z, and the sensitivity index instead.
+  /// Print the Vora value, the residuals of x, y, z and the sensitivity index instead of raw values.
+  bool metrics = false;
   bool json = false;
-  std::optional<ResponseKind> response = {};  ///< Of its curves; without one as `load_camera` takes them.
+  /// Quantity that the spectral responses multiply; by default the choice of `load_camera`.
+  std::optional<ResponseKind> response = {};
 };
-/// Throws Error{usage} without an illuminant unless the camera is to be judged.
+/// Throws Error{usage} if the illuminant is missing, unless the metrics are requested.
 int query_camera(const CameraOptions& options);
 
-/// `query --list [KIND]`: the names of every kind, or of one; of matter, where it holds and its source too.
+/// Options of `query --list [KIND]`: the names of every kind, or of one. For materials, also the wavelength
+/// range and the source.
 struct ListOptions {
   std::string kind;
   bool json = false;
 };
 int query_list(const ListOptions& options);
-/// The kinds it knows.
-[[nodiscard]] std::vector<std::string> name_kinds();
+/// The kinds that `query --list` knows.
+[[nodiscard]] std::vector<std::string> table_kinds();
 
 }  // namespace abbe::cli

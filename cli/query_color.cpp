@@ -7,13 +7,13 @@
 #include "calibration/characterisation.h"
 #include "calibration/chart/delta_e.h"
 #include "calibration/chart/patches.h"
-#include "calibration/judge/camera_space.h"
+#include "calibration/metrics/camera_space.h"
 #include "cli/answer.h"
 #include "cli/query.h"
 #include "io/table.h"
 #include "materials/index/library.h"
 #include "sensor/response/channel.h"
-#include "sensor/response/coverage.h"
+#include "sensor/response/table_range.h"
 #include "spectral/astm_e308.h"
 #include "spectral/curve_use.h"
 #include "spectral/library.h"
@@ -22,45 +22,45 @@
 namespace abbe::cli {
 namespace {
 
-struct LitSurface {
+struct IlluminatedSurface {
   Curve illuminant;
   Curve reflectance;
 };
 
-// As these channels see it.
-LitSurface load(const std::string& illuminant, const std::string& reflectance, Diagnostics& diagnostics,
-                std::span<const Channel> channels) {
+// Loads an illuminant and a reflectance for these channels.
+IlluminatedSurface load(const std::string& illuminant, const std::string& reflectance,
+                        Diagnostics& diagnostics, std::span<const Channel> channels) {
   const NeededRange needed = needed_by(channels);
   const auto light = load_illuminant(illuminant, {}, diagnostics, needed);
-  if (light) check_ends_of_light(*light, channels, {}, diagnostics);
+  if (light) check_light_range(*light, channels, {}, diagnostics);
   std::optional<NamedCurve> surface;
   if (!reflectance.empty()) surface = load_curve(kReflectanceUse, reflectance, {}, diagnostics, needed);
   check(diagnostics);
   return {light->curve, surface ? surface->curve : Curve(1.0)};
 }
 
-// X, Y, Z of a surface and of the perfect diffuser in the same light.
+// X, Y, Z of a surface and of the perfect diffuser under the same illuminant.
 struct SurfaceColor {
   XYZ xyz;
   XYZ white;
 };
 
-SurfaceColor summed_every_nm(const ColorOptions& options, Diagnostics& diagnostics) {
-  const LitSurface lit =
+SurfaceColor color_every_nm(const ColorOptions& options, Diagnostics& diagnostics) {
+  const IlluminatedSurface surface =
       load(options.illuminant, options.reflectance, diagnostics, observer_channels(options.observer));
   const SumRange range = options.range.value_or(SumRange{});
-  return {tristimulus(lit.illuminant, lit.reflectance, options.observer, range),
-          tristimulus(lit.illuminant, Curve(1.0), options.observer, range)};
+  return {tristimulus(surface.illuminant, surface.reflectance, options.observer, range),
+          tristimulus(surface.illuminant, Curve(1.0), options.observer, range)};
 }
 
-SurfaceColor summed_by_astm(const ColorOptions& options, Diagnostics& diagnostics) {
+SurfaceColor color_by_astm(const ColorOptions& options, Diagnostics& diagnostics) {
   if (options.range)
     throw Error(ErrorCode::usage, "--range",
-                fmt::format("is for --method 1nm: the weights of ASTM E308 are those from {} to {} nm",
+                fmt::format("applies to --method 1nm only: the weights of ASTM E308 cover {} to {} nm",
                             kAstmRange.low_nm, kAstmRange.high_nm));
   const auto light = load_illuminant(options.illuminant, {}, diagnostics,
                                      {double{kAstmRange.low_nm}, double{kAstmRange.high_nm}});
-  if (light) check_ends_of_light(*light, observer_channels(options.observer), {}, diagnostics);
+  if (light) check_light_range(*light, observer_channels(options.observer), {}, diagnostics);
   std::optional<Samples> samples = Samples{{double{kAstmRange.low_nm}, kAstmRange.low_nm + 10.0}, {1, 1}};
   if (!options.reflectance.empty()) samples = load_astm_samples(options.reflectance, {}, diagnostics);
   check(diagnostics);
@@ -70,7 +70,7 @@ SurfaceColor summed_by_astm(const ColorOptions& options, Diagnostics& diagnostic
   return {astm_tristimulus(weights, *samples), astm_white(weights)};
 }
 
-struct Kind {
+struct TableKind {
   const char* name;
   std::vector<std::string> (*names)();
 };
@@ -85,33 +85,33 @@ constexpr char kCamera[] = "camera";
 constexpr char kFilter[] = "filter";
 constexpr char kObserver[] = "observer";
 constexpr char kMaterial[] = "material";
-constexpr char kGlass[] = "glass";  // too many to show unasked
-constexpr std::array<Kind, 7> kKinds{{{kMaterial, index_names},
-                                      {kGlass, glass_names},
-                                      {kIlluminant, names_in<kIlluminant>},
-                                      {kReflectance, names_in<kReflectance>},
-                                      {kCamera, names_in<kCamera>},
-                                      {kFilter, names_in<kFilter>},
-                                      {kObserver, names_in<kObserver>}}};
+constexpr char kGlass[] = "glass";  // too many to list by default
+constexpr std::array<TableKind, 7> kTableKinds{{{kMaterial, index_names},
+                                                {kGlass, glass_names},
+                                                {kIlluminant, names_in<kIlluminant>},
+                                                {kReflectance, names_in<kReflectance>},
+                                                {kCamera, names_in<kCamera>},
+                                                {kFilter, names_in<kFilter>},
+                                                {kObserver, names_in<kObserver>}}};
 
-// Adds where n and k of each material of a list hold and who measured them, as lists beside their names; null
-// where no k is measured.
-void describe_matter(Json& answer, const std::string& kind) {
+// Adds the ranges of n and k of each listed material and its source, as lists parallel to the names. The
+// range of k is null if k is not measured.
+void add_index_ranges(Json& answer, const std::string& kind) {
   Diagnostics diagnostics;
   for (const auto& name : Json(answer[kind])) {
-    const NamedIndex matter = accepted(load_index(name, {}, diagnostics), diagnostics);
-    const auto& k = matter.index.k_range();
-    answer["low_nm"].push_back(matter.index.low_nm());
-    answer["high_nm"].push_back(matter.index.high_nm());
+    const NamedIndex material = accepted(load_index(name, {}, diagnostics), diagnostics);
+    const auto& k = material.index.k_range();
+    answer["low_nm"].push_back(material.index.low_nm());
+    answer["high_nm"].push_back(material.index.high_nm());
     answer["k_low_nm"].push_back(k ? Json(k->low_nm) : Json());
     answer["k_high_nm"].push_back(k ? Json(k->high_nm) : Json());
-    answer["source"].push_back(matter.source);
+    answer["source"].push_back(material.source);
   }
 }
 
-// The same of one of them, for reading; a tab ends the name. The range of k is told where it is not that of
-// n.
-std::string described(const Json& answer, std::size_t i) {
+// Text after the name of one material: a tab, the ranges, a tab, and the source. The range of k is omitted if
+// it is that of n.
+std::string index_description(const Json& answer, std::size_t i) {
   const auto range = [&](const char* low, const char* high) {
     return fmt::format("{:g}-{:g} nm", answer[low][i].get<double>(), answer[high][i].get<double>());
   };
@@ -121,7 +121,7 @@ std::string described(const Json& answer, std::size_t i) {
                      answer["source"][i].get_ref<const std::string&>());
 }
 
-int judge_camera(const std::vector<Channel>& channels, bool json) {
+int print_camera_metrics(const std::vector<Channel>& channels, bool json) {
   const CameraSpace space = camera_space(channels);
   Json answer;
   answer["vora"] = space.vora;
@@ -135,10 +135,10 @@ int judge_camera(const std::vector<Channel>& channels, bool json) {
 
 int query_color(const ColorOptions& options) {
   Diagnostics diagnostics;
-  const auto [xyz, white] = options.method == ColorMethod::astm_e308 ? summed_by_astm(options, diagnostics)
-                                                                     : summed_every_nm(options, diagnostics);
+  const auto [xyz, white] = options.method == ColorMethod::astm_e308 ? color_by_astm(options, diagnostics)
+                                                                     : color_every_nm(options, diagnostics);
   if (!std::isfinite(white[1]))
-    throw Error(ErrorCode::input, options.illuminant, "has no light that an observer sees, hence no colour");
+    throw Error(ErrorCode::input, options.illuminant, "has no visible light and therefore no colour");
   Json answer;
   if (options.method == ColorMethod::astm_e308) answer["method"] = "astm-e308";
   answer["XYZ"] = xyz;
@@ -162,47 +162,48 @@ int query_delta_e(const DeltaEOptions& options) {
 
 int query_camera(const CameraOptions& options) {
   Diagnostics diagnostics;
-  if (options.illuminant.empty() && !options.judge)
+  if (options.illuminant.empty() && !options.metrics)
     throw Error(ErrorCode::usage, "query camera", "needs --illuminant or --judge");
   const auto channels = load_camera(options.name, {}, diagnostics, options.response, ResponseScale::relative);
-  if (options.judge) return judge_camera(accepted(channels, diagnostics), options.json);
-  const LitSurface lit = load(options.illuminant, options.reflectance, diagnostics,
-                              channels ? std::span<const Channel>(*channels) : std::span<const Channel>());
-  const std::vector<double> raw = camera_raw(*channels, lit.illuminant, lit.reflectance);
+  if (options.metrics) return print_camera_metrics(accepted(channels, diagnostics), options.json);
+  const IlluminatedSurface surface =
+      load(options.illuminant, options.reflectance, diagnostics,
+           channels ? std::span<const Channel>(*channels) : std::span<const Channel>());
+  const std::vector<double> raw = camera_raw(*channels, surface.illuminant, surface.reflectance);
   Json answer;
   for (std::size_t i = 0; i < raw.size(); ++i) answer["raw"][(*channels)[i].name] = raw[i];
   print(answer, options.json);
   return 0;
 }
 
-std::vector<std::string> name_kinds() {
+std::vector<std::string> table_kinds() {
   std::vector<std::string> kinds;
-  for (const Kind& kind : kKinds) kinds.emplace_back(kind.name);
+  for (const TableKind& kind : kTableKinds) kinds.emplace_back(kind.name);
   return kinds;
 }
 
 int query_list(const ListOptions& options) {
   Json answer = Json::object();
-  for (const Kind& kind : kKinds)
+  for (const TableKind& kind : kTableKinds)
     if (options.kind.empty() || options.kind == kind.name) answer[kind.name] = kind.names();
   if (answer.empty())
-    throw Error(ErrorCode::usage, "--list", unknown_name("kind", options.kind, name_kinds()));
-  const bool matter = options.kind == kMaterial || options.kind == kGlass;
-  if (matter) describe_matter(answer, options.kind);
+    throw Error(ErrorCode::usage, "--list", unknown_name("kind", options.kind, table_kinds()));
+  const bool has_index = options.kind == kMaterial || options.kind == kGlass;
+  if (has_index) add_index_ranges(answer, options.kind);
   if (options.json) {
     print(answer, true);
     return 0;
   }
   for (const auto& [kind, names] : answer.items()) {
-    if (matter && kind != options.kind) continue;
+    if (has_index && kind != options.kind) continue;
     if (options.kind.empty()) fmt::print("{}\n", kind);
     if (options.kind.empty() && kind == kGlass) {
-      fmt::print("  {} glasses of their makers, listed by --list {}\n", names.size(), kGlass);
+      fmt::print("  {} glasses of manufacturers, listed by --list {}\n", names.size(), kGlass);
       continue;
     }
     for (std::size_t i = 0; i < names.size(); ++i)
       fmt::print("{}{}{}\n", options.kind.empty() ? "  " : "", names[i].get_ref<const std::string&>(),
-                 matter ? described(answer, i) : "");
+                 has_index ? index_description(answer, i) : "");
   }
   return 0;
 }

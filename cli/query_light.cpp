@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "calibration/judge/color_rendering.h"
-#include "calibration/judge/metamerism.h"
+#include "calibration/metrics/color_rendering.h"
+#include "calibration/metrics/metamerism.h"
 #include "cli/answer.h"
 #include "cli/arguments.h"
 #include "cli/output_files.h"
@@ -16,7 +16,7 @@
 #include "io/extension.h"
 #include "io/spectral_exr.h"
 #include "io/text.h"
-#include "sensor/response/coverage.h"
+#include "sensor/response/table_range.h"
 #include "spectral/color_temperature.h"
 #include "spectral/curve_use.h"
 #include "spectral/library.h"
@@ -26,16 +26,16 @@
 namespace abbe::cli {
 namespace {
 
-// The mean spectral radiance of some pixels of a spectral image, linear between the centres of its bands:
-// steps would be shifted by sums over whole nanometres. Warns where an eye that is behind what passes this
-// share would see light beyond them.
-Curve light_of(const LightOptions& options, const Curve& passed, Diagnostics& diagnostics) {
+// Mean spectral radiance of the requested pixels of a spectral image, linear between the centres of its
+// bands: sums over whole nanometres would shift steps. Warns if an observer behind this transmittance would
+// see light outside the bands.
+Curve image_light_of(const LightOptions& options, const Curve& transmittance, Diagnostics& diagnostics) {
   Inputs inputs(options.max_memory_bytes);
   Image film = read_exr(options.name, &inputs);
-  const Crop crop = asked_pixels(film, options.crop);
+  const Crop crop = requested_pixels(film, options.crop);
   const SpectralImage image = spectral_image(std::move(film), options.name);
   for (const Channel& channel : observer_channels(Observer::cie1931))
-    check_coverage(image, behind(channel, FilterStack{passed}), options.name, diagnostics);
+    check_coverage(image, behind(channel, FilterStack{transmittance}), options.name, diagnostics);
   const std::vector<double> edges = band_edges(image.bands);
   std::vector<Knot> knots{{edges.front(), 0}};
   for (std::size_t b = 0; b < image.bands.size(); ++b) {
@@ -48,9 +48,11 @@ Curve light_of(const LightOptions& options, const Curve& passed, Diagnostics& di
     const double pixels = static_cast<double>(crop.x1 - crop.x0) * (crop.y1 - crop.y0);
     const double density = total / pixels / (edges[b + 1] - edges[b]);
     if (!(density >= 0 && std::isfinite(density)))
-      throw Error(ErrorCode::input, options.name,
-                  fmt::format("holds no radiance in the band at {:g} nm (got a mean of {})",
-                              image.bands[b].center_nm, total / pixels));
+      throw Error(
+          ErrorCode::input, options.name,
+          fmt::format(
+              "has a radiance that is negative or not finite in the band at {:g} nm (got a mean of {})",
+              image.bands[b].center_nm, total / pixels));
     if (b == 0) knots.push_back({edges[b], density});
     knots.push_back({image.bands[b].center_nm, density});
     if (b + 1 == image.bands.size()) knots.push_back({edges[b + 1], density});
@@ -59,58 +61,58 @@ Curve light_of(const LightOptions& options, const Curve& passed, Diagnostics& di
   return Curve(std::move(knots));
 }
 
-// A product with the tables that are its factors.
+// Product of tabulated spectra.
 struct TabulatedLight {
   Curve light{1.0};
-  Curve going_on{1.0};  ///< The same if its tables went on as they end.
+  Curve extrapolated_light{1.0};  ///< The same with tables extrapolated by their end values.
   std::vector<NamedCurve> tables;
 
-  // Nothing after an error.
+  // Ignores a table that could not be loaded.
   void add(const std::optional<NamedCurve>& table) {
     if (!table) return;
     light = product(light, table->curve);
-    going_on = product(going_on, held_beyond(*table));
+    extrapolated_light = product(extrapolated_light, extrapolated(*table));
     tables.push_back(*table);
   }
 
-  // Warns of tables that end within what an observer sees or the luminous efficacy counts.
-  // The other factors have none.
+  // Warns of tables that end inside the range of an observer or of the luminous efficacy. `others` is the
+  // product of the factors without tables.
   void check_tables(const Curve& others, Diagnostics& diagnostics) const {
     const std::vector<Channel> observer = observer_channels(Observer::cie1931);
     const Curve radiation = band(kVisibleRange.low_nm, kVisibleRange.high_nm);
-    std::vector<Counter> counters = counters_of(observer);
+    std::vector<NamedResponse> counters = named_responses(observer);
     counters.push_back({"the luminous efficacy of radiation from 380 to 780 nm", &radiation});
     for (const NamedCurve& table : tables)
-      check_ends(table, product(going_on, others), counters, {}, diagnostics);
+      check_table_range(table, product(extrapolated_light, others), counters, {}, diagnostics);
   }
 };
 
-// Nothing after an error.
+// Curve of this name, or an empty one after an error.
 Curve curve_for(const CurveUse& use, const std::string& name, Diagnostics& diagnostics) {
   const auto curve = load_curve(use, name, {}, diagnostics);
   return curve ? curve->curve : Curve();
 }
 
-// The light that is asked about: a lamp's or a picture's, through filters, from a surface.
-Curve asked_light(const LightOptions& options) {
+// Requested light: that of an illuminant or an image, through filters and after reflection.
+Curve requested_light(const LightOptions& options) {
   Diagnostics diagnostics;
-  TabulatedLight asked;
+  TabulatedLight tabulated;
   if (!options.filters.empty())
     for (const std::string& filter : split(options.filters, ','))
-      asked.add(load_curve(kTransmittanceUse, filter, {}, diagnostics));
+      tabulated.add(load_curve(kTransmittanceUse, filter, {}, diagnostics));
   Curve surface(1.0);
   if (!options.reflectance.empty()) surface = curve_for(kReflectanceUse, options.reflectance, diagnostics);
-  Curve pictured(1.0);
+  Curve image_light(1.0);
   if (extension_of(options.name) == ".exr")
-    pictured = light_of(options, product(asked.light, surface), diagnostics);
+    image_light = image_light_of(options, product(tabulated.light, surface), diagnostics);
   else if (options.crop)
-    throw Error(ErrorCode::usage, "--crop", "is for spectral images");
+    throw Error(ErrorCode::usage, "--crop", "applies to spectral images only");
   else
-    asked.add(load_illuminant(options.name, {}, diagnostics));
-  const Curve others = product(pictured, surface);
-  asked.check_tables(others, diagnostics);
+    tabulated.add(load_illuminant(options.name, {}, diagnostics));
+  const Curve others = product(image_light, surface);
+  tabulated.check_tables(others, diagnostics);
   check(diagnostics);
-  return product(asked.light, others);
+  return product(tabulated.light, others);
 }
 
 void add_fidelity(Json& answer, const ColorFidelity& fidelity, bool with_samples) {
@@ -131,10 +133,10 @@ int query_light(const LightOptions& options) {
   if (!options.plot.empty()) require_extension(options.plot, {".svg"});
   require_distinct(options.plot.empty() ? std::vector<std::filesystem::path>{} : std::vector{options.plot},
                    files_among({options.name, options.filters, options.reflectance}));
-  const Curve light = asked_light(options);
+  const Curve light = requested_light(options);
   const XYZ xyz = tristimulus(light, Curve(1), Observer::cie1931, options.range);
   if (!std::isfinite(xyz[0]))
-    throw Error(ErrorCode::input, options.name, "has no light that an observer sees, hence no colour");
+    throw Error(ErrorCode::input, options.name, "has no visible light and therefore no colour");
   const auto temperature = color_temperature(xyz);
   const auto rendering = color_rendering(light, options.range);
   const auto fidelity = color_fidelity(light, options.range);
@@ -154,8 +156,9 @@ int query_light(const LightOptions& options) {
   if (options.samples && !fidelity) answer["Rs"] = Json();
   if (!options.plot.empty()) {
     if (!fidelity)
-      throw Error(ErrorCode::input, options.name,
-                  "has no colour temperature up to 25 000 K, hence no reference to be drawn beside");
+      throw Error(
+          ErrorCode::input, options.name,
+          "has no colour temperature up to 25 000 K, so that --plot has no reference to compare with");
     write_atomically(options.plot, color_vector_graphic(*fidelity, options.name));
   }
   print(answer, options.json);
@@ -169,7 +172,7 @@ int query_metamerism(const MetamerismOptions& options) {
   const auto reference = load_illuminant(options.reference, {}, diagnostics);
   const auto test = load_illuminant(options.test, {}, diagnostics);
   for (const auto& light : {reference, test})
-    if (light) check_ends_of_light(*light, observer_channels(Observer::cie1931), {}, diagnostics);
+    if (light) check_light_range(*light, observer_channels(Observer::cie1931), {}, diagnostics);
   check(diagnostics);
   const Metamerism result = metamerism(first, second, reference->curve, test->curve, options.range);
   Json answer;

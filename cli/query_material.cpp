@@ -17,24 +17,24 @@
 namespace abbe::cli {
 namespace {
 
-// The material of that name, which must hold at all wavelengths asked for.
-NamedIndex find(const std::string& name, const std::vector<double>& at_nm) {
+// Material of this name. Throws Error{usage} if its table does not contain all requested wavelengths.
+NamedIndex find_material(const std::string& name, const std::vector<double>& at_nm) {
   Diagnostics diagnostics;
-  NamedIndex found = accepted(load_index(name, {}, diagnostics), diagnostics);
-  require_data_at(found, at_nm, "--at");
-  return found;
+  NamedIndex material = accepted(load_index(name, {}, diagnostics), diagnostics);
+  require_data_at(material, at_nm, "--at");
+  return material;
 }
 
-// The same, to tell what its surface reflects.
+// Material for questions about reflection, which also need k at all requested wavelengths.
 NamedIndex find_surface(const std::string& name, const std::vector<double>& at_nm) {
-  NamedIndex found = find(name, at_nm);
-  require_k_at(found, at_nm, "--at");
-  return found;
+  NamedIndex material = find_material(name, at_nm);
+  require_k_at(material, at_nm, "--at");
+  return material;
 }
 
-// One value per wavelength.
+// List of `value` at each wavelength.
 template <typename F>
-Json each(const std::vector<double>& at_nm, F value) {
+Json per_wavelength(const std::vector<double>& at_nm, F value) {
   Json list = Json::array();
   for (const double nm : at_nm) list.push_back(value(nm));
   return list;
@@ -46,34 +46,35 @@ int print_material_answer(const Json& answer, const Options& options) {
   return 0;
 }
 
-// The medium that the catalogued index of a material is relative to.
+// Medium to which the catalogued index of a material is relative.
 const char* medium_of(const NamedIndex& material) {
   return material.index.medium() == IndexMedium::vacuum ? "vacuum" : "air";
 }
 
-// The medium around every surface that is asked about, as in scenes.
-constexpr const char* kSurroundings = "air";
+// Medium that surrounds every surface in the answers, as in scenes.
+constexpr const char* kAmbientMedium = "air";
 
-// An angle of n and k at each wavelength.
+// Answer with an angle per wavelength, computed from n and k.
 template <typename F>
 Json angles(const NamedIndex& material, const IndexOptions& options, F angle) {
   Json answer;
   answer["name"] = material.name;
-  answer["medium"] = kSurroundings;
+  answer["medium"] = kAmbientMedium;
   answer["wavelength_nm"] = options.at_nm;
-  answer["angle_deg"] =
-      each(options.at_nm, [&](double nm) { return angle(material.index.n(nm), material.index.k(nm)); });
+  answer["angle_deg"] = per_wavelength(
+      options.at_nm, [&](double nm) { return angle(material.index.n(nm), material.index.k(nm)); });
   return answer;
 }
 
-// R_p of light from outside.
+// R_p of light from outside at an angle of incidence in degrees.
 long double reflected_p(double n, double k, long double degrees) {
   const long double cos_i = std::cos(degrees * static_cast<long double>(kDegree));
   return fresnel_conductor<long double>(cos_i, n, k).Rp;
 }
 
-// Where that is least, by the golden section between the neighbours of the least of whole degrees.
-double least_p_deg(double n, double k) {
+// Angle in degrees of minimum R_p, by a golden-section search between the neighbours of the best whole
+// degree.
+double min_p_angle_deg(double n, double k) {
   const auto reflected = [n, k](long double degrees) { return reflected_p(n, k, degrees); };
   long double low = 0;
   for (int degrees = 1; degrees < 90; ++degrees)
@@ -92,7 +93,7 @@ double least_p_deg(double n, double k) {
   return static_cast<double>(low + (high - low) / 2);
 }
 
-// "MATERIAL:NM,..." from outside inwards.
+// Parses "MATERIAL:NM,...", thin films ordered from outside inwards.
 Coating parse_coating(const std::string& text, const std::vector<double>& at_nm) {
   Coating coating;
   if (text.empty()) return coating;
@@ -101,8 +102,8 @@ Coating parse_coating(const std::string& text, const std::vector<double>& at_nm)
     const auto thickness = parse_number(colon == std::string::npos ? "" : layer.substr(colon + 1));
     if (!thickness || !kFilmThickness.contains(*thickness) || coating.layers.size() == Coating::kMaxMaterials)
       throw Error(ErrorCode::usage, "--coating",
-                  fmt::format("got \"{}\", allowed up to {} layers MATERIAL:NANOMETRES, of {} nm", text,
-                              Coating::kMaxMaterials, kFilmThickness.text()));
+                  fmt::format("got \"{}\", allowed up to {} layers MATERIAL:NM with thicknesses of {} nm",
+                              text, Coating::kMaxMaterials, kFilmThickness.text()));
     NamedIndex material = find_surface(layer.substr(0, colon), at_nm);
     coating.layers.push_back({static_cast<std::uint32_t>(coating.materials.size()), *thickness});
     coating.materials.push_back({std::move(material.name), std::move(material.index)});
@@ -122,57 +123,60 @@ ReflectedFromAir reflect_from_air(const RefractiveIndex& index, const Coating& c
   return {coated_power(coating, nm, n, k, cos_i, false), coated_reflection(coating, nm, n, k, cos_i, false)};
 }
 
-// In [0, 360], so that what glass reflects with next to no absorption stays near half a turn, or none.
+// Phase in degrees in [0, 360]. Reflections from glass with negligible absorption stay close to 180, instead
+// of alternating between 180 and -180.
 double phase_deg(const Complex<double>& amplitude) {
-  const double phase = std::atan2(amplitude.im + 0.0, amplitude.re) / kDegree;  // of no negative zero
+  const double phase = std::atan2(amplitude.im + 0.0, amplitude.re) / kDegree;  // removes negative zeros
   return phase < 0 ? phase + 360 : phase;
 }
 
 }  // namespace
 
 int query_ior(const IndexOptions& options) {
-  const NamedIndex material = find(options.name, options.at_nm);
+  const NamedIndex material = find_material(options.name, options.at_nm);
   Json answer;
   answer["name"] = material.name;
   answer["source"] = material.source;
   answer["medium"] = medium_of(material);
   answer["wavelength_nm"] = options.at_nm;
-  answer["n"] = each(options.at_nm, [&](double nm) { return material.index.catalogued_n(nm); });
-  const auto where_k_is_known = [&](auto quantity) {
-    return each(options.at_nm,
-                [&](double nm) { return material.index.knows_k(nm) ? Json(quantity(nm)) : Json(); });
+  answer["n"] = per_wavelength(options.at_nm, [&](double nm) { return material.index.catalogued_n(nm); });
+  const auto if_k_measured = [&](auto quantity) {
+    return per_wavelength(options.at_nm, [&](double nm) {
+      return material.index.has_measured_k(nm) ? Json(quantity(nm)) : Json();
+    });
   };
-  answer["k"] = where_k_is_known([&](double nm) { return material.index.catalogued_k(nm); });
+  answer["k"] = if_k_measured([&](double nm) { return material.index.catalogued_k(nm); });
   if (options.thickness_mm)
-    answer["internal_transmittance"] = where_k_is_known([&](double nm) {
+    answer["internal_transmittance"] = if_k_measured([&](double nm) {
       return std::exp(-material.index.absorption_per_m(nm) * *options.thickness_mm * 1e-3);
     });
   return print_material_answer(answer, options);
 }
 
 int query_critical(const IndexOptions& options) {
-  // 4 pi k at which a wave falls to 1/e over a wavelength, so that none goes on within to be reflected.
-  constexpr double kMostOfWaves = 1;
+  // The intensity falls to 1/e within one wavelength in vacuum at 4 pi k = 1. Above, no wave propagates
+  // inside that could be totally reflected.
+  constexpr double kMaxAttenuation = 1;
   const auto critical = [](double n, double k) {
-    const bool is_wave = 4 * std::numbers::pi * k < kMostOfWaves;
+    const bool is_wave = 4 * std::numbers::pi * k < kMaxAttenuation;
     return n > 1 && is_wave ? Json(std::asin(1 / n) / kDegree) : Json();
   };
   return print_material_answer(angles(find_surface(options.name, options.at_nm), options, critical), options);
 }
 
 int query_brewster(const IndexOptions& options) {
-  // A share of the light that is as good as none: what glass reflects for its k.
-  constexpr double kNone = 1e-9;
+  // Reflectance that counts as zero, since the small k of glass causes it.
+  constexpr double kNegligible = 1e-9;
   const NamedIndex material = find_surface(options.name, options.at_nm);
-  const auto polarising = [](double n, double k) {
-    return k > 0 ? least_p_deg(n, k) : std::atan(n) / kDegree;
+  const auto polarising_angle = [](double n, double k) {
+    return k > 0 ? min_p_angle_deg(n, k) : std::atan(n) / kDegree;
   };
-  Json answer = angles(material, options, polarising);
+  Json answer = angles(material, options, polarising_angle);
   for (std::size_t i = 0; i < options.at_nm.size(); ++i) {
-    const double least =
+    const double min_rp =
         reflect_from_air(material.index, {}, options.at_nm[i], answer["angle_deg"][i]).power.Rp;
-    answer["kind"].push_back(least < kNone ? "Brewster" : "pseudo-Brewster");
-    answer["Rp"].push_back(least);
+    answer["kind"].push_back(min_rp < kNegligible ? "Brewster" : "pseudo-Brewster");
+    answer["Rp"].push_back(min_rp);
   }
   return print_material_answer(answer, options);
 }
@@ -181,7 +185,7 @@ int query_reflectance(const ReflectanceOptions& options) {
   const NamedIndex material = find_surface(options.name, options.at_nm);
   const Coating coating = parse_coating(options.coating, options.at_nm);
   const auto rows = [&](auto quantity) {
-    return each(options.at_nm, [&](double nm) {
+    return per_wavelength(options.at_nm, [&](double nm) {
       Json row = Json::array();
       for (const double angle : options.angles_deg)
         row.push_back(quantity(reflect_from_air(material.index, coating, nm, angle)));
@@ -190,7 +194,7 @@ int query_reflectance(const ReflectanceOptions& options) {
   };
   Json answer;
   answer["name"] = material.name;
-  answer["medium"] = kSurroundings;
+  answer["medium"] = kAmbientMedium;
   answer["angle_deg"] = options.angles_deg;
   answer["wavelength_nm"] = options.at_nm;
   answer["Rs"] = rows([](const auto& f) { return f.power.Rs; });
@@ -205,7 +209,7 @@ int query_reflectance(const ReflectanceOptions& options) {
 int query_prism(const PrismOptions& options) {
   const NamedIndex material = find_surface(options.name, options.at_nm);
   const auto column = [&](auto quantity) {
-    return each(options.at_nm, [&](double nm) {
+    return per_wavelength(options.at_nm, [&](double nm) {
       if (material.index.k(nm) > kLargestGlassK) return Json();
       const double n = material.index.n(nm);
       const auto passage = options.incidence_deg ? prism_passage(n, options.apex_deg, *options.incidence_deg)
@@ -215,10 +219,10 @@ int query_prism(const PrismOptions& options) {
   };
   Json answer;
   answer["name"] = material.name;
-  answer["medium"] = kSurroundings;
+  answer["medium"] = kAmbientMedium;
   answer["apex_deg"] = options.apex_deg;
   answer["wavelength_nm"] = options.at_nm;
-  answer["n"] = each(options.at_nm, [&](double nm) { return material.index.n(nm); });
+  answer["n"] = per_wavelength(options.at_nm, [&](double nm) { return material.index.n(nm); });
   answer["deviation_deg"] = column([](const PrismPassage& p) { return p.deviation_deg; });
   answer["incidence_deg"] = column([](const PrismPassage& p) { return p.incidence_deg; });
   answer["Ts"] = column([](const PrismPassage& p) { return p.Ts; });

@@ -4,11 +4,11 @@
 
 namespace abbe::cli {
 
-/// `abbe trace`.
+/// Adds `abbe trace`.
 void add_trace(CLI::App& app, Command& command);
-/// `abbe draw`.
+/// Adds `abbe draw`.
 void add_draw(CLI::App& app, Command& command);
-/// `abbe lens`.
+/// Adds `abbe lens`.
 void add_lens(CLI::App& app, Command& command);
 
 }  // namespace abbe::cli

@@ -10,23 +10,25 @@ namespace abbe::cli {
 namespace {
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kExitCodes{{
-    {"0", "all went well"},
-    {"1", "a case of validate failed, bench --soak found a fault, or bench --strict a run that is worse"},
-    {"2", "the command line cannot be understood"},
-    {"3", "the scene file is invalid, or with --strict makes a wrong image"},
+    {"0", "success"},
+    {"1",
+     "validate found a failed case, bench --soak a fault, or bench --strict a run that is worse than the "
+     "baseline"},
+    {"2", "the command line is invalid"},
+    {"3", "the scene file is invalid, or with --strict would give a wrong image"},
     {"4", "an input file is missing or corrupt"},
     {"5", "an output cannot be written"},
     {"6", "a limit on memory or size would be exceeded"},
-    {"70", "a fault of Abbe, or with --strict a sample that was left out"},
+    {"70", "an internal error of Abbe, or with --strict a discarded sample"},
     {"129", "the terminal was closed; what was rendered is written"},
     {"130", "interrupted from the keyboard; what was rendered is written"},
-    {"143", "asked to end; what was rendered is written"},
+    {"143", "terminated by SIGTERM; what was rendered is written"},
 }};
 constexpr std::string_view kDataHelp =
     "Folder of the tables (glass, illuminants, cameras, ...) to use instead of those installed with the "
     "program";
 
-// "-o, --output FILE.exr", or for an argument "SCENE".
+// Heading of an option, such as "-o, --output FILE.exr", or of an argument, such as "SCENE".
 std::string heading(const OptionUsage& option) {
   const std::string names = fmt::format("{}", fmt::join(option.names, ", "));
   return names.empty() || option.value.empty() ? names + option.value : names + ' ' + option.value;
@@ -36,7 +38,7 @@ std::string explanation(const OptionUsage& option) {
   return option.help + (option.required && !option.names.empty() ? "; required" : "");
 }
 
-// "abbe query ior MATERIAL --at NM[,NM...] [OPTION...]"
+// Synopsis such as "abbe query ior MATERIAL --at NM[,NM...] [OPTION...]".
 std::string synopsis(const CommandUsage& command) {
   std::string line = command.name;
   bool more = false;
@@ -51,7 +53,7 @@ std::string synopsis(const CommandUsage& command) {
   return line + (more ? " [OPTION...]" : "");
 }
 
-// Every command has it, so the reference says so once.
+// True for --help, which every command has and the reference mentions once.
 bool is_help(const OptionUsage& option) {
   return !option.names.empty() && option.names.back() == "--help";
 }
@@ -91,7 +93,7 @@ std::string markdown(const CommandUsage& program) {
   return page;
 }
 
-// A line of text for troff, which would read a first dot or quote as a request and - as a hyphen.
+// Line of text for troff, which would read a first dot or quote as a request and - as a hyphen.
 std::string troff(std::string_view text) {
   const std::string safe = replaced(replaced(text, '\\', "\\e"), '-', "\\-");
   return safe.starts_with('.') || safe.starts_with('\'') ? "\\&" + safe : safe;

@@ -5,33 +5,37 @@
 
 namespace abbe::cli {
 
-/// One option of a command, or an argument that goes by its place.
+/// One option or positional argument of a command.
 struct OptionUsage {
-  std::vector<std::string> names;  ///< As typed ("-o", "--output"); none for an argument.
-  std::string value;               ///< What stands for its value ("N", "auto|path|light"); empty for a flag.
+  std::vector<std::string> names;  ///< Names as typed ("-o", "--output"); empty for an argument.
+  std::string value;               ///< Placeholder of the value ("N", "auto|path|light"); empty for a flag.
   std::string help;
   bool required = false;
 };
 
-/// One command with all that it allows.
+/// One command with all its options and arguments.
 struct CommandUsage {
-  std::string name;  ///< As typed, "abbe query ior".
+  std::string name;  ///< Name as typed, such as "abbe query ior".
   std::string help;
   std::vector<OptionUsage> options;
   std::vector<CommandUsage> commands;
 };
 
-/// How the reference of all commands is written.
+/// Output format of the reference of all commands.
 enum class ReferenceFormat { markdown, man, bash };
 
-/// The reference of a program: a page in Markdown, a manual page in troff's man macros, or a script that
-/// completes its command lines under bash.
+/// Reference of a program: a page in Markdown, a manual page in troff's man macros, or a completion script
+/// for bash.
 [[nodiscard]] std::string reference(const CommandUsage& program, ReferenceFormat format);
 
-/// The bash script of `reference`. What a value completes to follows from what stands for it: `a|b` to its
-/// words, SCENE, FILE.ext and FILE.ext|FILE.ext to files (a last ... for any number), FOLDER to folders,
-/// COMMAND to the commands, KEY to the keys of scene files, KIND to the kinds of `query --list`, and a kind
-/// in capitals (MATERIAL) to the names of that kind.
+/// Completion script for bash. The placeholder of a value determines its completions:
+/// - `a|b`: these words;
+/// - SCENE, FILE.ext and FILE.ext|FILE.ext: files, any number of them if followed by ...;
+/// - FOLDER: folders;
+/// - COMMAND: the commands;
+/// - KEY: the keys of scene files;
+/// - KIND: the kinds of `query --list`;
+/// - a kind in capitals (MATERIAL): the names of that kind.
 [[nodiscard]] std::string bash_completion(const CommandUsage& program);
 
 }  // namespace abbe::cli

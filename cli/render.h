@@ -11,35 +11,37 @@
 
 namespace abbe::cli {
 
-/// The layers that a film is to be told apart into.
+/// Layers into which a film is separated.
 struct LayerChoice {
-  std::optional<int> bounces;       ///< By the number of events, up to this one; else by lights,
-  std::vector<std::string> lights;  ///< these, or all where none are named.
+  /// Maximum number of bounces of layers by path length; without a value the layers are by light.
+  std::optional<int> bounces;
+  std::vector<std::string> lights;  ///< Names of the lights that have a layer; empty for all.
 };
 
-/// What `abbe render` was asked for; what is absent is as the scene says.
+/// Options of `abbe render`. Values that are absent are those of the scene.
 struct RenderOptions : SamplingOptions {
-  std::filesystem::path scene;  ///< "-" is standard input.
+  std::filesystem::path scene;  ///< Scene file; "-" is standard input.
   std::filesystem::path output;
   std::filesystem::path display;
-  ViewOptions view;  ///< Of the display; without a configuration here that of $OCIO, if it is set.
-  std::filesystem::path exposure_of;  ///< Film whose display exposure pictures take; empty for their own.
-  std::filesystem::path gamut;        ///< Picture of what the display could not show as it is.
-  std::filesystem::path stats;        ///< "-" is standard output.
+  ViewOptions view;                   ///< View of the display; the configuration defaults to that of $OCIO.
+  std::filesystem::path exposure_of;  ///< Film whose display exposure the pictures use; empty for their own.
+  /// Picture of the pixels that the display cannot show exactly; empty for none.
+  std::filesystem::path gamut;
+  std::filesystem::path stats;  ///< JSON of the statistics; "-" is standard output.
   std::optional<SampleRange> sample_range;
   std::filesystem::path checkpoint;
   double checkpoint_interval_s = 60;
-  bool resume = false;  ///< Goes on from the checkpoint where there is one.
+  bool resume = false;  ///< Continue from the checkpoint if it exists.
   std::optional<Crop> crop;
   std::optional<LayerChoice> layers;
-  std::vector<Feature> features;         ///< Of the first surfaces that are met, as channels of the film.
-  std::optional<ServerAddress> preview;  ///< Where a page shows the render; nowhere unless asked.
-  std::optional<ServerAddress> tev;      ///< Of a viewer that is shown the render; none unless asked.
+  std::vector<Feature> features;         ///< Features of the first hits that become channels of the film.
+  std::optional<ServerAddress> preview;  ///< Address of a web page that shows the render; none by default.
+  std::optional<ServerAddress> tev;      ///< Address of a viewer that receives the render; none by default.
   bool explain = false;
 };
 
-/// Scene file to pictures. Returns the exit code: 0, or 128 plus the signal that stopped the render early,
-/// its image and checkpoint written and valid.
+/// Renders a scene file to films and pictures. Returns 0, or 128 plus the number of the signal that stopped
+/// the render. In that case the image and the checkpoint are written and valid.
 int render(const RenderOptions& options);
 
 }  // namespace abbe::cli

@@ -11,159 +11,177 @@
 namespace abbe::cli {
 namespace {
 
-/// When to stop by the error, and by the time.
-struct Stops {
+/// Options that end a render by its error or time.
+struct StopOptions {
   CLI::Option* error;
   CLI::Option* time;
 };
 
-// How many samples, which `per` says of what, and the error and time that stop in their place.
-Stops add_samples(CLI::App& app, SamplingOptions& asked, const std::string& per,
-                  const std::string& small_error, const std::string& time_of) {
-  CLI::Option* spp = add_parsed(app, "--spp", asked.samples, integer_in<int>(1, kMaxSamples), per, "N");
-  CLI::Option* error = add_parsed(app, "--error", asked.target_error, parse_share,
-                                  "Stop when " + small_error + " is this small, as 0.5% or 0.005", "SHARE");
+// Adds --spp with the help `spp_help`, and --error and --time, which end the render instead. `error_name`
+// names the error, `time_scope` the object of the time.
+StopOptions add_samples(CLI::App& app, SamplingOptions& settings, const std::string& spp_help,
+                        const std::string& error_name, const std::string& time_scope) {
+  CLI::Option* spp =
+      add_parsed(app, "--spp", settings.samples, integer_in<int>(1, kMaxSamples), spp_help, "N");
+  CLI::Option* error =
+      add_parsed(app, "--error", settings.target_error, parse_fraction,
+                 "Stop when " + error_name + " is at most this fraction, such as 0.5% or 0.005", "FRACTION");
   CLI::Option* time = add_parsed(
-      app, "--time", asked.time_limit_s, parse_seconds,
-      "Stop after this time" + time_of + ", as 60s, 2m or 1h; with --error, at whichever comes first",
+      app, "--time", settings.time_limit_s, parse_seconds,
+      "Stop after this time" + time_scope +
+          ", in s or with a unit, such as 60s, 2m or 1h; with --error, when the first of both is reached",
       "TIME");
   spp->excludes(error)->excludes(time);
   return {error, time};
 }
 
-void add_range(CLI::App& render, RenderOptions& asked, const Stops& stops) {
-  CLI::Option* range = add_parsed(render, "--sample-range", asked.sample_range, parse_sample_range,
-                                  "Render only samples A to B - 1 of every pixel", "A:B");
-  range->excludes(stops.error)->excludes(stops.time);
+void add_range(CLI::App& render, RenderOptions& settings, const StopOptions& stop_options) {
+  CLI::Option* range =
+      add_parsed(render, "--sample-range", settings.sample_range, parse_sample_range,
+                 "Render only the samples A to B - 1 of every pixel, for parts of one render", "A:B");
+  range->excludes(stop_options.error)->excludes(stop_options.time);
 }
 
-// By which technique.
-void add_technique(CLI::App& app, SamplingOptions& asked) {
-  add_parsed(app, "--integrator", asked.integrator,
-             one_of<Integrator>({kIntegratorNames.begin(), kIntegratorNames.end()}), "Technique",
-             fmt::format("{}", fmt::join(kIntegratorNames, "|")));
-  app.add_flag("--consistent", asked.consistent,
-               "Let auto choose what blurs, ever less, where nothing else finds the light");
-  add_parsed(app, "--seed", asked.seed, integer_in<std::uint64_t>(0, kMaxSeed), "Seed of the random numbers",
-             "N");
-  add_parsed(app, "--threads", asked.threads, integer_in<int>(0, kMaxThreads),
-             "Threads, 0 for one per processor", "N");
+// Adds the options for the integrator, the seed and the threads.
+void add_integrator(CLI::App& app, SamplingOptions& settings) {
+  add_parsed(app, "--integrator", settings.integrator,
+             one_of<Integrator>({kIntegratorNames.begin(), kIntegratorNames.end()}),
+             "Integrator (default: the scene's)", fmt::format("{}", fmt::join(kIntegratorNames, "|")));
+  app.add_flag("--consistent", settings.consistent,
+               "Allow auto to use photon merging (biased, converging) for light paths that no unbiased "
+               "integrator can sample");
+  add_parsed(app, "--seed", settings.seed, integer_in<std::uint64_t>(0, kMaxSeed),
+             "Seed of the random numbers (default: the scene's)", "N");
+  add_parsed(app, "--threads", settings.threads, integer_in<int>(0, kMaxThreads),
+             "Number of threads; 0 for one per processor (default 0)", "N");
 }
 
-// Of which part of the film, and what it tells.
-void add_film(CLI::App& render, RenderOptions& asked) {
-  add_parsed(render, "--crop", asked.crop, parse_crop, "Part of the film to render, in pixels",
-             "X0,Y0,X1,Y1");
-  add_parsed(
-      render, "--layers", asked.layers, parse_layer_choice,
-      "Also tell the film apart, as channels that add up to it: by the lights' names (lights; of some alone "
-      "lights:NAME,...) or by the number of events (bounces; N and more in one layer bounces:N, default 8)",
-      "lights|bounces");
-  add_parsed(
-      render, "--aov", asked.features, parse_feature_list,
-      "Also tell, of the surface that each pixel sees first, some of: depth (depth.Z), position (P), normal "
-      "(N), "
-      "shading-normal (Ns), albedo (Albedo), id (Id), and the share of samples that see one (Coverage)",
-      "NAME[,NAME...]");
+// Adds the options for the crop, the layers and the auxiliary channels of the film.
+void add_film(CLI::App& render, RenderOptions& settings) {
+  add_parsed(render, "--crop", settings.crop, parse_crop,
+             "Pixels of the film to render, X0 <= x < X1 and Y0 <= y < Y1 (default: all)", "X0,Y0,X1,Y1");
+  add_parsed(render, "--layers", settings.layers, parse_layer_choice,
+             "Also record layers, channels that add up to the film: by light (lights, or lights:NAME,... for "
+             "some lights) or by path length (bounces, or bounces:N with N or more bounces in the last "
+             "layer, 1 to 64, default 8)",
+             "lights|bounces");
+  add_parsed(render, "--aov", settings.features, parse_feature_list,
+             "Also record features of the first surface in each pixel, any of depth (channel depth.Z), "
+             "position (P), normal (N), shading-normal (Ns), albedo (Albedo) and id (Id), with the fraction "
+             "of samples that hit a surface (Coverage)",
+             "NAME[,NAME...]");
 }
 
-void add_checkpoints(CLI::App& render, RenderOptions& asked) {
-  CLI::Option* checkpoint =
-      render.add_option("--checkpoint", asked.checkpoint, "Where to save what is finished")
-          ->type_name("FILE.abbepart");
-  add_parsed(render, "--checkpoint-every", asked.checkpoint_interval_s, parse_seconds,
-             "How often, at most a hundredth of the time (default 60s)", "TIME")
+void add_checkpoints(CLI::App& render, RenderOptions& settings) {
+  CLI::Option* checkpoint = render
+                                .add_option("--checkpoint", settings.checkpoint,
+                                            "File in which the finished samples are saved during the render")
+                                ->type_name("FILE.abbepart");
+  add_parsed(render, "--checkpoint-every", settings.checkpoint_interval_s, parse_seconds,
+             "Time between checkpoints, in s or with a unit, such as 60s, 2m or 1h; longer if writing would "
+             "take more than 1 % of the time (default 60s)",
+             "TIME")
       ->needs(checkpoint);
-  render.add_flag("--resume", asked.resume, "Go on from the checkpoint, if there is one")->needs(checkpoint);
+  render.add_flag("--resume", settings.resume, "Continue from the checkpoint if it exists")
+      ->needs(checkpoint);
 }
 
-void add_pictures(CLI::App& render, RenderOptions& asked) {
-  render.add_option("--display", asked.display, "Also write a picture for displays")->type_name("FILE.png");
+void add_pictures(CLI::App& render, RenderOptions& settings) {
+  render.add_option("--display", settings.display, "Also write a picture for a display")
+      ->type_name("FILE.png");
   render
-      .add_option("--screen", asked.view.display,
-                  "Display of the picture (default: the configuration's first)")
+      .add_option("--screen", settings.view.display,
+                  "Display of the OpenColorIO configuration (default: its first)")
       ->type_name("NAME");
-  render.add_option("--view", asked.view.view, "View on that display (default: its first)")
+  render.add_option("--view", settings.view.view, "View of that display (default: its first)")
       ->type_name("NAME");
   render
-      .add_option("--ocio", asked.view.config,
-                  "OpenColorIO configuration of the picture (default: $OCIO, else Abbe's own)")
+      .add_option("--ocio", settings.view.config,
+                  "OpenColorIO configuration of the picture (default: $OCIO, otherwise Abbe's own)")
       ->type_name("FILE.ocio");
   render
-      .add_option(
-          "--exposure-of", asked.exposure_of,
-          "Show the picture with the exposure of another film of the same sensor, as the first of several "
-          "frames")
+      .add_option("--exposure-of", settings.exposure_of,
+                  "Film of the same sensor whose display exposure the picture uses, such as the first of "
+                  "several frames")
       ->type_name("FILE.exr");
   render
-      .add_option("--gamut", asked.gamut,
-                  "Also write, in white, which colours lay outside the display's gamut")
+      .add_option("--gamut", settings.gamut,
+                  "Also write a picture that shows in white the pixels outside the gamut of the display")
       ->type_name("FILE.png");
 }
 
-void add_watchers(CLI::App& render, RenderOptions& asked) {
-  add_parsed(render, "--preview", asked.preview, parse_server_address,
-             "Show the render on a page while it runs, on a port of this machine (0: any free one) or of an "
-             "address",
-             "[ADDRESS:]PORT");
-  add_parsed(render, "--tev", asked.tev, parse_viewer_address,
-             "Show the render in the viewer tev, which listens there", "[HOST:]PORT");
+void add_live_viewers(CLI::App& render, RenderOptions& settings) {
+  add_parsed(
+      render, "--preview", settings.preview, parse_server_address,
+      "Show the running render on a web page at this port of this machine or address; 0 for any free port",
+      "[ADDRESS:]PORT");
+  add_parsed(
+      render, "--tev", settings.tev, parse_viewer_address,
+      "Show the running render in the viewer tev, which listens at this port (default host: this machine)",
+      "[HOST:]PORT");
 }
 
 }  // namespace
 
 void add_render(CLI::App& app, Command& command) {
-  const Sub<RenderOptions> sub(app, "render", "Render a scene", command, render);
+  const Subcommand<RenderOptions> sub(app, "render", "Render a scene", command, render);
   CLI::App& render = *sub.app;
   render.add_option("scene", sub->scene, "Scene file, or - for standard input")
       ->required()
       ->type_name("SCENE");
   render
       .add_option("-o,--output", sub->output,
-                  "Film to write, or its exact sums (default: the scene's, else SCENE.exr)")
+                  "Film (.exr) or partial film with exact sums (.abbepart) to write (default: that of the "
+                  "scene, otherwise SCENE.exr)")
       ->type_name("FILE.exr|FILE.abbepart");
-  const Stops stops =
-      add_samples(render, *sub.options, "Samples per pixel", "the median relative error of lit values", "");
-  add_range(render, *sub.options, stops);
-  add_technique(render, *sub.options);
+  const StopOptions stop_options =
+      add_samples(render, *sub.options, "Samples per pixel (default: the scene's)",
+                  "the median relative error of illuminated pixel values", "");
+  add_range(render, *sub.options, stop_options);
+  add_integrator(render, *sub.options);
   add_film(render, *sub.options);
   add_overrides(render, sub.options);
   add_checkpoints(render, *sub.options);
   add_pictures(render, *sub.options);
-  render.add_option("--stats", sub->stats, "Write what the render did as JSON, - for standard output")
+  render.add_option("--stats", sub->stats, "Write statistics of the render as JSON; - for standard output")
       ->type_name("FILE.json");
-  add_watchers(render, *sub.options);
+  add_live_viewers(render, *sub.options);
   add_max_memory(render, sub.options);
-  render.add_flag("--explain", sub->explain, "Say first what the scene needs, and why");
+  render.add_flag("--explain", sub->explain, "First print which features the scene needs, and why");
   render.add_flag(
       "--strict", sub->strict,
-      "Refuse a scene of which a warning means a wrong image (exit 3): no light, a lamp that emits nothing, "
-      "matter in an open mesh or with vertex normals, a camera in opaque matter, a sheet or a lamp on a "
-      "surface, light that an integrator named for the scene loses, not what auto says is missing; exit with "
-      "70 if any sample was left out");
-  render.add_flag("--quiet", sub->quiet, "Show no progress and no notes, only warnings");
+      "Reject a scene with a warning that means a wrong image (exit code 3): no light, a light that emits "
+      "nothing, a medium in a mesh that is open or has vertex normals, a camera in an opaque medium, a thin "
+      "sheet or a light that coincides with a surface, or light paths that the chosen integrator cannot "
+      "sample (with auto these remain a warning); exit with 70 if any sample was discarded");
+  render.add_flag("--quiet", sub->quiet, "Print warnings and errors only, no progress and no notes");
 }
 
 void add_meter(CLI::App& app, Command& command) {
-  const Sub<MeterOptions> sub(app, "meter", "Measure light with the meters of a scene", command, meter);
+  const Subcommand<MeterOptions> sub(app, "meter", "Measure light with the meters of a scene", command,
+                                     meter);
   CLI::App& options = *sub.app;
   options.add_option("scene", sub->scene, "Scene file, or - for standard input")
       ->required()
       ->type_name("SCENE");
-  options.add_option("--only", sub->meters, "Meter to read, by its name; may be repeated (default: all)")
+  options.add_option("--only", sub->meters, "Name of a meter to read; may be repeated (default: all)")
       ->allow_extra_args(false)
       ->type_name("NAME");
-  options.add_option("--spectra", sub->spectra, "Table to write of what the meters with a spectrum read")
+  options
+      .add_option("--spectra", sub->spectra,
+                  "Table to write with the spectra of those meters that record one")
       ->type_name("FILE.csv");
-  (void)add_samples(options, *sub.options, "Samples of each part of a meter, which has 1024 or more",
-                    "the largest relative standard error of a meter's three figures", " for each meter");
-  add_technique(options, *sub.options);
+  (void)add_samples(options, *sub.options,
+                    "Samples per sub-area of a meter, which has at least 1024 of them (default: the scene's)",
+                    "the largest relative standard error of a meter's radiant, luminous and photon values",
+                    " for each meter");
+  add_integrator(options, *sub.options);
   add_overrides(options, sub.options);
   add_max_memory(options, sub.options);
   options.add_flag("--strict", sub->strict,
-                   "Refuse a scene of which a warning means a wrong reading (exit 3); exit with 70 if any "
-                   "sample was left out");
-  options.add_flag("--quiet", sub->quiet, "Show no progress and no notes, only warnings");
+                   "Reject a scene with a warning that means a wrong reading (exit code 3); exit with 70 if "
+                   "any sample was discarded");
+  options.add_flag("--quiet", sub->quiet, "Print warnings and errors only, no progress and no notes");
   add_json(options, sub->json);
 }
 

@@ -4,9 +4,9 @@
 
 namespace abbe::cli {
 
-/// `abbe render`.
+/// Adds `abbe render`.
 void add_render(CLI::App& app, Command& command);
-/// `abbe meter`.
+/// Adds `abbe meter`.
 void add_meter(CLI::App& app, Command& command);
 
 }  // namespace abbe::cli

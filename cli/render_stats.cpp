@@ -15,14 +15,16 @@ Json json_of(const Cost& cost) {
   return {{"wall_s", cost.wall_s}, {"cpu_s", cost.cpu_s}};
 }
 
-// Of the planes over what was rendered, those of a spectral sensor as the radiances that its file holds.
+// Mean and error of each plane over the rendered pixels. Planes of a spectral sensor are radiances, as in its
+// file.
 Json film_figures(const Scene& scene, const Film& film) {
-  const Crop of = film.crop();
+  const Crop crop = film.crop();
   const std::vector<std::string> planes = scene.film_planes();
   const std::vector<double> divisors = scene.spectral ? exposure_per_radiance(scene) : std::vector<double>();
   Json figures;
   for (std::size_t i = 0; i < planes.size(); ++i) {
-    const Film::Average average = film.average(static_cast<int>(i), of.x0, of.y0, of.x1, of.y1, divisors);
+    const Film::Average average =
+        film.average(static_cast<int>(i), crop.x0, crop.y0, crop.x1, crop.y1, divisors);
     const bool known = average.degrees_of_freedom > 0;
     figures[planes[i]] = {
         {"mean", average.mean},
@@ -37,7 +39,7 @@ Json film_figures(const Scene& scene, const Film& film) {
 }  // namespace
 
 std::string stats_text(const Scene& scene, const RenderResult& result, const Costs& costs,
-                       std::optional<double> shown_as_white) {
+                       std::optional<double> display_white) {
   const RenderStats& stats = result.stats;
   Json answer;
   answer["wall_s"] = stats.wall_s;
@@ -56,7 +58,7 @@ std::string stats_text(const Scene& scene, const RenderResult& result, const Cos
   answer["path_splitting"] = stats.path_splitting;
   answer["paths"] = stats.paths;
   answer["rays"] = stats.rays;
-  answer["embree_replay_share"] = Json();  // which bench alone measures, by tracing paths again
+  answer["embree_replay_share"] = Json();  // measured by bench, which traces paths again
   answer["relative_error"] = stats.error.median;
   answer["relative_error_p95"] = stats.error.p95;
   answer["frame_mean_error"] = stats.error.frame_mean;
@@ -66,7 +68,7 @@ std::string stats_text(const Scene& scene, const RenderResult& result, const Cos
   answer["cut_paths"] = stats.cut.paths;
   answer["cut_throughput"] = stats.cut.throughput();
   answer["film"] = film_figures(scene, result.film);
-  answer[kDisplayExposureKey] = shown_as_white ? Json(*shown_as_white) : Json();
+  answer[kDisplayExposureKey] = display_white ? Json(*display_white) : Json();
   answer["version"] = ABBE_VERSION;
   answer["seed"] = scene.render.seed;
   answer["scene_sha256"] = scene.sha256;

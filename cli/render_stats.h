@@ -9,18 +9,18 @@
 
 namespace abbe::cli {
 
-/// Of the command, and of what comes before and after the render itself.
+/// Cost of the command, and of its phases other than the render itself.
 struct Costs {
   CostMeter command;
-  Cost load;     ///< Reading the scene and building what it describes.
-  Cost plan;     ///< The pilots that choose the integrator, teach it and find the white.
-  Cost display;  ///< Making pictures of the film, and writing them.
+  Cost load;     ///< Reading and building the scene.
+  Cost plan;     ///< Pilot rays that choose the integrator, train its guiding data and determine the white.
+  Cost display;  ///< Making and writing pictures of the film.
   Cost write;    ///< Writing the film and the last checkpoint.
 };
 
-/// JSON that `abbe render --stats` writes. The cost of the command is that spent until this call.
-/// `shown_as_white` is empty without a picture.
+/// JSON that `abbe render --stats` writes. The cost of the command is that until this call. `display_white`
+/// is empty without a picture.
 [[nodiscard]] std::string stats_text(const Scene& scene, const RenderResult& result, const Costs& costs,
-                                     std::optional<double> shown_as_white);
+                                     std::optional<double> display_white);
 
 }  // namespace abbe::cli

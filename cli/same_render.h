@@ -2,16 +2,16 @@
 
 #include <optional>
 
-#include "transport/render/crew.h"
+#include "transport/render/mpi_group.h"
 #include "transport/render/part.h"
 #include "transport/render/render.h"
 
 namespace abbe::cli {
 
-/// Ends a crew of which not all processes are about to render the same samples of the same film, going on
-/// from the same ones: their sums would be of no film, or of other sizes. All call it before their first
-/// pass. Throws Error{input} in those whose render is not that of the first.
-void require_same_render(const Crew& crew, const FilmIdentity& identity, const abbe::RenderOptions& how,
-                         const std::optional<RenderResult>& start);
+/// Checks that all processes of a group are about to render the same samples of the same film, continuing
+/// from the same ones. Otherwise their sums would be invalid. All processes must call it before their first
+/// pass. Throws Error{input} in those whose render differs from that of the root.
+void require_same_render(const MpiGroup& mpi_group, const FilmIdentity& identity,
+                         const abbe::RenderOptions& render_options, const std::optional<RenderResult>& start);
 
 }  // namespace abbe::cli

@@ -10,24 +10,26 @@
 
 namespace abbe::cli {
 
-/// How light is to be traced; what is absent is as the scene says.
+/// Options that control how light is sampled. Values that are absent are those of the scene.
 struct SamplingOptions {
   std::optional<int> samples;
   std::optional<double> target_error;
   std::optional<double> time_limit_s;
   std::optional<Integrator> integrator;
-  bool consistent = false;  ///< Besides what the scene says.
+  bool consistent = false;  ///< In addition to the scene's setting.
   std::optional<std::uint64_t> seed;
   int threads = 0;
   std::size_t max_memory_bytes = default_memory_limit();
   std::vector<Override> overrides;
-  bool strict = false;  ///< What makes the figures wrong ends the command: of the scene before it starts (3),
-                        ///< a sample that was left out after they are written (70).
+  /// Treat problems that invalidate the result as errors. Those of the scene end the command before it starts
+  /// (exit code 3). Samples that are not finite end it after the results are written (exit code 70).
+  bool strict = false;
   bool quiet = false;
 };
 
-/// Sets what is asked for. Throws Error{usage} where `consistent`, the scene's too, has nothing to choose,
-/// and for another integrator than the one that the scene says how to sample.
+/// Applies the options to the settings. Throws Error{usage} if `consistent`, from the options or the scene,
+/// is combined with another integrator than `auto`. Throws Error{usage} for an integrator other than the one
+/// whose sampling the scene specifies.
 void set_sampling(const SamplingOptions& options, RenderSettings& render);
 
 }  // namespace abbe::cli

@@ -14,8 +14,8 @@ namespace abbe::cli {
 
 std::string slurm_help(const std::string& name) {
   std::string all =
-      "A render in parts on a Slurm cluster (docs/distributed.md). `abbe help slurm FILE >FILE` writes "
-      "one.\n";
+      "Jobs for a render in parts on a Slurm cluster (docs/distributed.md). `abbe help slurm FILE >FILE` "
+      "writes one of them.\n";
   std::vector<std::string> names;
   for (const auto& [file, text] : kSlurmFiles) {
     if (name == file) return std::string(text);

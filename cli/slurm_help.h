@@ -4,8 +4,8 @@
 
 namespace abbe::cli {
 
-/// What `abbe help slurm` prints: the documented jobs for Slurm, each under its name, or the one of that
-/// name, to the byte. Throws Error{usage} for another name.
+/// Text of `abbe help slurm`: all documented jobs for Slurm under their names, or the exact bytes of the
+/// named job. Throws Error{usage} for an unknown name.
 [[nodiscard]] std::string slurm_help(const std::string& name);
 
 }  // namespace abbe::cli

@@ -5,7 +5,7 @@
 #include "cli/answer.h"
 #include "cli/warnings.h"
 #include "description/load.h"
-#include "validation/layout/lamp_rays.h"
+#include "validation/layout/light_rays.h"
 
 namespace abbe::cli {
 namespace {
@@ -66,24 +66,24 @@ Json event_answer(const Scene& scene, const TraceEvent& event) {
   return answer;
 }
 
-// Where a branch's light went, with its shares of power in a tree.
-void add_way(const Scene& scene, const RayTrace& trace, bool tree, const StokesVector& light, Json& answer) {
+// Adds the events of a branch, its last ray and its polarisation; in a tree also fractions of the power.
+void add_path(const Scene& scene, const RayTrace& trace, bool tree, const StokesVector& light, Json& answer) {
   answer["events"] = Json::array();
   for (const TraceEvent& event : trace.events) {
-    Json told = event_answer(scene, event);
-    if (tree) told["share"] = event.share;
+    Json event_json = event_answer(scene, event);
+    if (tree) event_json["share"] = event.power_fraction;
     if (tree && event.kind != TraceEvent::Kind::escape) {
-      told["R"] = event.R;
-      told["T"] = event.T;
+      event_json["R"] = event.R;
+      event_json["T"] = event.T;
     }
-    answer["events"].push_back(std::move(told));
+    answer["events"].push_back(std::move(event_json));
   }
   answer["final_origin"] = file_point(scene, trace.last.origin);
   answer["final_dir"] = list(trace.last.direction);
-  answer["first_axis"] = list(trace.way.first_axis);
-  answer["last_axis"] = list(trace.way.last_axis);
-  answer["mueller"] = matrix(trace.way.mueller);
-  answer["stokes"] = trace.way.mueller * light;
+  answer["first_axis"] = list(trace.polarisation.first_axis);
+  answer["last_axis"] = list(trace.polarisation.last_axis);
+  answer["mueller"] = matrix(trace.polarisation.mueller);
+  answer["stokes"] = trace.polarisation.mueller * light;
 }
 
 Json branch_answer(const Scene& scene, const RayTree& tree, std::size_t number, const StokesVector& light) {
@@ -91,8 +91,8 @@ Json branch_answer(const Scene& scene, const RayTree& tree, std::size_t number, 
   Json answer{{"branch", number},
               {"from_branch", branch.from},
               {"from_event", branch.event},
-              {"share", branch.share}};
-  add_way(scene, branch.trace, true, light, answer);
+              {"share", branch.power_fraction}};
+  add_path(scene, branch.trace, true, light, answer);
   answer["deviation_deg"] = angle_deg(tree.branches.front().start.direction, branch.trace.last.direction);
   return answer;
 }
@@ -100,25 +100,26 @@ Json branch_answer(const Scene& scene, const RayTree& tree, std::size_t number, 
 Json tree_answer(const Scene& scene, const RayTree& tree, bool with_branches, const StokesVector& light) {
   const RayBranch& main = tree.branches.front();
   Json answer;
-  add_way(scene, main.trace, with_branches, light, answer);
+  add_path(scene, main.trace, with_branches, light, answer);
   answer["deviation_deg"] = angle_deg(main.start.direction, main.trace.last.direction);
   if (!with_branches) return answer;
   answer["branches"] = Json::array();
   for (std::size_t i = 1; i < tree.branches.size(); ++i)
     answer["branches"].push_back(branch_answer(scene, tree, i, light));
-  answer["cut_branches"] = tree.cut;
-  answer["cut_share"] = tree.cut_share;
+  answer["cut_branches"] = tree.truncated;
+  answer["cut_share"] = tree.truncated_power;
   return answer;
 }
 
 void warn_cut(const RayTree& tree, const TraceOptions& options, const FollowLimits& limits) {
-  if (options.follow == Follow::both && tree.cut > 0)
-    say(fmt::format(
-        "warning: cut {} branches, with {:.2g} of the power, after {} events, {} branches or below "
-        "a share of {:g}",
-        tree.cut, tree.cut_share, limits.max_events, limits.most_branches, limits.least_share));
-  else if (tree.branches.front().trace.cut_short)
-    say(fmt::format("warning: stopped after {} events", limits.max_events));
+  if (options.follow == Follow::both && tree.truncated > 0)
+    print_message(
+        fmt::format("warning: {} branches with {:.2g} of the power were cut off at the limits of {} events, "
+                    "{} branches and a power fraction of {:g}",
+                    tree.truncated, tree.truncated_power, limits.max_events, limits.max_branches,
+                    limits.min_power_fraction));
+  else if (tree.branches.front().trace.truncated)
+    print_message(fmt::format("warning: stopped after {} events", limits.max_events));
 }
 
 void print_events(const Json& events) {
@@ -130,8 +131,8 @@ void print_events(const Json& events) {
 }
 
 void print_readable(const Json& answer) {
-  const auto print_rest = [](const Json& way) {
-    for (const auto& [key, value] : way.items())
+  const auto print_rest = [](const Json& path) {
+    for (const auto& [key, value] : path.items())
       if (key != "events" && key != "branches") print({{key, value}}, false);
   };
   print_events(answer["events"]);
@@ -151,8 +152,10 @@ BasicRay<double> first_ray(const Scene& scene, const TraceOptions& options) {
     return {*options.origin * scene.unit_m - scene.origin_m, options.direction->normalized()};
   if (options.light.empty())
     throw Error(ErrorCode::usage, "trace", "needs --origin and --dir, or --from-light");
-  std::optional<BasicRay<double>> ray = middle_ray(scene, light_named(scene, options.light, "--from-light"));
-  if (!ray) throw Error(ErrorCode::usage, "--from-light", "light from everywhere has no middle");
+  std::optional<BasicRay<double>> ray = central_ray(scene, light_named(scene, options.light, "--from-light"));
+  if (!ray)
+    throw Error(ErrorCode::usage, "--from-light",
+                "has no central ray, since this light comes from all directions");
   if (options.direction) ray->direction = options.direction->normalized();
   return *ray;
 }
@@ -172,7 +175,8 @@ int trace(const TraceOptions& options) {
     print(answer, true);
   else
     print_readable(answer);
-  if (const auto held = held_index(scene, tree, options.wavelength_nm)) say("warning: " + *held);
+  if (const auto warning = extrapolated_index_warning(scene, tree, options.wavelength_nm))
+    print_message("warning: " + *warning);
   warn_cut(tree, options, limits);
   return 0;
 }

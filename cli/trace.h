@@ -13,22 +13,23 @@
 
 namespace abbe::cli {
 
-/// What `abbe trace` was asked for, in the units of length of the scene file.
+/// Options of `abbe trace`; lengths are in the units of the scene file.
 struct TraceOptions {
-  std::filesystem::path scene;  ///< "-" is standard input.
+  std::filesystem::path scene;  ///< Scene file; "-" is standard input.
   double wavelength_nm = 0;
-  std::optional<Imath::V3d> origin;     ///< Needed without a light.
-  std::optional<Imath::V3d> direction;  ///< Needed without a light, whose middle ray it is otherwise.
+  std::optional<Imath::V3d> origin;  ///< Required without a light.
+  /// Required without a light; by default the direction of the light's central ray.
+  std::optional<Imath::V3d> direction;
   int max_events = 64;
   std::size_t max_memory_bytes = default_memory_limit();
   bool json = false;
-  std::string light = {};           ///< Where the ray starts, in place of an origin.
-  StokesVector stokes{1, 0, 0, 0};  ///< Of the light that sets out, with I = 1.
+  std::string light = {};           ///< Light at which the ray starts, instead of an origin.
+  StokesVector stokes{1, 0, 0, 0};  ///< Stokes vector of the emitted light, with I = 1.
   Follow follow = Follow::refraction;
   std::vector<Override> overrides = {};
 };
 
-/// Follows one ray through a scene and prints what happens to it. Returns the exit code.
+/// Traces one ray through a scene and prints its events. Returns the exit code.
 int trace(const TraceOptions& options);
 
 }  // namespace abbe::cli

@@ -9,24 +9,24 @@
 
 #include "calibration/chart/transfer_frames.h"
 #include "cli/answer.h"
-#include "cli/bench_measurements.h"
-#include "cli/bench_plots.h"
 #include "cli/output_files.h"
+#include "cli/sensor_measurements.h"
+#include "cli/sensor_plots.h"
 #include "io/atomic_file.h"
 #include "io/extension.h"
 
 namespace abbe::cli {
 namespace {
 
-void warn_of_dim_light(const std::vector<ChannelTransfer>& channels) {
-  std::string dim;
+void warn_of_missing_saturation(const std::vector<ChannelTransfer>& channels) {
+  std::string unsaturated;
   for (const ChannelTransfer& one : channels)
-    if (!one.transfer.saturation_e) dim += (dim.empty() ? "" : ", ") + one.channel;
-  if (dim.empty()) return;
-  say(fmt::format(
-      "warning: no lit pair saturates {}, of which full well and dynamic range are not known: add "
-      "a pair in light beyond saturation",
-      dim));
+    if (!one.transfer.saturation_e) unsaturated += (unsaturated.empty() ? "" : ", ") + one.channel;
+  if (unsaturated.empty()) return;
+  print_message(
+      fmt::format("warning: no flat pair saturates {}, so that full well and dynamic range are unknown: add "
+                  "a pair above saturation",
+                  unsaturated));
 }
 
 // Warns of a gain that is biased by a response that is not linear.
@@ -37,10 +37,9 @@ void warn_of_nonlinearity(const std::vector<ChannelTransfer>& channels) {
     const auto& bias = one.transfer.gain_bias;
     const double limit = bias ? std::max(kNegligible, kStandardErrors * bias->standard_error) : 0;
     if (!bias || std::abs(bias->value) <= limit) continue;
-    say(fmt::format(
-        "warning: {} does not respond linearly, so that its gain is {:.2g} % too {} (that of weak light is "
-        "{:.5g} "
-        "e/DN), and all figures in electrons with it: use weaker light, or correct the response first",
+    print_message(fmt::format(
+        "warning: {} does not respond linearly, so that its gain and all its figures in electrons are {:.2g} "
+        "% too {} (the gain in weak light is {:.5g} e/DN): use weaker light, or linearise the response first",
         one.channel, 100 * std::abs(bias->value), bias->value > 0 ? "large" : "small",
         one.transfer.gain_e_per_dn / (1 + bias->value)));
   }
@@ -53,27 +52,27 @@ int transfer(const TransferOptions& options) {
   Inputs inputs(options.max_memory_bytes);
   std::vector<std::string> warnings;
   const std::vector<ChannelTransfer> channels =
-      measure_transfer(options.dark, options.lit, inputs, &warnings);
-  for (const std::string& warning : warnings) say("warning: " + warning);
-  warn_of_dim_light(channels);
+      measure_transfer(options.dark, options.flat, inputs, &warnings);
+  for (const std::string& warning : warnings) print_message("warning: " + warning);
+  warn_of_missing_saturation(channels);
   warn_of_nonlinearity(channels);
   Json answer;
   for (const ChannelTransfer& one : channels) {
-    const PhotonTransfer& found = one.transfer;
+    const PhotonTransfer& transfer = one.transfer;
     answer["channel"].push_back(one.channel);
-    answer["gain_e_per_dn"].push_back(found.gain_e_per_dn);
-    answer["gain_standard_error"].push_back(found.gain_standard_error);
-    answer["read_noise_e"].push_back(found.read_noise_e);
+    answer["gain_e_per_dn"].push_back(transfer.gain_e_per_dn);
+    answer["gain_standard_error"].push_back(transfer.gain_standard_error);
+    answer["read_noise_e"].push_back(transfer.read_noise_e);
     answer["read_noise_standard_error"].push_back(
-        found.read_noise_standard_error ? Json(*found.read_noise_standard_error) : Json());
-    answer["dark_e_per_s"].push_back(found.dark_e_per_s);
-    answer["prnu_percent"].push_back(found.prnu_percent);
-    answer["dsnu_e"].push_back(found.dsnu_e);
-    answer["full_well_e"].push_back(found.full_well_e ? Json(*found.full_well_e) : Json());
+        transfer.read_noise_standard_error ? Json(*transfer.read_noise_standard_error) : Json());
+    answer["dark_e_per_s"].push_back(transfer.dark_e_per_s);
+    answer["prnu_percent"].push_back(transfer.prnu_percent);
+    answer["dsnu_e"].push_back(transfer.dsnu_e);
+    answer["full_well_e"].push_back(transfer.full_well_e ? Json(*transfer.full_well_e) : Json());
     const std::optional<double>& range_db = one.dynamic_range_db;
     answer["dynamic_range_db"].push_back(range_db && std::isfinite(*range_db) ? Json(*range_db) : Json());
     answer["snr10_e"].push_back(one.snr10_e);
-    const std::optional<double>& nonlinear = found.linearity_error_percent;
+    const std::optional<double>& nonlinear = transfer.linearity_error_percent;
     answer["linearity_error_percent"].push_back(nonlinear ? Json(*nonlinear) : Json());
     answer["snr10_lx_s"].push_back(one.snr10_lx_s ? Json(*one.snr10_lx_s) : Json());
   }

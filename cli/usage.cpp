@@ -13,10 +13,10 @@ namespace abbe::cli {
 namespace {
 
 std::string no_value(const CLI::Option& option) {
-  return fmt::format("got an empty text, allowed {}", option.get_type_name());
+  return fmt::format("got an empty value, allowed {}", option.get_type_name());
 }
 
-// `argument` is "--name" or "--name=value".
+// Checks an `argument` "--name" or "--name=value".
 void check_option(const CLI::App& app, const std::string& argument) {
   const std::size_t equals = argument.find('=');
   const std::string name = argument.substr(0, equals);
@@ -74,11 +74,11 @@ void check_names(const CLI::App& app, const std::vector<std::string>& arguments)
   }
 }
 
-void refuse_empty_values(CLI::App& app) {
+void reject_empty_values(CLI::App& app) {
   for (CLI::Option* option : app.get_options())
     if (option->get_items_expected_min() > 0)
       option->check([option](const std::string& value) { return value.empty() ? no_value(*option) : ""; });
-  for (CLI::App* command : app.get_subcommands({})) refuse_empty_values(*command);
+  for (CLI::App* command : app.get_subcommands({})) reject_empty_values(*command);
 }
 
 // Not `app.help()`, which would show the help of the subcommand that was given.

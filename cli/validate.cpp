@@ -29,9 +29,9 @@ std::vector<Suite> parse_suites(const std::string& option, const std::string& te
   const std::vector<std::string> names(kSuiteNames.begin(), kSuiteNames.end());
   std::vector<Suite> suites;
   for (const std::string& piece : split(text, ',')) {
-    const auto found = std::find(names.begin(), names.end(), piece);
-    if (found == names.end()) throw Error(ErrorCode::usage, option, unknown_name("suite", piece, names));
-    suites.push_back(static_cast<Suite>(found - names.begin()));
+    const auto name = std::find(names.begin(), names.end(), piece);
+    if (name == names.end()) throw Error(ErrorCode::usage, option, unknown_name("suite", piece, names));
+    suites.push_back(static_cast<Suite>(name - names.begin()));
   }
   return suites;
 }
@@ -39,8 +39,9 @@ std::vector<Suite> parse_suites(const std::string& option, const std::string& te
 int validate(const ValidateOptions& options) {
   const bool written = !options.output.empty();
   if (written) require_folder(options.output);
-  const ValidationReport report = abbe::validate(
-      {options.suites, options.quick, written && options.suites.empty(), options.threads, ABBE_VERSION, say});
+  const ValidationReport report =
+      abbe::validate({options.suites, options.quick, written && options.suites.empty(), options.threads,
+                      ABBE_VERSION, print_message});
   if (written) {
     write_atomically(options.output / "report.html", html_text(report));
     write_atomically(options.output / "report.json", json_text(report));

@@ -17,7 +17,7 @@ constexpr std::string_view kCompiler = "Clang " __clang_version__;
 constexpr std::string_view kCompiler = "GCC " __VERSION__;
 #endif
 
-// From the build, since the libraries' own headers stay in their rooms.
+// Versions from the build, since this module does not include the headers of the libraries.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kLibraries{{
     {"Embree", ABBE_EMBREE_VERSION},
     {"OpenEXR", ABBE_OPENEXR_VERSION},

@@ -9,42 +9,45 @@
 
 namespace abbe::cli {
 
-/// Warns on stderr of the classes of paths that the scene's integrator does not reach, whose light the image
-/// will lack. Throws Error{scene} instead, when `strict`.
-void warn_of_lost_light(const Scene& scene, bool strict);
+/// Warns on stderr of path classes that the scene's integrator cannot sample, so that their light is missing
+/// from the image. Throws Error{scene} instead if `strict`.
+void warn_of_unsampled_light(const Scene& scene, bool strict);
 
-/// Warns of a camera that stands within opaque matter where no light is: Error{scene} when `strict`.
+/// Warns of a camera inside an opaque body, where no light arrives. Throws Error{scene} instead if `strict`.
 void warn_of_dark_camera(const Scene& scene, bool strict);
 
-/// What is to be said of a material an index of which, or its extinction, is held from the end of its data at
-/// a wavelength [nm], if one is.
-[[nodiscard]] std::optional<std::string> held_index(const Material& material, double wavelength_nm);
+/// Warning for a material whose index or extinction is extrapolated at a wavelength [nm]; empty if neither
+/// is.
+[[nodiscard]] std::optional<std::string> extrapolated_index_warning(const Material& material,
+                                                                    double wavelength_nm);
 
-/// What is to be said of the first index that a ray of a wavelength [nm] asked for beyond its data, if it
-/// did.
-[[nodiscard]] std::optional<std::string> held_index(const Scene& scene, const RayTree& tree,
-                                                    double wavelength_nm);
+/// Warning for the first extrapolated index on the path of a ray of this wavelength [nm]; empty if there is
+/// none.
+[[nodiscard]] std::optional<std::string> extrapolated_index_warning(const Scene& scene, const RayTree& tree,
+                                                                    double wavelength_nm);
 
-/// Warns of neutrals that interference filters tint towards the corners of the picture.
+/// Warns of neutral surfaces that interference filters tint towards the corners of the picture.
 void warn_of_tinted_corners(const Scene& scene);
 
-/// Warns of a thin sheet that is lost where it lies on something: Error{scene} when `strict`.
+/// Warns of a thin sheet that is ineffective because it coincides with another surface. Throws Error{scene}
+/// instead if `strict`.
 void warn_of_hidden_sheet(const Scene& scene, bool strict);
 
-/// Warns of a lamp that light is lost of where it touches something opaque: Error{scene} when `strict`.
-void warn_of_hidden_lamp(const Scene& scene, bool strict);
+/// Warns of a light whose emission is partly lost where it coincides with an opaque surface. Throws
+/// Error{scene} instead if `strict`.
+void warn_of_hidden_light(const Scene& scene, bool strict);
 
-/// Warns of photons that pilots found too few of to aim by, if pilots have taught guides at all.
-void warn_of_rare_photons(const Guides* guides);
+/// Warns if the pilot photons were too few to train the guiding data. Nothing happens without guiding data.
+void warn_of_undertrained_guides(const GuidingData* guides);
 
-/// Warns of settings that the scene's integrator makes no use of.
+/// Warns of settings that the scene's integrator does not use.
 void warn_of_unused_settings(const Scene& scene);
 
-/// Says in a line, when the scene leaves polarisation out and has paths where that costs something, what it
-/// costs.
+/// Prints a note on the error if the scene turns polarisation off and has paths that it affects.
 void note_polarisation(const Scene& scene);
 
-/// Warns of a sensor that measures polarisation in a scene that leaves it out: Error{scene} when `strict`.
-void warn_of_unpolarised_measurement(const Scene& scene, bool strict);
+/// Warns of a sensor that measures polarisation in a scene that turns it off. Throws Error{scene} instead if
+/// `strict`.
+void warn_of_ignored_polarisation(const Scene& scene, bool strict);
 
 }  // namespace abbe::cli

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "description/kinds.h"
+#include "description/value_ranges.h"
 
 namespace abbe::spec {
 namespace {
@@ -19,60 +19,62 @@ constexpr Range kFNumber{description::kFastestFNumber, 1e6};
 }  // namespace
 
 static Fields fields(Tag<Aperture>) {
-  return describe(
-      "aperture", "How much light a lens passes.",
-      {field("f_number", &Aperture::f_number, kFNumber,
-             "Focal length over the diameter of the opening, 0.5 or more as of all lenses in air; of a "
-             "pinhole, which is sharp everywhere, it sets the exposure only and is 4 when neither it nor "
-             "`t_stop` is given."),
-       field("t_stop", &Aperture::t_stop, kFNumber,
-             "f-number over the root of the share of light that the lens passes, at least the f-number: it "
-             "exposes as a round lens without losses of that f-number does, and alone stands for a lens "
-             "without losses.")});
+  return describe("aperture", "The aperture of a lens.",
+                  {field("f_number", &Aperture::f_number, kFNumber,
+                         "Focal length over the diameter of the aperture, at least 0.5, the limit of lenses "
+                         "in air. A pinhole is sharp everywhere: its f-number sets only the exposure, and is "
+                         "4 if neither it nor `t_stop` is given."),
+                   field("t_stop", &Aperture::t_stop, kFNumber,
+                         "f-number divided by the square root of the transmittance of the lens; at least the "
+                         "f-number. It gives the exposure of a round, lossless lens of that f-number. "
+                         "Without `f_number` the lens is lossless.")});
 }
 
 static Fields fields(Tag<Pinhole>) {
-  return describe("pinhole", "A camera without a lens, sharp everywhere.",
-                  {one_of(&Pinhole::view,
-                          under<FocalLength>("focal_length", kLength, "Distance from the hole to the film."),
-                          under<FieldOfView>("fov_deg", Range{0, 180, true, true, "degrees"},
-                                             "Field of view along the shorter image axis.")),
-                   lent(&Pinhole::aperture)});
+  return describe(
+      "pinhole", "A camera without a lens, sharp everywhere.",
+      {one_of(&Pinhole::view,
+              under<FocalLength>("focal_length", kLength, "Distance from the pinhole to the film."),
+              under<FieldOfView>("fov_deg", Range{0, 180, true, true, "degrees"},
+                                 "Field of view along the shorter image axis.")),
+       inlined(&Pinhole::aperture)});
 }
 
 static Fields fields(Tag<ThinLens>) {
-  return describe(
-      "thin_lens", "A camera with an ideal lens.",
-      {field("focal_length", &ThinLens::focal_length, kLength, "The focal length."),
-       lent(&ThinLens::aperture), lent(&ThinLens::iris),
-       field("focus_distance", &ThinLens::focus_distance,
-             "Distance from the lens to the plane in focus, beyond the focal length; that from `from` to "
-             "`to` when absent.")},
-      {"f_number", "t_stop"});
+  return describe("thin_lens", "A camera with an ideal lens.",
+                  {field("focal_length", &ThinLens::focal_length, kLength, "The focal length."),
+                   inlined(&ThinLens::aperture), inlined(&ThinLens::iris),
+                   field("focus_distance", &ThinLens::focus_distance,
+                         "Distance from the lens to the plane in focus, greater than the focal length. If "
+                         "absent, the distance from `from` to `to`.")},
+                  {"f_number", "t_stop"});
 }
 
 static Fields fields(Tag<View>) {
-  return describe("view", "Where a camera stands.",
-                  {field("from", &View::from, kCoordinate, "Position of the camera."),
-                   field("to", &View::to, kCoordinate, "Position it looks at."),
-                   field("up", &View::up, direction(), "Direction that is up in the image."),
-                   defaulted("roll_deg", &View::roll_deg, kAngle,
-                             "Turn of the camera about its direction of sight, clockwise as it looks.")});
+  return describe(
+      "view", "Position and orientation of a camera.",
+      {field("from", &View::from, kCoordinate, "Position of the camera."),
+       field("to", &View::to, kCoordinate, "Position that the camera looks at."),
+       field("up", &View::up, direction(), "Direction that is up in the image."),
+       defaulted("roll_deg", &View::roll_deg, kAngle,
+                 "Rotation of the camera about its viewing direction, clockwise as seen by the camera.")});
 }
 
-// The name of the lens is its key.
+// The key of the lens is the name of its table.
 template <typename Lens>
-Fields fields(Tag<Sighted<Lens>>) {
-  return describe("", "", {field(fields_of<Lens>().name, &Sighted<Lens>::lens), lent(&Sighted<Lens>::view)});
+Fields fields(Tag<CameraWithView<Lens>>) {
+  return describe(
+      "", "",
+      {field(fields_of<Lens>().name, &CameraWithView<Lens>::lens), inlined(&CameraWithView<Lens>::view)});
 }
 
 Fields fields(Tag<Camera>) {
   return describe(
-      "camera", "What looks at the scene.",
-      {one_of(&Camera::kind, beside<PinholeCamera>("pinhole"), beside<ThinLensCamera>("thin_lens"),
-              beside<LensSystemCamera>("lens_system"),
-              under<Probe>("irradiance_probe", "A meter of the irradiance by the light that counts.")),
-       field("motion", &Camera::motion, "How it moves, from where it is described; a probe does not.")});
+      "camera", "The camera or irradiance probe that records the scene.",
+      {one_of(&Camera::kind, inlined_by<PinholeCamera>("pinhole"), inlined_by<ThinLensCamera>("thin_lens"),
+              inlined_by<LensSystemCamera>("lens_system"),
+              under<Probe>("irradiance_probe", "A probe of the irradiance weighted by the channels.")),
+       field("motion", &Camera::motion, "Motion relative to the described pose; a probe cannot move.")});
 }
 
 }  // namespace abbe::spec
@@ -80,62 +82,63 @@ Fields fields(Tag<Camera>) {
 namespace abbe::description {
 namespace {
 
-/// An opening, and what share of the light the lens passes.
+/// The f-number of a lens and its transmittance.
 struct Aperture {
   double f_number;
   double transmittance;
 };
 
-// T = N/sqrt(s tau), s being the share of the circle that is open: a T-stop exposes as a round lens without
-// losses of that f-number does. Without an f-number the lens is taken for one without losses, of f/0.5 or
-// slower as all lenses in air.
-std::optional<Aperture> build(const spec::Aperture& aperture, double open_share, const LoadContext& context) {
+// T = N/sqrt(s tau), where s is the fraction of the circular aperture that is open and tau the transmittance.
+// A T-stop gives the exposure of a round lossless lens of that f-number. Without an f-number the lens counts
+// as lossless, unless that needs an f-number below 0.5, the limit in air.
+std::optional<Aperture> build(const spec::Aperture& aperture, double open_fraction,
+                              const LoadContext& context) {
   if (!aperture.t_stop) return Aperture{aperture.f_number.value_or(kDefaultFNumber), 1};
   const double t_stop = aperture.t_stop->value;
-  const double without_losses = t_stop * std::sqrt(open_share);
+  const double without_losses = t_stop * std::sqrt(open_fraction);
   if (!aperture.f_number && without_losses >= kFastestFNumber) return Aperture{without_losses, 1};
   const double f_number = aperture.f_number.value_or(kFastestFNumber);
-  const double fastest = f_number / std::sqrt(open_share);
+  const double fastest = f_number / std::sqrt(open_fraction);
   if (t_stop >= fastest) return Aperture{f_number, std::pow(fastest / t_stop, 2)};
-  const char* limit = open_share == 1     ? "its f-number"
-                      : aperture.f_number ? "its f-number and blades let it be"
-                                          : "its blades let it be";
+  const char* limit = open_fraction == 1  ? "its f-number"
+                      : aperture.f_number ? "its f-number and blades allow"
+                                          : "its blades allow";
   context.diagnostics.error(
       aperture.t_stop->where,
-      fmt::format("a T-stop is no faster than {} (got {}, allowed [{}, inf))", limit, t_stop, fastest));
+      fmt::format("a T-stop must not be faster than {} (got {}, allowed [{}, inf))", limit, t_stop, fastest));
   return std::nullopt;
 }
 
-struct Placed {
+struct PlacedView {
   CameraFrame frame;
-  double distance;  ///< From the camera to what it looks at [m].
+  double distance;  ///< Distance from `from` to `to` [m].
 };
 
-std::optional<Placed> build(const spec::View& view, const SourcePosition& where, const LoadContext& context) {
+std::optional<PlacedView> build(const spec::View& view, const SourcePosition& where,
+                                const LoadContext& context) {
   const Imath::V3d from = view.from * context.unit_m;
   const Imath::V3d sight = view.to * context.unit_m - from;
   if (sight.length() == 0) {
-    context.diagnostics.error(where,
-                              "the camera looks at the point where it stands: from and to are the same");
+    context.diagnostics.error(where, "from and to are the same point: the camera has no viewing direction");
     return std::nullopt;
   }
   const Imath::V3d forward = sight.normalized();
   const Imath::V3d right = forward.cross(view.up.normalized());
   if (right.length() < 1e-9) {
-    context.diagnostics.error(where, "up is parallel to the direction of sight");
+    context.diagnostics.error(where, "up is parallel to the viewing direction");
     return std::nullopt;
   }
   const Imath::V3d level = right.normalized();
   const double roll = view.roll_deg * std::numbers::pi / 180;
   const Imath::V3d turned = level * std::cos(roll) - level.cross(forward) * std::sin(roll);
-  return Placed{{from, turned, turned.cross(forward), forward}, sight.length()};
+  return PlacedView{{from, turned, turned.cross(forward), forward}, sight.length()};
 }
 
 std::optional<Pinhole> build(const spec::PinholeCamera& camera, const SourcePosition& where,
                              const Sensor& sensor, const LoadContext& context) {
-  const auto placed = build(camera.view, where, context);
+  const auto view = build(camera.view, where, context);
   const auto aperture = build(camera.lens.aperture, 1, context);
-  if (!placed || !aperture) return std::nullopt;
+  if (!view || !aperture) return std::nullopt;
   double image_distance = 0;
   if (const auto* length = std::get_if<spec::FocalLength>(&camera.lens.view)) {
     image_distance = length->value * context.unit_m;
@@ -144,24 +147,24 @@ std::optional<Pinhole> build(const spec::PinholeCamera& camera, const SourcePosi
     const double fov_deg = std::get<spec::FieldOfView>(camera.lens.view).value;
     image_distance = half_film / std::tan(fov_deg * std::numbers::pi / 360);
   }
-  return Pinhole{placed->frame, image_distance, image_distance / (2 * aperture->f_number),
+  return Pinhole{view->frame, image_distance, image_distance / (2 * aperture->f_number),
                  aperture->transmittance};
 }
 
-// The distance in focus: a length, infinity, or that of what the camera looks at [m].
-double focus_distance(const spec::ThinLens& lens, const Placed& placed, const LoadContext& context) {
-  if (!lens.focus_distance) return placed.distance;
+// Distance to the plane in focus [m]; infinity is allowed.
+double focus_distance(const spec::ThinLens& lens, const PlacedView& view, const LoadContext& context) {
+  if (!lens.focus_distance) return view.distance;
   const auto* distance = std::get_if<double>(&*lens.focus_distance);
   return distance ? *distance * context.unit_m : std::numeric_limits<double>::infinity();
 }
 
 std::optional<ThinLens> build(const spec::ThinLensCamera& camera, const SourcePosition& where,
                               const LoadContext& context) {
-  const auto placed = build(camera.view, where, context);
+  const auto view = build(camera.view, where, context);
   const auto iris = build(camera.lens.iris, context);
-  const auto aperture = build(camera.lens.aperture, iris ? iris->share() : 1, context);
-  if (!placed || !aperture) return std::nullopt;
-  const double focus = focus_distance(camera.lens, *placed, context);
+  const auto aperture = build(camera.lens.aperture, iris ? iris->area_fraction() : 1, context);
+  if (!view || !aperture) return std::nullopt;
+  const double focus = focus_distance(camera.lens, *view, context);
   const double f = camera.lens.focal_length * context.unit_m;
   if (focus <= f) {
     context.diagnostics.error(
@@ -170,15 +173,15 @@ std::optional<ThinLens> build(const spec::ThinLensCamera& camera, const SourcePo
                     f));
     return std::nullopt;
   }
-  // 1/v = 1/f - 1/s, in the form that holds for s = infinity.
+  // Solves 1/v = 1/f - 1/s for v, in the form that holds for s = infinity.
   return ThinLens{
-      placed->frame, f / (1 - f / focus), focus, f / (2 * aperture->f_number), aperture->transmittance, iris};
+      view->frame, f / (1 - f / focus), focus, f / (2 * aperture->f_number), aperture->transmittance, iris};
 }
 
 std::optional<LensSystem> build(const spec::LensSystemCamera& camera, const SourcePosition& where,
                                 const Sensor& sensor, LoadContext& context) {
-  const auto placed = build(camera.view, where, context);
-  return placed ? build(camera.lens, placed->frame, sensor, context) : std::nullopt;
+  const auto view = build(camera.view, where, context);
+  return view ? build(camera.lens, view->frame, sensor, context) : std::nullopt;
 }
 
 }  // namespace
@@ -197,20 +200,20 @@ std::optional<Camera> build(const spec::Camera& camera, const Sensor& sensor, Lo
   return Camera{*kind, sensor.width, sensor.height, sensor.pixel_pitch};
 }
 
-void set_moving(const spec::Motion& said, Camera& camera, LoadContext& context) {
-  const Moving moving = build(std::optional(said), context);
-  const auto bring = [&](auto& kind) {
+void set_moving(const spec::Motion& spec, Camera& camera, LoadContext& context) {
+  const PoseAndMotion moving = build(std::optional(spec), context);
+  const auto move_to_opening = [&](auto& kind) {
     if constexpr (requires { kind.frame; }) {
-      kind.frame.position *= moving.opening;
+      kind.frame.position *= moving.pose_at_opening;
       for (Imath::V3d* axis : {&kind.frame.right, &kind.frame.up, &kind.frame.forward}) {
         const Imath::V3d before = *axis;
-        moving.opening.multDirMatrix(before, *axis);
+        moving.pose_at_opening.multDirMatrix(before, *axis);
       }
     } else {
-      context.diagnostics.error(said.where, "a meter does not move");
+      context.diagnostics.error(spec.where, "an irradiance probe cannot move");
     }
   };
-  std::visit(bring, camera.kind);
+  std::visit(move_to_opening, camera.kind);
   camera.motion = moving.motion;
 }
 

@@ -15,7 +15,7 @@
 
 namespace abbe::spec {
 
-/// How much light a lens passes.
+/// The f-number or T-stop of a lens.
 struct Aperture {
   std::optional<double> f_number;
   std::optional<schema::Located<double>> t_stop;
@@ -30,25 +30,25 @@ struct ThinLens {
   double focal_length = 0;
   Aperture aperture;
   Iris iris;
-  std::optional<FocusDistance> focus_distance;  ///< Of what the camera looks at when absent.
+  std::optional<FocusDistance> focus_distance;  ///< The distance from `from` to `to` if absent.
   SourcePosition where;
 };
-/// Where a camera stands and what it looks at.
+/// Position and orientation of a camera, in scene units.
 struct View {
   Imath::V3d from{0, 0, 0};
   Imath::V3d to{0, 0, 0};
   Imath::V3d up{0, 0, 0};
   double roll_deg = 0;
 };
-/// A camera of some lens.
+/// A lens with its position and orientation.
 template <typename Lens>
-struct Sighted {
+struct CameraWithView {
   Lens lens;
   View view;
 };
-using PinholeCamera = Sighted<Pinhole>;
-using ThinLensCamera = Sighted<ThinLens>;
-using LensSystemCamera = Sighted<LensSystem>;
+using PinholeCamera = CameraWithView<Pinhole>;
+using ThinLensCamera = CameraWithView<ThinLens>;
+using LensSystemCamera = CameraWithView<LensSystem>;
 struct Camera {
   std::variant<std::monostate, PinholeCamera, ThinLensCamera, LensSystemCamera, Probe> kind;
   SourcePosition where;
@@ -65,11 +65,14 @@ inline constexpr double kFastestFNumber = 0.5;
 /// The f-number that sets the exposure of a pinhole without one of its own.
 inline constexpr double kDefaultFNumber = 4;
 
-/// The camera before the sensor's film. Reports what no table can say: a T-stop faster than its f-number or
-/// than blades allow a lens in air, a view of no direction, a lens that cannot focus; nothing after an error.
+/// Builds the camera in front of the sensor's film. Returns nothing after an error. Errors in addition to
+/// those of the key table:
+/// - a T-stop faster than the f-number, or than the blades allow a lens in air;
+/// - a view without a direction;
+/// - a lens that cannot focus at the requested distance.
 [[nodiscard]] std::optional<Camera> build(const spec::Camera& camera, const Sensor& sensor,
                                           LoadContext& context);
-/// Lets a camera move from where it is described. Reports a probe, which does not.
-void set_moving(const spec::Motion& said, Camera& camera, LoadContext& context);
+/// Applies a motion to a camera, relative to its described pose. A probe cannot move: that is an error.
+void set_moving(const spec::Motion& spec, Camera& camera, LoadContext& context);
 
 }  // namespace abbe::description

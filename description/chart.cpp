@@ -1,4 +1,4 @@
-// A colour chart as a scene object: a grid of patches with measured reflectances on a dark surround.
+// A colour chart as a scene object: a grid of patches with measured reflectances in a dark surround.
 #include <utility>
 
 #include "description/shape.h"
@@ -8,20 +8,21 @@ namespace abbe::description {
 namespace {
 
 constexpr std::size_t kChartColumns = 6;
-constexpr double kPatchShare = 0.86;  // of a cell's edge, as on a ColorChecker Classic
-constexpr double kSurround = 0.035;   // reflectance of its black plastic
+constexpr double kPatchFraction = 0.86;  // Fraction of a cell's edge, as on a ColorChecker Classic.
+constexpr double kSurround = 0.035;      // Reflectance of the black plastic of a ColorChecker.
 
-// The rectangle that all cells fill, upright as the reader sees it: `corner` at its lower left.
+// The rectangle of all cells, upright as seen by the reader: `corner` is at the lower left.
 struct Grid {
   Quad quad;
   std::size_t rows;
 
-  // Where line number `i` of 2 per cell lies along an edge of `cells` cells, as a share of it.
+  // Position of line number `i` (two lines per cell) along an edge of `cells` cells, as a fraction of the
+  // edge.
   [[nodiscard]] static double line(std::size_t i, std::size_t cells) {
     const auto n = static_cast<double>(cells);
     if (i == 0) return 0;
     if (i == 2 * cells + 1) return 1;
-    const double margin = (1 - kPatchShare) / 2;
+    const double margin = (1 - kPatchFraction) / 2;
     const std::size_t cell = (i - 1) / 2;
     return (static_cast<double>(cell) + (i % 2 == 1 ? margin : 1 - margin)) / n;
   }
@@ -30,7 +31,7 @@ struct Grid {
   }
 };
 
-// The lines of the first edge of a patch, which counts row by row from the top left.
+// Line numbers of the lower left corner of a patch. Patches count row by row from the top left.
 std::pair<std::size_t, std::size_t> lines_of(std::size_t patch, std::size_t rows) {
   return {2 * (patch % kChartColumns) + 1, 2 * (rows - 1 - patch / kChartColumns) + 1};
 }
@@ -41,7 +42,7 @@ Quad patch_quad(const Grid& grid, std::size_t patch) {
   return {corner, grid.at(i + 1, j) - corner, grid.at(i, j + 1) - corner};
 }
 
-// All between the patches, and the cells of a last row that has no patch.
+// Mesh of the area between the patches, including cells of the last row without a patch.
 Mesh surround_mesh(const Grid& grid, std::size_t patches) {
   const std::size_t columns = 2 * kChartColumns + 2;
   const std::size_t rows = 2 * grid.rows + 2;
@@ -64,13 +65,13 @@ Mesh surround_mesh(const Grid& grid, std::size_t patches) {
   return mesh;
 }
 
-// Index of a new diffuse material, whatever others are called.
+// Index of a new diffuse material; the name need not be unique.
 std::uint32_t add_diffuse(const std::string& name, Curve reflectance, Scene& scene) {
   scene.materials.push_back({name, DiffuseMaterial{std::move(reflectance)}});
   return static_cast<std::uint32_t>(scene.materials.size() - 1);
 }
 
-// Index of the material of a patch, which all charts of that table share.
+// Index of the material of a patch, which all charts of the same table use.
 std::uint32_t patch_material(const std::string& table, const Patch& patch, LoadContext& context,
                              Scene& scene) {
   const std::string name = table + ":" + patch.name;
@@ -81,23 +82,23 @@ std::uint32_t patch_material(const std::string& table, const Patch& patch, LoadC
 
 }  // namespace
 
-std::vector<NamedShape> build(const spec::Chart& said, const std::string& name, LoadContext& context,
+std::vector<NamedShape> build(const spec::Chart& spec, const std::string& name, LoadContext& context,
                               Scene& scene) {
-  const auto surround = said.surround ? build(*said.surround, kReflectanceUse, context) : Curve(kSurround);
-  const SourcePosition& where = said.reflectances.where;
-  const auto file = context.table(said.reflectances.value, where);
-  const auto chart = file
-                         ? load_chart(*file, where, context.diagnostics, kReflectanceUse, context.ends.needed)
-                         : std::nullopt;
+  const auto surround = spec.surround ? build(*spec.surround, kReflectanceUse, context) : Curve(kSurround);
+  const SourcePosition& where = spec.reflectances.where;
+  const auto file = context.table(spec.reflectances.value, where);
+  const auto chart =
+      file ? load_chart(*file, where, context.diagnostics, kReflectanceUse, context.coverage.needed)
+           : std::nullopt;
   if (!chart || !surround) return {};
-  const Imath::V3d edge_u = said.edge_u * context.unit_m;
-  const Imath::V3d edge_v = said.edge_v * context.unit_m;
+  const Imath::V3d edge_u = spec.edge_u * context.unit_m;
+  const Imath::V3d edge_v = spec.edge_v * context.unit_m;
   if (edge_u.cross(edge_v).length() == 0) {
-    context.diagnostics.error(said.where, "edge_u and edge_v are parallel: a chart of zero area");
+    context.diagnostics.error(spec.where, "edge_u and edge_v are parallel: a chart of zero area");
     return {};
   }
   const std::size_t patches = chart->patches.size();
-  const Grid grid{{said.corner * context.unit_m, edge_u, edge_v},
+  const Grid grid{{spec.corner * context.unit_m, edge_u, edge_v},
                   (patches + kChartColumns - 1) / kChartColumns};
   std::vector<NamedShape> parts;
   for (std::size_t i = 0; i < patches; ++i) {

@@ -6,27 +6,30 @@
 
 namespace abbe::description {
 
-/// Where curves differ from zero: from `low` to `high` nm, which are in the other order where none does.
+/// Smallest wavelength range [nm] outside which all curves are zero. `low` > `high` if every curve is zero
+/// everywhere.
 struct Support {
   double low = kMaxWavelengthNm;
   double high = kMinWavelengthNm;
 };
-/// Takes in where this curve does.
+/// Enlarges the range so that it contains all wavelengths at which `curve` is not zero.
 void extend(Support& support, const Curve& curve);
 
-/// Warns of every lamp that emits nothing the sensor sees.
-void check_lamps(const LoadContext& context, const Scene& scene);
+/// Warns of every light that emits nothing in the wavelength range of the sensor. The warning is an error
+/// with --strict.
+void check_lights(const LoadContext& context, const Scene& scene);
 
-/// Reports what floats cannot tell apart, once the scene is recentred: a shape with matter inside, or a mesh
-/// that emits, only few float steps large where it stands, and a view of little more than one direction, of
-/// the `camera` said there.
+/// Reports geometry that single precision cannot resolve, once the scene is recentred:
+/// - a shape with a medium inside, or an emitting mesh, of only a few float steps at its position;
+/// - a nearby opaque shape of only a few float steps;
+/// - a view that spans only a few distinguishable directions. This error is reported at `camera`.
 void check_precision(const SourcePosition& camera, const LoadContext& context, const Scene& scene);
-/// Warns at `where` if this index does not hold for all wavelengths that the sensor sees, and if its k, where
-/// it has one, is not measured for all of these that n is.
+/// Warns at `where` if the data of this refractive index do not cover the wavelength range of the sensor.
+/// Also warns if its k, where it has one, is measured over a shorter part of that range than its n.
 void check_validity(const IndexUse& use, const Support& sensor, const SourcePosition& where,
                     Diagnostics& diagnostics);
-/// Warns of every index of a material used beyond the wavelengths it holds for, and refuses what is taken as
-/// clear and is not (`clear_fault`) where the sensor sees.
+/// Warns of every refractive index of a material that is used outside the wavelengths of its data. Reports as
+/// an error a medium that must be clear and absorbs where the sensor responds (`clear_fault`).
 void check_validity(const spec::Materials& materials, const LoadContext& context, const Scene& scene);
 
 }  // namespace abbe::description

@@ -8,13 +8,14 @@
 namespace abbe::description {
 namespace {
 
-/// A coating under way, with what its materials were told by first.
+/// A coating under construction, with the first spec of each of its materials.
 struct Films {
   Coating coating;
-  std::vector<const spec::Ior*> told;  // as many as materials
+  std::vector<const spec::Ior*> specs;  // One for each material.
 };
 
-// Whether neither is a table, or both are the same, which their names do not tell.
+// True if neither index is a table, or both are tables with the same data. The names of tables do not
+// distinguish them.
 bool same_tables(const spec::Ior& a, const spec::Ior& b) {
   const auto* one = std::get_if<spec::TableIor>(&a.value);
   const auto* other = std::get_if<spec::TableIor>(&b.value);
@@ -22,24 +23,24 @@ bool same_tables(const spec::Ior& a, const spec::Ior& b) {
   return std::tie(one->wavelength_nm, one->n, one->k) == std::tie(other->wavelength_nm, other->n, other->k);
 }
 
-// The number of the material that `said` names among those of the coating, added if it is new: the same
-// words, numbers and tables are the same material.
-std::optional<std::uint32_t> film_material(const spec::Ior& said, Films& films, LoadContext& context) {
-  auto ior = build(said, context);
+// Index of the material of `spec` in the coating, added if it is new. Equal names, numbers or tables are the
+// same material.
+std::optional<std::uint32_t> film_material(const spec::Ior& spec, Films& films, LoadContext& context) {
+  auto ior = build(spec, context);
   if (!ior) return std::nullopt;
-  const auto* words = std::get_if<std::string>(&said.value);
+  const auto* words = std::get_if<std::string>(&spec.value);
   const std::string name = words ? *words : ior->name;
   std::vector<Coating::Material>& materials = films.coating.materials;
   std::uint32_t number = 0;
   for (; number < materials.size(); ++number)
-    if (materials[number].index_name == name && same_tables(*films.told[number], said)) return number;
+    if (materials[number].index_name == name && same_tables(*films.specs[number], spec)) return number;
   if (number == Coating::kMaxMaterials) {
     context.diagnostics.error(
-        said.where, fmt::format("too many materials in a coating (allowed {})", Coating::kMaxMaterials));
+        spec.where, fmt::format("too many materials in a coating (allowed {})", Coating::kMaxMaterials));
     return std::nullopt;
   }
   materials.push_back({name, std::move(ior->index)});
-  films.told.push_back(&said);
+  films.specs.push_back(&spec);
   return number;
 }
 

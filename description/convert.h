@@ -9,9 +9,9 @@
 
 namespace abbe {
 
-/// A scene file as its tables write it: keys in their order, no comments, no value that is the default of its
-/// key; it makes the same scene. Reads and complains as `load_scene` does; nothing is returned if there is an
-/// error.
+/// Rewrites a scene file in canonical form: keys in the order of the key tables, no comments, no default
+/// values. The result describes the same scene. Reports the same diagnostics as `load_scene`; returns nothing
+/// after an error.
 [[nodiscard]] std::optional<std::string> canonical_scene(const std::filesystem::path& path,
                                                          std::span<const Override> overrides,
                                                          Diagnostics& diagnostics, Inputs* inputs = nullptr);

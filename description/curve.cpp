@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "description/table_ends.h"
+#include "description/table_coverage.h"
 #include "spectral/library.h"
 
 namespace abbe::spec {
@@ -18,60 +18,60 @@ constexpr Range kLineWidth = Range{1e-3, kMaxWavelengthNm - kMinWavelengthNm}.in
 }  // namespace
 
 static Fields fields(Tag<TableCurve>) {
-  return describe(
-      "table_curve", "Samples with straight lines between them.",
-      {field("wavelength_nm", &TableCurve::wavelength_nm, kTableWavelength,
-             "Strictly ascending wavelengths."),
-       field("values", &TableCurve::values, kValue, "As many values."),
-       field("outside", &TableCurve::outside, word<Outside>("rule for outside the table", {"clamp", "zero"}),
-             "What holds before the first and after the last sample.")});
+  return describe("table_curve", "Samples, linearly interpolated.",
+                  {field("wavelength_nm", &TableCurve::wavelength_nm, kTableWavelength,
+                         "Strictly ascending wavelengths."),
+                   field("values", &TableCurve::values, kValue, "Values at these wavelengths."),
+                   field("outside", &TableCurve::outside,
+                         enumeration<Outside>("rule for outside the table", {"clamp", "zero"}),
+                         "Values outside the range of the table: those of the ends, or zero.")});
 }
 
 static Fields fields(Tag<Band>) {
-  return describe("band", "A box.",
+  return describe("band", "A rectangular function.",
                   {field("band", &Band::ends, vector<std::array<double, 2>>(kWavelength),
-                         "[low, high) in nm, and zero elsewhere."),
+                         "Range [low, high) in nm, with zero outside."),
                    defaulted("value", &Band::value, kValue, "Height of the band.")});
 }
 
 static Fields fields(Tag<Gaussian>) {
-  return describe("gaussian", "A bell: peak x 2^(-(2 (wavelength - center)/fwhm)^2).",
-                  {field("center_nm", &Gaussian::center_nm, kWavelength, "Where it is highest."),
+  return describe("gaussian", "A Gaussian: peak x 2^(-(2 (wavelength - center)/fwhm)^2).",
+                  {field("center_nm", &Gaussian::center_nm, kWavelength, "Wavelength of the maximum."),
                    field("fwhm_nm", &Gaussian::fwhm_nm, kLineWidth, "Full width at half maximum."),
-                   defaulted("peak", &Gaussian::peak, kValue, "Its height.")});
+                   defaulted("peak", &Gaussian::peak, kValue, "Value at the center.")});
 }
 
 static Fields fields(Tag<Line>) {
   return describe("line", "A spectral line.",
-                  {field("nm", &Line::nm, kWavelength, "Its middle."),
-                   field("width_nm", &Line::width_nm, kLineWidth, "Its width."),
+                  {field("nm", &Line::nm, kWavelength, "Center of the line."),
+                   field("width_nm", &Line::width_nm, kLineWidth, "Width of the line."),
                    field("power", &Line::power, kPower,
-                         "Its integral, of which what lies beyond 300 to 1100 nm does not count.")});
+                         "Integral of the line. The part outside 300 to 1100 nm is lost.")});
 }
 
 static Fields fields(Tag<Scaled>) {
   return describe("scaled", "",
-                  {field("of", &Scaled::of, "A curve that `scale` multiplies."),
-                   field("scale", &Scaled::scale, kValue, "Factor of the curve `of`.")});
+                  {field("of", &Scaled::of, "Curve to multiply by `scale`."),
+                   field("scale", &Scaled::scale, kValue, "Factor applied to the curve `of`.")});
 }
 
 Fields fields(Tag<CurveFormula>) {
   return describe(
       "curve_formula", "A curve given by a formula.",
-      {one_of(&CurveFormula::of, under<TableCurve>("table"), beside<Band>("band"),
+      {one_of(&CurveFormula::of, under<TableCurve>("table"), inlined_by<Band>("band"),
               under<Gaussian>("gaussian"),
               under<Lines>("lines", "Spectral lines, each of which spreads its power evenly over its width."),
               under<Blackbody>("blackbody_K", kBlackbody, "Planck's spectral radiance [W/(m2 sr nm)]."),
               under<Daylight>("daylight_K", kDaylight,
-                              "CIE daylight of this correlated colour temperature, relative."),
-              under<Product>("product", list<Curve>("curves", 1), "The product of all."),
-              under<Sum>("sum", list<Curve>("curves", 1), "The sum of all."), beside<Scaled>("of"))});
+                              "Relative spectrum of CIE daylight of this correlated colour temperature."),
+              under<Product>("product", list<Curve>("curves", 1), "Product of all curves."),
+              under<Sum>("sum", list<Curve>("curves", 1), "Sum of all curves."), inlined_by<Scaled>("of"))});
 }
 
-Kind kind(Tag<Lines::Wrapped>) {
+ValueType value_type(Tag<Lines::Wrapped>) {
   return list<Line>("lines", 1);
 }
-Kind kind(Tag<Curve::Wrapped>) {
+ValueType value_type(Tag<Curve::Wrapped>) {
   return forms<Curve::Wrapped>("curve", "a curve: a number, a name or an object",
                                form<double>(Json::number, kValue), form<std::string>(Json::text),
                                form<CurveFormula>(Json::object));
@@ -82,89 +82,91 @@ Kind kind(Tag<Curve::Wrapped>) {
 namespace abbe::description {
 namespace {
 
-/// What a table is of the curve that it stands in, of which its unit is asked.
-enum class TablePart { whole, factor, scaled };
+/// Role of a table in a curve; it decides how the unit of the table is checked.
+enum class TableRole { whole, factor, scaled };
 
-// A number other than 1 scales the other factors, as `scale` does, also one within a product of products.
+// True for a number other than 1, which scales the other factors as `scale` does, also within nested
+// products.
 bool scales(const spec::Curve& factor) {
   if (const auto* number = std::get_if<double>(&factor.value)) return *number != 1;
   const auto* formula = std::get_if<spec::CurveFormula>(&factor.value);
   const auto* product = formula != nullptr ? std::get_if<spec::Product>(&formula->of) : nullptr;
   return product != nullptr && std::any_of(product->value.begin(), product->value.end(), scales);
 }
-TablePart part_in(const std::vector<spec::Curve>& factors, TablePart product) {
+TableRole role_in(const std::vector<spec::Curve>& factors, TableRole product) {
   const bool scaled = std::any_of(factors.begin(), factors.end(), scales);
-  return scaled || product == TablePart::scaled ? TablePart::scaled : TablePart::factor;
+  return scaled || product == TableRole::scaled ? TableRole::scaled : TableRole::factor;
 }
 
-/// What is to be said of the tables of a product that are relative, unless another factor gives it a unit: a
-/// table in watts, or a formula or a `scale`, of which the user has chosen the values.
-struct ProductDoubts {
+/// Warnings about relative tables in a product. They are dropped if another factor gives the product a unit:
+/// a table in watts, or a formula or `scale`, whose values the user has chosen.
+struct UnitWarnings {
   bool has_unit = false;
-  std::vector<std::pair<SourcePosition, std::string>> doubts;
+  std::vector<std::pair<SourcePosition, std::string>> warnings;
 
   void report(Diagnostics& diagnostics) const {
     if (has_unit) return;
-    for (const auto& [where, doubt] : doubts) diagnostics.error_if_strict(where, doubt);
+    for (const auto& [where, warning] : warnings) diagnostics.error_if_strict(where, warning);
   }
 };
 
-std::optional<std::string> fault_of_unit(const NamedCurve& table, const CurveUse& use, TablePart part) {
-  if (part == TablePart::scaled) return std::nullopt;
+std::optional<std::string> unit_error(const NamedCurve& table, const CurveUse& use, TableRole role) {
+  if (role == TableRole::scaled) return std::nullopt;
   const std::string remedy = fmt::format("; {{\"scale\": S, \"of\": \"{}\"}} converts", table.name);
-  return part == TablePart::factor ? factor_unit_fault(table.name, table.unit, use.unit, remedy)
+  return role == TableRole::factor ? factor_unit_fault(table.name, table.unit, use.unit, remedy)
                                    : unit_fault(table.name, table.unit, use.unit, remedy);
 }
-std::optional<std::string> doubt_of_unit(const NamedCurve& table, const CurveUse& use, TablePart part) {
-  if (part == TablePart::scaled) return std::nullopt;
-  if (use.unit == CurveUnit::unsaid_response) return unsaid_response(table.name, table.unit);
+std::optional<std::string> unit_warning(const NamedCurve& table, const CurveUse& use, TableRole role) {
+  if (role == TableRole::scaled) return std::nullopt;
+  if (use.unit == CurveUnit::unknown_response) return unknown_response(table.name, table.unit);
   return relative_power(table.name, table.unit, use.unit);
 }
 
-/// Builds each form of a curve, without regard to the values it may take.
+/// Builds each form of a curve, without checking its values.
 struct CurveBuilder {
   const CurveUse& use;
   const SourcePosition& where;
   LoadContext& context;
-  TablePart part = TablePart::whole;
-  ProductDoubts* product_doubts = nullptr;  ///< Of the outermost product that it stands in.
+  TableRole role = TableRole::whole;
+  UnitWarnings* product_warnings =
+      nullptr;  ///< Warnings of the outermost enclosing product; null outside products.
 
   [[nodiscard]] std::optional<NamedCurve> named(const std::string& words) const {
     const std::optional<std::string> name = context.table(words, where);
-    auto table =
-        name ? load_curve(use.folder, *name, where, context.diagnostics, context.ends.needed) : std::nullopt;
+    auto table = name ? load_curve(use.folder, *name, where, context.diagnostics, context.coverage.needed)
+                      : std::nullopt;
     if (!table) return std::nullopt;
     table->name = words;
-    return with_ends(*std::move(table), use, where, context.ends);
+    return with_extrapolation(*std::move(table), use, where, context.coverage);
   }
-  // Whether its unit is that of the use.
+  // True if the unit of the table is allowed. Reports the error or warning.
   [[nodiscard]] bool fits(const NamedCurve& table) const {
-    const auto fault = fault_of_unit(table, use, part);
+    const auto fault = unit_error(table, use, role);
     if (fault)
       context.diagnostics.error(where, *fault);
-    else if (auto doubt = doubt_of_unit(table, use, part))
-      tell(*std::move(doubt));
-    if (product_doubts != nullptr && tells_power(table.unit)) product_doubts->has_unit = true;
+    else if (auto warning = unit_warning(table, use, role))
+      warn(*std::move(warning));
+    if (product_warnings != nullptr && declares_power(table.unit)) product_warnings->has_unit = true;
     return !fault;
   }
-  // Of what other factors may give a unit it is said when all are known.
-  void tell(std::string doubt) const {
-    if (product_doubts != nullptr && use.unit != CurveUnit::unsaid_response)
-      product_doubts->doubts.emplace_back(where, std::move(doubt));
+  // Reports a warning now, or when all factors are known if another factor may resolve it.
+  void warn(std::string warning) const {
+    if (product_warnings != nullptr && use.unit != CurveUnit::unknown_response)
+      product_warnings->warnings.emplace_back(where, std::move(warning));
     else
-      context.diagnostics.error_if_strict(where, std::move(doubt));
+      context.diagnostics.error_if_strict(where, std::move(warning));
   }
-  [[nodiscard]] std::optional<Curve> of(const spec::Curve& curve, TablePart entry) const {
-    return std::visit(CurveBuilder{use, curve.where, context, entry, product_doubts}, curve.value);
+  [[nodiscard]] std::optional<Curve> of(const spec::Curve& curve, TableRole entry) const {
+    return std::visit(CurveBuilder{use, curve.where, context, entry, product_warnings}, curve.value);
   }
-  // A product or a sum of one curve or more.
+  // Combines one or more curves to a product or a sum.
   template <typename Combine>
-  [[nodiscard]] std::optional<Curve> combined(const std::vector<spec::Curve>& list, TablePart entry_part,
+  [[nodiscard]] std::optional<Curve> combined(const std::vector<spec::Curve>& list, TableRole entry_role,
                                               Combine combine) const {
     std::optional<Curve> all;
     bool complete = true;
     for (const spec::Curve& entry : list) {
-      std::optional<Curve> one = of(entry, entry_part);
+      std::optional<Curve> one = of(entry, entry_role);
       complete = complete && one;
       if (complete) all = all ? combine(*all, *one) : std::move(one);
     }
@@ -180,7 +182,7 @@ struct CurveBuilder {
   std::optional<Curve> operator()(const spec::CurveFormula& formula) const {
     const bool combines =
         std::holds_alternative<spec::Product>(formula.of) || std::holds_alternative<spec::Sum>(formula.of);
-    if (!combines && product_doubts != nullptr) product_doubts->has_unit = true;
+    if (!combines && product_warnings != nullptr) product_warnings->has_unit = true;
     return std::visit(*this, formula.of);
   }
   std::optional<Curve> operator()(std::monostate) const { return std::nullopt; }
@@ -209,10 +211,10 @@ struct CurveBuilder {
     }
     return table_curve(wavelengths, table.values, table.outside);
   }
-  std::optional<Curve> operator()(const spec::Band& said) const {
-    const auto [low, high] = said.ends.value;
-    if (low < high) return band(low, high, said.value);
-    context.diagnostics.error(said.ends.where,
+  std::optional<Curve> operator()(const spec::Band& spec) const {
+    const auto [low, high] = spec.ends.value;
+    if (low < high) return band(low, high, spec.value);
+    context.diagnostics.error(spec.ends.where,
                               fmt::format("an empty band (got [{}, {}] nm, allowed low < high)", low, high));
     return std::nullopt;
   }
@@ -222,31 +224,31 @@ struct CurveBuilder {
   std::optional<Curve> operator()(const spec::Lines& lines) const { return description::build(lines); }
   std::optional<Curve> operator()(const spec::Blackbody& body) const { return planck(body.value); }
   std::optional<Curve> operator()(const spec::Daylight& day) const {
-    return with_ends(named_daylight(day.value), use, where, context.ends).curve;
+    return with_extrapolation(named_daylight(day.value), use, where, context.coverage).curve;
   }
   std::optional<Curve> operator()(const spec::Product& factors) const {
-    ProductDoubts found;
+    UnitWarnings warnings;
     CurveBuilder outermost = *this;
-    if (product_doubts == nullptr) outermost.product_doubts = &found;
-    auto all = outermost.combined(factors.value, part_in(factors.value, part), product);
-    found.report(context.diagnostics);
+    if (product_warnings == nullptr) outermost.product_warnings = &warnings;
+    auto all = outermost.combined(factors.value, role_in(factors.value, role), product);
+    warnings.report(context.diagnostics);
     return all;
   }
   std::optional<Curve> operator()(const spec::Sum& terms) const {
-    return combined(terms.value, part, [](const Curve& a, const Curve& b) { return sum(a, b); });
+    return combined(terms.value, role, [](const Curve& a, const Curve& b) { return sum(a, b); });
   }
-  std::optional<Curve> operator()(const spec::Scaled& said) const {
-    const std::optional<Curve> curve = of(*said.of, TablePart::scaled);
-    return curve ? std::optional(scaled(*curve, said.scale)) : std::nullopt;
+  std::optional<Curve> operator()(const spec::Scaled& spec) const {
+    const std::optional<Curve> curve = of(*spec.of, TableRole::scaled);
+    return curve ? std::optional(scaled(*curve, spec.scale)) : std::nullopt;
   }
 };
 
 }  // namespace
 
-Curve build(const spec::Lines& said) {
-  std::vector<SpectralLine> found;
-  for (const spec::Line& line : said.value) found.push_back({line.nm, line.width_nm, line.power});
-  return lines(found);
+Curve build(const spec::Lines& spec) {
+  std::vector<SpectralLine> spectral_lines;
+  for (const spec::Line& line : spec.value) spectral_lines.push_back({line.nm, line.width_nm, line.power});
+  return lines(spectral_lines);
 }
 
 std::optional<Curve> build(const spec::Curve& curve, const CurveUse& use, LoadContext& context) {

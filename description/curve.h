@@ -8,8 +8,8 @@
 #include <variant>
 #include <vector>
 
-#include "description/kinds.h"
 #include "description/load_context.h"
+#include "description/value_ranges.h"
 #include "spectral/curve_use.h"
 #include "spectral/sources.h"
 
@@ -17,7 +17,7 @@ namespace abbe::spec {
 
 struct Curve;
 
-/// Samples with straight lines between them.
+/// Samples, linearly interpolated.
 struct TableCurve {
   std::vector<double> wavelength_nm;
   std::vector<double> values;
@@ -40,8 +40,8 @@ struct Line {
   double power = 0;
 };
 struct Lines : schema::Value<std::vector<Line>> {};
-struct Blackbody : schema::Value<double> {};  ///< [K]
-struct Daylight : schema::Value<double> {};   ///< [K]
+struct Blackbody : schema::Value<double> {};  ///< Temperature [K].
+struct Daylight : schema::Value<double> {};   ///< Correlated colour temperature [K].
 struct Product : schema::Value<std::vector<Curve>> {};
 struct Sum : schema::Value<std::vector<Curve>> {};
 struct Scaled {
@@ -56,8 +56,8 @@ struct CurveFormula {
 struct Curve : schema::Located<std::variant<double, std::string, CurveFormula>> {};
 
 [[nodiscard]] schema::Fields fields(schema::Tag<CurveFormula>);
-[[nodiscard]] schema::Kind kind(schema::Tag<Curve::Wrapped>);
-[[nodiscard]] schema::Kind kind(schema::Tag<Lines::Wrapped>);
+[[nodiscard]] schema::ValueType value_type(schema::Tag<Curve::Wrapped>);
+[[nodiscard]] schema::ValueType value_type(schema::Tag<Lines::Wrapped>);
 inline constexpr Range kBlackbody = Range{100, 1e6}.in("K");
 inline constexpr Range kDaylight = Range{4000, 25000}.in("K");
 
@@ -65,15 +65,19 @@ inline constexpr Range kDaylight = Range{4000, 25000}.in("K");
 
 namespace abbe::description {
 
-/// The curve, sampled. Reports what no table can say: wavelengths that do not ascend, an empty band, an
-/// unknown name, values that the use does not allow, a table that says nothing of wavelengths that
-/// `context.ends` needs, or one whose unit is another one, as 1/cm is for 1/m and percent for a share;
-/// nothing then. A table that is scaled, by `scale` or by a number other than 1 in a product or a product
-/// within it, may be in any unit; one that is another factor of a product may be another quantity, but no
-/// part or multiple. Warns of units that speak of photons where the response is unsaid, and of relative
-/// spectra where a quantity is needed, in products unless another factor is in watts or a formula. Tables
-/// that end are noted in `context.ends`.
+/// Builds the sampled curve. Returns nothing after an error. Errors in addition to those of the key table:
+/// - wavelengths that do not ascend, an empty band, an unknown name, a value that the use does not allow;
+/// - a table without data at wavelengths that `context.coverage` needs;
+/// - a table in another unit than the use needs, such as 1/cm instead of 1/m, or percent instead of a
+///   fraction.
+/// A table that is scaled may have any unit. It counts as scaled under `scale`, or in a product (nested
+/// products included) with a number other than 1. A table that is another factor of a product may be a
+/// different quantity, but no multiple of the unit.
+/// Warns of units that count photons where the kind of response is unknown. Warns of relative spectra where a
+/// quantity is needed. In a product this second warning is dropped if another factor is in watts or is a
+/// formula. Tables that end within the sensor's range are noted in `context.coverage`.
 [[nodiscard]] std::optional<Curve> build(const spec::Curve& curve, const CurveUse& use, LoadContext& context);
+/// Builds the sum of the spectral lines, each of which spreads its power evenly over its width.
 [[nodiscard]] Curve build(const spec::Lines& lines);
 
 }  // namespace abbe::description

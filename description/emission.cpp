@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "description/table_ends.h"
+#include "description/table_coverage.h"
 #include "io/schema/write.h"
 #include "spectral/colorimetry.h"
 #include "spectral/library.h"
@@ -26,9 +26,9 @@ struct QuantityText {
 };
 constexpr QuantityText text_of(Quantity quantity) {
   constexpr std::array<QuantityText, 8> kTexts{{
-      {"radiant_flux_W", "W", "Power that the lamp sends out, of a surface from all its sides together."},
+      {"radiant_flux_W", "W", "Power that the light emits; for a surface, from all its sides together."},
       {"luminous_flux_lm", "lm",
-       "Luminous flux that the lamp sends out, of a surface from all its sides together."},
+       "Luminous flux that the light emits; for a surface, from all its sides together."},
       {"radiance", "W/(m2 sr)", "Radiance over 300-1100 nm."},
       {"luminance", "cd/m2", "Luminance."},
       {"intensity", "W/sr", "Intensity over 300-1100 nm."},
@@ -46,10 +46,10 @@ auto amount() {
 }
 template <Quantity quantity>
 auto amount_at() {
-  return beside<AmountAt<quantity>>(text_of(quantity).key);
+  return inlined_by<AmountAt<quantity>>(text_of(quantity).key);
 }
 
-// One spectrum and at most one of the scales.
+// Key table of an emission: one spectrum and at most one of the scales.
 template <typename E, typename... Choices>
 Fields describe_emission(std::string_view name, std::string_view text, bool has_flux, Choices... scale) {
   decltype(Emission::spectrum) E::*spectrum = &Emission::spectrum;
@@ -60,38 +60,39 @@ Fields describe_emission(std::string_view name, std::string_view text, bool has_
         spectrum,
         under<Illuminant>("illuminant",
                           "A relative spectrum, which needs a scale: a name of data/illuminant, "
-                          "blackbody:<K>, daylight:<K>, or "
-                          "FILE.csv:COLUMN."),
+                          "blackbody:<K>, daylight:<K>, or FILE.csv:COLUMN."),
         under<Blackbody>("blackbody_K", kBlackbody,
                          "Planck's spectral radiance [W/(m2 sr nm)], in the unit of `spectrum`."),
-        under<Daylight>("daylight_K", kDaylight,
-                        "CIE daylight of this correlated colour temperature, relative: needs a scale."),
+        under<Daylight>(
+            "daylight_K", kDaylight,
+            "Relative spectrum of CIE daylight of this correlated colour temperature; needs a scale."),
         under<Spectrum>("spectrum",
                         "Spectral radiance [W/(m2 sr nm)], intensity [W/(sr nm)] of a point or spot, or "
                         "irradiance [W/(m2 nm)] of a directional light; 0 or more."),
         under<Lines>("lines", "Spectral lines, in the unit of a spectrum."), std::move(more)...);
   };
-  return describe(name, text,
-                  {has_flux ? sources(under<SpectralFlux>(
-                                  "spectral_flux_W_per_nm",
-                                  "What the lamp sends out at each wavelength [W/nm], 0 or more."))
-                            : sources(),
-                   at_most_one(scales, "an emission has one scale", std::move(scale)...),
-                   field("polarised", polarised, "How its light is polarised; not at all when absent.")});
+  return describe(
+      name, text,
+      {has_flux ? sources(under<SpectralFlux>("spectral_flux_W_per_nm",
+                                              "Spectral flux of the light [W/nm], 0 or more."))
+                : sources(),
+       at_most_one(scales, "an emission has one scale", std::move(scale)...),
+       field("polarised", polarised, "Polarisation of the emitted light; unpolarised if absent.")});
 }
 
 }  // namespace
 
 static Fields fields(Tag<Polarisation>) {
   return describe(
-      "polarised", "How the light of a lamp is polarised, at all wavelengths and in all directions.",
+      "polarised", "Polarisation of the emitted light, the same at all wavelengths and in all directions.",
       {one_of(&Polarisation::kind,
-              under<PolarisedAlong>("axis", direction(),
-                                    "Linearly: the field swings along this direction of the scene, which "
-                                    "stays where lamps move, as far as it lies across the way of the light."),
-              under<CircularlyPolarised>("circular", word<Handedness>("handedness", {"left", "right"}),
-                                         "Circularly: right is clockwise as the receiver sees it.")),
-       defaulted("degree", &Polarisation::degree, Range::unit(), "Share of the light that is polarised.")});
+              under<PolarisedAlong>(
+                  "axis", direction(),
+                  "Linear: the electric field oscillates along the projection of this scene direction "
+                  "perpendicular to the ray. The direction does not follow a moving light."),
+              under<CircularlyPolarised>("circular", enumeration<Handedness>("handedness", {"left", "right"}),
+                                         "Circular: right is clockwise as seen by the receiver.")),
+       defaulted("degree", &Polarisation::degree, Range::unit(), "Degree of polarisation, in [0, 1].")});
 }
 
 template <Quantity quantity>
@@ -101,39 +102,41 @@ Fields fields(Tag<AmountAt<quantity>>) {
       "", "",
       {field(text_of(quantity).key, &At::amount, kPower.in(text_of(quantity).unit), text_of(quantity).text),
        field("distance", &At::distance, kLength,
-             "Distance of that surface from the middle of the lamp, along its normal if it has one.")});
+             "Distance of that surface from the center of the light, along its normal if it has one.")});
 }
 
 Fields fields(Tag<MeshEmission>) {
-  return describe_emission<MeshEmission>("mesh_emission", "What each triangle sends out.", true,
+  return describe_emission<MeshEmission>("mesh_emission", "Emission of each triangle.", true,
                                          amount<Quantity::radiant_flux>(), amount<Quantity::luminous_flux>(),
                                          amount<Quantity::radiance>(), amount<Quantity::luminance>());
 }
-Fields fields(Tag<LampEmission>) {
-  return describe_emission<LampEmission>(
-      "lamp_emission", "What a surface sends out, the same radiance in all directions.", true,
+Fields fields(Tag<AreaLightEmission>) {
+  return describe_emission<AreaLightEmission>(
+      "lamp_emission", "Emission of a surface, with the same radiance in all directions.", true,
       amount<Quantity::radiant_flux>(), amount<Quantity::luminous_flux>(), amount<Quantity::radiance>(),
       amount<Quantity::luminance>(), amount_at<Quantity::irradiance>(), amount_at<Quantity::illuminance>());
 }
 Fields fields(Tag<PointEmission>) {
   return describe_emission<PointEmission>(
-      "point_emission", "What a point sends out.", true, amount<Quantity::radiant_flux>(),
+      "point_emission", "Emission of a point.", true, amount<Quantity::radiant_flux>(),
       amount<Quantity::luminous_flux>(), amount<Quantity::intensity>(),
       amount<Quantity::luminous_intensity>(), amount_at<Quantity::irradiance>(),
       amount_at<Quantity::illuminance>());
 }
-Fields fields(Tag<BeamEmission>) {
-  return describe_emission<BeamEmission>("beam_emission", "What comes from one direction.", false,
-                                         amount<Quantity::irradiance>(), amount<Quantity::illuminance>());
+Fields fields(Tag<DirectionalLightEmission>) {
+  return describe_emission<DirectionalLightEmission>("beam_emission", "Emission of a directional light.",
+                                                     false, amount<Quantity::irradiance>(),
+                                                     amount<Quantity::illuminance>());
 }
 Fields fields(Tag<SunEmission>) {
-  return describe_emission<SunEmission>("sun_emission", "What a disc at infinity sends here.", false,
+  return describe_emission<SunEmission>("sun_emission", "Emission of a disc at infinity.", false,
                                         amount<Quantity::radiance>(), amount<Quantity::luminance>(),
                                         amount<Quantity::irradiance>(), amount<Quantity::illuminance>());
 }
-Fields fields(Tag<SkyEmission>) {
-  return describe_emission<SkyEmission>("sky_emission", "What comes from all directions.", false,
-                                        amount<Quantity::radiance>(), amount<Quantity::luminance>());
+Fields fields(Tag<EnvironmentLightEmission>) {
+  return describe_emission<EnvironmentLightEmission>("sky_emission", "Emission of an environment light.",
+                                                     false, amount<Quantity::radiance>(),
+                                                     amount<Quantity::luminance>());
 }
 
 }  // namespace abbe::spec
@@ -145,71 +148,72 @@ constexpr bool is_luminous(spec::Quantity quantity) {
   return static_cast<int>(quantity) % 2 == 1;
 }
 
-/// How a spectrum is read, which is part of what makes it the same as another.
+/// Interpretation of a spectrum. Two emissions with the same text and interpretation have the same spectrum.
 struct SpectrumUse {
-  CurveUnit unit = CurveUnit::power;  ///< Of a table: of any power where its values are scaled.
-  bool by_power = false;              ///< Whether it is scaled by its power over all wavelengths.
+  CurveUnit unit = CurveUnit::power;  ///< Allowed unit of a table; any power if its values are scaled.
+  bool by_power = false;              ///< True if it is scaled by its power over all wavelengths.
 
   [[nodiscard]] CurveUse curve() const { return {"illuminant", spec::kPower, unit, true}; }
 };
 
-/// The curve of each spectrum, as it is named.
+/// Builds the curve of each kind of spectrum, before scaling.
 struct SpectrumBuilder {
   LoadContext& context;
   const SpectrumUse& use;
-  const SourcePosition& where;  ///< Of the emission.
+  const SourcePosition& where;  ///< Position of the emission.
 
   std::optional<Curve> operator()(std::monostate) const { return std::nullopt; }
-  std::optional<Curve> operator()(const spec::Illuminant& said) const {
-    const std::optional<std::string> name = context.table(said.value, said.where);
+  std::optional<Curve> operator()(const spec::Illuminant& spec) const {
+    const std::optional<std::string> name = context.table(spec.value, spec.where);
     if (!name) return std::nullopt;
     std::optional<NamedCurve> named =
-        load_illuminant(*name, said.where, context.diagnostics, context.ends.needed);
+        load_illuminant(*name, spec.where, context.diagnostics, context.coverage.needed);
     if (!named) return std::nullopt;
-    named->name = said.value;
-    return with_ends(*std::move(named), use.curve(), said.where, context.ends).curve;
+    named->name = spec.value;
+    return with_extrapolation(*std::move(named), use.curve(), spec.where, context.coverage).curve;
   }
-  std::optional<Curve> operator()(const spec::Blackbody& said) const { return planck(said.value); }
-  std::optional<Curve> operator()(const spec::Daylight& said) const {
-    return with_ends(named_daylight(said.value), use.curve(), where, context.ends).curve;
+  std::optional<Curve> operator()(const spec::Blackbody& spec) const { return planck(spec.value); }
+  std::optional<Curve> operator()(const spec::Daylight& spec) const {
+    return with_extrapolation(named_daylight(spec.value), use.curve(), where, context.coverage).curve;
   }
-  std::optional<Curve> operator()(const spec::Curve& said) const { return build(said, use.curve(), context); }
-  std::optional<Curve> operator()(const spec::Lines& said) const { return description::build(said); }
+  std::optional<Curve> operator()(const spec::Curve& spec) const { return build(spec, use.curve(), context); }
+  std::optional<Curve> operator()(const spec::Lines& spec) const { return description::build(spec); }
 };
 
-// What is said of the spectrum alone, in one line.
+// Text of the spectrum alone, in one line.
 std::string spectrum_text(const spec::Emission& emission) {
-  spec::LampEmission unscaled;
+  spec::AreaLightEmission unscaled;
   unscaled.spectrum = emission.spectrum;
   return to_text(schema::write(unscaled));
 }
 
-// The curve of a spectrum, with a word where tables of it end within what the sensor sees.
+// Builds the curve of a spectrum, and reports tables that end within the range of the sensor.
 std::optional<Curve> build_curve(const spec::Emission& emission, const SpectrumUse& use,
                                  LoadContext& context) {
-  std::vector<EndedTable> ended;
-  context.ends.noted = &ended;
+  std::vector<PartialTable> partial_tables;
+  context.coverage.partial_tables = &partial_tables;
   std::optional<Curve> curve = std::visit(SpectrumBuilder{context, use, emission.where}, emission.spectrum);
-  context.ends.noted = nullptr;
-  if (!curve || ended.empty()) return curve;
-  Diagnostics unheard;
-  LoadContext on = going_on(context, unheard);
-  if (const auto longer = std::visit(SpectrumBuilder{on, use, emission.where}, emission.spectrum))
-    check_ends(ended, *longer, context.ends.channels, context);
+  context.coverage.partial_tables = nullptr;
+  if (!curve || partial_tables.empty()) return curve;
+  Diagnostics discarded;
+  LoadContext extrapolating = extrapolating_context(context, discarded);
+  if (const auto extrapolated =
+          std::visit(SpectrumBuilder{extrapolating, use, emission.where}, emission.spectrum))
+    check_table_range(partial_tables, *extrapolated, context.coverage.channels, context);
   return curve;
 }
 
-// A lamp that is scaled by its power needs all of it.
-std::optional<Curve> build_all_of(const spec::Emission& emission, const SpectrumUse& use,
-                                  LoadContext& context) {
+// Builds the curve of a spectrum. A light that is scaled by its power needs data at all wavelengths.
+std::optional<Curve> build_over_needed_range(const spec::Emission& emission, const SpectrumUse& use,
+                                             LoadContext& context) {
   if (!use.by_power) return build_curve(emission, use, context);
-  const NeededRange seen = std::exchange(context.ends.needed, kEveryWavelength);
+  const NeededRange needed = std::exchange(context.coverage.needed, kEveryWavelength);
   std::optional<Curve> curve = build_curve(emission, use, context);
-  context.ends.needed = seen;
+  context.coverage.needed = needed;
   return curve;
 }
 
-/// Whether a lamp is scaled by its power over all wavelengths, and not by what the eye sees.
+/// True for a scale in a radiometric quantity, which is the power over all wavelengths.
 struct IsByPower {
   bool operator()(std::monostate) const { return false; }
   template <spec::Quantity quantity>
@@ -222,7 +226,7 @@ struct IsByPower {
   }
 };
 
-SpectrumUse use_of(const spec::Emission& emission, const LampKind& kind) {
+SpectrumUse use_of(const spec::Emission& emission, const LightKind& kind) {
   const bool scaled = !std::holds_alternative<std::monostate>(emission.scale);
   CurveUnit unit = CurveUnit::power;
   if (!scaled && std::holds_alternative<spec::Spectrum>(emission.spectrum)) unit = kind.spectrum;
@@ -231,91 +235,95 @@ SpectrumUse use_of(const spec::Emission& emission, const LampKind& kind) {
   return {unit, std::visit(IsByPower{}, emission.scale)};
 }
 
-// The same words name the same spectrum, which is made once however many lamps have it in the same use: a
-// table that one can be scaled of need not be one for another.
-LampSpectrum* build_spectrum(const spec::Emission& emission, const LampKind& kind, LoadContext& context) {
+// Spectra with the same text and use are built once, however many lights have them. A table that is valid if
+// scaled need not be valid otherwise, so the use is part of the key.
+SharedLightSpectrum* build_spectrum(const spec::Emission& emission, const LightKind& kind,
+                                    LoadContext& context) {
   const SpectrumUse use = use_of(emission, kind);
   const std::string words =
       fmt::format("{} {} {}", static_cast<int>(use.unit), use.by_power, spectrum_text(emission));
-  if (const auto found = context.lamp_spectra.find(words); found != context.lamp_spectra.end())
+  if (const auto found = context.light_spectra.find(words); found != context.light_spectra.end())
     return &found->second;
-  std::optional<Curve> curve = build_all_of(emission, use, context);
+  std::optional<Curve> curve = build_over_needed_range(emission, use, context);
   if (!curve) return nullptr;
   const double power = curve->integral();
   const double luminous = photometric(*curve);
-  return &context.lamp_spectra.emplace(words, LampSpectrum{std::move(*curve), power, luminous}).first->second;
+  return &context.light_spectra.emplace(words, SharedLightSpectrum{std::move(*curve), power, luminous})
+              .first->second;
 }
 
-constexpr int kLeastExponent = -1000;  // so that its inverse is finite
+constexpr int kMinExponent = -1000;  // Ensures that the inverse power of two is finite.
 
-// A power of two keeps the digits of the first lamp, and all lamps within what a float holds.
-ScaledCurve times(LampSpectrum& spectrum, double factor) {
-  if (!spectrum.held) {
-    spectrum.held_for = factor > 0 ? factor : 1;
-    const Curve first = scaled(spectrum.curve, spectrum.held_for);
+// Scale of a light as a multiple of the normalised curve. The power of two preserves the digits of the first
+// light, and all lights stay within the range of single precision.
+ScaledCurve times(SharedLightSpectrum& spectrum, double factor) {
+  if (!spectrum.normalised) {
+    spectrum.reference_factor = factor > 0 ? factor : 1;
+    const Curve first = scaled(spectrum.curve, spectrum.reference_factor);
     (void)std::frexp(first.max(), &spectrum.exponent);
-    spectrum.exponent = std::max(spectrum.exponent, kLeastExponent);
-    spectrum.held = std::make_shared<const Curve>(scaled(first, std::ldexp(1.0, -spectrum.exponent)));
+    spectrum.exponent = std::max(spectrum.exponent, kMinExponent);
+    spectrum.normalised = std::make_shared<const Curve>(scaled(first, std::ldexp(1.0, -spectrum.exponent)));
   }
-  return {spectrum.held, std::ldexp(factor / spectrum.held_for, spectrum.exponent)};
+  return {spectrum.normalised, std::ldexp(factor / spectrum.reference_factor, spectrum.exponent)};
 }
 
-/// A quantity that an emission is scaled to, and how much of it a lamp of unit radiance or intensity has.
+/// Quantity to which an emission is scaled, with its value for unit radiance or intensity.
 struct Scale {
   spec::Quantity quantity;
   double value;
-  double of_unit;
+  double per_unit;
 };
 
 struct ScaleBuilder {
-  const LampKind& kind;
+  const LightKind& kind;
   const SourcePosition& where;
   const LoadContext& context;
 
-  [[nodiscard]] double of_unit(spec::Quantity quantity) const {
+  [[nodiscard]] double per_unit(spec::Quantity quantity) const {
     using enum spec::Quantity;
     if (quantity == radiant_flux || quantity == luminous_flux) return kind.flux;
     return quantity == irradiance || quantity == illuminance ? kind.irradiance(0) : 1;
   }
   std::optional<Scale> operator()(std::monostate) const { return std::nullopt; }
   template <spec::Quantity quantity>
-  std::optional<Scale> operator()(const spec::Amount<quantity>& said) const {
-    return Scale{quantity, said.value, of_unit(quantity)};
+  std::optional<Scale> operator()(const spec::Amount<quantity>& spec) const {
+    return Scale{quantity, spec.value, per_unit(quantity)};
   }
   template <spec::Quantity quantity>
-  std::optional<Scale> operator()(const spec::AmountAt<quantity>& said) const {
-    const double irradiance = kind.irradiance(said.distance * context.unit_m);
-    if (irradiance > 0) return Scale{quantity, said.amount, irradiance};
+  std::optional<Scale> operator()(const spec::AmountAt<quantity>& spec) const {
+    const double irradiance = kind.irradiance(spec.distance * context.unit_m);
+    if (irradiance > 0) return Scale{quantity, spec.amount, irradiance};
     context.diagnostics.error(where,
-                              fmt::format("lies within the lamp (got a distance of {})", said.distance));
+                              fmt::format("the distance lies inside the light (got {})", spec.distance));
     return std::nullopt;
   }
 };
 
-// What `spectrum` is multiplied by to have as much of a quantity as asked for.
-std::optional<double> normaliser(const LampSpectrum& spectrum, const Scale& scale,
+// Factor that scales `spectrum` to the requested quantity. Reports a spectrum whose quantity is 0.
+std::optional<double> normaliser(const SharedLightSpectrum& spectrum, const Scale& scale,
                                  const SourcePosition& where, const LoadContext& context) {
-  const double unscaled = (is_luminous(scale.quantity) ? spectrum.luminous : spectrum.power) * scale.of_unit;
+  const double unscaled = (is_luminous(scale.quantity) ? spectrum.luminous : spectrum.power) * scale.per_unit;
   if (unscaled > 0) return scale.value / unscaled;
   context.diagnostics.error(
-      where, fmt::format("{} cannot scale this spectrum, which has none", spec::text_of(scale.quantity).key));
+      where, fmt::format("{} cannot scale this spectrum: its value is 0", spec::text_of(scale.quantity).key));
   return std::nullopt;
 }
 
-// The keys of the scales that a table knows.
+// Keys of the scales of an emission table.
 std::vector<std::string_view> scale_names(const schema::Fields& fields) {
   std::vector<std::string_view> names;
   for (const schema::Field& field : fields.fields)
-    if (const auto* group = std::get_if<schema::OneOf>(field.part.get()); group && !group->required)
+    if (const auto* group = std::get_if<schema::OneOf>(field.content.get()); group && !group->required)
       for (const schema::Choice& choice : group->choices) names.push_back(choice.key);
   return names;
 }
 
 }  // namespace
 
-std::optional<ScaledCurve> build(const spec::Emission& emission, const LampKind& kind, LoadContext& context) {
-  context.emissions.push_back(emission.where);
-  LampSpectrum* spectrum = build_spectrum(emission, kind, context);
+std::optional<ScaledCurve> build(const spec::Emission& emission, const LightKind& kind,
+                                 LoadContext& context) {
+  context.emission_positions.push_back(emission.where);
+  SharedLightSpectrum* spectrum = build_spectrum(emission, kind, context);
   const bool illuminant = std::holds_alternative<spec::Illuminant>(emission.spectrum);
   const bool relative = illuminant || std::holds_alternative<spec::Daylight>(emission.spectrum);
   const bool scaled = !std::holds_alternative<std::monostate>(emission.scale);
@@ -334,13 +342,13 @@ std::optional<ScaledCurve> build(const spec::Emission& emission, const LampKind&
   return times(*spectrum, *factor);
 }
 
-std::optional<LampPolarisation> polarisation_of(const spec::Emission& emission) {
+std::optional<LightPolarisation> polarisation_of(const spec::Emission& emission) {
   if (!emission.polarised) return std::nullopt;
   const auto degree = static_cast<float>(emission.polarised->degree);
   if (const auto* along = std::get_if<spec::PolarisedAlong>(&emission.polarised->kind))
-    return LampPolarisation{degree, LinearPolarisation{Imath::V3f(along->value.normalized())}};
+    return LightPolarisation{degree, LinearPolarisation{Imath::V3f(along->value.normalized())}};
   const auto& circular = std::get<spec::CircularlyPolarised>(emission.polarised->kind);
-  return LampPolarisation{degree, CircularPolarisation{circular.value == spec::Handedness::right}};
+  return LightPolarisation{degree, CircularPolarisation{circular.value == spec::Handedness::right}};
 }
 
 }  // namespace abbe::description

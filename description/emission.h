@@ -15,9 +15,10 @@ namespace abbe::spec {
 
 struct Illuminant : schema::Located<std::string> {};
 struct Spectrum : Curve {};
-struct SpectralFlux : Curve {};  ///< [W/nm]
+struct SpectralFlux : Curve {};  ///< Spectral flux [W/nm].
 
-/// What a lamp may be scaled to; every other one is weighed by what the eye sees.
+/// Quantity to which an emission can be scaled. The even ones are radiometric; every other one is
+/// photometric, weighted by the luminous efficiency function.
 enum class Quantity {
   radiant_flux,
   luminous_flux,
@@ -30,7 +31,7 @@ enum class Quantity {
 };
 template <Quantity quantity>
 struct Amount : schema::Value<double> {};
-/// At a distance from the middle of the lamp.
+/// A quantity at a distance from the center of the light, in scene units.
 template <Quantity quantity>
 struct AmountAt {
   double amount = 0;
@@ -40,13 +41,13 @@ struct AmountAt {
 struct PolarisedAlong : schema::Value<Imath::V3d> {};
 enum class Handedness { left, right };
 struct CircularlyPolarised : schema::Value<Handedness> {};
-/// How the light of a lamp is polarised.
+/// State of polarisation of the emitted light.
 struct Polarisation {
   std::variant<std::monostate, PolarisedAlong, CircularlyPolarised> kind;
   double degree = 1;
 };
 
-/// What a lamp sends out: one spectrum, and at most one quantity that it is scaled to.
+/// Emission of a light: one spectrum and at most one quantity to which it is scaled.
 struct Emission {
   std::variant<std::monostate, Illuminant, Blackbody, Daylight, Spectrum, Lines, SpectralFlux> spectrum;
   std::variant<std::monostate, Amount<Quantity::radiant_flux>, Amount<Quantity::luminous_flux>,
@@ -57,41 +58,43 @@ struct Emission {
   std::optional<Polarisation> polarised;
   SourcePosition where;
 };
-// Emissions by what they may be scaled to.
+// One type for each set of quantities to which an emission can be scaled.
 struct MeshEmission : Emission {};
-struct LampEmission : Emission {};  ///< Of a sphere, disc or quad.
+struct AreaLightEmission : Emission {};  ///< Emission of a sphere, disc or quad.
 struct PointEmission : Emission {};
-struct BeamEmission : Emission {};
+struct DirectionalLightEmission : Emission {};
 struct SunEmission : Emission {};
-struct SkyEmission : Emission {};
+struct EnvironmentLightEmission : Emission {};
 [[nodiscard]] schema::Fields fields(schema::Tag<MeshEmission>);
-[[nodiscard]] schema::Fields fields(schema::Tag<LampEmission>);
+[[nodiscard]] schema::Fields fields(schema::Tag<AreaLightEmission>);
 [[nodiscard]] schema::Fields fields(schema::Tag<PointEmission>);
-[[nodiscard]] schema::Fields fields(schema::Tag<BeamEmission>);
+[[nodiscard]] schema::Fields fields(schema::Tag<DirectionalLightEmission>);
 [[nodiscard]] schema::Fields fields(schema::Tag<SunEmission>);
-[[nodiscard]] schema::Fields fields(schema::Tag<SkyEmission>);
+[[nodiscard]] schema::Fields fields(schema::Tag<EnvironmentLightEmission>);
 
 }  // namespace abbe::spec
 
 namespace abbe::description {
 
-/// What fixes the strength of a lamp of one kind: the table of its emission, what a spectrum that is not
-/// scaled is of, and what a lamp of unit radiance or intensity has of each quantity.
-struct LampKind {
-  const schema::Fields& (*fields)();
-  CurveUnit spectrum;
-  double flux;  ///< [m^2 sr] for radiance, [sr] for intensity; 0 without a flux.
-  /// Irradiance on its axis at that distance [m], of a surface that faces it: [sr] for radiance, [m^-2] for
-  /// intensity. Of what is at infinity the same at every distance.
+/// Relations between radiance or intensity and the other quantities, for one kind of light.
+struct LightKind {
+  const schema::Fields& (*fields)();  ///< Key table of its emission, for messages.
+  CurveUnit spectrum;                 ///< Unit of a `spectrum` that is not scaled.
+  double flux;  ///< Flux for unit radiance [m^2 sr] or unit intensity [sr]; 0 if the light has no flux.
+  /// Irradiance at a distance [m] on the axis of the light, on a surface that faces it: for unit radiance
+  /// [sr] or unit intensity [m^-2]. A light at infinity gives the same value at every distance.
   std::function<double(double)> irradiance = {};
 };
 
-/// The spectrum of the lamp. Reports a relative spectrum without a scale, a scale that it has nothing of, and
-/// a table that says nothing of wavelengths that are needed; nothing then. Warns of one that is 0 where
-/// channels of the sensor count more than a negligible share of such a light.
-[[nodiscard]] std::optional<ScaledCurve> build(const spec::Emission& emission, const LampKind& kind,
+/// Builds the emission spectrum of a light. Returns nothing after an error:
+/// - a relative spectrum without a scale;
+/// - a scale in a quantity of which the spectrum has none;
+/// - a table without data at wavelengths that are needed.
+/// Warns of a table that is 0 outside its range, if the channels of the sensor would record more than a
+/// negligible fraction of such a light there.
+[[nodiscard]] std::optional<ScaledCurve> build(const spec::Emission& emission, const LightKind& kind,
                                                LoadContext& context);
-/// How its light is polarised; nothing where it is not.
-[[nodiscard]] std::optional<LampPolarisation> polarisation_of(const spec::Emission& emission);
+/// Polarisation of the emitted light; nothing if it is unpolarised.
+[[nodiscard]] std::optional<LightPolarisation> polarisation_of(const spec::Emission& emission);
 
 }  // namespace abbe::description

@@ -15,8 +15,8 @@
 namespace abbe::description {
 namespace {
 
-// The planes of red, green and blue; one plane of luminance, without others that tell colour beside it,
-// serves for all three.
+// The planes of red, green and blue. A single luminance plane Y, without planes that would give colour, is
+// used for all three.
 std::optional<std::array<const ImageChannel*, 3>> find_planes(const Image& image) {
   const auto plane = [&image](const char* name) { return image.find(name); };
   const bool coloured = plane("X") || plane("Z") || plane("RY") || plane("BY");
@@ -28,11 +28,11 @@ std::optional<std::array<const ImageChannel*, 3>> find_planes(const Image& image
 
 }  // namespace
 
-std::optional<Sky> build(const spec::Sky& said, LoadContext& context) {
-  const auto* picture = std::get_if<spec::SkyImage>(&said.image);
-  if (picture == nullptr) return Sky{};
-  const std::string& name = picture->file.value;
-  const SourcePosition& where = picture->file.where;
+std::optional<EnvironmentTexels> build(const spec::EnvironmentLight& spec, LoadContext& context) {
+  const auto* image_spec = std::get_if<spec::EnvironmentImage>(&spec.image);
+  if (image_spec == nullptr) return EnvironmentTexels{};
+  const std::string& name = image_spec->file.value;
+  const SourcePosition& where = image_spec->file.where;
   const auto path = context.file(name, where);
   if (!path) return std::nullopt;
   const auto refuse = [&](const std::string& what) {
@@ -43,15 +43,15 @@ std::optional<Sky> build(const spec::Sky& said, LoadContext& context) {
   if (extension != ".exr" && extension != ".hdr")
     return refuse(
         fmt::format("linear values are needed (got \"{}\", allowed .exr, .hdr)", path->extension().string()));
-  const Image image = upright(read_image(*path, context.inputs));
-  const HeldMemory held(context.inputs, image.memory_bytes());
+  const Image image = apply_orientation(read_image(*path, context.inputs));
+  const MemoryReservation memory(context.inputs, image.memory_bytes());
   const auto planes = find_planes(image);
-  if (!planes) return refuse("no channels R, G, B, or Y alone");
+  if (!planes) return refuse("the image needs channels R, G and B, or only Y");
   if (const auto fault = rec709_fault(image)) return refuse(*fault);
-  // Texels, and the cumulative distribution by which they are drawn.
+  // Memory of the texels and of the cumulative distribution from which they are sampled.
   context.take_memory(path->string(), image.pixels() * (sizeof(std::array<float, 3>) + sizeof(double)));
-  Sky sky{image.width, image.height, std::vector<std::array<float, 3>>(image.pixels()),
-          environment_frame(picture->up.normalized(), picture->rotate_deg)};
+  EnvironmentTexels environment{image.width, image.height, std::vector<std::array<float, 3>>(image.pixels()),
+                                environment_frame(image_spec->up.normalized(), image_spec->rotate_deg)};
   std::size_t negative = 0;
   for (std::size_t i = 0; i < image.pixels(); ++i)
     for (std::size_t c = 0; c < 3; ++c) {
@@ -60,17 +60,18 @@ std::optional<Sky> build(const spec::Sky& said, LoadContext& context) {
         return refuse(fmt::format("texel ({}, {}) (got {}, allowed {})",
                                   i % static_cast<std::size_t>(image.width),
                                   i / static_cast<std::size_t>(image.width), value, spec::kPower.text()));
-      const bool is_repeated = c > 0 && (*planes)[c] == (*planes)[0];  // a luminance, which is all three
+      const bool is_repeated =
+          c > 0 && (*planes)[c] == (*planes)[0];  // A luminance is used for all three channels.
       negative += value < 0 && !is_repeated;
-      sky.texels[i][c] = std::max(value, 0.0F);
+      environment.texels[i][c] = std::max(value, 0.0F);
     }
-  if (std::all_of(sky.texels.begin(), sky.texels.end(),
+  if (std::all_of(environment.texels.begin(), environment.texels.end(),
                   [](const std::array<float, 3>& texel) { return texel == std::array<float, 3>{}; }))
     context.diagnostics.error_if_strict(where, fmt::format("environment \"{}\" is black everywhere", name));
   if (negative > 0)
     context.diagnostics.warning(
-        where, fmt::format("environment \"{}\": negative values taken as 0: {}", name, negative));
-  return sky;
+        where, fmt::format("environment \"{}\": negative values set to 0: {}", name, negative));
+  return environment;
 }
 
 }  // namespace abbe::description

@@ -13,8 +13,8 @@ namespace {
 
 using namespace schema;
 
-constexpr Range kIndex{0, 100, true, false};  // every measured index lies well inside
-constexpr Range kMetalIndex{0, 100};          // n = 0 is the perfect mirror
+constexpr Range kIndex{0, 100, true, false};  // Wider than any measured index.
+constexpr Range kMetalIndex{0, 100};          // n = 0 is the perfect mirror.
 constexpr Range kExtinction{0, 100};
 constexpr Range kRepeats{1, static_cast<double>(Coating::kMaxLayers)};
 
@@ -24,11 +24,11 @@ Fields describe_constant(std::string_view name, Range range) {
   double Constant::*k = &ConstantIor::k;
   return describe(name, "A constant index.",
                   {field("n", n, range, "The refractive index."),
-                   defaulted("k", k, kExtinction, "Extinction, absorbing when positive.")});
+                   defaulted("k", k, kExtinction, "Extinction coefficient, positive for absorption.")});
 }
 
 template <typename Constant>
-Kind index(std::string_view name, Range range) {
+ValueType index(std::string_view name, Range range) {
   return forms<Ior::Wrapped>(name, "an index: n, an object of n and k, or a name",
                              form<double>(Json::number, range),
                              form<TableIor>(Json::object, {"wavelength_nm"}), form<Constant>(Json::object),
@@ -44,40 +44,42 @@ static Fields fields(Tag<MetalIor>) {
   return describe_constant<MetalIor>("constant_metal_index", kMetalIndex);
 }
 static Fields fields(Tag<TableIor>) {
-  return describe("table_index", "An index over wavelength, with straight lines between its samples.",
-                  {field("wavelength_nm", &TableIor::wavelength_nm, kTableWavelength,
-                         "Strictly ascending wavelengths; beyond the ends their values hold."),
-                   field("n", &TableIor::n, kIndex, "The refractive index at each, relative to air."),
-                   field("k", &TableIor::k, kExtinction,
-                         "The extinction at each, absorbing when positive; 0 when absent.")});
+  return describe(
+      "table_index", "A refractive index over wavelength, linearly interpolated.",
+      {field("wavelength_nm", &TableIor::wavelength_nm, kTableWavelength,
+             "Strictly ascending wavelengths; outside them the values of the ends hold."),
+       field("n", &TableIor::n, kIndex, "Refractive index at each wavelength, relative to air."),
+       field("k", &TableIor::k, kExtinction,
+             "Extinction coefficient at each wavelength, positive for absorption; 0 if absent.")});
 }
-Kind kind(Tag<Ior::Wrapped>) {
+ValueType value_type(Tag<Ior::Wrapped>) {
   return index<ConstantIor>("index", kIndex);
 }
-Kind metal_ior() {
+ValueType metal_ior() {
   return index<MetalIor>("metal_index", kMetalIndex);
 }
 
 Fields fields(Tag<TintedIor>) {
-  return describe("tinted_index", "",
-                  {field("ior", &TintedIor::ior,
-                         "Refractive index: n above 0, n and k, a name of data/glass, MAKER/GLASS, or a "
-                         "FILE.csv or FILE.yml."),
-                   field("absorption_per_m", &TintedIor::absorption_per_m,
-                         "Absorption coefficient inside [1/m], 0 or more, with an index without k only.")});
+  return describe(
+      "tinted_index", "",
+      {field("ior", &TintedIor::ior,
+             "Refractive index: n above 0, n and k, a name of data/glass, MAKER/GLASS, or a "
+             "FILE.csv or FILE.yml."),
+       field("absorption_per_m", &TintedIor::absorption_per_m,
+             "Absorption coefficient of the medium inside [1/m], 0 or more; only with an index without k.")});
 }
 
 static Fields fields(Tag<Layer>) {
   return describe("layer", "A coherent thin film.",
-                  {field("ior", &Layer::ior, "Its refractive index."),
-                   field("thickness_nm", &Layer::thickness_nm, kFilmThickness, "Its thickness.")});
+                  {field("ior", &Layer::ior, "Refractive index of the film."),
+                   field("thickness_nm", &Layer::thickness_nm, kFilmThickness, "Thickness of the film.")});
 }
 static Fields fields(Tag<LayerGroup>) {
   return describe("layer_group", "Layers that repeat.",
-                  {defaulted("repeat", &LayerGroup::repeat, kRepeats, "How often they stand there."),
-                   field("layers", &LayerGroup::layers, "What repeats.")});
+                  {defaulted("repeat", &LayerGroup::repeat, kRepeats, "Number of repetitions."),
+                   field("layers", &LayerGroup::layers, "Layers of one repetition.")});
 }
-Kind kind(Tag<std::vector<LayerEntry>>) {
+ValueType value_type(Tag<std::vector<LayerEntry>>) {
   return list<LayerEntry>(
       forms<LayerEntry::Wrapped>("layer_entry", "a layer", form<LayerGroup>(Json::object, {"layers"}),
                                  form<Layer>(Json::object)),
@@ -87,15 +89,17 @@ Kind kind(Tag<std::vector<LayerEntry>>) {
 static Fields fields(Tag<Facets>) {
   using Pair = std::array<double, 2>;
   return describe(
-      "facets", "Microfacets.",
+      "facets", "A microfacet distribution.",
       {field("alpha", &Facets::alpha,
              forms<Alpha>("", "a width, or two", form<Pair>(Json::list, vector<Pair>(Range::unit())),
                           form<double>(Json::number, Range::unit())),
-             "Width of their slopes, or widths along the surface coordinate u and across it."),
-       defaulted("distribution", &Facets::distribution, word<FacetShape>("distribution", {"ggx", "beckmann"}),
-                 "How their slopes are distributed.")});
+             "Roughness alpha, the width of the distribution of slopes: one value, or one along the surface "
+             "coordinate u and one across it."),
+       defaulted("distribution", &Facets::distribution,
+                 enumeration<FacetShape>("distribution", {"ggx", "beckmann"}),
+                 "Shape of the distribution of slopes.")});
 }
-Kind kind(Tag<Roughness::Wrapped>) {
+ValueType value_type(Tag<Roughness::Wrapped>) {
   using Pair = std::array<double, 2>;
   return forms<Roughness::Wrapped>(
       "roughness", "a roughness: a width, two, or an object", form<Facets>(Json::object),
@@ -107,7 +111,7 @@ Kind kind(Tag<Roughness::Wrapped>) {
 namespace abbe::description {
 namespace {
 
-// k of an absorption coefficient alpha [1/m]: alpha lambda/(4 pi), lambda in metres.
+// Extinction coefficient k = alpha lambda/(4 pi) of an absorption coefficient alpha [1/m], lambda in metres.
 Curve extinction(const Curve& absorption_per_m) {
   const auto k = [](double nm) { return nm * 1e-9 / (4 * std::numbers::pi); };
   const Curve per_alpha(
@@ -115,19 +119,19 @@ Curve extinction(const Curve& absorption_per_m) {
   return product(absorption_per_m, per_alpha);
 }
 
-std::optional<Ior> table_ior(const spec::TableIor& said, LoadContext& context) {
+std::optional<Ior> table_ior(const spec::TableIor& spec, LoadContext& context) {
   const auto curve = [&](const std::vector<double>& values) {
     spec::Curve table;
-    table.where = said.where;
+    table.where = spec.where;
     table.value =
-        spec::CurveFormula{spec::TableCurve{said.wavelength_nm, values, Outside::clamp, said.where}};
+        spec::CurveFormula{spec::TableCurve{spec.wavelength_nm, values, Outside::clamp, spec.where}};
     return build(table, {"", spec::kValue}, context);
   };
-  const auto n = curve(said.n);
-  const auto k = said.k ? curve(*said.k) : Curve();
+  const auto n = curve(spec.n);
+  const auto k = spec.k ? curve(*spec.k) : Curve();
   if (!n || !k) return std::nullopt;
-  return Ior{"of a table", RefractiveIndex(*n, *k, IndexMedium::air, said.wavelength_nm.front(),
-                                           said.wavelength_nm.back())};
+  return Ior{"of a table", RefractiveIndex(*n, *k, IndexMedium::air, spec.wavelength_nm.front(),
+                                           spec.wavelength_nm.back())};
 }
 
 Ior constant_ior(double n, double k) {
@@ -136,29 +140,29 @@ Ior constant_ior(double n, double k) {
 
 }  // namespace
 
-std::optional<Ior> build(const spec::Ior& said, LoadContext& context) {
-  if (const auto* n = std::get_if<double>(&said.value)) return constant_ior(*n, 0);
-  if (const auto* constant = std::get_if<spec::ConstantIor>(&said.value))
+std::optional<Ior> build(const spec::Ior& spec, LoadContext& context) {
+  if (const auto* n = std::get_if<double>(&spec.value)) return constant_ior(*n, 0);
+  if (const auto* constant = std::get_if<spec::ConstantIor>(&spec.value))
     return constant_ior(constant->n, constant->k);
-  if (const auto* constant = std::get_if<spec::MetalIor>(&said.value))
+  if (const auto* constant = std::get_if<spec::MetalIor>(&spec.value))
     return constant_ior(constant->n, constant->k);
-  if (const auto* table = std::get_if<spec::TableIor>(&said.value)) return table_ior(*table, context);
-  const auto name = context.table(std::get<std::string>(said.value), said.where);
+  if (const auto* table = std::get_if<spec::TableIor>(&spec.value)) return table_ior(*table, context);
+  const auto name = context.table(std::get<std::string>(spec.value), spec.where);
   if (!name) return std::nullopt;
-  auto named = load_index(*name, said.where, context.diagnostics);
+  auto named = load_index(*name, spec.where, context.diagnostics);
   if (!named) return std::nullopt;
   return Ior{std::move(named->name), std::move(named->index)};
 }
 
-std::optional<Ior> build(const spec::TintedIor& said, LoadContext& context) {
-  auto ior = build(said.ior, context);
-  if (!ior || !said.absorption_per_m) return ior;
+std::optional<Ior> build(const spec::TintedIor& spec, LoadContext& context) {
+  auto ior = build(spec.ior, context);
+  if (!ior || !spec.absorption_per_m) return ior;
   if (ior->index.absorbing()) {
-    context.diagnostics.error(said.absorption_per_m->where,
-                              "absorption_per_m goes with an index without k; this one brings its own");
+    context.diagnostics.error(spec.absorption_per_m->where,
+                              "absorption_per_m requires an index without k; this index already has one");
     return std::nullopt;
   }
-  const auto alpha = build(*said.absorption_per_m, {"filter", spec::kPower, CurveUnit::per_metre}, context);
+  const auto alpha = build(*spec.absorption_per_m, {"filter", spec::kPower, CurveUnit::per_metre}, context);
   if (!alpha) return std::nullopt;
   ior->index = ior->index.with_k(extinction(*alpha));
   return ior;

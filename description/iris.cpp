@@ -1,6 +1,6 @@
 #include "description/iris.h"
 
-#include "description/kinds.h"
+#include "description/value_ranges.h"
 
 namespace abbe::spec {
 
@@ -9,11 +9,11 @@ using namespace schema;
 Fields fields(Tag<Iris>) {
   return describe(
       "iris", "The blades of a stop.",
-      {field("blades", &Iris::blades, {lens::kLeastBlades, lens::kMostBlades},
-             "Straight blades, between which the opening is the regular polygon inscribed in its circle; the "
-             "f-number stays that of the circle. Round when absent."),
+      {field("blades", &Iris::blades, {lens::kMinBlades, lens::kMaxBlades},
+             "Number of straight blades. The opening is the regular polygon inscribed in the circle of the "
+             "stop; the f-number stays that of the circle. Round if absent."),
        field("blade_rotation_deg", &Iris::blade_rotation_deg, kAngle,
-             "Turn of the blades, clockwise as the camera looks; a corner is up when absent.")});
+             "Rotation of the blades, clockwise as seen by the camera; if absent, a corner points up.")});
 }
 
 }  // namespace abbe::spec
@@ -25,7 +25,7 @@ std::optional<lens::Iris> build(const spec::Iris& iris, const LoadContext& conte
   if (iris.blades) return lens::Iris(*iris.blades, rotation ? rotation->value : 0);
   if (rotation)
     context.diagnostics.warning(rotation->where,
-                                "a turn of blades without effect: the stop has none, and is round");
+                                "blade_rotation_deg has no effect: the stop has no blades and is round");
   return std::nullopt;
 }
 

@@ -8,7 +8,7 @@
 
 namespace abbe::spec {
 
-/// The blades of a stop; round without any.
+/// The blades of an aperture stop; without them the stop is round.
 struct Iris {
   std::optional<int> blades;
   std::optional<schema::Located<double>> blade_rotation_deg;
@@ -19,7 +19,8 @@ struct Iris {
 
 namespace abbe::description {
 
-/// What the blades leave; nothing of a round stop. Warns of a rotation without blades.
+/// Builds the polygonal opening of the blades; nothing if the stop is round. Warns of a rotation without
+/// blades.
 [[nodiscard]] std::optional<lens::Iris> build(const spec::Iris& iris, const LoadContext& context);
 
 }  // namespace abbe::description

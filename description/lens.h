@@ -10,16 +10,16 @@
 #include "description/index.h"
 #include "lens/system.h"
 
-// Lens prescriptions, as their files say them: lengths in mm, angles in degrees.
+// Lens prescriptions in the units of their files: lengths in mm, angles in degrees.
 namespace abbe::spec {
 
-inline constexpr Range kModelIndex{1, 4, true, false};  ///< Of n_d.
+inline constexpr Range kModelIndex{1, 4, true, false};  ///< Range of n_d.
 inline constexpr Range kAbbeNumber{1, 1000};
 using lens::kMaxMm;
 inline constexpr Range kPositiveMm{0, kMaxMm, true, false, "mm"};
 inline constexpr Range kFieldAngle = Range{-120, 120}.in("degrees");
 
-/// A glass by its index at the d line and its Abbe number there.
+/// A glass given by its index n_d and its Abbe number V_d at the d line.
 struct ModelGlass {
   double nd = 1.5;
   double vd = 60;
@@ -27,10 +27,10 @@ struct ModelGlass {
 struct LensGlass : schema::Located<std::variant<ModelGlass, Ior>> {};
 
 struct LensSurface {
-  double radius = 0;  ///< 0 for a plane.
-  double thickness = 0;
+  double radius = 0;     ///< Radius of curvature; 0 for a plane.
+  double thickness = 0;  ///< Distance along the axis to the next surface.
   std::optional<LensGlass> glass;
-  std::optional<double> aperture;  ///< Half its diameter.
+  std::optional<double> aperture;  ///< Half the diameter of the clear aperture.
   bool stop = false;
   double conic = 0;
   double r2 = 0;
@@ -68,10 +68,14 @@ struct Lens {
 
 namespace abbe::description {
 
-/// The system. Reports a stop that is missing or doubled, unknown glasses, clear apertures beyond the edge of
-/// their surface, surfaces that cross within theirs, and apertures, fields and wavelengths that do not fit;
-/// nothing then. Warns of wavelengths that glasses have no data at. With `wavelengths_nm` it is looked at at
-/// these, the middle one being the primary, its stop and image set at its own.
+/// Builds the lens system. Returns nothing after an error:
+/// - a stop that is missing, or a second stop;
+/// - unknown glasses;
+/// - clear apertures larger than their surface, and surfaces that cross within their clear apertures;
+/// - apertures, fields and wavelengths that do not fit together.
+/// Warns of wavelengths at which a glass has no data. `wavelengths_nm`, if given, replace the wavelengths of
+/// the prescription, with the median one as the primary. Stop and image are still set at the prescription's
+/// own primary wavelength.
 [[nodiscard]] std::optional<lens::System> build(const spec::Lens& lens, LoadContext& context,
                                                 const std::vector<double>& wavelengths_nm = {});
 

@@ -14,22 +14,22 @@
 
 namespace abbe::spec {
 
-enum class Far { infinity };
-/// Of what lies in the plane in focus, or of nothing nearer than infinity.
-using FocusDistance = std::variant<double, Far>;
-[[nodiscard]] schema::Kind kind(schema::Tag<FocusDistance>);
+enum class InfinityKeyword { infinity };
+/// Distance from the first surface to the plane in focus, in scene units, or infinity.
+using FocusDistance = std::variant<double, InfinityKeyword>;
+[[nodiscard]] schema::ValueType value_type(schema::Tag<FocusDistance>);
 
-/// A lens by its name or file, or what such a file says.
+/// A lens: its name, a file, or the contents of such a file.
 using Prescription = std::variant<std::string, Lens>;
-[[nodiscard]] schema::Kind kind(schema::Tag<Prescription>);
+[[nodiscard]] schema::ValueType value_type(schema::Tag<Prescription>);
 
 enum class FilmPlane { paraxial, best };
-/// A lens of a prescription.
+/// A real lens in a scene, given by its prescription.
 struct LensSystem {
   schema::Located<Prescription> prescription;
   std::optional<FocusDistance>
-      focus_distance;  ///< The image stays where the prescription has it when absent.
-  std::optional<schema::Located<FilmPlane>> focus;  ///< `best` when absent.
+      focus_distance;  ///< If absent, the film stays at the image of the prescription.
+  std::optional<schema::Located<FilmPlane>> focus;  ///< `best` if absent.
   std::optional<schema::Located<double>> f_number;
   Iris iris;
   bool ghosts = false;
@@ -41,9 +41,10 @@ struct LensSystem {
 
 namespace abbe::description {
 
-/// The lens in front of the sensor's film. Reports what its prescription says that is wrong, where it stands,
-/// a lens that cannot be in focus there or cannot be opened so far, and a film that it does not light;
-/// nothing then.
+/// Builds the lens in front of the sensor's film. Returns nothing after an error:
+/// - an error of the prescription, reported at its position in the prescription;
+/// - a lens that cannot focus at the requested distance or open to the requested f-number;
+/// - a film that the lens does not illuminate.
 [[nodiscard]] std::optional<LensSystem> build(const spec::LensSystem& lens, const CameraFrame& frame,
                                               const Sensor& sensor, LoadContext& context);
 

@@ -16,9 +16,9 @@ namespace {
 
 using namespace schema;
 
-constexpr Range kDiameter = Range{0.01, 60}.in("degrees");  // what looks smaller is as good as directional
+constexpr Range kDiameter = Range{0.01, 60}.in("degrees");  // Smaller discs are practically directional.
 constexpr Range kHalfAngle =
-    Range{0.1, 180}.in("degrees");  // below, a float's cosine no longer tells cones apart
+    Range{0.1, 180}.in("degrees");  // Below, the cosines of cones are equal in single precision.
 
 constexpr char kTowards[] = "Direction from the scene to where the light comes from, of any length.";
 
@@ -26,18 +26,20 @@ template <typename T>
 Field strength(DaylightStrength T::*member) {
   return at_most_one(
       member, "a light has one strength",
-      under<DaylightIrradiance>(
-          "irradiance", kPower.in("W/m2"),
-          "Of a surface that faces the light, over 300-1100 nm, as D65; in place of an emission."),
-      under<DaylightIlluminance>("illuminance", kPower.in("lx"),
-                                 "Of a surface that faces the light, as D65; in place of an emission."));
+      under<DaylightIrradiance>("irradiance", kPower.in("W/m2"),
+                                "Irradiance of a surface that faces the light, over 300-1100 nm, with the "
+                                "spectrum D65; replaces an emission."),
+      under<DaylightIlluminance>(
+          "illuminance", kPower.in("lx"),
+          "Illuminance of a surface that faces the light, with the spectrum D65; replaces an emission."));
 }
 
-// Where a light may say how strong it is: in its emission, which most need.
+// Keys that may give the strength of a light, one of which is required. Most lights require an emission
+// anyway.
 std::vector<std::string_view> strengths(const auto&) {
   return {};
 }
-std::vector<std::string_view> strengths(const Beam&) {
+std::vector<std::string_view> strengths(const DirectionalLight&) {
   return {"emission", "directional/irradiance", "directional/illuminance"};
 }
 std::vector<std::string_view> strengths(const Sun&) {
@@ -46,70 +48,73 @@ std::vector<std::string_view> strengths(const Sun&) {
 
 }  // namespace
 
-// The name of what shines is its key.
+// The key of the source is the name of its table.
 template <typename Source, typename Emission>
-Fields fields(Tag<Lamp<Source, Emission>>) {
-  using L = Lamp<Source, Emission>;
+Fields fields(Tag<LightSource<Source, Emission>>) {
+  using L = LightSource<Source, Emission>;
   return describe("", "", {field(fields_of<Source>().name, &L::source), field("emission", &L::emission)},
                   strengths(Source{}), true);
 }
 template <typename Surface>
-Fields fields(Tag<AreaLamp<Surface>>) {
-  using L = AreaLamp<Surface>;
+Fields fields(Tag<AreaLight<Surface>>) {
+  using L = AreaLight<Surface>;
   return describe("", "",
                   {field(fields_of<Surface>().name, &L::surface), field("emission", &L::emission),
-                   defaulted("two_sided", &L::two_sided, "Whether it emits from both sides."),
-                   field("material", &L::material, "Material of its surface; black when absent.")});
+                   defaulted("two_sided", &L::two_sided, "True to emit from both sides."),
+                   field("material", &L::material, "Material of its surface; black if absent.")});
 }
 
 static Fields fields(Tag<Point>) {
-  return describe("point", "A point that sends out the same intensity everywhere.",
+  return describe("point", "A point with the same intensity in all directions.",
                   {field("at", &Point::at, kCoordinate, "Its position.")});
 }
 
 static Fields fields(Tag<Spot>) {
-  return describe(
-      "spot", "A point that sends out the same intensity within a cone, and none outside.",
-      {field("at", &Spot::at, kCoordinate, "Its position."),
-       field("direction", &Spot::direction, direction(), "Axis of the cone."),
-       field("half_angle_deg", &Spot::half_angle_deg, kHalfAngle, "Angle between axis and cone.")});
+  return describe("spot", "A point with constant intensity within a cone, and zero outside.",
+                  {field("at", &Spot::at, kCoordinate, "Its position."),
+                   field("direction", &Spot::direction, direction(), "Axis of the cone."),
+                   field("half_angle_deg", &Spot::half_angle_deg, kHalfAngle, "Half-angle of the cone.")});
 }
 
-static Fields fields(Tag<Beam>) {
-  return describe("directional", "A parallel beam from infinity.",
-                  {field("towards", &Beam::towards, direction(), kTowards), strength(&Beam::strength)});
+static Fields fields(Tag<DirectionalLight>) {
+  return describe("directional", "Parallel light from infinity.",
+                  {field("towards", &DirectionalLight::towards, direction(), kTowards),
+                   strength(&DirectionalLight::strength)});
 }
 
 static Fields fields(Tag<Sun>) {
   return describe(
-      "sun",
-      "A disc at infinity of the same radiance all over, seen by cameras, in mirrors and through glass.",
+      "sun", "A disc at infinity with uniform radiance, visible to cameras, in mirrors and through glass.",
       {field("towards", &Sun::towards, direction(), kTowards),
-       defaulted("angular_diameter_deg", &Sun::angular_diameter_deg, kDiameter, "How large it looks."),
+       defaulted("angular_diameter_deg", &Sun::angular_diameter_deg, kDiameter,
+                 "Angular diameter of the disc."),
        strength(&Sun::strength)});
 }
 
-static Fields fields(Tag<SkyImage>) {
-  return describe("", "",
-                  {field("image", &SkyImage::file,
-                         "An equirectangular EXR or HDR file with linear Rec.709 channels R, G, B, or Y."),
-                   defaulted("up", &SkyImage::up, direction(), "Direction of its top row."),
-                   defaulted("rotate_deg", &SkyImage::rotate_deg, kAngle, "Right-handed turn about `up`.")});
+static Fields fields(Tag<EnvironmentImage>) {
+  return describe(
+      "", "",
+      {field("image", &EnvironmentImage::file,
+             "An equirectangular EXR or HDR file with linear Rec.709 channels R, G, B, or Y."),
+       defaulted("up", &EnvironmentImage::up, direction(), "Direction of the top row of the image."),
+       defaulted("rotate_deg", &EnvironmentImage::rotate_deg, kAngle, "Right-handed rotation about `up`.")});
 }
-static Fields fields(Tag<Sky>) {
-  return describe("environment", "The same radiance from all directions, or an image's; one per scene.",
-                  {at_most_one(&Sky::image, "", beside<SkyImage>("image"))});
+static Fields fields(Tag<EnvironmentLight>) {
+  return describe("environment",
+                  "Uniform radiance from all directions, or that of an image; at most one per scene.",
+                  {at_most_one(&EnvironmentLight::image, "", inlined_by<EnvironmentImage>("image"))});
 }
 
 Fields fields(Tag<Light>) {
   return describe(
       "light", "A light.",
-      {field("name", &Light::name, "For messages, and to name it as a white."),
-       one_of(&Light::kind, beside<AreaLamp<Quad>>("quad"), beside<AreaLamp<Sphere>>("sphere"),
-              beside<AreaLamp<Disc>>("disc"), beside<PointLamp>("point"), beside<SpotLamp>("spot"),
-              beside<BeamLamp>("directional"), beside<SunLamp>("sun"), beside<SkyLamp>("environment")),
+      {field("name", &Light::name, "Name for messages and for references to it as a white."),
+       one_of(&Light::kind, inlined_by<AreaLight<Quad>>("quad"), inlined_by<AreaLight<Sphere>>("sphere"),
+              inlined_by<AreaLight<Disc>>("disc"), inlined_by<PointLightSource>("point"),
+              inlined_by<SpotLightSource>("spot"), inlined_by<DirectionalLightSource>("directional"),
+              inlined_by<SunLightSource>("sun"), inlined_by<EnvironmentLightSource>("environment")),
        field("motion", &Light::motion,
-             "How it moves, from where it is described; light from infinity does not.")});
+             "Motion relative to the described pose; a light at infinity cannot move.")});
 }
 
 }  // namespace abbe::spec
@@ -121,7 +126,7 @@ double inverse_square(double distance) {
   return 1 / (distance * distance);
 }
 
-// Of a surface on the axis that faces the lamp, for unit radiance [sr]; 0 within it.
+// Irradiance of a surface on the axis that faces the light, for unit radiance [sr]; 0 inside the light.
 double axial_irradiance(const Sphere& sphere, double distance) {
   const double sine = sphere.radius / distance;
   return sine < 1 ? std::numbers::pi * sine * sine : 0;
@@ -130,9 +135,10 @@ double axial_irradiance(const Disc& disc, double distance) {
   const double r2 = disc.radius * disc.radius;
   return std::numbers::pi * r2 / (r2 + distance * distance);
 }
-// Half the sum over the edges of the angle each takes up, times how it leans [Lambert1760]: with a and b from
-// the middle to the corners and n the normal, the plane through an edge and the point has the normal (a + n
-// d) x (b + n d), whose part along n is that of a x b. Taken so, nothing cancels however far the point is.
+// Half the sum over the edges of the angle that each edge subtends, times the cosine of its tilt
+// [Lambert1760]. Let a and b be the vectors from the center to the ends of an edge, n the normal, and d the
+// distance. The plane through the edge and the point has the normal (a + n d) x (b + n d). Its component
+// along n is that of a x b. In this form nothing cancels at large distances.
 double axial_irradiance(const Quad& quad, double distance) {
   const Imath::V3d normal = normal_of(quad);
   const Imath::V3d first = (quad.edge_u + quad.edge_v) / -2;
@@ -148,16 +154,16 @@ double axial_irradiance(const Quad& quad, double distance) {
   return std::abs(sum) / 2;
 }
 
-LampKind area_lamp(const Shape& shape, bool two_sided) {
-  LampKind kind{schema::fields_of<spec::MeshEmission>, CurveUnit::spectral_radiance,
-                std::numbers::pi * area(shape) * (two_sided ? 2 : 1)};
-  const auto lamp = [&kind](const auto& plain_shape) {
-    kind.fields = schema::fields_of<spec::LampEmission>;
+LightKind area_light_kind(const Shape& shape, bool two_sided) {
+  LightKind kind{schema::fields_of<spec::MeshEmission>, CurveUnit::spectral_radiance,
+                 std::numbers::pi * area(shape) * (two_sided ? 2 : 1)};
+  const auto use_plain_shape = [&kind](const auto& plain_shape) {
+    kind.fields = schema::fields_of<spec::AreaLightEmission>;
     kind.irradiance = [plain_shape](double distance) { return axial_irradiance(plain_shape, distance); };
   };
-  if (const auto* sphere = plain<Sphere>(shape)) lamp(*sphere);
-  if (const auto* disc = plain<Disc>(shape)) lamp(*disc);
-  if (const auto* quad = plain<Quad>(shape)) lamp(*quad);
+  if (const auto* sphere = plain<Sphere>(shape)) use_plain_shape(*sphere);
+  if (const auto* disc = plain<Disc>(shape)) use_plain_shape(*disc);
+  if (const auto* quad = plain<Quad>(shape)) use_plain_shape(*quad);
   return kind;
 }
 
@@ -165,16 +171,16 @@ std::string name_of(const spec::Light& light, std::size_t i) {
   return light.name.value_or(fmt::format("light {}", i));
 }
 
-// Adds the surface of a lamp, which it tells the number of; nothing after an error.
+// Adds the surface of an area light. Returns the index of its shape; nothing after an error.
 template <typename Surface>
-std::optional<std::uint32_t> add_surface(const spec::AreaLamp<Surface>& said, const Moving& moving,
+std::optional<std::uint32_t> add_surface(const spec::AreaLight<Surface>& spec, const PoseAndMotion& moving,
                                          const std::string& name, LoadContext& context, Scene& scene) {
-  const std::optional surface = build(said.surface, context);
+  const std::optional surface = build(spec.surface, context);
   const auto material =
-      said.material ? find_material(*said.material, context, scene) : black_material(context, scene);
+      spec.material ? find_material(*spec.material, context, scene) : black_material(context, scene);
   if (!surface || !material) return std::nullopt;
   scene.shapes.push_back(
-      {name, in_motion(*surface, true, scene.materials[*material], moving, context), *material});
+      {name, shape_at_opening(*surface, true, scene.materials[*material], moving, context), *material});
   return static_cast<std::uint32_t>(scene.shapes.size() - 1);
 }
 
@@ -182,101 +188,106 @@ std::optional<std::uint32_t> add_surface(const spec::AreaLamp<Surface>& said, co
 struct LightBuilder {
   const SourcePosition& where;
   std::string name;
-  std::optional<std::uint32_t> surface;  ///< Its shape, if it has one.
+  std::optional<std::uint32_t> surface;  ///< Index of its shape, if it has one.
   const std::optional<spec::Motion>& motion;
   LoadContext& context;
   Scene& scene;
 
-  void add(decltype(Light::kind) kind, const spec::Emission& emission, const LampKind& lamp) {
-    if (auto curve = build(emission, lamp, context))
+  void add(decltype(Light::kind) kind, const spec::Emission& emission, const LightKind& light_kind) {
+    if (auto curve = build(emission, light_kind, context))
       scene.lights.push_back(
           {std::move(name), std::move(kind), *std::move(curve), polarisation_of(emission)});
   }
-  // Of a lamp at a point, in a scene that has been recentred.
-  [[nodiscard]] Moving moving_point() const {
+  // Motion of a point light in a scene that has been recentred.
+  [[nodiscard]] PoseAndMotion point_motion() const {
     const std::size_t before = context.motions.size();
-    Moving moving = build(motion, context);
+    PoseAndMotion moving = build(motion, context);
     if (context.motions.size() > before) context.motions.back()->recentre(scene.origin_m);
     return moving;
   }
-  [[nodiscard]] Imath::V3f position(const Imath::V3d& at, const Moving& moving) const {
-    return Imath::V3f(at * context.unit_m * moving.opening - scene.origin_m);
+  [[nodiscard]] Imath::V3f position(const Imath::V3d& at, const PoseAndMotion& moving) const {
+    return Imath::V3f(at * context.unit_m * moving.pose_at_opening - scene.origin_m);
   }
-  // Whether light from infinity is asked to move.
+  // Reports a motion of a light at infinity, and returns true then.
   [[nodiscard]] bool refuse_to_move() const {
-    if (motion) context.diagnostics.error(motion->where, "light from infinity does not move");
+    if (motion) context.diagnostics.error(motion->where, "a light at infinity cannot move");
     return motion.has_value();
   }
 
   void operator()(std::monostate) const {}
   template <typename Surface>
-  void operator()(const spec::AreaLamp<Surface>& said) {
-    if (surface) add_area_light(said.emission, said.two_sided, *surface, context, scene);
+  void operator()(const spec::AreaLight<Surface>& spec) {
+    if (surface) add_area_light(spec.emission, spec.two_sided, *surface, context, scene);
   }
-  void operator()(const spec::PointLamp& said) {
-    const Moving moving = moving_point();
-    add(PointLight{position(said.source.at, moving), moving.motion}, said.emission,
+  void operator()(const spec::PointLightSource& spec) {
+    const PoseAndMotion moving = point_motion();
+    add(PointLight{position(spec.source.at, moving), moving.motion}, spec.emission,
         {schema::fields_of<spec::PointEmission>, CurveUnit::spectral_intensity, 4 * std::numbers::pi,
          inverse_square});
   }
-  void operator()(const spec::SpotLamp& said) {
-    const double sine = std::sin(said.source.half_angle_deg * std::numbers::pi / 360);
-    const Moving moving = moving_point();
+  void operator()(const spec::SpotLightSource& spec) {
+    const double sine = std::sin(spec.source.half_angle_deg * std::numbers::pi / 360);
+    const PoseAndMotion moving = point_motion();
     Imath::V3d axis;
-    moving.opening.multDirMatrix(said.source.direction.normalized(), axis);
-    const SpotLight spot{position(said.source.at, moving), Imath::V3f(axis),
+    moving.pose_at_opening.multDirMatrix(spec.source.direction.normalized(), axis);
+    const SpotLight spot{position(spec.source.at, moving), Imath::V3f(axis),
                          static_cast<float>(2 * sine * sine), moving.motion};
     const double solid_angle = 2 * std::numbers::pi * static_cast<double>(spot.cap);
-    add(spot, said.emission,
+    add(spot, spec.emission,
         {schema::fields_of<spec::PointEmission>, CurveUnit::spectral_intensity, solid_angle, inverse_square});
   }
-  // A light from infinity may say its strength itself, by daylight, without an emission beside it.
+  // Adds a light at infinity. Without an emission its own strength applies, with the spectrum D65.
   void add_from_infinity(decltype(Light::kind) kind, const spec::DaylightStrength& strength,
-                         const spec::Emission* emission, const LampKind& lamp) {
+                         const spec::Emission* emission, const LightKind& light_kind) {
     if (refuse_to_move()) return;
     const auto* irradiance = std::get_if<spec::DaylightIrradiance>(&strength);
     const auto* illuminance = std::get_if<spec::DaylightIlluminance>(&strength);
-    const SourcePosition& own = irradiance ? irradiance->where : illuminance ? illuminance->where : where;
-    if (emission != nullptr) return add(std::move(kind), *emission, lamp);
+    const SourcePosition& strength_where = irradiance    ? irradiance->where
+                                           : illuminance ? illuminance->where
+                                                         : where;
+    if (emission != nullptr) return add(std::move(kind), *emission, light_kind);
     spec::Emission daylight;
-    daylight.where = own;
-    daylight.spectrum = spec::Illuminant{{{"D65"}, own}};
+    daylight.where = strength_where;
+    daylight.spectrum = spec::Illuminant{{{"D65"}, strength_where}};
     if (irradiance) daylight.scale = spec::Amount<spec::Quantity::irradiance>{{irradiance->value}};
     if (illuminance) daylight.scale = spec::Amount<spec::Quantity::illuminance>{{illuminance->value}};
-    add(std::move(kind), daylight, lamp);
+    add(std::move(kind), daylight, light_kind);
   }
-  void operator()(const spec::BeamLamp& said) {
-    add_from_infinity(DirectionalLight{Imath::V3f(said.source.towards.normalized())}, said.source.strength,
-                      said.emission ? &*said.emission : nullptr,
-                      {schema::fields_of<spec::BeamEmission>, CurveUnit::spectral_irradiance, 0,
+  void operator()(const spec::DirectionalLightSource& spec) {
+    add_from_infinity(DirectionalLight{Imath::V3f(spec.source.towards.normalized())}, spec.source.strength,
+                      spec.emission ? &*spec.emission : nullptr,
+                      {schema::fields_of<spec::DirectionalLightEmission>, CurveUnit::spectral_irradiance, 0,
                        [](double) { return 1.0; }});
   }
-  void operator()(const spec::SunLamp& said) {
-    const double sine = std::sin(said.source.angular_diameter_deg * std::numbers::pi / 720);
-    const SunLight sun{Imath::V3f(said.source.towards.normalized()), static_cast<float>(2 * sine * sine)};
+  void operator()(const spec::SunLightSource& spec) {
+    const double sine = std::sin(spec.source.angular_diameter_deg * std::numbers::pi / 720);
+    const SunLight sun{Imath::V3f(spec.source.towards.normalized()), static_cast<float>(2 * sine * sine)};
     const double of_unit = sun.projected_solid_angle();
-    add_from_infinity(sun, said.source.strength, said.emission ? &*said.emission : nullptr,
+    add_from_infinity(sun, spec.source.strength, spec.emission ? &*spec.emission : nullptr,
                       {schema::fields_of<spec::SunEmission>, CurveUnit::spectral_radiance, 0,
                        [of_unit](double) { return of_unit; }});
   }
-  void operator()(const spec::SkyLamp& said) {
+  void operator()(const spec::EnvironmentLightSource& spec) {
     if (refuse_to_move()) return;
-    auto sky = build(said.source, context);
+    auto environment = build(spec.source, context);
     for (const Light& light : scene.lights)
       if (light.is_environment())
         return context.diagnostics.error(
-            said.source.where,
-            fmt::format("a scene has one environment (got another beside \"{}\")", light.name));
-    if (!sky) return;
-    auto curve = build(said.emission, {schema::fields_of<spec::SkyEmission>, CurveUnit::spectral_radiance, 0},
-                       context);
+            spec.source.where,
+            fmt::format("a scene has at most one environment light (got another besides \"{}\")",
+                        light.name));
+    if (!environment) return;
+    auto curve =
+        build(spec.emission,
+              {schema::fields_of<spec::EnvironmentLightEmission>, CurveUnit::spectral_radiance, 0}, context);
     if (!curve) return;
     EnvironmentLight light;
-    if (!sky->texels.empty())
-      light.image = std::make_shared<const EnvironmentImage>(sky->width, sky->height, std::move(sky->texels),
-                                                             sky->frame, curve->curve(), scene.channels);
+    if (!environment->texels.empty())
+      light.image = std::make_shared<const EnvironmentImage>(
+          environment->width, environment->height, std::move(environment->texels), environment->frame,
+          curve->curve(), scene.channels);
     scene.lights.push_back(
-        {std::move(name), std::move(light), *std::move(curve), polarisation_of(said.emission)});
+        {std::move(name), std::move(light), *std::move(curve), polarisation_of(spec.emission)});
   }
 };
 
@@ -289,14 +300,15 @@ void add_area_light(const spec::Emission& emission, bool two_sided, std::uint32_
     context.diagnostics.error(emission.where, "a medium has no surface that could emit");
     return;
   }
-  auto curve = build(emission, area_lamp(instance.shape, two_sided), context);
+  auto curve = build(emission, area_light_kind(instance.shape, two_sided), context);
   if (!curve) return;
   scene.lights.push_back(
       {instance.name, AreaLight{shape, two_sided}, std::move(*curve), polarisation_of(emission)});
 }
 
-LampSurfaces build_lamp_surfaces(const std::vector<spec::Light>& lights, LoadContext& context, Scene& scene) {
-  LampSurfaces surfaces(lights.size());
+AreaLightShapes build_area_light_shapes(const std::vector<spec::Light>& lights, LoadContext& context,
+                                        Scene& scene) {
+  AreaLightShapes surfaces(lights.size());
   for (std::size_t i = 0; i < lights.size(); ++i) {
     const auto add = [&](const auto& kind) {
       if constexpr (requires { kind.surface; })
@@ -304,13 +316,13 @@ LampSurfaces build_lamp_surfaces(const std::vector<spec::Light>& lights, LoadCon
             add_surface(kind, build(lights[i].motion, context), name_of(lights[i], i), context, scene);
     };
     std::visit(add, lights[i].kind);
-    context.shape_places.resize(scene.shapes.size(), lights[i].where);
+    context.shape_positions.resize(scene.shapes.size(), lights[i].where);
   }
   return surfaces;
 }
 
-void build_lights(const std::vector<spec::Light>& lights, const LampSurfaces& surfaces, LoadContext& context,
-                  Scene& scene) {
+void build_lights(const std::vector<spec::Light>& lights, const AreaLightShapes& surfaces,
+                  LoadContext& context, Scene& scene) {
   for (std::size_t i = 0; i < lights.size(); ++i)
     std::visit(
         LightBuilder{lights[i].where, name_of(lights[i], i), surfaces[i], lights[i].motion, context, scene},

@@ -20,13 +20,13 @@ namespace abbe {
 namespace description {
 namespace {
 
-// False for a scene of another version, whose other errors are not ours to tell.
+// Reports a scene of another version. Returns false then, because its other errors would be misleading.
 bool check_version(const JsonValue& root, Diagnostics& diagnostics) {
   const JsonValue* json = root.find("abbe");
   const auto* version = json ? std::get_if<double>(&json->value) : nullptr;
   if (!version || *version == spec::kFormatVersion) return true;
   const std::string_view what = *version > spec::kFormatVersion ? "future version of the scene format"
-                                                                : "no version of the scene format";
+                                                                : "unknown version of the scene format";
   diagnostics.error(json->where,
                     fmt::format("{} (got {}, allowed {})", what, *version, spec::kFormatVersion));
   return false;
@@ -42,31 +42,31 @@ std::string hash(const SourceText& source, std::span<const Override> overrides, 
   return sha256(all);
 }
 
-// The text of a scene, from a file or from standard input; its memory counts from now on.
+// Reads the text of a scene from a file or from standard input, and counts its memory.
 std::shared_ptr<const SourceText> read_source(const std::filesystem::path& path, Diagnostics& diagnostics,
                                               Inputs* inputs) {
-  // Words that cannot be read are the scene's fault; a file that is not there is the caller's.
+  // Text that cannot be read is an error of the scene; a missing file is an error of the caller.
   std::error_code error;
-  const bool there = std::filesystem::is_regular_file(path, error);
-  if (there && inputs) inputs->take_memory(path.string(), std::filesystem::file_size(path, error));
+  const bool exists = std::filesystem::is_regular_file(path, error);
+  if (exists && inputs) inputs->reserve_memory(path.string(), std::filesystem::file_size(path, error));
   auto source = path == kStandardStream
                     ? read_standard_input(diagnostics, ErrorCode::scene)
-                    : read_text(path, diagnostics, there ? ErrorCode::scene : ErrorCode::input);
-  if (source && inputs && path == kStandardStream) inputs->take_memory(source->file, source->text.size());
+                    : read_text(path, diagnostics, exists ? ErrorCode::scene : ErrorCode::input);
+  if (source && inputs && path == kStandardStream) inputs->reserve_memory(source->file, source->text.size());
   if (source && inputs && path != kStandardStream) inputs->add_file(path);
   return source;
 }
 
-// What a text says, in so far as it is sound; false for what is no scene at all.
+// Parses a text, as far as it has no errors. False if it is not a scene at all.
 bool read(const std::shared_ptr<const SourceText>& source, std::span<const Override> overrides,
-          LoadContext& context, spec::Scene& said) {
-  HeldMemory tree(context.inputs, 0);
+          LoadContext& context, spec::Scene& spec) {
+  MemoryReservation tree(context.inputs, 0);
   std::optional<JsonValue> root = parse_json(source, context.diagnostics, &tree);
   if (!root) return false;
-  for (const Override& o : overrides) set_json(*root, o.pointer, o.value, context.diagnostics, o.said_by);
+  for (const Override& o : overrides) set_json(*root, o.pointer, o.value, context.diagnostics, o.option_name);
   if (!check_version(*root, context.diagnostics)) return false;
   include_sensor_model(*root, context);
-  (void)schema::read(*root, schema::fields_of<spec::Scene>(), &said, context.diagnostics);
+  (void)schema::read(*root, schema::fields_of<spec::Scene>(), &spec, context.diagnostics);
   return true;
 }
 
@@ -87,11 +87,11 @@ void LoadContext::remember(const std::filesystem::path& file) {
 }
 
 void LoadContext::take_memory(const std::string& what, std::size_t bytes) const {
-  if (inputs != nullptr) inputs->take_memory(what, bytes);
+  if (inputs != nullptr) inputs->reserve_memory(what, bytes);
 }
 
 std::optional<std::string> LoadContext::table(const std::string& name, const SourcePosition& where) {
-  const std::size_t end = user_table_end(name);  // which a column may follow
+  const std::size_t end = user_table_end(name);  // A column name may follow the file name.
   if (end == std::string::npos && !name.ends_with(".json") && !is_refractiveindex_info(name)) return name;
   const auto path = file(name.substr(0, end), where);
   if (!path) return std::nullopt;
@@ -101,20 +101,20 @@ std::optional<std::string> LoadContext::table(const std::string& name, const Sou
 }  // namespace description
 
 std::optional<Scene> load_scene(const std::filesystem::path& path, std::span<const Override> overrides,
-                                Diagnostics& diagnostics, Inputs* inputs, spec::Scene* asked) {
+                                Diagnostics& diagnostics, Inputs* inputs, spec::Scene* spec) {
   const auto source = description::read_source(path, diagnostics, inputs);
   if (!source) return std::nullopt;
-  return load_scene(source, path.parent_path(), overrides, diagnostics, inputs, asked);
+  return load_scene(source, path.parent_path(), overrides, diagnostics, inputs, spec);
 }
 
 std::optional<Scene> load_scene(const std::shared_ptr<const SourceText>& source,
                                 const std::filesystem::path& folder, std::span<const Override> overrides,
-                                Diagnostics& diagnostics, Inputs* inputs, spec::Scene* asked) {
+                                Diagnostics& diagnostics, Inputs* inputs, spec::Scene* spec) {
   description::LoadContext context{diagnostics, folder, inputs};
   spec::Scene own;
-  spec::Scene& said = asked != nullptr ? *asked : own;
-  if (!description::read(source, overrides, context, said)) return std::nullopt;
-  Scene scene = build(said, context);
+  spec::Scene& scene_spec = spec != nullptr ? *spec : own;
+  if (!description::read(source, overrides, context, scene_spec)) return std::nullopt;
+  Scene scene = build(scene_spec, context);
   if (diagnostics.has_errors()) return std::nullopt;
   scene.sha256 = description::hash(*source, overrides, context);
   scene.commit();
@@ -135,19 +135,19 @@ std::optional<MeteredScene> load_meters(const std::shared_ptr<const SourceText>&
                                         Inputs* inputs) {
   MeteredScene scene{{}, {}, folder};
   description::LoadContext context{diagnostics, scene.folder, inputs};
-  const auto said = std::make_shared<spec::Scene>();
-  if (!description::read(source, overrides, context, *said)) return std::nullopt;
-  scene.said = said;
-  scene.meters = build_meters(*said, context);
+  const auto scene_spec = std::make_shared<spec::Scene>();
+  if (!description::read(source, overrides, context, *scene_spec)) return std::nullopt;
+  scene.scene_spec = scene_spec;
+  scene.meters = build_meters(*scene_spec, context);
   if (scene.meters.empty() && !diagnostics.has_errors())
-    diagnostics.error(said->where, "the scene has no meters");
+    diagnostics.error(scene_spec->where, "the scene has no meters");
   return diagnostics.has_errors() ? std::nullopt : std::optional(std::move(scene));
 }
 
 std::optional<Scene> scene_of(const MeteredScene& scene, const Meter& meter, Diagnostics& diagnostics,
                               Inputs* inputs) {
   description::LoadContext context{diagnostics, scene.folder, inputs};
-  Scene built = build(*scene.said, context, &meter);
+  Scene built = build(*scene.scene_spec, context, &meter);
   if (diagnostics.has_errors()) return std::nullopt;
   built.commit();
   return built;

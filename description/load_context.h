@@ -22,7 +22,8 @@
 
 namespace abbe::description {
 
-/// What instances are made of, moved by `-center` to where floats are finest.
+/// Prototypes of an object for its instances. They are shifted by `-center` to the origin, where single
+/// precision resolves best.
 struct Object {
   struct Member {
     std::string name;
@@ -33,59 +34,65 @@ struct Object {
   Imath::V3d center{0, 0, 0};
 };
 
-/// A spectrum that lamps name, and what they hold of it.
-struct LampSpectrum {
-  Curve curve;          ///< As named.
-  double power;         ///< Its integral,
-  double luminous;      ///< and that of what the eye sees.
-  double held_for = 0;  ///< `held` is the curve times this and 2^-`exponent`; 0 while there is none.
+/// A spectrum that one or more lights name.
+struct SharedLightSpectrum {
+  Curve curve;                  ///< The spectrum before scaling.
+  double power;                 ///< Integral of `curve` over wavelength.
+  double luminous;              ///< Photometric integral of `curve`.
+  double reference_factor = 0;  ///< Scale of the first light; 0 while `normalised` is empty.
   int exponent = 0;
-  std::shared_ptr<const Curve> held = nullptr;  ///< In [0, 1], so that no float overflows.
+  std::shared_ptr<const Curve> normalised =
+      nullptr;  ///< `curve` * reference_factor * 2^-exponent, in [0, 1].
 };
 
-/// A table of a lamp or a sensor that does not cover all wavelengths and does not say `clamp`.
-struct EndedTable {
+/// A table of a light or a sensor that does not cover all wavelengths and does not declare `clamp`.
+struct PartialTable {
   NamedCurve table;
-  SourcePosition where;  ///< It is named there,
-  std::string channel;   ///< and belongs to this channel of a sensor; to all where there is none.
+  SourcePosition where;  ///< Position at which the scene names the table.
+  std::string channel;   ///< Channel of a sensor to which it belongs; empty for all channels.
 };
 
-/// How tables are held to what the sensor sees.
-struct TableEnds {
-  NeededRange needed{};  ///< What they must cover: by the responses of the sensor or meter, once it is built.
-  std::span<const Channel> channels{};       ///< That sensor's; none of a meter, which takes what it is told.
-  std::vector<EndedTable>* noted = nullptr;  ///< Those of the lamp or sensor that is being built, if wanted,
-  std::string channel{};                     ///< and the channel that is.
-  bool go_on = false;            ///< Whether lights and filters go on beyond their tables as they end.
-  std::set<std::string> told{};  ///< What has been warned of.
+/// Rules by which tables must cover the wavelength range of the sensor.
+struct TableCoverage {
+  NeededRange needed{};                 ///< Range that tables must cover, once sensor or meter is built.
+  std::span<const Channel> channels{};  ///< Channels of the sensor; empty for a meter.
+  std::vector<PartialTable>* partial_tables =
+      nullptr;            ///< If set, collects the partial tables of the light or sensor under construction.
+  std::string channel{};  ///< Name of the channel under construction.
+  bool extrapolate = false;        ///< True to extrapolate lights and filters with their end values.
+  std::set<std::string> warned{};  ///< Warnings that have been reported.
 };
 
-/// What the readers of one scene file share.
+/// State that the builders of one scene have in common.
 struct LoadContext {
   Diagnostics& diagnostics;
-  std::filesystem::path folder;  ///< Of the scene file: where the files it names are looked for.
-  Inputs* inputs = nullptr;      ///< Of the command, if it keeps account of them.
-  double unit_m = 1;             ///< Metres per unit of length.
-  std::vector<std::filesystem::path> files{};  ///< Every file named so far, for the hash.
-  std::vector<SourcePosition> emissions{};     ///< Where each light's is told.
-  std::vector<SourcePosition> shape_places{};  ///< Where each shape of the scene is described.
+  std::filesystem::path folder;  ///< Folder to which the files that the scene names are relative.
+  Inputs* inputs = nullptr;      ///< Record of input files and memory, if the command has one.
+  double unit_m = 1;             ///< Metres per scene unit.
+  std::vector<std::filesystem::path> files{};        ///< Every file named so far, for the hash of the scene.
+  std::vector<SourcePosition> emission_positions{};  ///< Position of each light's emission in the scene file.
+  std::vector<SourcePosition> shape_positions{};  ///< Position of each shape of the scene in the scene file.
   std::map<std::string, Object> objects{};
-  std::unordered_map<std::string, LampSpectrum> lamp_spectra{};  ///< By the words that name them.
-  std::unordered_map<std::string, std::uint32_t> materials{};    ///< Numbers by name.
-  std::vector<std::shared_ptr<Placement>> placements{};  ///< Of each instance, until the scene is recentred,
-  std::vector<std::shared_ptr<Motion>> motions{};        ///< and of all that moves.
-  double open_s = 0;                                     ///< When the shutter opens,
-  double span_s = 1;                                     ///< and how long until it has closed for all rows.
-  TableEnds ends{};
+  std::unordered_map<std::string, SharedLightSpectrum>
+      light_spectra{};                                         ///< Light spectra by unit, scaling and text.
+  std::unordered_map<std::string, std::uint32_t> materials{};  ///< Index in `Scene::materials` by name.
+  std::vector<std::shared_ptr<Placement>>
+      placements{};                                ///< Placement of each instance; recentred with the scene.
+  std::vector<std::shared_ptr<Motion>> motions{};  ///< Every motion; recentred with the scene.
+  double open_s = 0;                               ///< Time at which the first row opens [s].
+  double span_s = 1;                               ///< Time from then until all rows are closed [s].
+  TableCoverage coverage{};
 
-  /// A file named by the scene, remembered for the hash; a URL is reported.
+  /// Path of a file that the scene names, recorded for the hash. Reports a URL and returns nothing.
   [[nodiscard]] std::optional<std::filesystem::path> file(const std::string& name,
                                                           const SourcePosition& where);
+  /// Records a file for the hash and in `inputs`.
   void remember(const std::filesystem::path& file);
-  /// Counts memory that is about to be taken. Throws Error{resource} when it is too much.
+  /// Adds to the memory of the inputs before it is allocated. Throws Error{resource} if the limit is
+  /// exceeded.
   void take_memory(const std::string& what, std::size_t bytes) const;
-  /// A table's name as the libraries take it: a user's `FILE.csv`, `FILE.csv:COLUMN` or `FILE.yml` is looked
-  /// for beside the scene.
+  /// Name of a table as the data libraries accept it. A user's `FILE.csv`, `FILE.csv:COLUMN` or `FILE.yml`
+  /// becomes a path relative to the scene. Reports a URL and returns nothing.
   [[nodiscard]] std::optional<std::string> table(const std::string& name, const SourcePosition& where);
 };
 

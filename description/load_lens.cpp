@@ -25,7 +25,7 @@ std::optional<spec::Lens> read_json(const fs::path& file, Diagnostics& diagnosti
 
 using Reader = std::optional<spec::Lens> (*)(const fs::path&, Diagnostics&);
 
-// By the extension.
+// The reader for the extension of a file; nullptr for an unknown extension.
 Reader reader_of(const fs::path& file) {
   const std::string extension = extension_of(file);
   if (extension == ".json") return read_json;
@@ -58,10 +58,10 @@ std::optional<lens::System> load_lens(const std::string& name, Diagnostics& diag
     }
     file = data_directory() / "lens" / (name + ".json");
   }
-  const auto said = reader_of(file)(file, diagnostics);
+  const auto spec = reader_of(file)(file, diagnostics);
   if (inputs != nullptr) inputs->add_file(file);
   description::LoadContext context{diagnostics, file.parent_path(), inputs};
-  auto system = said ? description::build(*said, context, wavelengths_nm) : std::nullopt;
+  auto system = spec ? description::build(*spec, context, wavelengths_nm) : std::nullopt;
   if (system && system->title.empty()) system->title = file.stem().string();
   return system;
 }

@@ -13,20 +13,20 @@
 namespace abbe {
 namespace {
 
-struct Place {
+struct MaterialPath {
   std::filesystem::path path;
-  std::string name;  // empty: not said
+  std::string name;  // Empty if not given.
 };
 
-// "FILE" or "FILE:NAME".
-Place split_name(const std::string& words) {
+// Splits "FILE" or "FILE:NAME".
+MaterialPath split_name(const std::string& words) {
   const std::size_t colon = words.rfind(".json:");
   if (colon == std::string::npos) return {words, ""};
   const std::size_t end = colon + std::string_view(".json").size();
   return {words.substr(0, end), words.substr(end + 1)};
 }
 
-// The materials of a scene file, or the one that all of the text describes.
+// The materials of a scene file, or the single material that the whole text describes.
 JsonValue materials_of(JsonValue root) {
   if (const JsonValue* materials = root.find("materials")) return *materials;
   JsonValue all{JsonValue::Object{}, root.where};
@@ -52,9 +52,9 @@ const Material* chosen(const std::vector<Material>& materials, const std::string
 
 std::optional<Material> load_material(const std::string& words, Diagnostics& diagnostics, Inputs* inputs) {
   const bool in_place = words.starts_with('{');
-  const Place place = in_place ? Place{} : split_name(words);
+  const MaterialPath material_path = in_place ? MaterialPath{} : split_name(words);
   const auto source = in_place ? std::make_shared<const SourceText>(SourceText{"MATERIAL", words})
-                               : read_text(place.path, diagnostics);
+                               : read_text(material_path.path, diagnostics);
   if (!source) return std::nullopt;
   std::optional<JsonValue> root = parse_json(source, diagnostics);
   if (!root) return std::nullopt;
@@ -62,14 +62,14 @@ std::optional<Material> load_material(const std::string& words, Diagnostics& dia
   if (const JsonValue* units = root->find("units"))
     (void)schema::read(*units, spec::units(), &unit, diagnostics);
   const JsonValue materials = materials_of(*std::move(root));
-  if (inputs && !in_place) inputs->add_file(place.path);
-  description::LoadContext context{diagnostics, place.path.parent_path(), inputs, spec::metres(unit)};
+  if (inputs && !in_place) inputs->add_file(material_path.path);
+  description::LoadContext context{diagnostics, material_path.path.parent_path(), inputs, spec::metres(unit)};
   Scene scene{};
-  spec::Materials said;
-  (void)schema::read(materials, spec::materials(), &said, diagnostics);
-  description::build_materials(said, context, scene);
+  spec::Materials spec;
+  (void)schema::read(materials, spec::materials(), &spec, diagnostics);
+  description::build_materials(spec, context, scene);
   if (diagnostics.has_errors()) return std::nullopt;
-  const Material* material = chosen(scene.materials, place.name, materials.where, diagnostics);
+  const Material* material = chosen(scene.materials, material_path.name, materials.where, diagnostics);
   return material ? std::optional(*material) : std::nullopt;
 }
 

@@ -9,9 +9,11 @@
 
 namespace abbe {
 
-/// One material as scenes describe it: JSON text that opens with "{", a file of such text, or
-/// "FILE.json:NAME" out of the `materials` of a scene (the name may be left out where there is one only).
-/// Everything wrong is reported; nothing is returned if there is an error. `inputs` as for `load_scene`.
+/// Reads and builds one material, which `words` gives as one of:
+/// - JSON text that begins with "{";
+/// - the name of a file with such text;
+/// - "FILE.json:NAME", one of the `materials` of a scene; ":NAME" may be omitted if there is only one.
+/// Reports every error; returns nothing if there is one. `inputs` records the files that are read.
 [[nodiscard]] std::optional<Material> load_material(const std::string& words, Diagnostics& diagnostics,
                                                     Inputs* inputs = nullptr);
 

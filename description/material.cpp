@@ -7,39 +7,39 @@
 namespace abbe::description {
 namespace {
 
-constexpr char kBlack[] = "black (lamp)";
+constexpr char kBlack[] = "black (light)";
 
-// One that cannot be built stands as black.
-Material build_material(const schema::Named<spec::Material>& said, LoadContext& context) {
-  Material material{said.name, DiffuseMaterial{Curve(0.0)}};
-  if (auto model = build_model(said.value, context)) material.model = *std::move(model);
-  if (const auto& priority = said.value.priority) {
+// Builds a material. One with an error becomes black.
+Material build_material(const schema::Named<spec::Material>& spec, LoadContext& context) {
+  Material material{spec.name, DiffuseMaterial{Curve(0.0)}};
+  if (auto model = build_model(spec.value, context)) material.model = *std::move(model);
+  if (const auto& priority = spec.value.priority) {
     if (!encloses_medium(material))
       context.diagnostics.error(priority->where,
-                                "a priority goes with matter within a shape: a dielectric or a medium");
+                                "priority applies only to a medium inside a shape: a dielectric or a medium");
     material.priority = priority->value;
   }
-  if (const auto* normals = std::get_if<spec::NormalMap>(&said.value.relief))
+  if (const auto* normals = std::get_if<spec::NormalMap>(&spec.value.relief))
     material.relief = build(*normals, context);
-  if (const auto* bumps = std::get_if<spec::BumpMap>(&said.value.relief))
+  if (const auto* bumps = std::get_if<spec::BumpMap>(&spec.value.relief))
     material.relief = build(*bumps, context);
   if (material.relief && is_boundary(material))
-    context.diagnostics.error(said.where,
-                              "a relief turns the light of a surface, which a medium has none of");
+    context.diagnostics.error(spec.where, "a medium has no surface and cannot have a normal_map or bump_map");
   return material;
 }
 
 }  // namespace
 
 void build_materials(const spec::Materials& materials, LoadContext& context, Scene& scene) {
-  for (const auto& said : materials) {
-    context.materials.emplace(said.name, static_cast<std::uint32_t>(scene.materials.size()));
-    scene.materials.push_back(build_material(said, context));
+  for (const auto& spec : materials) {
+    context.materials.emplace(spec.name, static_cast<std::uint32_t>(scene.materials.size()));
+    scene.materials.push_back(build_material(spec, context));
   }
-  for (const auto& [name, material, where] : materials) {  // made of the others, and so after them
-    const auto* said = std::get_if<spec::Mixture>(&material.model);
-    if (said == nullptr) continue;
-    if (auto mixture = build(*said, context, scene))
+  for (const auto& [name, material, where] :
+       materials) {  // Mixtures refer to the other materials and are built after them.
+    const auto* mixture_spec = std::get_if<spec::Mixture>(&material.model);
+    if (mixture_spec == nullptr) continue;
+    if (auto mixture = build(*mixture_spec, context, scene))
       scene.materials[context.materials.at(name)].model = std::move(*mixture);
   }
 }
@@ -65,10 +65,10 @@ std::uint32_t add_file_material(const FileMaterial& material, const std::string&
         {name, DielectricMaterial{fmt::format("{}", *material.index), RefractiveIndex(*material.index, 0)}});
   else
     scene.materials.push_back({name, DiffuseMaterial{rgb_spectrum(material.color)}});
-  if (!material.lost.empty())
+  if (!material.ignored.empty())
     context.diagnostics.warning(
         at, fmt::format("material \"{}\" of \"{}\": {} {} not represented", material.name, file,
-                        fmt::join(material.lost, ", "), material.lost.size() == 1 ? "is" : "are"));
+                        fmt::join(material.ignored, ", "), material.ignored.size() == 1 ? "is" : "are"));
   return known->second;
 }
 

@@ -15,14 +15,14 @@ namespace abbe::spec {
 
 enum class PhaseWord { isotropic, rayleigh };
 struct HenyeyGreenstein {
-  double g = 0;
+  double g = 0;  ///< Mean cosine of the scattering angle.
 };
-/// How matter within a shape scatters.
+/// Scattering of a medium.
 struct Scattering {
-  std::optional<Curve> per_m;
+  std::optional<Curve> per_m;  ///< Scattering coefficient [1/m].
   std::optional<schema::Located<std::variant<PhaseWord, HenyeyGreenstein>>> phase;
 };
-/// Densities at the nodes of a grid.
+/// A grid of densities at its nodes, which multiply absorption and scattering.
 struct Grid {
   schema::Located<std::string> densities;
   Imath::V3d from{0, 0, 0};
@@ -44,11 +44,11 @@ struct Conductor {
   std::vector<LayerEntry> coating;
   std::optional<Roughness> roughness;
 };
-/// A film with air on both sides, such as a soap bubble's: a coating on nothing.
+/// Thin films with the same medium on both sides, such as a soap bubble: a coating without a substrate.
 struct Film {
   std::vector<LayerEntry> layers;
 };
-/// Matter without an interface.
+/// A medium without an interface.
 struct Medium {
   std::optional<Curve> absorption_per_m;
   Scattering scattering;
@@ -81,7 +81,7 @@ struct Principled {
   double clearcoat = 0;
   double clearcoat_gloss = 1;
 };
-/// What all powers of a cosine have.
+/// Parameters of all models that are powers of a cosine.
 struct Power {
   Reflectance reflectance;
   double exponent = 0;
@@ -91,7 +91,7 @@ struct CosinePower : Power {
 };
 struct Phong : Power {};
 struct Retroreflector : Power {};
-/// What all thin elements have.
+/// Parameters of all thin elements.
 struct ThinElement {
   std::optional<Curve> transmittance;
 };
@@ -136,7 +136,7 @@ struct Material {
   std::variant<std::monostate, NormalMap, BumpMap> relief;
 };
 [[nodiscard]] schema::Fields fields(schema::Tag<Material>);
-[[nodiscard]] schema::Kind materials();
+[[nodiscard]] schema::ValueType materials();
 
 using Materials = std::vector<schema::Named<Material>>;
 
@@ -144,31 +144,35 @@ using Materials = std::vector<schema::Named<Material>>;
 
 namespace abbe::description {
 
-/// Adds all materials. One that cannot be built stands as black, so that what names it is not reported as
-/// well.
+/// Adds all materials to the scene. A material with an error becomes black, so that references to it cause no
+/// second error.
 void build_materials(const spec::Materials& materials, LoadContext& context, Scene& scene);
-/// What the material does, none after an error; a mixture without its parts.
+/// Builds the model of a material; nothing after an error. A mixture is still without its components.
 [[nodiscard]] std::optional<MaterialModel> build_model(const spec::Material& material, LoadContext& context);
-/// Index of the material of that name; an unknown one is reported with the nearest.
+/// Index of the material of that name. Reports an unknown name with the nearest known one.
 [[nodiscard]] std::optional<std::uint32_t> find_material(const schema::Located<std::string>& name,
                                                          LoadContext& context, const Scene& scene);
-/// Index of a mesh file's material in the scene, as "FILE:NAME"; what of it is lost is told in one warning.
+/// Index in the scene of a material of a mesh file, added as "FILE:NAME" if it is new. One warning lists the
+/// features of it that are not represented.
 [[nodiscard]] std::uint32_t add_file_material(const FileMaterial& material, const std::string& file,
                                               const SourcePosition& at, LoadContext& context, Scene& scene);
-/// Index of the material of lamps that name none: diffuse, reflecting nothing.
+/// Index of the material of lights that name none: diffuse with reflectance 0.
 [[nodiscard]] std::uint32_t black_material(LoadContext& context, Scene& scene);
 
-/// Matter inside: reports what it is filled with as curves do; nothing after an error.
+/// Builds the medium inside a shape. Reports the errors of its curves; returns nothing after an error.
 [[nodiscard]] std::optional<Medium> build(const spec::Scattering& scattering,
                                           const std::optional<spec::Curve>& absorption, LoadContext& context);
+/// Reads a grid of densities; positions in metres. Returns nothing after an error.
 [[nodiscard]] std::optional<PlacedGrid> build(const spec::Grid& grid, LoadContext& context);
-/// Thin elements report curves out of their ranges; nothing then.
+/// The three thin elements. Return nothing after an error, such as a curve outside its allowed range.
 [[nodiscard]] std::optional<MaterialModel> build(const spec::Polariser& polariser, LoadContext& context);
 [[nodiscard]] std::optional<MaterialModel> build(const spec::WavePlate& plate, LoadContext& context);
 [[nodiscard]] std::optional<MaterialModel> build(const spec::Depolariser& sheet, LoadContext& context);
-/// A mixture of materials of `scene` that are no mixtures.
+/// Builds a mixture of materials of `scene`. Its components must be neither mixtures nor media. Returns
+/// nothing after an error.
 [[nodiscard]] std::optional<MixtureMaterial> build(const spec::Mixture& mixture, LoadContext& context,
                                                    const Scene& scene);
+/// Reads a normal map or a bump map. Returns nullptr after an error.
 [[nodiscard]] std::shared_ptr<const Relief> build(const spec::NormalMap& map, LoadContext& context);
 [[nodiscard]] std::shared_ptr<const Relief> build(const spec::BumpMap& map, LoadContext& context);
 

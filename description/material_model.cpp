@@ -13,15 +13,15 @@ namespace {
 
 using namespace schema;
 
-// Beyond it a cosine's float says nothing about the peak.
-constexpr double kMostPeaked = 0.9999;
+// Largest mean cosine. Above it, the cosine in single precision does not resolve the peak.
+constexpr double kMaxMeanCosine = 0.9999;
 constexpr Range kSigma = Range{0, 90}.in("degrees");
 constexpr Range kExponent{0, 1e4};
 
 constexpr char kCoating[] = "Coherent thin films on the surface, from the outside inwards.";
 constexpr char kRoughness[] =
-    "Width of the slopes of microfacets in [0, 1], below 1e-3 smooth, or widths along u and across it; not "
-    "under a coating.";
+    "Roughness alpha of the microfacets in [0, 1], or two values along the surface coordinate u and across "
+    "it. Below 1e-3 the surface is smooth. Not allowed with a coating.";
 
 template <typename T>
 Field amount(std::string_view key, double T::*member, std::string_view text) {
@@ -39,41 +39,42 @@ std::vector<Field> power() {
 }  // namespace
 
 static Fields fields(Tag<HenyeyGreenstein>) {
-  return describe(
-      "henyey_greenstein", "Henyey and Greenstein's phase function.",
-      {field("henyey_greenstein", &HenyeyGreenstein::g, {-kMostPeaked, kMostPeaked}, "Its mean cosine.")});
+  return describe("henyey_greenstein", "Henyey and Greenstein's phase function.",
+                  {field("henyey_greenstein", &HenyeyGreenstein::g, {-kMaxMeanCosine, kMaxMeanCosine},
+                         "Mean cosine of the scattering angle.")});
 }
 
 static Fields fields(Tag<Scattering>) {
   using Phase = std::variant<PhaseWord, HenyeyGreenstein>;
-  return describe("scattering", "",
-                  {field("scattering_per_m", &Scattering::per_m,
-                         "Scattering coefficient inside [1/m], 0 or more, 0 when absent."),
-                   field("phase", &Scattering::phase,
-                         forms<Phase>("phase", "a phase function: a name or an object",
-                                      form<PhaseWord>(Json::text, word<PhaseWord>("phase function",
-                                                                                  {"isotropic", "rayleigh"})),
-                                      form<HenyeyGreenstein>(Json::object)),
-                         "How matter scatters, isotropic when absent.")});
+  return describe(
+      "scattering", "",
+      {field("scattering_per_m", &Scattering::per_m,
+             "Scattering coefficient of the medium [1/m], 0 or more; 0 if absent."),
+       field("phase", &Scattering::phase,
+             forms<Phase>("phase", "a phase function: a name or an object",
+                          form<PhaseWord>(Json::text, enumeration<PhaseWord>("phase function",
+                                                                             {"isotropic", "rayleigh"})),
+                          form<HenyeyGreenstein>(Json::object)),
+             "Phase function of the medium; isotropic if absent.")});
 }
 
 static Fields fields(Tag<Grid>) {
-  return describe(
-      "grid", "Densities that multiply absorption and scattering.",
-      {field("densities", &Grid::densities, "A NumPy file of axes z, y, x."),
-       field("from", &Grid::from, kCoordinate, "Position of the first node."),
-       field("to", &Grid::to, kCoordinate, "Position of the last node, beyond the first along x, y and z.")});
+  return describe("grid", "Densities that multiply absorption and scattering.",
+                  {field("densities", &Grid::densities, "A NumPy file of axes z, y, x."),
+                   field("from", &Grid::from, kCoordinate, "Position of the first node."),
+                   field("to", &Grid::to, kCoordinate,
+                         "Position of the last node, greater than the first along x, y and z.")});
 }
 
 static Fields fields(Tag<Diffuse>) {
-  return describe("diffuse", "Lambertian matter, both sides alike.",
+  return describe("diffuse", "Lambertian reflection on both sides.",
                   {field("reflectance", &Diffuse::reflectance, "Reflectance in [0, 1].")});
 }
 
 static Fields fields(Tag<Dielectric>) {
   return describe("dielectric",
-                  "An interface between the matter inside a closed shape and what is around it.",
-                  {lent(&Dielectric::ior), lent(&Dielectric::scattering),
+                  "An interface between the medium inside a closed shape and the medium around it.",
+                  {inlined(&Dielectric::ior), inlined(&Dielectric::scattering),
                    defaulted("coating", &Dielectric::coating, kCoating),
                    field("roughness", &Dielectric::roughness, kRoughness)});
 }
@@ -87,100 +88,106 @@ static Fields fields(Tag<Conductor>) {
 }
 
 static Fields fields(Tag<Film>) {
-  return describe("film", "Thin films with the same matter on both sides, such as a soap bubble's.",
+  return describe("film", "Thin films with the same medium on both sides, such as a soap bubble.",
                   {field("layers", &Film::layers, "The films.")});
 }
 
 static Fields fields(Tag<Medium>) {
-  return describe("medium", "Matter without an interface, such as fog or smoke.",
+  return describe("medium", "A medium without an interface, such as fog or smoke.",
                   {field("absorption_per_m", &Medium::absorption_per_m,
-                         "Absorption coefficient [1/m], 0 or more, 0 when absent."),
-                   lent(&Medium::scattering),
+                         "Absorption coefficient [1/m], 0 or more; 0 if absent."),
+                   inlined(&Medium::scattering),
                    field("grid", &Medium::grid,
-                         "Densities that multiply absorption and scattering; 1 everywhere when absent.")});
+                         "Densities that multiply absorption and scattering; 1 everywhere if absent.")});
 }
 
 static Fields fields(Tag<CoatedDiffuse>) {
   return describe(
-      "coated_diffuse", "Lambertian ground under a smooth clear coat.",
-      {field("ior", &CoatedDiffuse::ior, "Index of the coat; n is 1 or more, and k next to nothing."),
-       field("reflectance", &CoatedDiffuse::reflectance, "Reflectance of the bare ground, in [0, 1].")});
+      "coated_diffuse", "A Lambertian base under a smooth clear coat.",
+      {field("ior", &CoatedDiffuse::ior, "Refractive index of the coat; n is 1 or more, k practically 0."),
+       field("reflectance", &CoatedDiffuse::reflectance,
+             "Reflectance of the base without its coat, in [0, 1].")});
 }
 
 static Fields fields(Tag<ThinGlass>) {
-  return describe(
-      "thin_glass", "A pane as one surface, which light crosses without being bent.",
-      {lent(&ThinGlass::ior), defaulted("thickness", &ThinGlass::thickness, Range{0, kMaxLength}.in("units"),
-                                        "Length of its thickness; 0 absorbs nothing.")});
+  return describe("thin_glass", "A pane modelled as one surface, which light crosses without deflection.",
+                  {inlined(&ThinGlass::ior),
+                   defaulted("thickness", &ThinGlass::thickness, Range{0, kMaxLength}.in("units"),
+                             "Thickness of the pane; 0 for no absorption.")});
 }
 
 static Fields fields(Tag<Mirror>) {
-  return describe("mirror", "The ideal mirror.",
+  return describe("mirror", "An ideal mirror.",
                   {field("reflectance", &Mirror::reflectance, "Reflectance in [0, 1], at every angle.")});
 }
 
 static Fields fields(Tag<Schlick>) {
-  return describe("schlick", "A smooth mirror by Schlick's approximation, to compare with.",
+  return describe("schlick", "A smooth mirror with Schlick's approximation, for comparisons.",
                   {one_of(&Schlick::normal, under<Ior>("ior", metal_ior(), "Refractive index."),
                           under<Reflectance>("reflectance", "Reflectance along the normal, in [0, 1]."))});
 }
 
 static Fields fields(Tag<OrenNayar>) {
-  return describe("oren_nayar", "Rough diffuse matter.",
-                  {field("reflectance", &OrenNayar::reflectance, "Reflectance in [0, 1]."),
-                   field("sigma_deg", &OrenNayar::sigma_deg, kSigma, "Standard deviation of its slopes.")});
+  return describe(
+      "oren_nayar", "A rough diffuse surface.",
+      {field("reflectance", &OrenNayar::reflectance, "Reflectance in [0, 1]."),
+       field("sigma_deg", &OrenNayar::sigma_deg, kSigma, "Standard deviation of the facets' slope angles.")});
 }
 
 static Fields fields(Tag<Principled>) {
   return describe(
       "principled", "Burley's principled model.",
       {field("base_color", &Principled::base_color, "Reflectance in [0, 1]."),
-       amount("metallic", &Principled::metallic, "How much of it is metal."),
-       amount("roughness", &Principled::roughness, "The facets' width is its square."),
+       amount("metallic", &Principled::metallic, "Fraction of metallic reflection."),
+       amount("roughness", &Principled::roughness, "Roughness; the microfacet alpha is its square."),
        amount("specular", &Principled::specular,
-              "Reflectance along the normal of what is no metal, over 0.08."),
-       amount("sheen", &Principled::sheen, "As of cloth at grazing angles."),
+              "Reflectance of the non-metallic part at normal incidence, divided by 0.08."),
+       amount("sheen", &Principled::sheen, "Strength of a cloth-like sheen at grazing angles."),
        amount("clearcoat", &Principled::clearcoat, "Strength of a second highlight."),
-       amount("clearcoat_gloss", &Principled::clearcoat_gloss, "How narrow the second highlight is.")});
+       amount("clearcoat_gloss", &Principled::clearcoat_gloss,
+              "Gloss of the second highlight; larger is narrower.")});
 }
 
 static Fields fields(Tag<CosinePower>) {
   std::vector<Field> fields = power<CosinePower>();
-  fields.push_back(defaulted("reciprocal", &CosinePower::reciprocal, "Whether it is of both."));
-  return describe("cosine_power", "A power of the cosine of light's direction, or of both directions.",
+  fields.push_back(
+      defaulted("reciprocal", &CosinePower::reciprocal, "True to apply the power to both cosines."));
+  return describe("cosine_power", "A power of the cosine of the direction of light, or of both directions.",
                   std::move(fields));
 }
 static Fields fields(Tag<Phong>) {
-  return describe("phong", "Phong's highlight, which breaks reciprocity and makes energy.", power<Phong>());
+  return describe("phong", "Phong's highlight, which is not reciprocal and does not conserve energy.",
+                  power<Phong>());
 }
 static Fields fields(Tag<Retroreflector>) {
-  return describe("retroreflector", "A lobe back to where light comes from.", power<Retroreflector>());
+  return describe("retroreflector", "A lobe around the direction from which light comes.",
+                  power<Retroreflector>());
 }
 
 static Fields fields(Tag<MixturePart>) {
-  return describe("mixture_part", "A part of a mixture.",
+  return describe("mixture_part", "A component of a mixture.",
                   {field("material", &MixturePart::material,
-                         "A material that is no mixture and that light does not enter."),
-                   field("weight", &MixturePart::weight, "Its share, in [0, 1].")});
+                         "A material that is not a mixture and has no medium inside."),
+                   field("weight", &MixturePart::weight, "Weight of the component, in [0, 1].")});
 }
 
 static Fields fields(Tag<NormalMap>) {
   return describe("normal_map",
-                  "Channels R, G, B in [0, 1], which stand for [-1, 1] along u, v and the outward normal.",
-                  {lent(&NormalMap::file)});
+                  "Channels R, G, B in [0, 1], which encode [-1, 1] along u, v and the outward normal.",
+                  {inlined(&NormalMap::file)});
 }
 static Fields fields(Tag<BumpMap>) {
-  return describe("bump_map", "One channel of heights above the surface.",
-                  {field("height", &BumpMap::height, kCoordinate, "Length that a value of 1 stands for."),
-                   lent(&BumpMap::file)});
+  return describe(
+      "bump_map", "One channel of heights above the surface.",
+      {field("height", &BumpMap::height, kCoordinate, "Height for a value of 1."), inlined(&BumpMap::file)});
 }
 
 Fields fields(Tag<Material>) {
   return describe(
-      "material", "What a surface is made of, or what is inside.",
+      "material", "Optical properties of a surface or of the medium inside.",
       {one_of(&Material::model,
               under<Mixture>("mixture", list<MixturePart>("parts", 1),
-                             "Other materials side by side, whose weights add up to at most 1."),
+                             "Other materials side by side. Their weights must add up to at most 1."),
               under<Diffuse>("diffuse"), under<Dielectric>("dielectric"), under<Conductor>("conductor"),
               under<Film>("film"), under<Medium>("medium"), under<CoatedDiffuse>("coated_diffuse"),
               under<ThinGlass>("thin_glass"), under<Mirror>("mirror"), under<Schlick>("schlick"),
@@ -188,15 +195,14 @@ Fields fields(Tag<Material>) {
               under<CosinePower>("cosine_power"), under<Phong>("phong"),
               under<Retroreflector>("retroreflector"), under<Polariser>("polariser"),
               under<WavePlate>("wave_plate"), under<Depolariser>("depolariser")),
-       field(
-           "priority", &Material::priority, {-1000, 1000},
-           "Of the matter within a shape, 0 when absent: where shapes overlap, that of the highest priority "
-           "is there, of equals that of the smallest shape."),
+       field("priority", &Material::priority, {-1000, 1000},
+             "Priority of the medium inside a shape, 0 if absent. Where shapes overlap, the medium of "
+             "highest priority applies; of equal priorities, that of the smallest shape."),
        at_most_one(&Material::relief, "a material has a normal_map or a bump_map",
                    under<NormalMap>("normal_map"), under<BumpMap>("bump_map"))});
 }
 
-Kind materials() {
+ValueType materials() {
   return by_name<Material>("an object of materials by name", 0);
 }
 
@@ -205,19 +211,19 @@ Kind materials() {
 namespace abbe::description {
 namespace {
 
-// Why `index` cannot be a coat's, if it cannot.
+// Reason why a clear coat cannot have this index, if there is one.
 std::optional<std::string> coat_fault(const RefractiveIndex& index) {
   for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm) {
     if (index.n(nm) < 1)
-      return fmt::format("a coat is denser than air (got n = {:g} at {} nm)", index.n(nm), nm);
+      return fmt::format("a clear coat must have n of 1 or more (got n = {:g} at {} nm)", index.n(nm), nm);
     if (index.k(nm) > kLargestGlassK)
-      return fmt::format("a coat is clear (got k = {:g} at {} nm, allowed [0, {:g}])", index.k(nm), nm,
-                         kLargestGlassK);
+      return fmt::format("a clear coat must not absorb (got k = {:g} at {} nm, allowed [0, {:g}])",
+                         index.k(nm), nm, kLargestGlassK);
   }
   return std::nullopt;
 }
 
-// What matter of this index reflects along the normal.
+// Reflectance of an interface of this index at normal incidence.
 Curve normal_reflectance(const RefractiveIndex& index) {
   std::vector<Knot> knots;
   for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm)
@@ -225,119 +231,121 @@ Curve normal_reflectance(const RefractiveIndex& index) {
   return Curve(std::move(knots));
 }
 
-// Where the user says by numbers that matter absorbs, if at all: tables of glass tell of traces.
-const SourcePosition* where_absorption_is_said(const spec::TintedIor& said) {
-  if (said.absorption_per_m) return &said.absorption_per_m->where;
-  const auto* constant = std::get_if<spec::ConstantIor>(&said.ior.value);
-  const auto* table = std::get_if<spec::TableIor>(&said.ior.value);
+// Position of an absorption that the user gives by numbers; nullptr if there is none. The traces of
+// absorption in glass tables do not count.
+const SourcePosition* where_absorption_is_set(const spec::TintedIor& spec) {
+  if (spec.absorption_per_m) return &spec.absorption_per_m->where;
+  const auto* constant = std::get_if<spec::ConstantIor>(&spec.ior.value);
+  const auto* table = std::get_if<spec::TableIor>(&spec.ior.value);
   const auto absorbs = [](const std::vector<double>& k) {
     return std::ranges::any_of(k, [](double v) { return v > 0; });
   };
   return (constant != nullptr && constant->k > 0) || (table != nullptr && table->k && absorbs(*table->k))
-             ? &said.ior.where
+             ? &spec.ior.where
              : nullptr;
 }
 
-// The material of its first part and more, if that could be built.
+// A material made from its first part and further arguments; nothing if the part could not be built.
 template <typename M, typename Part, typename... More>
-std::optional<MaterialModel> made(std::optional<Part> part, More... more) {
+std::optional<MaterialModel> make_model(std::optional<Part> part, More... more) {
   if (!part) return std::nullopt;
   return M{*std::move(part), more...};
 }
 
-/// Each material of the list from what is said of it; none after an error.
+/// Builds each kind of material; nothing after an error.
 struct ModelBuilder {
   using Model = std::optional<MaterialModel>;
   LoadContext& context;
 
   Model operator()(std::monostate) const { return std::nullopt; }
-  Model operator()(const spec::Mixture&) const { return MixtureMaterial{}; }  // whose parts come later
-  Model operator()(const spec::Diffuse& said) const {
-    return made<DiffuseMaterial>(build(said.reflectance, context));
+  Model operator()(const spec::Mixture&) const {
+    return MixtureMaterial{};
+  }  // Its components are added later.
+  Model operator()(const spec::Diffuse& spec) const {
+    return make_model<DiffuseMaterial>(build(spec.reflectance, context));
   }
-  Model operator()(const spec::Dielectric& said) const {
-    auto ior = build(said.ior, context);
-    auto filling = build(said.scattering, std::nullopt, context);
-    Coating coating = build(said.coating, context);
-    const auto facets = said.roughness ? build(*said.roughness, coating, context) : std::nullopt;
-    if (!ior || !filling) return std::nullopt;
-    if (!filling->scatters()) filling.reset();
+  Model operator()(const spec::Dielectric& spec) const {
+    auto ior = build(spec.ior, context);
+    auto medium = build(spec.scattering, std::nullopt, context);
+    Coating coating = build(spec.coating, context);
+    const auto facets = spec.roughness ? build(*spec.roughness, coating, context) : std::nullopt;
+    if (!ior || !medium) return std::nullopt;
+    if (!medium->scatters()) medium.reset();
     if (facets)
-      return RoughDielectricMaterial(std::move(ior->name), std::move(ior->index), *facets,
-                                     std::move(filling));
+      return RoughDielectricMaterial(std::move(ior->name), std::move(ior->index), *facets, std::move(medium));
     return DielectricMaterial{std::move(ior->name), std::move(ior->index), std::move(coating),
-                              std::move(filling)};
+                              std::move(medium)};
   }
-  Model operator()(const spec::Conductor& said) const {
-    auto ior = build(said.ior, context);
-    Coating coating = build(said.coating, context);
-    const auto facets = said.roughness ? build(*said.roughness, coating, context) : std::nullopt;
+  Model operator()(const spec::Conductor& spec) const {
+    auto ior = build(spec.ior, context);
+    Coating coating = build(spec.coating, context);
+    const auto facets = spec.roughness ? build(*spec.roughness, coating, context) : std::nullopt;
     if (!ior) return std::nullopt;
     if (facets) return RoughConductorMaterial(std::move(ior->name), std::move(ior->index), *facets);
     return ConductorMaterial{std::move(ior->name), std::move(ior->index), std::move(coating)};
   }
-  Model operator()(const spec::Film& said) const { return FilmMaterial{build(said.layers, context)}; }
-  Model operator()(const spec::Medium& said) const {
-    auto filling = build(said.scattering, said.absorption_per_m, context);
-    if (!filling) return std::nullopt;
-    if (said.grid && !said.absorption_per_m && !said.scattering.per_m)
-      context.diagnostics.warning(said.grid->where,
-                                  "a grid without effect: without absorption_per_m and scattering_per_m "
-                                  "there is nothing that its densities multiply");
-    if (said.grid && !(filling->grid = build(*said.grid, context))) return std::nullopt;
-    return MediumMaterial{std::move(*filling)};
+  Model operator()(const spec::Film& spec) const { return FilmMaterial{build(spec.layers, context)}; }
+  Model operator()(const spec::Medium& spec) const {
+    auto medium = build(spec.scattering, spec.absorption_per_m, context);
+    if (!medium) return std::nullopt;
+    if (spec.grid && !spec.absorption_per_m && !spec.scattering.per_m)
+      context.diagnostics.warning(spec.grid->where,
+                                  "grid has no effect: its densities multiply absorption_per_m and "
+                                  "scattering_per_m, and neither is given");
+    if (spec.grid && !(medium->grid = build(*spec.grid, context))) return std::nullopt;
+    return MediumMaterial{std::move(*medium)};
   }
-  Model operator()(const spec::CoatedDiffuse& said) const {
-    auto ior = build(said.ior, context);
-    auto reflectance = build(said.reflectance, context);
+  Model operator()(const spec::CoatedDiffuse& spec) const {
+    auto ior = build(spec.ior, context);
+    auto reflectance = build(spec.reflectance, context);
     if (!ior || !reflectance) return std::nullopt;
     if (const auto fault = coat_fault(ior->index)) {
-      context.diagnostics.error(said.ior.where, *fault);
+      context.diagnostics.error(spec.ior.where, *fault);
       return std::nullopt;
     }
     return CoatedDiffuseMaterial{std::move(ior->name), std::move(ior->index), std::move(*reflectance)};
   }
-  Model operator()(const spec::ThinGlass& said) const {
-    auto ior = build(said.ior, context);
-    const SourcePosition* absorption = where_absorption_is_said(said.ior);
-    if (absorption != nullptr && said.thickness == 0)
-      context.diagnostics.warning(*absorption,
-                                  "an absorption without effect: without a thickness nothing is absorbed");
+  Model operator()(const spec::ThinGlass& spec) const {
+    auto ior = build(spec.ior, context);
+    const SourcePosition* absorption = where_absorption_is_set(spec.ior);
+    if (absorption != nullptr && spec.thickness == 0)
+      context.diagnostics.warning(*absorption, "absorption has no effect in a pane of thickness 0");
     if (!ior) return std::nullopt;
-    return ThinGlassMaterial{std::move(ior->name), std::move(ior->index), said.thickness * context.unit_m};
+    return ThinGlassMaterial{std::move(ior->name), std::move(ior->index), spec.thickness * context.unit_m};
   }
-  Model operator()(const spec::Mirror& said) const {
-    return made<MirrorMaterial>(build(said.reflectance, context));
+  Model operator()(const spec::Mirror& spec) const {
+    return make_model<MirrorMaterial>(build(spec.reflectance, context));
   }
-  Model operator()(const spec::Schlick& said) const {
+  Model operator()(const spec::Schlick& spec) const {
     std::optional<SpectralTexture> r0;
-    if (const auto* reflectance = std::get_if<spec::Reflectance>(&said.normal))
+    if (const auto* reflectance = std::get_if<spec::Reflectance>(&spec.normal))
       r0 = build(*reflectance, context);
-    else if (const auto ior = build(std::get<spec::Ior>(said.normal), context))
+    else if (const auto ior = build(std::get<spec::Ior>(spec.normal), context))
       r0 = normal_reflectance(ior->index);
-    return made<SchlickMaterial>(std::move(r0));
+    return make_model<SchlickMaterial>(std::move(r0));
   }
-  Model operator()(const spec::OrenNayar& said) const {
-    return made<OrenNayarMaterial>(build(said.reflectance, context), said.sigma_deg);
+  Model operator()(const spec::OrenNayar& spec) const {
+    return make_model<OrenNayarMaterial>(build(spec.reflectance, context), spec.sigma_deg);
   }
-  Model operator()(const spec::Principled& said) const {
+  Model operator()(const spec::Principled& spec) const {
     const auto amount = [](double x) { return static_cast<float>(x); };
-    const PrincipledLook look{amount(said.metallic), amount(said.roughness), amount(said.specular),
-                              amount(said.sheen),    amount(said.clearcoat), amount(said.clearcoat_gloss)};
-    return made<PrincipledMaterial>(build(said.base_color, context), Principled(look));
+    const PrincipledParameters look{amount(spec.metallic),  amount(spec.roughness),
+                                    amount(spec.specular),  amount(spec.sheen),
+                                    amount(spec.clearcoat), amount(spec.clearcoat_gloss)};
+    return make_model<PrincipledMaterial>(build(spec.base_color, context), Principled(look));
   }
-  Model operator()(const spec::CosinePower& said) const {
-    return made<CosinePowerMaterial>(build(said.reflectance, context), said.exponent, said.reciprocal);
+  Model operator()(const spec::CosinePower& spec) const {
+    return make_model<CosinePowerMaterial>(build(spec.reflectance, context), spec.exponent, spec.reciprocal);
   }
-  Model operator()(const spec::Phong& said) const {
-    return made<PhongMaterial>(build(said.reflectance, context), said.exponent);
+  Model operator()(const spec::Phong& spec) const {
+    return make_model<PhongMaterial>(build(spec.reflectance, context), spec.exponent);
   }
-  Model operator()(const spec::Retroreflector& said) const {
-    return made<RetroreflectorMaterial>(build(said.reflectance, context), said.exponent);
+  Model operator()(const spec::Retroreflector& spec) const {
+    return make_model<RetroreflectorMaterial>(build(spec.reflectance, context), spec.exponent);
   }
   template <std::derived_from<spec::ThinElement> Element>
-  Model operator()(const Element& said) const {
-    return build(said, context);
+  Model operator()(const Element& spec) const {
+    return build(spec, context);
   }
 };
 

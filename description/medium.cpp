@@ -8,23 +8,23 @@
 namespace abbe::description {
 namespace {
 
-PhaseFunction build_phase(const spec::Scattering& said) {
-  if (!said.phase) return IsotropicPhase{};
-  if (const auto* peak = std::get_if<spec::HenyeyGreenstein>(&said.phase->value))
+PhaseFunction build_phase(const spec::Scattering& spec) {
+  if (!spec.phase) return IsotropicPhase{};
+  if (const auto* peak = std::get_if<spec::HenyeyGreenstein>(&spec.phase->value))
     return HenyeyGreensteinPhase{static_cast<float>(peak->g)};
-  if (std::get<spec::PhaseWord>(said.phase->value) == spec::PhaseWord::isotropic) return IsotropicPhase{};
+  if (std::get<spec::PhaseWord>(spec.phase->value) == spec::PhaseWord::isotropic) return IsotropicPhase{};
   return RayleighPhase{};
 }
 
-// Per metre; that of nothing where the key is absent.
-std::optional<Curve> build_coefficient(const std::optional<spec::Curve>& said, LoadContext& context) {
-  if (!said) return Curve(0.0);
-  return build(*said, {"filter", spec::kPower, CurveUnit::per_metre}, context);
+// Builds a coefficient [1/m]; 0 if the key is absent.
+std::optional<Curve> build_coefficient(const std::optional<spec::Curve>& spec, LoadContext& context) {
+  if (!spec) return Curve(0.0);
+  return build(*spec, {"filter", spec::kPower, CurveUnit::per_metre}, context);
 }
 
-std::optional<DensityGrid> build_densities(const schema::Located<std::string>& said, LoadContext& context) {
-  const SourcePosition& where = said.where;
-  const auto path = context.file(said.value, where);
+std::optional<DensityGrid> build_densities(const schema::Located<std::string>& spec, LoadContext& context) {
+  const SourcePosition& where = spec.where;
+  const auto path = context.file(spec.value, where);
   if (!path) return std::nullopt;
   NumberArray array;
   try {
@@ -34,13 +34,13 @@ std::optional<DensityGrid> build_densities(const schema::Located<std::string>& s
     return std::nullopt;
   }
   const auto fault = [&](std::string_view what) {
-    context.diagnostics.error(where, fmt::format("\"{}\" {}", said.value, what), ErrorCode::input);
+    context.diagnostics.error(where, fmt::format("\"{}\" {}", spec.value, what), ErrorCode::input);
     return std::nullopt;
   };
   if (array.shape.size() != 3)
     return fault(fmt::format("has {} axes, allowed 3: z, y, x", array.shape.size()));
   for (const std::size_t nodes : array.shape)
-    if (nodes < 2) return fault("has an axis of less than 2 nodes");
+    if (nodes < 2) return fault("has an axis of fewer than 2 nodes");
   for (const float density : array.values)
     if (!(density >= 0 && density <= 1e9F)) return fault("has a density that is not in [0, 1e9]");
   const auto& n = array.shape;
@@ -50,27 +50,26 @@ std::optional<DensityGrid> build_densities(const schema::Located<std::string>& s
 
 }  // namespace
 
-std::optional<PlacedGrid> build(const spec::Grid& said, LoadContext& context) {
-  const Imath::V3d from = said.from * context.unit_m;
-  const Imath::V3d to = said.to * context.unit_m;
+std::optional<PlacedGrid> build(const spec::Grid& spec, LoadContext& context) {
+  const Imath::V3d from = spec.from * context.unit_m;
+  const Imath::V3d to = spec.to * context.unit_m;
   if (!(to.x > from.x && to.y > from.y && to.z > from.z)) {
-    context.diagnostics.error(said.where, "the grid's `to` must lie beyond its `from` along x, y and z");
+    context.diagnostics.error(spec.where, "the grid's `to` must be greater than its `from` along x, y and z");
     return std::nullopt;
   }
-  auto grid = build_densities(said.densities, context);
+  auto grid = build_densities(spec.densities, context);
   if (!grid) return std::nullopt;
   return PlacedGrid{std::make_shared<const DensityGrid>(std::move(*grid)), from, to};
 }
 
-std::optional<Medium> build(const spec::Scattering& said, const std::optional<spec::Curve>& absorption,
+std::optional<Medium> build(const spec::Scattering& spec, const std::optional<spec::Curve>& absorption,
                             LoadContext& context) {
-  auto scatters = build_coefficient(said.per_m, context);
+  auto scatters = build_coefficient(spec.per_m, context);
   auto absorbs = build_coefficient(absorption, context);
-  if (said.phase && !said.per_m)
-    context.diagnostics.warning(said.phase->where,
-                                "a phase without effect: without scattering_per_m nothing scatters");
+  if (spec.phase && !spec.per_m)
+    context.diagnostics.warning(spec.phase->where, "phase has no effect without scattering_per_m");
   if (!scatters || !absorbs) return std::nullopt;
-  return Medium{std::move(*absorbs), std::move(*scatters), build_phase(said)};
+  return Medium{std::move(*absorbs), std::move(*scatters), build_phase(spec)};
 }
 
 }  // namespace abbe::description

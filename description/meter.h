@@ -10,7 +10,7 @@
 
 namespace abbe::spec {
 
-/// A meter by what it tells.
+/// A meter: a probe and the quantity that it reports.
 struct Meter {
   MeterQuantity measures = MeterQuantity::irradiance;
   Probe probe;
@@ -25,8 +25,10 @@ using Meters = std::vector<schema::Named<Meter>>;
 
 namespace abbe::description {
 
-/// The meters in metres. Reports quantities that a point has none of, cells of what is no quad, and radiances
-/// and intensities of meters that take light from all sides.
+/// Builds the meters, with lengths in metres. Reports:
+/// - a flux or intensity of a point;
+/// - cells of a surface that is not a quad;
+/// - a radiance or intensity of a meter that accepts light from a whole hemisphere.
 [[nodiscard]] std::vector<Meter> build(const spec::Meters& meters, LoadContext& context);
 
 }  // namespace abbe::description

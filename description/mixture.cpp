@@ -8,9 +8,9 @@
 namespace abbe::description {
 namespace {
 
-constexpr double kSlack = 1e-9;  // thirds written to ten digits may add up to 1
+constexpr double kSlack = 1e-9;  // Thirds written with ten digits may add up to slightly more than 1.
 
-// The material of that name, if a mixture may be made of it.
+// Material of that name, if it can be a component of a mixture; else reports why not and returns nullptr.
 std::shared_ptr<const Material> mixable_material(const schema::Located<std::string>& name,
                                                  LoadContext& context, const Scene& scene) {
   const auto number = find_material(name, context, scene);
@@ -18,12 +18,12 @@ std::shared_ptr<const Material> mixable_material(const schema::Located<std::stri
   const Material& material = scene.materials[*number];
   const char* fault = nullptr;
   if (std::holds_alternative<MixtureMaterial>(material.model)) fault = "a mixture within a mixture";
-  if (interior(material) != nullptr || medium(material) != nullptr)
-    fault = "light enters it, which a mixture has no inside for";
+  if (interior_index(material) != nullptr || medium(material) != nullptr)
+    fault = "it has a medium inside, which a mixture cannot have";
   if (std::holds_alternative<PolariserMaterial>(material.model) ||
       std::holds_alternative<WavePlateMaterial>(material.model))
-    fault = "its axis would be lost, as a mixture has one of its own for all parts";
-  if (material.relief != nullptr) fault = "its relief would be lost, which the mixture may have instead";
+    fault = "its axis would be lost, because a mixture has one axis for all components";
+  if (material.relief != nullptr) fault = "its relief would be lost; give the relief to the mixture";
   if (fault == nullptr) return std::make_shared<const Material>(material);
   context.diagnostics.error(name.where,
                             fmt::format("material \"{}\" cannot be mixed: {}", material.name, fault));
@@ -32,10 +32,10 @@ std::shared_ptr<const Material> mixable_material(const schema::Located<std::stri
 
 }  // namespace
 
-std::optional<MixtureMaterial> build(const spec::Mixture& said, LoadContext& context, const Scene& scene) {
+std::optional<MixtureMaterial> build(const spec::Mixture& spec, LoadContext& context, const Scene& scene) {
   MixtureMaterial mixture;
   Curve total(0.0);
-  for (const spec::MixturePart& part : said.value) {
+  for (const spec::MixturePart& part : spec.value) {
     auto weight = build(part.weight, kReflectanceUse, context);
     auto material = mixable_material(part.material, context, scene);
     if (!weight || !material) return std::nullopt;
@@ -44,7 +44,7 @@ std::optional<MixtureMaterial> build(const spec::Mixture& said, LoadContext& con
   }
   if (total.max() <= 1 + kSlack) return mixture;
   context.diagnostics.error(
-      said.where, fmt::format("the weights of a mixture add up to at most 1 (got {:g})", total.max()));
+      spec.where, fmt::format("the weights of a mixture must add up to at most 1 (got {:g})", total.max()));
   return std::nullopt;
 }
 

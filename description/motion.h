@@ -10,13 +10,13 @@
 
 namespace abbe::spec {
 
-/// Where what moves is at a time.
+/// Pose of a moving thing at a time.
 struct Keyframe {
   schema::Located<double> time_s;
   std::optional<Rotation> rotate;
   std::optional<Imath::V3d> translate;
 };
-/// Keyframes, by which something moves.
+/// A rigid motion, given by keyframes.
 struct Motion {
   std::vector<Keyframe> keyframes;
   SourcePosition where;
@@ -27,14 +27,13 @@ struct Motion {
 
 namespace abbe::description {
 
-/// Where something is brought to when the shutter opens, and how it moves from then on.
-struct Moving {
-  Imath::M44d opening;
-  std::shared_ptr<const Motion> motion =
-      nullptr;  ///< Nothing of what stands still while the film is exposed.
+/// Pose when the shutter opens, and the motion from then on.
+struct PoseAndMotion {
+  Imath::M44d pose_at_opening;
+  std::shared_ptr<const Motion> motion = nullptr;  ///< Null if nothing moves during the exposure.
 };
-/// The motion in the scene file's coordinates, remembered by the context to be recentred with the scene.
-/// Reports times that do not increase; nothing moves after an error.
-[[nodiscard]] Moving build(const std::optional<spec::Motion>& said, LoadContext& context);
+/// Builds the motion in the coordinates of the scene file. The context records it, to be recentred with the
+/// scene. Reports times that do not increase; after an error nothing moves.
+[[nodiscard]] PoseAndMotion build(const std::optional<spec::Motion>& spec, LoadContext& context);
 
 }  // namespace abbe::description

@@ -17,11 +17,11 @@ void build_object_shape(const spec::Shape& shape, const std::string& name, LoadC
   if (const spec::Emission* emission = emission_of(shape))
     context.diagnostics.error(emission->where, "a shape of an object cannot emit");
   if (shape.motion)
-    context.diagnostics.error(shape.motion->where, "a shape of an object does not move: its instances may");
+    context.diagnostics.error(shape.motion->where, "a shape of an object cannot move, but its instances can");
   for (NamedShape& part : build_parts(shape, name, context, scene)) parts.push_back(std::move(part));
 }
 
-// Around the middle of the object, where floats are finest.
+// Prototypes of the parts, shifted to the center of the object, where single precision resolves best.
 Object centred(std::vector<NamedShape> parts) {
   Imath::Box3d box;
   for (const NamedShape& part : parts)
@@ -47,7 +47,7 @@ void build_objects(const std::vector<schema::Named<spec::Object>>& objects, Load
   }
 }
 
-void add_instance(const spec::Instance& instance, const Moving& moving, const std::string& name,
+void add_instance(const spec::Instance& instance, const PoseAndMotion& moving, const std::string& name,
                   LoadContext& context, Scene& scene) {
   const auto matrix = build(instance.transform.value, instance.transform.where, context);
   if (!matrix) return;
@@ -60,7 +60,7 @@ void add_instance(const spec::Instance& instance, const Moving& moving, const st
   }
   const Object& object = found->second;
   const auto at = std::make_shared<Placement>(
-      placement(Imath::M44d().setTranslation(object.center) * *matrix * moving.opening));
+      placement(Imath::M44d().setTranslation(object.center) * *matrix * moving.pose_at_opening));
   at->motion = moving.motion;
   at->described_origin = object.center;
   context.placements.push_back(at);

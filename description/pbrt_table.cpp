@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "description/lines.h"
+#include "description/lens_file_lines.h"
 #include "io/text.h"
 
 namespace abbe::description {

@@ -7,9 +7,12 @@
 
 namespace abbe::description {
 
-/// Reads a lens as pbrt does: a row per surface of radius, thickness, index behind it and diameter [mm], from
-/// the object to the film; radius 0 is the stop, index 0 or 1 air, "#" opens a remark, the first of which is
-/// the title. The film is at the paraxial focus. Reports rows of other lengths and what is no number.
+/// Reads a lens in pbrt's format: one row per surface with radius, thickness, index behind it and diameter
+/// [mm], from the object to the film.
+/// - A radius of 0 marks the stop.
+/// - An index of 0 or 1 is air.
+/// - "#" starts a comment; the first comment is the title.
+/// The film is at the paraxial focus. Reports rows of another length and words that are not numbers.
 [[nodiscard]] std::optional<spec::Lens> read_pbrt_table(const std::filesystem::path& file,
                                                         Diagnostics& diagnostics);
 

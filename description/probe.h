@@ -14,13 +14,13 @@ struct PointProbe {
   Imath::V3d at{0, 0, 0};
   Imath::V3d normal{0, 0, 0};
 };
-/// From which side light comes to a sphere.
+/// The side from which a sphere receives light.
 enum class Facing { outwards, inwards };
 struct SphereProbe {
   Sphere sphere;
   Facing facing = Facing::outwards;
 };
-/// A surface that takes light within some angle of its normal.
+/// A surface that receives light within an angle of its normal.
 struct Probe {
   std::variant<std::monostate, PointProbe, Quad, Disc, SphereProbe> surface;
   std::optional<double> acceptance_deg;
@@ -31,7 +31,7 @@ struct Probe {
 
 namespace abbe::description {
 
-/// The meter in metres. Reports parallel edges; nothing then.
-[[nodiscard]] std::optional<Probe> build(const spec::Probe& probe, const LoadContext& context);
+/// Builds a probe, with lengths in metres. Returns nothing after an error: parallel edges of a quad.
+[[nodiscard]] std::optional<IrradianceProbe> build(const spec::Probe& probe, const LoadContext& context);
 
 }  // namespace abbe::description

@@ -15,12 +15,15 @@ static schema::Fields fields(schema::Tag<TextureMapping>) {
   constexpr Range kMapping{-1e6, 1e6};
   return describe(
       "texture_mapping", "",
-      {defaulted("filter", &TextureMapping::filter, word<TextureFilter>("filter", {"bilinear", "nearest"}),
-                 "What holds between the centres of texels."),
-       defaulted("wrap", &TextureMapping::wrap, word<TextureWrap>("wrap", {"repeat", "clamp"}),
-                 "What holds beyond the edges of the image."),
-       defaulted("scale", &TextureMapping::scale, kMapping, "The image lies at scale * (u, v) + offset."),
-       defaulted("offset", &TextureMapping::offset, kMapping, "The image lies at scale * (u, v) + offset.")});
+      {defaulted("filter", &TextureMapping::filter,
+                 enumeration<TextureFilter>("filter", {"bilinear", "nearest"}),
+                 "Interpolation between the centers of texels."),
+       defaulted("wrap", &TextureMapping::wrap, enumeration<TextureWrap>("wrap", {"repeat", "clamp"}),
+                 "Extension past the edges of the image."),
+       defaulted("scale", &TextureMapping::scale, kMapping,
+                 "Texture coordinates are scale * (u, v) + offset."),
+       defaulted("offset", &TextureMapping::offset, kMapping,
+                 "Texture coordinates are scale * (u, v) + offset.")});
 }
 
 namespace spec {
@@ -30,23 +33,22 @@ using namespace schema;
 Fields fields(Tag<TextureFile>) {
   return describe(
       "texture_file", "",
-      {field("image", &TextureFile::image, "EXR, PNG, TIFF or another file that OpenImageIO reads."),
-       lent(&TextureFile::mapping)});
+      {field("image", &TextureFile::image, "An EXR, PNG, TIFF or other file that OpenImageIO reads."),
+       inlined(&TextureFile::mapping)});
 }
 
 static Fields fields(Tag<Texture>) {
-  return describe(
-      "texture", "An image whose channels weigh spectra.",
-      {lent(&Texture::file),
-       one_of(&Texture::of,
-              under<Weights>("weights", by_name<Curve>("spectra by channel", 1),
-                             "The spectrum that each channel weighs; values are taken as linear."),
-              under<Rgb>("rgb",
-                         "true: channels R, G, B are a colour, linear in files of floats, else encoded as "
-                         "the file says, or as sRGB."))});
+  return describe("texture", "An image whose channels multiply spectra.",
+                  {inlined(&Texture::file),
+                   one_of(&Texture::of,
+                          under<Weights>("weights", by_name<Curve>("spectra by channel", 1),
+                                         "Spectrum that each channel multiplies; channel values are linear."),
+                          under<Rgb>("rgb",
+                                     "true: channels R, G, B are a colour. It is linear in files of floats, "
+                                     "else encoded as the file declares, or as sRGB."))});
 }
 
-Kind kind(Tag<Reflectance>) {
+ValueType value_type(Tag<Reflectance>) {
   return forms<Reflectance>("reflectance", "a reflectance", form<Texture>(Json::object, {"image"}),
                             form<Curve>(Json::any));
 }
@@ -57,21 +59,21 @@ Kind kind(Tag<Reflectance>) {
 namespace abbe::description {
 namespace {
 
-// Beyond [0, 1] by this much, reflectances are taken for rounding of the file, and cut.
+// Reflectances outside [0, 1] by up to this count as rounding of the file and are clamped.
 constexpr double kSlight = 1e-3;
-// By less than this, for rounding of the sum.
+// Reflectances outside [0, 1] by up to this count as rounding of the sum.
 constexpr double kSumRounding = 1e-6;
 
-/// What an image is made into: channels and the spectra they weigh.
+/// The channels of an image and the spectra that they multiply.
 struct Weights {
   std::vector<std::string> channels;
   std::vector<Curve> spectra;
   Encoding encoding = kLinearEncoding;
 };
 
-std::optional<Weights> build(const spec::Weights& said, LoadContext& context) {
+std::optional<Weights> build(const spec::Weights& spec, LoadContext& context) {
   Weights weights;
-  for (const auto& [channel, curve, where] : said.value) {
+  for (const auto& [channel, curve, where] : spec.value) {
     auto spectrum = build(curve, {"reflectance", spec::kValue}, context);
     if (!spectrum) return std::nullopt;
     weights.channels.push_back(channel);
@@ -85,23 +87,23 @@ void warn_of_alpha(const TextureFile& file, LoadContext& context) {
   if (alpha && std::ranges::any_of(alpha->values, [](float value) { return value != 1; }))
     context.diagnostics.warning(
         file.where,
-        fmt::format("texture \"{}\": its alpha channel is not heeded: colours are as the file has them",
+        fmt::format("texture \"{}\": its alpha channel is ignored, and colours are used as stored",
                     file.name));
 }
 
-std::optional<Weights> build(const spec::Rgb& said, const TextureFile& file, LoadContext& context) {
-  if (!said.value) {
-    context.diagnostics.error(said.where, "an image that is not rgb needs weights (got false, allowed true)");
+std::optional<Weights> build(const spec::Rgb& spec, const TextureFile& file, LoadContext& context) {
+  if (!spec.value) {
+    context.diagnostics.error(spec.where, "an image that is not rgb needs weights (got false, allowed true)");
     return std::nullopt;
   }
   if (const auto fault = rec709_fault(file.image)) {
     file.refuse(*fault, ErrorCode::input, context);
     return std::nullopt;
   }
-  context.diagnostics.warning(
-      file.where, fmt::format("texture \"{}\": red, green and blue have no spectrum: the smooth one that "
-                              "looks so under D65 stands in for what was there",
-                              file.name));
+  context.diagnostics.warning(file.where,
+                              fmt::format("texture \"{}\": RGB values do not determine a spectrum: the "
+                                          "smooth spectrum of the same colour under D65 is used",
+                                          file.name));
   warn_of_alpha(file, context);
   const RgbBasis& basis = rgb_basis();
   return Weights{{"R", "G", "B"},
@@ -109,13 +111,13 @@ std::optional<Weights> build(const spec::Rgb& said, const TextureFile& file, Loa
                  recorded_encoding(file.image).value_or(Encoding{})};
 }
 
-/// The values of all spectra at one wavelength.
+/// Values of all spectra at one wavelength.
 struct Sample {
   double nm;
   std::vector<double> values;
 };
 
-// Where sums of the spectra can be largest or least: at their knots, on both sides of a jump.
+// Samples at which sums of the spectra can be extreme: at their knots, on both sides of a jump.
 std::vector<Sample> extreme_samples(std::span<const Curve> spectra) {
   std::set<double> wavelengths;
   for (const Curve& spectrum : spectra)
@@ -135,7 +137,7 @@ double excess(double reflectance) {
   return std::max(-reflectance, reflectance - 1);
 }
 
-// Drops the samples at which no mixture of values between each channel's least and largest is in excess.
+// Removes samples at which no combination of channel values within their ranges is outside [0, 1].
 void drop_harmless(std::vector<Sample>& samples, const std::vector<float>& texels) {
   if (samples.empty()) return;
   const std::size_t channels = samples[0].values.size();
@@ -148,18 +150,18 @@ void drop_harmless(std::vector<Sample>& samples, const std::vector<float>& texel
     }
   }
   std::erase_if(samples, [&](const Sample& sample) {
-    double least = 0;
-    double most = 0;
+    double lowest = 0;
+    double highest = 0;
     for (std::size_t c = 0; c < channels; ++c) {
       const auto [low, high] = std::minmax({sample.values[c] * ends[c][0], sample.values[c] * ends[c][1]});
-      least += low;
-      most += high;
+      lowest += low;
+      highest += high;
     }
-    return excess(least) <= kSumRounding && excess(most) <= kSumRounding;
+    return excess(lowest) <= kSumRounding && excess(highest) <= kSumRounding;
   });
 }
 
-// Whether every texel reflects no less than nothing and no more than all.
+// True if every texel reflects between 0 and 1 at all wavelengths, up to rounding. Reports the worst texel.
 bool check_reflectances(const TextureFile& file, const Weights& weights, const std::vector<float>& texels,
                         LoadContext& context) {
   std::vector<Sample> samples = extreme_samples(weights.spectra);
@@ -185,19 +187,20 @@ bool check_reflectances(const TextureFile& file, const Weights& weights, const s
     file.refuse(fmt::format("{} (allowed {})", what, Range::unit().text()), ErrorCode::scene, context);
     return false;
   }
-  context.diagnostics.warning(file.where, fmt::format("texture \"{}\": {}: cut to [0, 1]", file.name, what));
+  context.diagnostics.warning(file.where,
+                              fmt::format("texture \"{}\": {}: clamped to [0, 1]", file.name, what));
   return true;
 }
 
 }  // namespace
 
-std::optional<SpectralTexture> build(const spec::Reflectance& said, LoadContext& context) {
-  if (const auto* constant = std::get_if<spec::Curve>(&said)) {
+std::optional<SpectralTexture> build(const spec::Reflectance& spec, LoadContext& context) {
+  if (const auto* constant = std::get_if<spec::Curve>(&spec)) {
     auto curve = build(*constant, kReflectanceUse, context);
     if (!curve) return std::nullopt;
     return SpectralTexture(std::move(*curve));
   }
-  const auto& texture = std::get<spec::Texture>(said);
+  const auto& texture = std::get<spec::Texture>(spec);
   const auto file = build(texture.file, context);
   if (!file) return std::nullopt;
   const auto* rgb = std::get_if<spec::Rgb>(&texture.of);

@@ -2,68 +2,65 @@
 
 #include <fmt/format.h>
 
-#include "description/kinds.h"
 #include "description/render_limits.h"
+#include "description/value_ranges.h"
 
 namespace abbe::spec {
 
 using namespace schema;
 
 Fields fields(Tag<Photons>) {
-  return describe(
-      "photons",
-      "How photons are traced and gathered, by integrators that do it otherwise than `auto`, `light` and "
-      "`bdpt`. Radii shrink from sample to sample.",
-      {field("per_sample", &Photons::per_sample, {1, kMaxPhotons},
-             "Photons of a sample, but of `vcm`, which traces as many as there are pixels; when absent the "
-             "same, but at least 16384."),
-       field("radius", &Photons::radius, kLength,
-             "Radius of the first gathering; such that one photon would lie within, were all spread evenly "
-             "over a ball around the scene, when absent."),
-       defaulted("nearest", &Photons::nearest, {1, 100000},
-                 "Photons that an estimate of `photon-map` is made of."),
-       defaulted(
-           "final_gather", &Photons::final_gather,
-           "Whether `photon-map` looks at its photons one event after the first surface that scatters, and "
-           "there only at those of caustics.")});
+  return describe("photons",
+                  "Settings of photon tracing for integrators other than `auto`, `light` and `bdpt`. Radii "
+                  "shrink from sample to sample.",
+                  {field("per_sample", &Photons::per_sample, {1, kMaxPhotons},
+                         "Photons per sample. `vcm` always traces as many as there are pixels. If absent, "
+                         "the number of pixels, but at least 16384."),
+                   field("radius", &Photons::radius, kLength,
+                         "Initial gathering radius. If absent, the radius in which one photon would lie if "
+                         "all were spread evenly over a ball around the scene."),
+                   defaulted("nearest", &Photons::nearest, {1, 100000},
+                             "Number of nearest photons in an estimate of `photon-map`."),
+                   defaulted("final_gather", &Photons::final_gather,
+                             "True if `photon-map` gathers one event after the first scattering surface, and "
+                             "only caustic photons at that surface.")});
 }
 
 Fields fields(Tag<Render>) {
   return describe(
-      "render", "How to render.",
+      "render", "Settings of the render.",
       {defaulted("integrator", &Render::integrator,
-                 word<Integrator>("integrator", {kIntegratorNames.begin(), kIntegratorNames.end()}),
-                 "Which techniques find the light."),
+                 enumeration<Integrator>("integrator", {kIntegratorNames.begin(), kIntegratorNames.end()}),
+                 "Integrator that estimates the film."),
        defaulted("samples", &Render::samples, {1, kMaxSamples}, "Samples per pixel."),
        field("max_depth", &Render::max_depth, {1, 100000},
-             "Events a path may have between camera and light, at surfaces and within matter; without it "
-             "chance alone ends paths."),
+             "Largest number of scattering events of a path, at surfaces and in media. If absent, only "
+             "Russian roulette ends paths."),
        defaulted("roulette_depth", &Render::roulette_depth, {-1, 10000},
-                 "Events before Russian roulette; -1 never plays it, and needs `max_depth`."),
-       defaulted("seed", &Render::seed, {0, kMaxSeed}, "Chooses the random numbers."),
+                 "Number of events before Russian roulette begins. -1 disables it and needs `max_depth`."),
+       defaulted("seed", &Render::seed, {0, kMaxSeed}, "Seed of the random numbers."),
        field("photons", &Render::photons),
-       defaulted(
-           "consistent", &Render::consistent,
-           "Whether `auto` may choose `vcm`, which blurs ever less from sample to sample, where light is "
-           "found by nothing else."),
-       defaulted(
-           "polarisation", &Render::polarisation, word<Polarising>("polarisation", {"auto", "off"}),
-           "Whether paths carry the polarisation of light, which `auto` does where it matters. Without it "
-           "all "
-           "light counts as unpolarised at every event: a prism of N-BK7 at minimum deviation is then .3 % "
-           "too "
-           "dark, one of N-SF11 3 %, and crossed mirrors near Brewster's angle are wrong by any factor."),
+       defaulted("consistent", &Render::consistent,
+                 "True to let `auto` choose `vcm` for light paths that no unbiased integrator can sample. "
+                 "Its blur vanishes with the number of samples."),
+       defaulted("polarisation", &Render::polarisation,
+                 enumeration<PolarisationMode>("polarisation", {"auto", "off"}),
+                 "Polarisation of light along paths; `auto` tracks it where it matters. With `off` all light "
+                 "counts as unpolarised at every event. Then a prism at minimum deviation is too dark: one "
+                 "of N-BK7 by 0.3 %, one of N-SF11 by 3 %. Crossed mirrors near Brewster's angle have "
+                 "arbitrary errors."),
        defaulted("directions", &Render::directions,
-                 word<DirectionSampling>("directions", {"bsdf", "cosine", "uniform"}),
-                 "By what `path` draws directions after an event at a surface that is not of a single "
-                 "direction: its scattering, the cosine, or none. `cosine` and `uniform` are over the side "
-                 "seen, or over both where light may come through."),
-       defaulted("lights", &Render::lights, word<LightStrategy>("lights", {"mis", "bsdf", "light"}),
-                 "How `path` finds light after such an event or one within matter: by following scattering "
-                 "and by connecting, both weighed; by scattering alone, which no lamp at a point is met by; "
-                 "or by connecting alone."),
-       defaulted("heuristic", &Render::heuristic, word<MisHeuristic>("heuristic", {"balance", "power"}),
-                 "Whether `mis` weighs both ways by their densities, or by the squares of these.")});
+                 enumeration<DirectionSampling>("directions", {"bsdf", "cosine", "uniform"}),
+                 "Distribution from which `path` samples directions at a non-specular surface: the BSDF, the "
+                 "cosine, or a uniform one. `cosine` and `uniform` cover the visible side, or both sides if "
+                 "the surface transmits."),
+       defaulted("lights", &Render::lights, enumeration<LightStrategy>("lights", {"mis", "bsdf", "light"}),
+                 "Techniques by which `path` reaches lights after a non-specular event. `mis` combines BSDF "
+                 "sampling and next-event estimation. `bsdf` uses BSDF sampling alone, which never hits "
+                 "point lights. `light` uses next-event estimation alone."),
+       defaulted("heuristic", &Render::heuristic,
+                 enumeration<MisHeuristic>("heuristic", {"balance", "power"}),
+                 "MIS heuristic: weights by the pdfs, or by their squares.")});
 }
 
 }  // namespace abbe::spec
@@ -71,22 +68,22 @@ Fields fields(Tag<Render>) {
 namespace abbe::description {
 namespace {
 
-// How `path` is to draw its paths; what it is told and does not use is refused.
+// Path sampling options. Reports options that the integrator does not use.
 PathSampling sampling_of(const spec::Render& render, Diagnostics& diagnostics) {
   const PathSampling sampling{render.directions.value, render.lights.value, render.heuristic.value};
-  const PathSampling usual;
-  const auto refuse_for_others = [&](bool told, const SourcePosition& where) {
-    if (told && render.integrator != Integrator::path)
-      diagnostics.error(where,
-                        fmt::format("says how the integrator \"path\" draws its paths (got it with \"{}\")",
-                                    integrator_name(render.integrator)));
+  const PathSampling defaults;
+  const auto refuse_for_others = [&](bool is_set, const SourcePosition& where) {
+    if (is_set && render.integrator != Integrator::path)
+      diagnostics.error(where, fmt::format("is an option of the integrator \"path\" (got it with \"{}\")",
+                                           integrator_name(render.integrator)));
   };
-  refuse_for_others(sampling.directions != usual.directions, render.directions.where);
-  refuse_for_others(sampling.lights != usual.lights, render.lights.where);
-  refuse_for_others(sampling.heuristic != usual.heuristic, render.heuristic.where);
-  if (sampling.heuristic != usual.heuristic && sampling.lights != LightStrategy::mis)
-    diagnostics.error(render.heuristic.where,
-                      "weighs two ways to a light, of which \"lights\" leaves one (allowed with \"mis\")");
+  refuse_for_others(sampling.directions != defaults.directions, render.directions.where);
+  refuse_for_others(sampling.lights != defaults.lights, render.lights.where);
+  refuse_for_others(sampling.heuristic != defaults.heuristic, render.heuristic.where);
+  if (sampling.heuristic != defaults.heuristic && sampling.lights != LightStrategy::mis)
+    diagnostics.error(
+        render.heuristic.where,
+        "combines two sampling techniques, of which \"lights\" uses only one (allowed with \"mis\")");
   return sampling;
 }
 
@@ -95,7 +92,7 @@ PathSampling sampling_of(const spec::Render& render, Diagnostics& diagnostics) {
 RenderSettings build(const spec::Render& render, double unit_m, Diagnostics& diagnostics) {
   if (render.roulette_depth.value < 0 && !render.max_depth)
     diagnostics.error(render.roulette_depth.where,
-                      "ends no path, so that max_depth must (got -1 without a max_depth)");
+                      "never ends a path, and then max_depth is required (got -1 without a max_depth)");
   RenderSettings settings{render.integrator, render.samples, render.max_depth, render.roulette_depth.value,
                           render.seed};
   if (const auto& photons = render.photons) {
@@ -105,9 +102,9 @@ RenderSettings build(const spec::Render& render, double unit_m, Diagnostics& dia
   settings.consistent = render.consistent.value;
   if (settings.consistent && render.integrator != Integrator::automatic)
     diagnostics.error(render.consistent.where,
-                      fmt::format("lets the integrator \"auto\" choose among more (got it with \"{}\")",
+                      fmt::format("is an option of the integrator \"auto\" (got it with \"{}\")",
                                   integrator_name(render.integrator)));
-  settings.polarisation = render.polarisation == spec::Polarising::automatic;
+  settings.polarisation = render.polarisation == spec::PolarisationMode::automatic;
   settings.sampling = sampling_of(render, diagnostics);
   return settings;
 }

@@ -8,7 +8,7 @@
 
 namespace abbe::spec {
 
-/// How to gather photons.
+/// Settings of photon tracing and gathering.
 struct Photons {
   std::optional<std::uint64_t> per_sample;
   std::optional<double> radius;
@@ -17,10 +17,10 @@ struct Photons {
 };
 [[nodiscard]] schema::Fields fields(schema::Tag<Photons>);
 
-/// Whether paths carry polarisation: where it matters, or never.
-enum class Polarising { automatic, off };
+/// Mode in which paths carry polarisation: where it matters, or never.
+enum class PolarisationMode { automatic, off };
 
-/// How to render.
+/// Settings of a render.
 struct Render {
   Integrator integrator = Integrator::automatic;
   int samples = 64;
@@ -29,7 +29,7 @@ struct Render {
   std::uint64_t seed = 0;
   std::optional<Photons> photons;
   schema::Located<bool> consistent;
-  Polarising polarisation = Polarising::automatic;
+  PolarisationMode polarisation = PolarisationMode::automatic;
   schema::Located<DirectionSampling> directions;
   schema::Located<LightStrategy> lights;
   schema::Located<MisHeuristic> heuristic;
@@ -40,8 +40,10 @@ struct Render {
 
 namespace abbe::description {
 
-/// Reports paths that nothing ends, how `path` is to draw paths where it is not the integrator, and what
-/// `auto` may choose where it is not. Lengths are in units of `unit_m`.
+/// Builds the settings of a render; lengths are in scene units of `unit_m` metres. Reports:
+/// - Russian roulette that never ends a path, without `max_depth`;
+/// - path sampling options with another integrator than `path`;
+/// - `consistent` with another integrator than `auto`.
 [[nodiscard]] RenderSettings build(const spec::Render& render, double unit_m, Diagnostics& diagnostics);
 
 }  // namespace abbe::description

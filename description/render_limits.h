@@ -4,11 +4,11 @@
 
 namespace abbe {
 
-/// The most that a render may be asked for, by scene files, the command and Python alike.
-inline constexpr std::int64_t kMaxSamples = 1 << 24;  ///< As many as a float counts exactly.
+/// Largest values that scene files, the command line and Python accept for a render.
+inline constexpr std::int64_t kMaxSamples = 1 << 24;  ///< A float counts integers exactly up to here.
 inline constexpr std::int64_t kMaxSeed =
-    (std::int64_t{1} << 53) - 1;  ///< The largest that JSON tells from the next.
+    (std::int64_t{1} << 53) - 1;  ///< JSON numbers hold integers exactly up to here.
 inline constexpr std::int64_t kMaxThreads = 1024;
-inline constexpr std::int64_t kMaxPhotons = std::int64_t{1} << 31;  ///< Of a sample.
+inline constexpr std::int64_t kMaxPhotons = std::int64_t{1} << 31;  ///< Photons per sample.
 
 }  // namespace abbe

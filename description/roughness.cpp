@@ -19,21 +19,21 @@ Imath::V2f widths(const spec::Facets& facets) {
 
 }  // namespace
 
-std::optional<Microfacets<float>> build(const spec::Roughness& said, const Coating& coating,
+std::optional<Microfacets<float>> build(const spec::Roughness& spec, const Coating& coating,
                                         LoadContext& context) {
-  const Imath::V2f alpha = std::visit([](const auto& form) { return widths(form); }, said.value);
-  const auto* facets = std::get_if<spec::Facets>(&said.value);
+  const Imath::V2f alpha = std::visit([](const auto& form) { return widths(form); }, spec.value);
+  const auto* facets = std::get_if<spec::Facets>(&spec.value);
   const FacetShape shape = facets ? facets->distribution : FacetShape::ggx;
-  constexpr auto kLeast = static_cast<float>(kLeastAlpha);
-  if (std::max(alpha.x, alpha.y) < kLeast) return std::nullopt;
-  if (!coating.layers.empty())
-    context.diagnostics.error(said.where, "a coating lies on smooth surfaces only");
+  constexpr auto min_alpha = static_cast<float>(kMinAlpha);
+  if (std::max(alpha.x, alpha.y) < min_alpha) return std::nullopt;
+  if (!coating.layers.empty()) context.diagnostics.error(spec.where, "a coating needs a smooth surface");
   const float wide = std::max(alpha.x, alpha.y);
-  const float narrow = std::max(std::min(alpha.x, alpha.y), kLeast);
-  if (wide > narrow * static_cast<float>(kMostStretch))
-    context.diagnostics.error(said.where, fmt::format("alphas more than {} times apart (got {} and {})",
-                                                      kMostStretch, alpha.x, alpha.y));
-  return Microfacets<float>{shape, std::max(alpha.x, kLeast), std::max(alpha.y, kLeast)};
+  const float narrow = std::max(std::min(alpha.x, alpha.y), min_alpha);
+  if (wide > narrow * static_cast<float>(kMaxAlphaRatio))
+    context.diagnostics.error(
+        spec.where, fmt::format("the two alphas must not differ by more than a factor of {} (got {} and {})",
+                                kMaxAlphaRatio, alpha.x, alpha.y));
+  return Microfacets<float>{shape, std::max(alpha.x, min_alpha), std::max(alpha.y, min_alpha)};
 }
 
 }  // namespace abbe::description

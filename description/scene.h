@@ -13,16 +13,21 @@
 #include "description/shape.h"
 #include "description/white.h"
 
+// The structs of namespace `spec` hold the values of a scene file as the user wrote them, in the units of the
+// file. The functions `build` of namespace `description` convert them to the structs of a scene, in SI units.
+// The functions `fields` and `kind` give the key tables by which these structs are read, written and
+// documented.
 namespace abbe::spec {
 
 inline constexpr double kFormatVersion = 1;
 
 enum class Unit { m, cm, mm, um, in };
-[[nodiscard]] schema::Kind units();
-/// The length of one [m].
+/// The kind of a unit of length.
+[[nodiscard]] schema::ValueType units();
+/// Length of a unit in metres.
 [[nodiscard]] double metres(Unit unit);
 
-/// What is written, and how.
+/// Files that a render writes.
 struct Output {
   std::optional<std::string> image;
   std::optional<std::string> display;
@@ -30,7 +35,7 @@ struct Output {
   std::optional<White> white;
 };
 
-/// All that a scene file says.
+/// The contents of a scene file.
 struct Scene {
   std::optional<std::string> schema;
   double version = kFormatVersion;
@@ -52,10 +57,10 @@ struct Scene {
 
 namespace abbe::description {
 
-/// The scene, not yet recentred, as its camera sees it, or as one of its meters does. Everything wrong with
-/// it is reported, of what is sound of it when some is not.
+/// Builds the scene for its camera, or for `meter` if given. Reports every error. After an error the parts
+/// without errors are still checked, and the scene is incomplete.
 [[nodiscard]] abbe::Scene build(const spec::Scene& scene, LoadContext& context, const Meter* meter = nullptr);
-/// The meters of the scene, likewise.
+/// Builds the meters of the scene. Reports every error.
 [[nodiscard]] std::vector<Meter> build_meters(const spec::Scene& scene, LoadContext& context);
 
 }  // namespace abbe::description

@@ -5,13 +5,13 @@
 
 namespace abbe {
 
-/// Columns of the JSON that Abbe writes for people.
+/// Line width of the JSON that Abbe writes for readers.
 inline constexpr std::size_t kJsonWidth = 140;
 
-/// The text of `docs/scene.schema.json`: the JSON Schema of scene files, from the tables of their fields.
+/// The text of `docs/scene.schema.json`: the JSON Schema of scene files, generated from the key tables.
 [[nodiscard]] std::string scene_schema();
 
-/// The text of `docs/scene.md`, given as it is now, with its tables of keys from those of the scene's fields.
+/// The text of `docs/scene.md` with its key tables regenerated. `guide` is its current text.
 [[nodiscard]] std::string scene_guide(const std::string& guide);
 
 }  // namespace abbe

@@ -24,22 +24,22 @@ using Filters = std::vector<Filter>;
 /// A polariser for linearly polarised light.
 struct PolarisingFilter {
   double angle_deg = 0;
-  std::optional<Curve> transmittance;     ///< 1 when absent.
-  std::optional<Curve> extinction_ratio;  ///< Infinite when absent.
+  std::optional<Curve> transmittance;     ///< 1 if absent.
+  std::optional<Curve> extinction_ratio;  ///< Infinite if absent.
   SourcePosition where;
 };
-/// A channel behind filters of its own, perhaps behind a polariser.
+/// A channel with its own filters, and optionally a polariser.
 struct FilteredChannel {
   std::optional<Filters> filters;
   std::optional<PolarisingFilter> polariser;
-  std::optional<double> exposure_s;  ///< The sensor's when absent.
+  std::optional<double> exposure_s;  ///< Exposure time of the sensor if absent.
 };
 using ChannelResponse = std::variant<Curve, FilteredChannel>;
 
 struct Channels : schema::Located<std::vector<schema::Named<ChannelResponse>>> {};
 struct MeasuredCamera : schema::Located<std::string> {};
 struct StandardObserver : schema::Located<Observer> {};
-/// Bins of wavelength that fill a range.
+/// Wavelength bins of equal width that fill a range.
 struct Bins {
   double from_nm = 0;
   double to_nm = 0;
@@ -49,9 +49,9 @@ struct Bins {
 
 [[nodiscard]] schema::Fields fields(schema::Tag<Bins>);
 
-/// The film: its pixels, and what they count.
+/// The pixels of a sensor and the quantities they record.
 struct Sensor {
-  std::optional<std::string> model;  ///< Which was put in here before the scene was read.
+  std::optional<std::string> model;  ///< Its keys were merged into this struct before the scene was read.
   std::optional<schema::Located<std::array<std::int64_t, 2>>> resolution;
   double pixel_pitch_um = 4.5;
   double exposure_s = 1;
@@ -77,11 +77,11 @@ struct Sensor {
 
 namespace abbe::description {
 
-/// The sensor ready to be used.
+/// A sensor in SI units.
 struct Sensor {
   int width = 1;
   int height = 1;
-  double pixel_pitch = 4.5e-6;  ///< [m]
+  double pixel_pitch = 4.5e-6;  ///< Distance between pixels [m].
   double fill_factor = 1;
   double exposure_s = 1;
   Shutter shutter;
@@ -90,17 +90,18 @@ struct Sensor {
   std::optional<Mosaic> mosaic;
   std::optional<SpectralBins> spectral;
 };
-/// Reports what no table can say. `probe`: the sensor of an irradiance probe has one pixel unless it says
-/// otherwise.
+/// Builds a sensor and reports its errors. The sensor of an irradiance probe (`probe`) has one pixel unless
+/// the file gives a resolution.
 [[nodiscard]] Sensor build(const spec::Sensor& sensor, bool probe, LoadContext& context);
 
-/// Reports bins that do not fill their range, or are too few or too many; nothing then.
-[[nodiscard]] std::optional<SpectralBins> build_bins(const spec::Bins& said, LoadContext& context);
+/// Builds the wavelength bins. Returns nothing if they do not fill their range, or if there are too few or
+/// too many.
+[[nodiscard]] std::optional<SpectralBins> build_bins(const spec::Bins& spec, LoadContext& context);
 
-/// What the pixels of a sensor count, with its filters: its channels or its bins; the sensor's exposure is
-/// that of channels without their own. Reports tables of filters and responses that do not say what holds
-/// beyond their rows where a channel counts more than a negligible share, and warns of filters that are 0
-/// there.
-void build_channels(const spec::Sensor& said, Sensor& sensor, LoadContext& context);
+/// Sets the channels or wavelength bins of a sensor, with all filters applied. Channels without their own
+/// exposure time have that of the sensor. Reports tables of filters and responses that end, without a
+/// declared extrapolation, where a channel records more than a negligible fraction. Warns of filters that are
+/// declared 0 there.
+void build_channels(const spec::Sensor& spec, Sensor& sensor, LoadContext& context);
 
 }  // namespace abbe::description

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr const char* kKey = "model";
 constexpr std::string_view kExtension = ".json";
 
-// Keys that say the same in different ways: one of a scene replaces all of a file.
+// Keys that set the same property: one of them in a scene replaces all of them in a file.
 constexpr std::array<std::string_view, 9> kCounts{"channels",
                                                   "camera",
                                                   "observer",
@@ -54,7 +54,7 @@ std::optional<fs::path> model_file(const std::string& name, const SourcePosition
   return context.files.back();
 }
 
-// The member `sensor` of a file that says where its figures come from.
+// The member `sensor` of a model file. Reports missing keys, including those of its provenance.
 std::optional<JsonValue> read_model(const fs::path& path, LoadContext& context) {
   const auto source = read_text(path, context.diagnostics);
   std::optional<JsonValue> root = source ? parse_json(source, context.diagnostics) : std::nullopt;
@@ -72,14 +72,14 @@ bool has_any(const JsonValue& object, std::span<const std::string_view> keys) {
   return std::any_of(keys.begin(), keys.end(), [&](auto key) { return object.find(key) != nullptr; });
 }
 
-// Which keys of a file a scene's sensor replaces together.
+// Keys of the file that the scene's sensor replaces together.
 std::span<const std::string_view> replaced_by(const JsonValue& sensor) {
   if (has_any(sensor, kWhatCounts)) return kCounts;
   if (has_any(sensor, kScale)) return kScale;
   return {};
 }
 
-// Puts the members of `file` that `own` lacks into it, none of `replaced`.
+// Adds to `own` the members of `file` that it lacks, except those in `replaced`.
 void complete(JsonValue& own, JsonValue& file, std::span<const std::string_view> replaced) {
   auto* const members = std::get_if<JsonValue::Object>(&file.value);
   auto* const mine = std::get_if<JsonValue::Object>(&own.value);
@@ -96,7 +96,7 @@ void include_sensor_model(JsonValue& scene, LoadContext& context) {
   JsonValue* const sensor = scene.find("sensor");
   const JsonValue* const model = sensor != nullptr ? sensor->find(kKey) : nullptr;
   const auto* const name = model != nullptr ? std::get_if<std::string>(&model->value) : nullptr;
-  if (name == nullptr) return;  // what it is otherwise, the reader of the scene tells
+  if (name == nullptr) return;  // Other values are reported when the scene is read.
   const auto path = model_file(*name, model->where, context);
   std::optional<JsonValue> file = path ? read_model(*path, context) : std::nullopt;
   if (!file) return;

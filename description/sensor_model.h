@@ -4,11 +4,12 @@
 
 namespace abbe::description {
 
-/// Puts what a file says of a camera's sensor in the place of `sensor/model` of a scene: the name of a file
-/// of `data/sensor`, or a user's `FILE.json`, an object with `title`, `source`, `status` and `sensor`, which
-/// has the keys of a scene's. Keys of the scene replace those of the file, in `readout` one by one; what the
-/// scene's sensor counts, or its gain or speed, replaces all that the file says of it. Reports an unknown
-/// name and what is wrong with the file.
+/// Merges the file of a camera sensor into a scene whose `sensor` has the key `model`. The value is the name
+/// of a file of `data/sensor`, or a user's `FILE.json`. Such a file is an object with `title`, `source`,
+/// `status` and `sensor`; the last has the keys of a scene's sensor.
+/// Keys of the scene replace those of the file; in `readout` each key separately. A scene that sets the
+/// channels, the gain or the speed replaces all keys of the file with that meaning. Reports an unknown name
+/// and the errors of the file.
 void include_sensor_model(JsonValue& scene, LoadContext& context);
 
 }  // namespace abbe::description

@@ -18,9 +18,9 @@ namespace {
 
 using namespace schema;
 
-constexpr char kTransform[] = "Where the shape is moved, by steps in order.";
+constexpr char kTransform[] = "Transform of the shape, in steps.";
 
-Kind mesh() {
+ValueType mesh() {
   return forms<Mesh::Wrapped>("mesh", "a mesh: the name of a file, or triangles",
                               form<std::string>(Json::text), form<MeshPart>(Json::object, {"file"}),
                               form<InlineMesh>(Json::object));
@@ -29,12 +29,11 @@ Kind mesh() {
 }  // namespace
 
 static Fields fields(Tag<MeshPart>) {
-  return describe(
-      "mesh_part", "The triangles of a mesh file that are made of one of its own materials.",
-      {field("file", &MeshPart::file, "An OBJ, glTF 2.0 or GLB file."),
-       field("of_material", &MeshPart::of_material,
-             "The name of that material in the file; `material N`, which counts from 0, where glTF "
-             "gives none, `default` where it names no material.")});
+  return describe("mesh_part", "The triangles of a mesh file that use one of its own materials.",
+                  {field("file", &MeshPart::file, "An OBJ, glTF 2.0 or GLB file."),
+                   field("of_material", &MeshPart::of_material,
+                         "Name of that material in the file. Unnamed materials of glTF are `material N`, "
+                         "counted from 0; triangles without a material are `default`.")});
 }
 
 template <typename Surface, typename Material, typename Emission>
@@ -50,22 +49,23 @@ Fields fields(Tag<Body<Surface, Material, Emission>>) {
       "", "",
       {std::move(surface),
        field("material", &B::material,
-             std::is_same_v<Surface, Mesh> ? "Name of its material; an OBJ or glTF file may bring its own."
-                                           : "Name of its material."),
+             std::is_same_v<Surface, Mesh>
+                 ? "Name of its material; optional for OBJ and glTF files, which may contain their own."
+                 : "Name of its material."),
        defaulted("transform", &B::transform, similarity_steps(), kTransform),
-       field("emission", &B::emission, "What its surface sends out."),
-       defaulted("two_sided", &B::two_sided, "Whether it emits from both sides.")});
+       field("emission", &B::emission, "Emission of its surface."),
+       defaulted("two_sided", &B::two_sided, "True to emit from both sides.")});
 }
 
 static Fields fields(Tag<Chart>) {
-  return describe(
-      "chart", "A colour chart: six patches a row, from the top left, on a dark surround.",
-      {field("reflectances", &Chart::reflectances,
-             "A table of data/reflectance, or FILE.csv: a patch per column."),
-       field("corner", &Chart::corner, kCoordinate, "Position of its lower left, as the reader sees it."),
-       field("edge_u", &Chart::edge_u, kCoordinate, "Along the rows."),
-       field("edge_v", &Chart::edge_v, kCoordinate, "Upwards."),
-       field("surround", &Chart::surround, "Reflectance of its surround, 0.035 when absent.")});
+  return describe("chart", "A colour chart: six patches a row, from the top left, on a dark surround.",
+                  {field("reflectances", &Chart::reflectances,
+                         "A table of data/reflectance, or FILE.csv, with one patch per column."),
+                   field("corner", &Chart::corner, kCoordinate,
+                         "Position of the lower left corner as seen by the reader."),
+                   field("edge_u", &Chart::edge_u, kCoordinate, "Edge along the rows."),
+                   field("edge_v", &Chart::edge_v, kCoordinate, "Edge upwards."),
+                   field("surround", &Chart::surround, "Reflectance of the surround; 0.035 if absent.")});
 }
 static Fields fields(Tag<ChartShape>) {
   return describe("chart_shape", "",
@@ -74,26 +74,26 @@ static Fields fields(Tag<ChartShape>) {
 }
 
 static Fields fields(Tag<Instance>) {
-  return describe("instance", "An object placed in the scene.",
-                  {field("of", &Instance::of, "Name of the object."),
-                   defaulted("transform", &Instance::transform, affine_steps(),
-                             "Where it is placed, by steps in order.")});
+  return describe(
+      "instance", "An object placed in the scene.",
+      {field("of", &Instance::of, "Name of the object."),
+       defaulted("transform", &Instance::transform, affine_steps(), "Placement of the object, in steps.")});
 }
 
 Fields fields(Tag<Shape>) {
   return describe(
       "shape", "A shape.",
-      {field("name", &Shape::name, "For messages, and to name it as a white if it emits."),
-       one_of(&Shape::kind, beside<MeshBody>("mesh"), beside<PlainBody<Sphere>>("sphere"),
-              beside<PlainBody<Disc>>("disc"), beside<PlainBody<Quad>>("quad"), beside<PrismBody>("prism"),
-              beside<ChartShape>("chart"), under<Instance>("instance")),
-       field("motion", &Shape::motion, "How it moves, from where it is described; a chart does not.")});
+      {field("name", &Shape::name, "Name for messages, and for references to it as a white if it emits."),
+       one_of(&Shape::kind, inlined_by<MeshBody>("mesh"), inlined_by<PlainBody<Sphere>>("sphere"),
+              inlined_by<PlainBody<Disc>>("disc"), inlined_by<PlainBody<Quad>>("quad"),
+              inlined_by<PrismBody>("prism"), inlined_by<ChartShape>("chart"), under<Instance>("instance")),
+       field("motion", &Shape::motion, "Motion relative to the described pose; a chart cannot move.")});
 }
 
 Fields fields(Tag<Object>) {
   return describe("object", "Shapes that appear only where an instance puts them.",
                   {field("shapes", &Object::shapes, list<Shape>("shapes", 1),
-                         "Its shapes, of which none is an instance or a chart, and none emits.")});
+                         "Its shapes. Instances, charts and emitters are not allowed.")});
 }
 
 }  // namespace abbe::spec
@@ -133,7 +133,7 @@ std::optional<Mesh> scaled(std::optional<Mesh> mesh, double factor) {
   return mesh;
 }
 
-// The parts of a mesh file, made of `material` or of the file's own.
+// Parts of a mesh file, with `material` or, if that is null, with the materials of the file.
 std::vector<NamedShape> build_mesh_file(const SourcePosition& where, const std::string& file,
                                         const std::string& name, const std::uint32_t* material,
                                         LoadContext& context, Scene& scene) {
@@ -141,12 +141,12 @@ std::vector<NamedShape> build_mesh_file(const SourcePosition& where, const std::
   const auto path = context.file(file, where);
   if (!path) return parts;
   const bool mapped = material && needs_coordinates(scene.materials[*material]);
-  auto found = load_mesh_file(*path, material ? FileMaterials::ignored : FileMaterials::wanted, where,
-                              context.diagnostics,
-                              mapped ? FileCoordinates::wanted : FileCoordinates::ignored, context.inputs);
-  if (!found) return parts;
-  for (const std::filesystem::path& other : found->others) context.remember(other);
-  for (MeshFile::Submesh& part : found->submeshes) {
+  auto mesh_file = load_mesh_file(
+      *path, material ? FileMaterials::ignored : FileMaterials::wanted, where, context.diagnostics,
+      mapped ? FileCoordinates::wanted : FileCoordinates::ignored, context.inputs);
+  if (!mesh_file) return parts;
+  for (const std::filesystem::path& other : mesh_file->others) context.remember(other);
+  for (MeshFile::Submesh& part : mesh_file->submeshes) {
     context.take_memory(path->string(), memory_bytes(part.mesh));
     if (!material && !part.material) {
       context.diagnostics.error(
@@ -154,33 +154,33 @@ std::vector<NamedShape> build_mesh_file(const SourcePosition& where, const std::
       return {};
     }
     const std::string full =
-        found->submeshes.size() == 1 ? name : name + "/" + found->materials[*part.material].name;
+        mesh_file->submeshes.size() == 1 ? name : name + "/" + mesh_file->materials[*part.material].name;
     NamedShape& added =
         parts.emplace_back(NamedShape{full, *scaled(std::move(part.mesh), context.unit_m), 0});
     if (material)
       added.material = *material;
     else
-      added.material = add_file_material(found->materials[*part.material], file, where, context, scene);
+      added.material = add_file_material(mesh_file->materials[*part.material], file, where, context, scene);
   }
   return parts;
 }
 
-// The triangles of a file that it makes of one of its materials, made of `material`.
+// The triangles of a file that use one of its materials, with `material` in the scene.
 std::vector<NamedShape> build_mesh_part(const spec::MeshPart& part, const std::string& name,
                                         std::uint32_t material, LoadContext& context, Scene& scene) {
   std::vector<NamedShape> parts;
   const auto path = context.file(part.file.value, part.file.where);
   if (!path) return parts;
-  auto found = load_mesh_file(
+  auto mesh_file = load_mesh_file(
       *path, FileMaterials::named, part.file.where, context.diagnostics,
       needs_coordinates(scene.materials[material]) ? FileCoordinates::wanted : FileCoordinates::ignored,
       context.inputs);
-  if (!found) return parts;
-  for (const std::filesystem::path& other : found->others) context.remember(other);
+  if (!mesh_file) return parts;
+  for (const std::filesystem::path& other : mesh_file->others) context.remember(other);
   std::vector<std::string> names;
-  for (MeshFile::Submesh& submesh : found->submeshes) {
+  for (MeshFile::Submesh& submesh : mesh_file->submeshes) {
     if (!submesh.material) continue;
-    names.push_back(found->materials[*submesh.material].name);
+    names.push_back(mesh_file->materials[*submesh.material].name);
     if (names.back() != part.of_material.value) continue;
     context.take_memory(path->string(), memory_bytes(submesh.mesh));
     parts.push_back({name, *scaled(std::move(submesh.mesh), context.unit_m), material});
@@ -196,7 +196,7 @@ std::string mesh_name(const std::string* file) {
   return file ? fmt::format("mesh \"{}\"", *file) : "the mesh";
 }
 
-// Reports a mesh without the texture coordinates that its material needs.
+// Reports a mesh that lacks the texture coordinates its material needs.
 void require_coordinates(std::span<const NamedShape> parts, const Material& material,
                          const SourcePosition& where, const std::string* file, const LoadContext& context) {
   if (!needs_coordinates(material)) return;
@@ -208,7 +208,7 @@ void require_coordinates(std::span<const NamedShape> parts, const Material& mate
                                 file ? ErrorCode::input : ErrorCode::scene);
 }
 
-/// The parts of each kind of shape before its transform.
+/// Builds the parts of each kind of shape, before its transform.
 struct PartsBuilder {
   const SourcePosition& where;
   const std::string& name;
@@ -217,33 +217,33 @@ struct PartsBuilder {
 
   std::vector<NamedShape> operator()(std::monostate) const { return {}; }
   std::vector<NamedShape> operator()(const spec::Instance&) const { return {}; }
-  std::vector<NamedShape> operator()(const spec::ChartShape& said) const {
-    return build(said.chart, name, context, scene);
+  std::vector<NamedShape> operator()(const spec::ChartShape& spec) const {
+    return build(spec.chart, name, context, scene);
   }
   template <typename Surface, typename Emission>
-  std::vector<NamedShape> operator()(const spec::Body<Surface, spec::MaterialName, Emission>& said) const {
-    std::optional surface = build(said.surface, context);
-    const auto material = find_material(said.material, context, scene);
+  std::vector<NamedShape> operator()(const spec::Body<Surface, spec::MaterialName, Emission>& spec) const {
+    std::optional surface = build(spec.surface, context);
+    const auto material = find_material(spec.material, context, scene);
     std::vector<NamedShape> parts;
     if (surface && material) parts.push_back({name, *std::move(surface), *material});
     return parts;
   }
-  std::vector<NamedShape> operator()(const spec::MeshBody& said) const {
-    const SourcePosition& at = said.surface.where;
-    const auto* part = std::get_if<spec::MeshPart>(&said.surface.value);
-    const auto* file = part ? &part->file.value : std::get_if<std::string>(&said.surface.value);
-    if (!said.material && !(file && !part && brings_materials(*file))) {
+  std::vector<NamedShape> operator()(const spec::MeshBody& spec) const {
+    const SourcePosition& at = spec.surface.where;
+    const auto* part = std::get_if<spec::MeshPart>(&spec.surface.value);
+    const auto* file = part ? &part->file.value : std::get_if<std::string>(&spec.surface.value);
+    if (!spec.material && !(file && !part && may_have_materials(*file))) {
       context.diagnostics.error(where, "missing key \"material\"");
       return {};
     }
-    const auto material = said.material ? find_material(*said.material, context, scene) : std::nullopt;
+    const auto material = spec.material ? find_material(*spec.material, context, scene) : std::nullopt;
     std::vector<NamedShape> parts;
     if (part && material)
       parts = build_mesh_part(*part, name, *material, context, scene);
-    else if (file && !part && (material || !said.material))
+    else if (file && !part && (material || !spec.material))
       parts = build_mesh_file(at, *file, name, material ? &*material : nullptr, context, scene);
     else if (!file)
-      if (auto mesh = build(std::get<spec::InlineMesh>(said.surface.value), context); mesh && material)
+      if (auto mesh = build(std::get<spec::InlineMesh>(spec.surface.value), context); mesh && material)
         parts.push_back({name, *std::move(mesh), *material});
     if (material) require_coordinates(parts, scene.materials[*material], at, file, context);
     for (NamedShape& part : parts)
@@ -268,19 +268,19 @@ void add_shape(const spec::Shape& shape, const std::string& name, LoadContext& c
     return add_instance(*instance, build(shape.motion, context), name, context, scene);
   std::vector<NamedShape> parts = build_parts(shape, name, context, scene);
   if (shape.motion && std::holds_alternative<spec::ChartShape>(shape.kind))
-    context.diagnostics.error(shape.motion->where, "a chart does not move");
-  const Moving moving = build(shape.motion, context);
+    context.diagnostics.error(shape.motion->where, "a chart cannot move");
+  const PoseAndMotion moving = build(shape.motion, context);
   if (std::holds_alternative<spec::ChartShape>(shape.kind) && !parts.empty())
     scene.charts.push_back({name, static_cast<std::uint32_t>(scene.shapes.size()),
                             static_cast<std::uint32_t>(parts.size() - 1)});
   const spec::Emission* emission = emission_of(shape);
   const auto* mesh = std::get_if<spec::MeshBody>(&shape.kind);
   if (emission && mesh && !mesh->material)
-    context.diagnostics.error(emission->where, "a shape that emits needs a material of its own");
+    context.diagnostics.error(emission->where, "an emitting shape needs its own material");
   for (NamedShape& part : parts) {
     scene.shapes.push_back({std::move(part.name),
-                            in_motion(std::move(part.shape), emission != nullptr,
-                                      scene.materials[part.material], moving, context),
+                            shape_at_opening(std::move(part.shape), emission != nullptr,
+                                             scene.materials[part.material], moving, context),
                             part.material});
     if (emission)
       add_area_light(*emission, emits_from_both_sides(shape),
@@ -288,8 +288,8 @@ void add_shape(const spec::Shape& shape, const std::string& name, LoadContext& c
   }
 }
 
-// True if the moved shape alone no longer shows where the axes of its description are: it is round and
-// turned, or it holds a grid of densities.
+// True if the geometry of the moved shape no longer determines the axes of its description: it is round and
+// rotated, or its medium has a grid of densities.
 bool loses_axes(const PlainShape& shape, const Material& material, const Imath::M44d& to) {
   const Medium* medium = abbe::medium(material);
   if (medium != nullptr && medium->grid) return to != Imath::M44d();
@@ -299,19 +299,19 @@ bool loses_axes(const PlainShape& shape, const Material& material, const Imath::
 
 }  // namespace
 
-// What moves is a prototype around its middle, where floats are finest; so is what has been turned and could
-// not tell it otherwise.
-abbe::Shape in_motion(PlainShape shape, bool emits, const Material& material, const Moving& moving,
-                      LoadContext& context) {
-  if (!moving.motion && (emits || !loses_axes(shape, material, moving.opening))) {
-    if (moving.opening != Imath::M44d())
-      std::visit([&](auto& s) { move(s, Transform{moving.opening}); }, shape);
+// A moving shape becomes a prototype around its center, where single precision resolves best. So does a
+// rotated shape whose geometry would lose its axes.
+abbe::Shape shape_at_opening(PlainShape shape, bool emits, const Material& material,
+                             const PoseAndMotion& moving, LoadContext& context) {
+  if (!moving.motion && (emits || !loses_axes(shape, material, moving.pose_at_opening))) {
+    if (moving.pose_at_opening != Imath::M44d())
+      std::visit([&](auto& s) { move(s, Transform{moving.pose_at_opening}); }, shape);
     return std::visit([](auto& s) { return abbe::Shape(std::move(s)); }, shape);
   }
   const Imath::V3d center = std::visit([](const auto& s) { return bounds(s); }, shape).center();
   std::visit([&](auto& s) { shift(s, -center); }, shape);
   const auto at =
-      std::make_shared<Placement>(placement(Imath::M44d().setTranslation(center) * moving.opening));
+      std::make_shared<Placement>(placement(Imath::M44d().setTranslation(center) * moving.pose_at_opening));
   at->motion = moving.motion;
   at->described_origin = center;
   context.placements.push_back(at);
@@ -345,21 +345,21 @@ const spec::Emission* emission_of(const spec::Shape& shape) {
 std::vector<NamedShape> build_parts(const spec::Shape& shape, const std::string& name, LoadContext& context,
                                     Scene& scene) {
   std::vector<NamedShape> parts = std::visit(PartsBuilder{shape.where, name, context, scene}, shape.kind);
-  const auto place = [&](const auto& kind) {
+  const auto apply_transform = [&](const auto& kind) {
     if constexpr (requires { build(kind.transform, context).scale; }) {
       if (kind.transform.empty()) return;
       const Transform transform = build(kind.transform, context);
       for (NamedShape& part : parts) std::visit([&](auto& s) { move(s, transform); }, part.shape);
     }
   };
-  std::visit(place, shape.kind);
+  std::visit(apply_transform, shape.kind);
   return parts;
 }
 
 void build_shapes(const std::vector<spec::Shape>& shapes, LoadContext& context, Scene& scene) {
   for (std::size_t i = 0; i < shapes.size(); ++i) {
     add_shape(shapes[i], shapes[i].name.value_or(fmt::format("shape {}", i)), context, scene);
-    context.shape_places.resize(scene.shapes.size(), shapes[i].where);
+    context.shape_positions.resize(scene.shapes.size(), shapes[i].where);
   }
 }
 

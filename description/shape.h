@@ -15,12 +15,12 @@
 
 namespace abbe::spec {
 
-/// The triangles of a file that it makes of one of its own materials.
+/// The triangles of a mesh file to which the file gives one of its own materials.
 struct MeshPart {
   schema::Located<std::string> file;
   schema::Located<std::string> of_material;
 };
-/// A file, a part of one, or triangles.
+/// A mesh: a file, a part of one, or triangles.
 struct Mesh : schema::Located<std::variant<std::string, MeshPart, InlineMesh>> {};
 using MaterialName = schema::Located<std::string>;
 /// A shape of one material.
@@ -32,11 +32,10 @@ struct Body {
   std::optional<Emission> emission;
   bool two_sided = false;
 };
-using MeshBody =
-    Body<Mesh, std::optional<MaterialName>, MeshEmission>;  ///< Of the file's material when absent.
+using MeshBody = Body<Mesh, std::optional<MaterialName>, MeshEmission>;  ///< Material of the file if absent.
 using PrismBody = Body<Prism, MaterialName, MeshEmission>;
 template <typename Surface>
-using PlainBody = Body<Surface, MaterialName, LampEmission>;
+using PlainBody = Body<Surface, MaterialName, AreaLightEmission>;
 /// A colour chart.
 struct Chart {
   schema::Located<std::string> reflectances;
@@ -63,7 +62,7 @@ struct Shape {
   SourcePosition where;
   std::optional<Motion> motion = {};
 };
-/// Shapes for instances to place.
+/// Shapes that appear only through instances.
 struct Object {
   std::vector<Shape> shapes;
 };
@@ -74,44 +73,49 @@ struct Object {
 
 namespace abbe::description {
 
-/// A shape as read, in metres.
+/// A shape in metres, with its name and material index.
 struct NamedShape {
   std::string name;
   PlainShape shape;
   std::uint32_t material;
 };
 
-/// Makes a mesh the surface of the matter that its material may be: closed, facing outward, without vertex
-/// normals. Says what it puts right, and what it cannot as what strictness refuses; `name` is that of the
-/// mesh there.
+/// Prepares a mesh whose material has a medium inside. Removes repeated triangles and vertex normals, and
+/// makes the winding consistent and outward, with a warning. A mesh that is not closed after that is a
+/// warning, or an error with --strict. Other meshes only lose their zero-area triangles. `name` is the name
+/// of the mesh in messages.
 void prepare_for_medium(Mesh& mesh, const std::string& name, const Material& material,
                         const SourcePosition& where, const LoadContext& context);
 
-/// The parts of a shape that is no instance, placed: of a mesh file, one for each material. None after an
-/// error.
+/// Builds the parts of a shape that is not an instance, with its transform applied. A mesh file has one part
+/// for each material. Empty after an error.
 [[nodiscard]] std::vector<NamedShape> build_parts(const spec::Shape& shape, const std::string& name,
                                                   LoadContext& context, Scene& scene);
-/// What a shape emits, if it does.
+/// Emission of a shape; nullptr if it does not emit.
 [[nodiscard]] const spec::Emission* emission_of(const spec::Shape& shape);
-/// The patches of a chart in the order of its table, then what surrounds them. None after an error.
+/// Builds a colour chart: the patches in the order of its table, then the surround. Empty after an error.
 [[nodiscard]] std::vector<NamedShape> build(const spec::Chart& chart, const std::string& name,
                                             LoadContext& context, Scene& scene);
+/// Adds all shapes to the scene.
 void build_shapes(const std::vector<spec::Shape>& shapes, LoadContext& context, Scene& scene);
+/// Builds the objects that instances place, into `context.objects`.
 void build_objects(const std::vector<schema::Named<spec::Object>>& objects, LoadContext& context,
                    Scene& scene);
-/// Adds the shapes of an object, placed, in motion.
-void add_instance(const spec::Instance& instance, const Moving& moving, const std::string& name,
+/// Adds the shapes of an object at the placement of the instance, with its motion.
+void add_instance(const spec::Instance& instance, const PoseAndMotion& moving, const std::string& name,
                   LoadContext& context, Scene& scene);
-/// The shape where it is when the shutter opens; one that moves, or keeps axes, is the one of a prototype.
-/// What `emits` and stands still is a shape by itself, since places on it are drawn.
-[[nodiscard]] abbe::Shape in_motion(PlainShape shape, bool emits, const Material& material,
-                                    const Moving& moving, LoadContext& context);
+/// Shape at its pose when the shutter opens. A moving shape becomes an instance of a prototype, and so does a
+/// rotated shape whose geometry alone would lose its axes. An emitter that does not move stays a plain shape,
+/// because lights sample positions on it.
+[[nodiscard]] abbe::Shape shape_at_opening(PlainShape shape, bool emits, const Material& material,
+                                           const PoseAndMotion& moving, LoadContext& context);
 
+// Translate a shape by a vector [m].
 void shift(Mesh& mesh, const Imath::V3d& by);
 void shift(Sphere& sphere, const Imath::V3d& by);
 void shift(Disc& disc, const Imath::V3d& by);
 void shift(Quad& quad, const Imath::V3d& by);
-/// Leaves a placed shape where it is: instances may share their placements, which are moved once each.
+/// Does nothing: instances may have a placement in common, and each placement is translated once elsewhere.
 void shift(PlacedShape& placed, const Imath::V3d& by);
 
 }  // namespace abbe::description

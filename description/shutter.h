@@ -10,7 +10,7 @@
 
 namespace abbe::spec {
 
-/// When and how far the rows of a sensor are open.
+/// Times and transmission of the shutter of each row of a sensor.
 struct Shutter {
   double open_s = 0;
   double rise_s = 0;
@@ -25,8 +25,8 @@ struct Shutter {
 
 namespace abbe::description {
 
-/// The shutter of a sensor of so many rows. Reports what no table can say; then it is wide open.
-[[nodiscard]] Shutter build(const spec::Shutter& said, double exposure_s, int rows,
+/// Builds the shutter of a sensor with `rows` rows. After an error it is fully open for the exposure time.
+[[nodiscard]] Shutter build(const spec::Shutter& spec, double exposure_s, int rows,
                             const LoadContext& context);
 
 }  // namespace abbe::description

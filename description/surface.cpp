@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "description/kinds.h"
 #include "description/meshes/mesh_file.h"
+#include "description/value_ranges.h"
 #include "scene/shapes/mesh.h"
 
 namespace abbe::spec {
@@ -14,24 +14,23 @@ using namespace schema;
 
 Fields fields(Tag<Sphere>) {
   return describe("sphere", "A sphere, which emits outwards.",
-                  {field("center", &Sphere::center, kCoordinate, "Position of its middle."),
-                   field("radius", &Sphere::radius, kLength, "Length of its radius.")});
+                  {field("center", &Sphere::center, kCoordinate, "Position of its center."),
+                   field("radius", &Sphere::radius, kLength, "Radius.")});
 }
 
 Fields fields(Tag<Disc>) {
   return describe("disc", "A flat disc, which emits along its normal.",
-                  {field("center", &Disc::center, kCoordinate, "Position of its middle."),
+                  {field("center", &Disc::center, kCoordinate, "Position of its center."),
                    field("normal", &Disc::normal, direction(), "Outward direction."),
-                   field("radius", &Disc::radius, kLength, "Length of its radius.")});
+                   field("radius", &Disc::radius, kLength, "Radius.")});
 }
 
 Fields fields(Tag<Quad>) {
-  return describe("quad",
-                  "A parallelogram, whose front is where edge_u x edge_v points; it emits from there.",
+  return describe("quad", "A parallelogram. Its front, where it emits, faces edge_u x edge_v.",
                   {field("corner", &Quad::corner, kCoordinate, "Position of a corner."),
-                   field("edge_u", &Quad::edge_u, kCoordinate, "From the corner along one side."),
+                   field("edge_u", &Quad::edge_u, kCoordinate, "Edge from the corner along one side."),
                    field("edge_v", &Quad::edge_v, kCoordinate,
-                         "From the corner along the other side; the normal is edge_u x edge_v.")});
+                         "Edge from the corner along the other side; the normal is edge_u x edge_v.")});
 }
 
 Fields fields(Tag<Prism>) {
@@ -48,12 +47,12 @@ Fields fields(Tag<InlineMesh>) {
   using Vertex = std::array<double, 3>;
   using Coordinates = std::array<double, 2>;
   return describe(
-      "inline_mesh", "Triangles, counter-clockwise seen from outside.",
+      "inline_mesh", "Triangles, counter-clockwise as seen from outside.",
       {field("vertices", &InlineMesh::vertices, list<Vertex>(vector<Vertex>(kCoordinate), "rows", 1),
              "Positions of the vertices."),
        field("triangles", &InlineMesh::triangles,
              list<Triangle>(vector<Triangle>({0, 4294967295.0}), "rows", 1),
-             "Three numbers of vertices each, which count from 0."),
+             "Indices of the three vertices of each triangle, counted from 0."),
        field("uv", &InlineMesh::uv, list<Coordinates>(vector<Coordinates>(kCoordinate.in("")), "rows", 1),
              "Texture coordinates of each vertex.")});
 }

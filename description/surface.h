@@ -33,7 +33,7 @@ struct Prism {
   double side = 0;
   double length = 0;
 };
-/// Triangles in the scene file itself.
+/// Triangles given in the scene file itself.
 struct InlineMesh {
   std::vector<std::array<double, 3>> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
@@ -50,14 +50,14 @@ struct InlineMesh {
 
 namespace abbe::description {
 
-// The surfaces in metres, as they are before any transform.
+// Each `build` returns the surface in metres, before its transform.
 [[nodiscard]] Sphere build(const spec::Sphere& sphere, const LoadContext& context);
 [[nodiscard]] Disc build(const spec::Disc& disc, const LoadContext& context);
-/// Reports parallel edges; nothing then.
+/// Returns nothing after an error: parallel edges.
 [[nodiscard]] std::optional<Quad> build(const spec::Quad& quad, const LoadContext& context);
 [[nodiscard]] Mesh build(const spec::Prism& prism, const LoadContext& context);
-/// Reports a triangle of a vertex that does not exist, and coordinates that are not one for each vertex;
-/// nothing then.
+/// Returns nothing after an error: a triangle with a vertex that does not exist, or texture coordinates that
+/// do not match the vertices in number.
 [[nodiscard]] std::optional<Mesh> build(const spec::InlineMesh& mesh, const LoadContext& context);
 
 }  // namespace abbe::description

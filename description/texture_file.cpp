@@ -18,15 +18,15 @@ std::string TextureFile::texel_name(std::size_t i) const {
   return fmt::format("texel ({}, {})", i % columns, i / columns);
 }
 
-std::optional<TextureFile> build(const spec::TextureFile& said, LoadContext& context) {
-  const std::string& name = said.image.value;
-  const SourcePosition& where = said.image.where;
+std::optional<TextureFile> build(const spec::TextureFile& spec, LoadContext& context) {
+  const std::string& name = spec.image.value;
+  const SourcePosition& where = spec.image.where;
   const auto path = context.file(name, where);
   if (!path) return std::nullopt;
   try {
-    Image image = upright(read_image(*path, context.inputs));
+    Image image = apply_orientation(read_image(*path, context.inputs));
     const std::size_t bytes = image.memory_bytes();
-    return TextureFile{name, where, std::move(image), said.mapping, {context.inputs, bytes}};
+    return TextureFile{name, where, std::move(image), spec.mapping, {context.inputs, bytes}};
   } catch (const Error& e) {
     context.diagnostics.error(where, e.what(), e.code);
     return std::nullopt;

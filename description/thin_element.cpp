@@ -20,37 +20,37 @@ Field transmittance(std::string_view text) {
 
 Fields fields(Tag<Polariser>) {
   return describe(
-      "polariser", "A linear polariser as one surface, which light crosses without being bent.",
-      {transmittance<Polariser>("Transmittance of light polarised along the axis, in [0, 1]; 1 when absent."),
+      "polariser", "A linear polariser modelled as one surface, which light crosses without deflection.",
+      {transmittance<Polariser>("Transmittance of light polarised along the axis, in [0, 1]; 1 if absent."),
        field("extinction_ratio", &Polariser::extinction_ratio,
-             "That transmittance over the one across the axis, 1 or more; nothing passes across it when "
-             "absent."),
+             "Transmittance along the axis over that across it, 1 or more; infinite if absent."),
        defaulted("angle_deg", &Polariser::angle_deg, kAngle,
-                 "Angle of its axis to u, counterclockwise as seen from outside.")});
+                 "Angle of its axis to u, counter-clockwise as seen from outside.")});
 }
 static Fields fields(Tag<Retardance>) {
   return describe("retardance", "The same retardance at all wavelengths.",
                   {field("retardance_deg", &Retardance::retardance_deg, kAngle,
-                         "By how much fields across the fast axis lag behind, at all wavelengths.")});
+                         "Phase lag of the field across the fast axis, at all wavelengths.")});
 }
 static Fields fields(Tag<Crystal>) {
-  return describe(
-      "crystal", "A plate of birefringent matter.",
-      {field("birefringence", &Crystal::birefringence,
-             "Index along the slow axis less that along the fast one, relative to air, in [0, 10]."),
-       field("thickness", &Crystal::thickness, kLength, "Length of its thickness.")});
+  return describe("crystal", "A plate of a birefringent crystal.",
+                  {field("birefringence", &Crystal::birefringence,
+                         "Refractive index along the slow axis minus that along the fast axis, relative to "
+                         "air, in [0, 10]."),
+                   field("thickness", &Crystal::thickness, kLength, "Thickness of the plate.")});
 }
 Fields fields(Tag<WavePlate>) {
-  return describe(
-      "wave_plate", "A wave plate as one surface, which light crosses without being bent.",
-      {transmittance<WavePlate>("Transmittance, in [0, 1]; 1 when absent."),
-       one_of(&WavePlate::kind, beside<Retardance>("retardance_deg"), beside<Crystal>("birefringence")),
-       defaulted("angle_deg", &WavePlate::angle_deg, kAngle,
-                 "Angle of its fast axis to u, counterclockwise as seen from outside.")});
+  return describe("wave_plate",
+                  "A wave plate modelled as one surface, which light crosses without deflection.",
+                  {transmittance<WavePlate>("Transmittance, in [0, 1]; 1 if absent."),
+                   one_of(&WavePlate::kind, inlined_by<Retardance>("retardance_deg"),
+                          inlined_by<Crystal>("birefringence")),
+                   defaulted("angle_deg", &WavePlate::angle_deg, kAngle,
+                             "Angle of its fast axis to u, counter-clockwise as seen from outside.")});
 }
 Fields fields(Tag<Depolariser>) {
-  return describe("depolariser", "A surface that lets light straight on and takes its polarisation.",
-                  {transmittance<Depolariser>("Transmittance, in [0, 1]; 1 when absent.")});
+  return describe("depolariser", "A surface that transmits light without deflection and depolarises it.",
+                  {transmittance<Depolariser>("Transmittance, in [0, 1]; 1 if absent.")});
 }
 
 }  // namespace abbe::spec
@@ -61,7 +61,7 @@ namespace {
 constexpr Range kRatio{1, 1e30};
 constexpr Range kBirefringence{0, 10};
 
-// One over a curve, every nanometre.
+// Reciprocal of a curve, sampled every nanometre.
 Curve reciprocal(const Curve& curve) {
   if (curve.is_constant()) return Curve(1 / curve.max());
   std::vector<Knot> knots;
@@ -70,49 +70,49 @@ Curve reciprocal(const Curve& curve) {
   return Curve(std::move(knots));
 }
 
-std::optional<Curve> transmittance(const spec::ThinElement& said, LoadContext& context) {
-  if (!said.transmittance) return Curve(1.0);
-  return build(*said.transmittance, {"filter", Range::unit(), CurveUnit::share}, context);
+std::optional<Curve> transmittance(const spec::ThinElement& spec, LoadContext& context) {
+  if (!spec.transmittance) return Curve(1.0);
+  return build(*spec.transmittance, {"filter", Range::unit(), CurveUnit::fraction}, context);
 }
 
-// How a wave plate retards.
-struct Retarding {
+// Builds the retardance of a wave plate.
+struct WavePlateKindBuilder {
   using Kind = decltype(WavePlateMaterial::kind);
   LoadContext& context;
 
   std::optional<Kind> operator()(std::monostate) const { return std::nullopt; }
-  std::optional<Kind> operator()(const spec::Retardance& said) const {
-    return WavePlateMaterial::Ideal{said.retardance_deg * kDegree};
+  std::optional<Kind> operator()(const spec::Retardance& spec) const {
+    return WavePlateMaterial::Ideal{spec.retardance_deg * kDegree};
   }
-  std::optional<Kind> operator()(const spec::Crystal& said) const {
-    auto birefringence = build(said.birefringence, {"filter", kBirefringence}, context);
+  std::optional<Kind> operator()(const spec::Crystal& spec) const {
+    auto birefringence = build(spec.birefringence, {"filter", kBirefringence}, context);
     if (!birefringence) return std::nullopt;
-    return WavePlateMaterial::Crystal{said.thickness * context.unit_m, std::move(*birefringence)};
+    return WavePlateMaterial::Crystal{spec.thickness * context.unit_m, std::move(*birefringence)};
   }
 };
 
 }  // namespace
 
-std::optional<MaterialModel> build(const spec::Polariser& said, LoadContext& context) {
-  auto passed = transmittance(said, context);
+std::optional<MaterialModel> build(const spec::Polariser& spec, LoadContext& context) {
+  auto passed = transmittance(spec, context);
   std::optional<Curve> blocked(0.0);
-  if (said.extinction_ratio) {
-    blocked = build(*said.extinction_ratio, {"filter", kRatio}, context);
+  if (spec.extinction_ratio) {
+    blocked = build(*spec.extinction_ratio, {"filter", kRatio}, context);
     if (blocked) blocked = reciprocal(*blocked);
   }
   if (!passed || !blocked) return std::nullopt;
-  return PolariserMaterial{{std::move(*passed)}, std::move(*blocked), said.angle_deg * kDegree};
+  return PolariserMaterial{{std::move(*passed)}, std::move(*blocked), spec.angle_deg * kDegree};
 }
 
-std::optional<MaterialModel> build(const spec::WavePlate& said, LoadContext& context) {
-  auto passed = transmittance(said, context);
-  auto kind = std::visit(Retarding{context}, said.kind);
+std::optional<MaterialModel> build(const spec::WavePlate& spec, LoadContext& context) {
+  auto passed = transmittance(spec, context);
+  auto kind = std::visit(WavePlateKindBuilder{context}, spec.kind);
   if (!passed || !kind) return std::nullopt;
-  return WavePlateMaterial{{std::move(*passed)}, std::move(*kind), said.angle_deg * kDegree};
+  return WavePlateMaterial{{std::move(*passed)}, std::move(*kind), spec.angle_deg * kDegree};
 }
 
-std::optional<MaterialModel> build(const spec::Depolariser& said, LoadContext& context) {
-  auto passed = transmittance(said, context);
+std::optional<MaterialModel> build(const spec::Depolariser& spec, LoadContext& context) {
+  auto passed = transmittance(spec, context);
   if (!passed) return std::nullopt;
   return DepolariserMaterial{{std::move(*passed)}};
 }

@@ -5,29 +5,29 @@
 
 #include <fmt/format.h>
 
-#include "description/kinds.h"
+#include "description/value_ranges.h"
 
 namespace abbe {
 
-static constexpr double kMaxStretch = 1e9;
+static constexpr double kMaxScale = 1e9;
 
 namespace spec {
 namespace {
 
 using namespace schema;
 
-constexpr Range kScale{0, kMaxStretch, true, false};
-constexpr Range kSignedScale{-kMaxStretch, kMaxStretch};
+constexpr Range kScale{0, kMaxScale, true, false};
+constexpr Range kSignedScale{-kMaxScale, kMaxScale};
 
 Field scale(std::optional<double> Similarity::*member) {
-  return field("scale", member, kScale, "Factor of all lengths.");
+  return field("scale", member, kScale, "Factor for all lengths.");
 }
-Field scale(std::optional<std::variant<double, Imath::V3d>> Stretch::*member) {
+Field scale(std::optional<std::variant<double, Imath::V3d>> GeneralStep::*member) {
   return field("scale", member,
                forms<std::variant<double, Imath::V3d>>("", "a scale: a factor or three",
                                                        form<Imath::V3d>(Json::list, kSignedScale),
                                                        form<double>(Json::number, kScale)),
-               "Factor of all lengths, or factors along x, y and z, which mirror where they are negative.");
+               "Factor for all lengths, or factors along x, y and z; negative ones mirror.");
 }
 
 }  // namespace
@@ -54,13 +54,13 @@ static Fields fields(Tag<Matrix>) {
                          "1. The fourth column translates.")});
 }
 
-Kind similarity_steps() {
+ValueType similarity_steps() {
   return list<Similarity>("steps", 0, true);
 }
 
-Kind affine_steps() {
+ValueType affine_steps() {
   return list<Affine>(forms<Affine>("", "a step of a transform", form<Matrix>(Json::object, {"matrix"}),
-                                    form<Stretch>(Json::object)),
+                                    form<GeneralStep>(Json::object)),
                       "steps", 0, true);
 }
 
@@ -69,7 +69,7 @@ Kind affine_steps() {
 namespace description {
 namespace {
 
-// The relative error of a determinant summed up in double, generously.
+// Generous bound of the relative error of a determinant in double precision.
 constexpr double kDeterminantRounding = 1e-13;
 
 Imath::M44d scaling(double factor) {
@@ -79,7 +79,7 @@ Imath::M44d scaling(const Imath::V3d& factors) {
   return Imath::M44d().setScale(factors);
 }
 
-// After the scale: rotation, then translation.
+// Appends rotation, then translation, which follow the scale of a step.
 void append_motion(Imath::M44d& matrix, const std::optional<spec::Rotation>& rotate,
                    const std::optional<Imath::V3d>& translate, const LoadContext& context) {
   if (rotate)
@@ -88,13 +88,14 @@ void append_motion(Imath::M44d& matrix, const std::optional<spec::Rotation>& rot
   if (translate) matrix = matrix * Imath::M44d().setTranslation(*translate * context.unit_m);
 }
 
-bool append(Imath::M44d& matrix, const spec::Stretch& step, const LoadContext& context) {
+bool append(Imath::M44d& matrix, const spec::GeneralStep& step, const LoadContext& context) {
   if (step.scale) matrix = matrix * std::visit([](const auto& by) { return scaling(by); }, *step.scale);
   append_motion(matrix, step.rotate, step.translate, context);
   return true;
 }
 
-// Rows of a matrix for column vectors: the fourth column translates, a fourth row must be 0 0 0 1.
+// Appends a matrix for column vectors, given by rows. The fourth column translates; a fourth row must be 0 0
+// 0 1. False after an error.
 bool append(Imath::M44d& matrix, const spec::Matrix& step, const LoadContext& context) {
   const std::vector<double>& m = step.rows.value;
   const bool rows4 = m.size() == 16;
@@ -107,8 +108,8 @@ bool append(Imath::M44d& matrix, const spec::Matrix& step, const LoadContext& co
   if (rows4 && !(m[12] == 0 && m[13] == 0 && m[14] == 0 && m[15] == 1)) {
     context.diagnostics.error(
         step.rows.where,
-        fmt::format("a transform is affine (got the last row [{}, {}, {}, {}], allowed [0, 0, 0, 1])", m[12],
-                    m[13], m[14], m[15]));
+        fmt::format("a transform must be affine (got the last row [{}, {}, {}, {}], allowed [0, 0, 0, 1])",
+                    m[12], m[13], m[14], m[15]));
     return false;
   }
   Imath::M44d by;
@@ -119,7 +120,7 @@ bool append(Imath::M44d& matrix, const spec::Matrix& step, const LoadContext& co
   return true;
 }
 
-// Root of the sum of the squares of the linear part.
+// Frobenius norm of the linear part.
 double norm(const Imath::M44d& matrix) {
   double sum = 0;
   for (int i = 0; i < 3; ++i)
@@ -158,10 +159,10 @@ std::optional<Imath::M44d> build(const std::vector<spec::Affine>& steps, const S
   }
   // Embree inverts the matrix in float.
   const double shrinks = 1 / norm(matrix.inverse());
-  if (norm(matrix) <= 2 * kMaxStretch && shrinks >= 0.5 / kMaxStretch) return matrix;
+  if (norm(matrix) <= 2 * kMaxScale && shrinks >= 0.5 / kMaxScale) return matrix;
   context.diagnostics.error(
       where, fmt::format("transform is out of range (got lengths times {:g} to {:g}, allowed [{:g}, {:g}])",
-                         shrinks, norm(matrix), 1 / kMaxStretch, kMaxStretch));
+                         shrinks, norm(matrix), 1 / kMaxScale, kMaxScale));
   return std::nullopt;
 }
 

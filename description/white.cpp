@@ -16,17 +16,17 @@ std::optional<White> build_chromaticity(const Chromaticity& white, const SourceP
                                         Diagnostics& diagnostics) {
   if (white[0] + white[1] <= 1) return White{fmt::format("{},{}", white[0], white[1]), "", white};
   diagnostics.error(where,
-                    fmt::format("is no chromaticity: x + y is above 1 (got {}, {})", white[0], white[1]));
+                    fmt::format("is not a chromaticity: x + y is above 1 (got {}, {})", white[0], white[1]));
   return std::nullopt;
 }
 
-// Whether the library of illuminants has more to say of a name than that it does not know it.
+// True if the name may be that of an illuminant, so that loading it gives the better message.
 bool may_be_illuminant(const std::string& name, const std::vector<std::string>& illuminants) {
   return user_table_end(name) != std::string::npos || name.find(':') != std::string::npos ||
          std::find(illuminants.begin(), illuminants.end(), name) != illuminants.end();
 }
 
-// Of a light of the scene or of an illuminant.
+// Builds the white of a light of the scene or of an illuminant.
 std::optional<White> build_named(const std::string& name, const SourcePosition& where,
                                  const WhiteNames& names, Diagnostics& diagnostics) {
   const std::vector<std::string>& lights = names.lights;
@@ -52,7 +52,7 @@ std::optional<White> build_named(const std::string& name, const SourcePosition& 
 
 }  // namespace
 
-schema::Kind spec::white() {
+schema::ValueType spec::white() {
   using namespace schema;
   using Pair = std::array<double, 2>;
   return forms<White::Wrapped>("white", "a white: a name or two coordinates",
@@ -60,21 +60,21 @@ schema::Kind spec::white() {
                                form<std::string>(Json::text));
 }
 
-std::optional<White> build(const spec::White& said, const WhiteNames& names, Diagnostics& diagnostics) {
-  const auto* xy = std::get_if<std::array<double, 2>>(&said.value);
+std::optional<White> build(const spec::White& spec, const WhiteNames& names, Diagnostics& diagnostics) {
+  const auto* xy = std::get_if<std::array<double, 2>>(&spec.value);
   std::optional<White> white =
-      xy != nullptr ? build_chromaticity({(*xy)[0], (*xy)[1]}, said.where, diagnostics)
-                    : build_named(std::get<std::string>(said.value), said.where, names, diagnostics);
+      xy != nullptr ? build_chromaticity({(*xy)[0], (*xy)[1]}, spec.where, diagnostics)
+                    : build_named(std::get<std::string>(spec.value), spec.where, names, diagnostics);
   if (white) {
     white->reason = "asked for";
-    white->asked = true;
+    white->requested = true;
   }
   return white;
 }
 
 std::optional<White> read_white(const JsonValue& json, const WhiteNames& names, Diagnostics& diagnostics) {
-  const auto said = schema::read<spec::White>(json, spec::white(), diagnostics);
-  return said ? build(*said, names, diagnostics) : std::nullopt;
+  const auto white_spec = schema::read<spec::White>(json, spec::white(), diagnostics);
+  return white_spec ? build(*white_spec, names, diagnostics) : std::nullopt;
 }
 
 WhiteNames white_names(const std::vector<Light>& lights, const FilmObserver& film_observer) {

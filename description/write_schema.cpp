@@ -1,5 +1,5 @@
-// Writes docs/scene.schema.json to standard output, or with the name of a guide that with its tables of keys
-// anew: a part of the target `reference`.
+// Writes docs/scene.schema.json to standard output. With the name of a guide as argument, writes that guide
+// with its key tables regenerated instead. Part of the target `reference`.
 #include <cstdio>
 #include <fstream>
 #include <iterator>

@@ -9,8 +9,8 @@
 namespace abbe::description {
 namespace zemax {
 
-void Reader::take(const Line& line) {
-  const auto& words = surfaces_.empty() ? system_words() : surface_words();
+void Reader::read_line(const Line& line) {
+  const auto& words = surfaces_.empty() ? system_handlers() : surface_handlers();
   const auto found = words.find(line.keyword());
   ended_ =
       ended_ || (!surfaces_.empty() && !line.indented && found == words.end() && line.keyword() != "SURF");
@@ -20,37 +20,39 @@ void Reader::take(const Line& line) {
     surface(line);
   } else if (found != words.end()) {
     (this->*found->second)(line);
-  } else if (!is_idle(line.keyword())) {
+  } else if (!is_ignored(line.keyword())) {
     report_unknown(line);
   }
 }
 
 void Reader::report_unknown(const Line& line) {
-  std::vector<std::string> known = idle_words();
-  for (const auto& [word, handler] : surfaces_.empty() ? system_words() : surface_words())
+  std::vector<std::string> known = ignored_words();
+  for (const auto& [word, handler] : surfaces_.empty() ? system_handlers() : surface_handlers())
     known.push_back(word);
   error(line, 0, unknown_name("keyword of Zemax", line.keyword(), known));
 }
 
-// A surface's type may stand below its parameters.
-void Reader::require_meaning(const ReadSurface& read, bool object) {
+// Reports parameters that the surface type does not have. Checked at the end, because the type may follow its
+// parameters.
+void Reader::check_parameters(const ReadSurface& read, bool object) {
   if (!read.parameter) return;
-  const std::string said = read.parameter->text(2).value_or("");
+  const std::string given = read.parameter->text(2).value_or("");
   if (read.standard)
     error(*read.parameter, 2,
-          fmt::format("a STANDARD surface has no parameters: is it an EVENASPH? (got {}, allowed 0)", said));
+          fmt::format("a STANDARD surface has no parameters: is it an EVENASPH? (got {}, allowed 0)", given));
   else if (object)
-    error(*read.parameter, 2, fmt::format("a curved object is not understood (got {}, allowed 0)", said));
+    error(*read.parameter, 2, fmt::format("a curved object is not supported (got {}, allowed 0)", given));
 }
 
-// What a file has that ends where it should: all of each surface, and an image that is plane and in air.
-void Reader::require_whole() {
+// Reports an incomplete file: each surface needs all of its data, and the image must be plane and in air.
+void Reader::require_complete() {
   for (std::size_t i = 0; i < surfaces_.size(); ++i) {
     const ReadSurface& read = surfaces_[i];
-    require_meaning(read, i == 0);
-    for (const auto& [there, word] : {std::pair(read.has_type, "TYPE"), std::pair(read.has_curvature, "CURV"),
-                                      std::pair(read.has_thickness, "DISZ")})
-      if (!there)
+    check_parameters(read, i == 0);
+    for (const auto& [present, word] :
+         {std::pair(read.has_type, "TYPE"), std::pair(read.has_curvature, "CURV"),
+          std::pair(read.has_thickness, "DISZ")})
+      if (!present)
         diagnostics_.error(read.surface.where,
                            fmt::format("surface {} has no {}: is the file cut short?", i, word),
                            ErrorCode::input);
@@ -66,7 +68,7 @@ void Reader::require_whole() {
 
 std::optional<spec::Lens> Reader::read(const std::shared_ptr<const SourceText>& source) {
   lens_.where = {source, SourcePosition::kWholeFile, ""};
-  for (const Line& line : lenses::lines_of(source)) take(line);
+  for (const Line& line : lenses::lines_of(source)) read_line(line);
   if (surfaces_.size() < 3) {
     diagnostics_.error(
         lens_.where,
@@ -76,7 +78,7 @@ std::optional<spec::Lens> Reader::read(const std::shared_ptr<const SourceText>& 
         ErrorCode::input);
     return std::nullopt;
   }
-  require_whole();
+  require_complete();
   if (!surfaces_.front().at_infinity) lens_.object_distance = surfaces_.front().surface.thickness * unit_mm_;
   for (std::size_t i = 1; i + 1 < surfaces_.size(); ++i) lens_.surfaces.push_back(finished(surfaces_[i]));
   if (auto* pupil = std::get_if<spec::PupilDiameter>(&lens_.aperture)) pupil->value *= unit_mm_;

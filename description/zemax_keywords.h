@@ -6,11 +6,11 @@
 
 namespace abbe::description::zemax {
 
-/// Whether a word of a `.zmx` file changes nothing of what is read of it: notes, polarisation, tolerances,
-/// weights, variables, solves whose values stand there, and how Zemax shows and searches.
-[[nodiscard]] bool is_idle(std::string_view word);
+/// True for keywords of a `.zmx` file that do not affect what Abbe reads: notes, polarisation, tolerances,
+/// weights, variables, solves with stored values, display and optimisation settings.
+[[nodiscard]] bool is_ignored(std::string_view word);
 
-/// The idle words, for suggestions.
-[[nodiscard]] std::vector<std::string> idle_words();
+/// The ignored keywords, for suggestions.
+[[nodiscard]] std::vector<std::string> ignored_words();
 
 }  // namespace abbe::description::zemax

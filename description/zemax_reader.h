@@ -9,50 +9,50 @@
 #include <vector>
 
 #include "description/lens.h"
-#include "description/lines.h"
+#include "description/lens_file_lines.h"
 
 namespace abbe::description::zemax {
 
 using lenses::Line;
 
-inline constexpr std::size_t kEvenCoefficients = 8;  // EVENASPH: r^2 to r^16
+inline constexpr std::size_t kEvenCoefficients = 8;  // Coefficients of EVENASPH: r^2 to r^16.
 
-/// A surface with what decides how its lines are meant.
+/// A surface as read so far, with the data that decide the meaning of its lines.
 struct ReadSurface {
   spec::LensSurface surface;
   double curvature = 0;
   std::array<double, kEvenCoefficients> even{};
   double semi_diameter = 0;
-  bool fixed = false;  // its diameter is one that stops light
+  bool fixed = false;  // True if its diameter stops light.
   bool at_infinity = false;
   bool has_type = false;
-  bool standard = false;            // of the type that has no parameters
-  std::optional<Line> parameter{};  // the first of its parameters that is not 0
+  bool standard = false;            // True for the type STANDARD, which has no parameters.
+  std::optional<Line> parameter{};  // The first parameter that is not 0.
   bool has_curvature = false;
   bool has_thickness = false;
 };
 
-/// A wavelength with how much it counts.
+/// A wavelength and its weight.
 struct ReadWavelength {
   double nm;
   double weight;
   SourcePosition weight_where;
 };
 
-/// A file line by line: those of the system, then those of each surface.
+/// Reads a `.zmx` file line by line: first the keywords of the system, then those of each surface.
 class Reader {
  public:
   explicit Reader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
-  /// Nothing after an error.
+  /// Reads a file; nothing after an error.
   [[nodiscard]] std::optional<spec::Lens> read(const std::shared_ptr<const SourceText>& source);
 
  private:
   using Handler = void (Reader::*)(const Line&);
-  static const std::map<std::string, Handler>& system_words();
-  static const std::map<std::string, Handler>& surface_words();
+  static const std::map<std::string, Handler>& system_handlers();
+  static const std::map<std::string, Handler>& surface_handlers();
 
-  void take(const Line& line);
+  void read_line(const Line& line);
   void report_unknown(const Line& line);
 
   void mode(const Line& line);
@@ -83,18 +83,18 @@ class Reader {
   void stop(const Line& line);
   void diameter(const Line& line);
   void clear_aperture(const Line& line);
-  void floating_aperture(const Line&) { now().fixed = true; }
+  void floating_aperture(const Line&) { current().fixed = true; }
   void coating(const Line& line);
 
-  ReadSurface& now() { return surfaces_.back(); }
+  ReadSurface& current() { return surfaces_.back(); }
   [[nodiscard]] bool is_object() const { return surfaces_.size() == 1; }
   void error(const Line& line, std::size_t word, std::string message) {
     diagnostics_.error(line.where(word), std::move(message), ErrorCode::input);
   }
   spec::LensGlass named_glass(const Line& line) const;
   std::optional<spec::LensGlass> model_glass(const Line& line);
-  void require_whole();
-  void require_meaning(const ReadSurface& read, bool object);
+  void require_complete();
+  void check_parameters(const ReadSurface& read, bool object);
   void require_angles();
   void finish_fields();
   void finish_wavelengths();
@@ -109,16 +109,16 @@ class Reader {
   std::map<int, ReadWavelength> wavelengths_{};
   double unit_mm_ = 1;
   int field_kind_ = 0;
-  std::size_t field_count_ = 0;       // 0: as many as stand there
-  std::size_t wavelength_count_ = 0;  // the same
+  std::size_t field_count_ = 0;       // 0: as many as the file lists.
+  std::size_t wavelength_count_ = 0;  // 0: as many as the file lists.
   SourcePosition wavelength_count_where_{};
-  SourcePosition fields_where_{};  // of their number
+  SourcePosition fields_where_{};  // Position of the number of fields.
   std::optional<Line> fields_line_{};
   int primary_ = 1;
   std::optional<Line> primary_line_{};
-  std::string aperture_word_{};  // of the line that has told the aperture
+  std::string aperture_word_{};  // Keyword of the line that set the aperture.
   bool open_by_stop_ = false;
-  bool ended_ = false;  // what follows are operands of merit functions and tolerances
+  bool ended_ = false;  // True after the last surface; operands of merit functions and tolerances follow.
 };
 
 }  // namespace abbe::description::zemax

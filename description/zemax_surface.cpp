@@ -7,15 +7,16 @@
 #include "description/zemax_reader.h"
 #include "materials/index/library.h"
 
-// The surfaces of a `.zmx` file.
+// Reads the surfaces of a `.zmx` file.
 namespace abbe::description::zemax {
 namespace {
 
-constexpr double kInfinity = 1e10;  // what older files have in place of the word, and whatever is beyond
+constexpr double kInfinity =
+    1e10;  // Older files have this number in place of INFINITY; larger ones count as infinite too.
 
 }  // namespace
 
-const std::map<std::string, Reader::Handler>& Reader::surface_words() {
+const std::map<std::string, Reader::Handler>& Reader::surface_handlers() {
   static const std::map<std::string, Handler> kWords{
       {"TYPE", &Reader::type},           {"CURV", &Reader::curvature},
       {"DISZ", &Reader::thickness},      {"GLAS", &Reader::glass},
@@ -29,46 +30,48 @@ const std::map<std::string, Reader::Handler>& Reader::surface_words() {
 void Reader::surface(const Line& line) {
   const auto number = line.number(1, diagnostics_);
   if (number && *number != static_cast<double>(surfaces_.size()))
-    error(line, 1,
-          fmt::format("surfaces are numbered in their order (got {:g}, expected {})", *number,
-                      surfaces_.size()));
+    error(
+        line, 1,
+        fmt::format("surfaces must be numbered in order (got {:g}, expected {})", *number, surfaces_.size()));
   surfaces_.emplace_back().surface.where = line.where();
 }
 
 void Reader::type(const Line& line) {
-  now().has_type = true;
-  const std::string said = line.text(1).value_or("");
-  if (said != "STANDARD" && said != "EVENASPH")
+  current().has_type = true;
+  const std::string given = line.text(1).value_or("");
+  if (given != "STANDARD" && given != "EVENASPH")
     error(line, 1,
-          fmt::format("this type of surface is not understood (got {}, allowed STANDARD, EVENASPH)", said));
-  now().standard = said == "STANDARD";
+          fmt::format("this type of surface is not supported (got {}, allowed STANDARD, EVENASPH)", given));
+  current().standard = given == "STANDARD";
 }
 
 void Reader::curvature(const Line& line) {
-  now().has_curvature = true;
-  now().curvature = line.number(1, diagnostics_).value_or(0);
-  if (is_object() && now().curvature != 0)
-    error(line, 1, fmt::format("a curved object is not understood (got {:g}, allowed 0)", now().curvature));
+  current().has_curvature = true;
+  current().curvature = line.number(1, diagnostics_).value_or(0);
+  if (is_object() && current().curvature != 0)
+    error(line, 1,
+          fmt::format("a curved object is not supported (got {:g}, allowed 0)", current().curvature));
 }
 
 void Reader::thickness(const Line& line) {
-  now().has_thickness = true;
-  const auto said = line.text(1) == "INFINITY" ? kInfinity : line.number(1, diagnostics_);
-  if (!said) return;
-  now().at_infinity = *said >= kInfinity;
-  if (now().at_infinity) {
+  current().has_thickness = true;
+  const auto given = line.text(1) == "INFINITY" ? kInfinity : line.number(1, diagnostics_);
+  if (!given) return;
+  current().at_infinity = *given >= kInfinity;
+  if (current().at_infinity) {
     if (!is_object()) error(line, 1, "only the object can be at infinity");
     return;
   }
-  now().surface.thickness = *said;
-  if (is_object() && !spec::kPositiveMm.contains(*said * unit_mm_))
+  current().surface.thickness = *given;
+  if (is_object() && !spec::kPositiveMm.contains(*given * unit_mm_))
     error(line, 1,
-          fmt::format("distance of the object out of range (got {:g} mm, allowed {} mm)", *said * unit_mm_,
+          fmt::format("distance of the object out of range (got {:g} mm, allowed {} mm)", *given * unit_mm_,
                       spec::kPositiveMm.text()));
 }
 
-// As the first of the file's catalogues sells it, else as scenes find it, which is told: another maker's
-// glass of the name may differ, and a catalogue may be one that is not known here.
+// Looks up the glass in the catalogues that the file names, in their order; else in all catalogues, with a
+// warning. Another maker's glass of the same name may differ, and a catalogue of the file may be unknown to
+// Abbe.
 spec::LensGlass Reader::named_glass(const Line& line) const {
   std::string name = line.words[1].text;
   const std::vector<std::string> sold = glass_names();
@@ -79,10 +82,11 @@ spec::LensGlass Reader::named_glass(const Line& line) const {
   if (maker != catalogues_.end())
     name = *maker + "/" + name;
   else if (!catalogues_.empty())
-    diagnostics_.warning(line.where(1),
-                         fmt::format("{} is in none of the file's catalogues that are known here (got GCAT "
-                                     "{}): it is looked for in all",
-                                     name, fmt::join(catalogues_, " ")));
+    diagnostics_.warning(
+        line.where(1),
+        fmt::format(
+            "{} is in none of the file's catalogues known to Abbe (got GCAT {}): all catalogues are searched",
+            name, fmt::join(catalogues_, " ")));
   spec::LensGlass glass;
   spec::Ior ior;
   ior.value = name;
@@ -91,8 +95,8 @@ spec::LensGlass Reader::named_glass(const Line& line) const {
   return glass;
 }
 
-// An index, an Abbe number that is 0 without dispersion, and how far the partial dispersion is off the line
-// of normal glasses.
+// A glass of three numbers: an index, an Abbe number (0 without dispersion), and the deviation of the partial
+// dispersion from the normal line.
 std::optional<spec::LensGlass> Reader::model_glass(const Line& line) {
   constexpr Range kIndex{1, spec::kModelIndex.high};
   const auto nd = line.number(4, diagnostics_);
@@ -106,7 +110,7 @@ std::optional<spec::LensGlass> Reader::model_glass(const Line& line) {
           fmt::format("Abbe number out of range (got {:g}, allowed {} or 0)", *vd, spec::kAbbeNumber.text()));
   if (*partial != 0)
     error(line, 6,
-          fmt::format("a partial dispersion of its own is not understood (got {:g}, allowed 0)", *partial));
+          fmt::format("a deviating partial dispersion is not supported (got {:g}, allowed 0)", *partial));
   spec::LensGlass glass;
   glass.where = line.where(1);
   if (*vd != 0)
@@ -117,56 +121,54 @@ std::optional<spec::LensGlass> Reader::model_glass(const Line& line) {
 }
 
 void Reader::glass(const Line& line) {
-  const std::string said = line.text(1).value_or("");
-  if (said == "MIRROR") return error(line, 1, "mirrors are not understood: lenses refract alone");
-  if (said.empty()) return error(line, 0, "GLAS names a glass");
+  const std::string given = line.text(1).value_or("");
+  if (given == "MIRROR") return error(line, 1, "mirrors are not supported, only refracting lenses");
+  if (given.empty()) return error(line, 0, "GLAS needs the name of a glass");
   if (is_object())
-    return error(line, 1, fmt::format("an object in glass is not understood (got {}, allowed air)", said));
-  if (said == "___BLANK")
-    now().surface.glass = model_glass(line);
+    return error(line, 1, fmt::format("an object in glass is not supported (got {}, allowed air)", given));
+  if (given == "___BLANK")
+    current().surface.glass = model_glass(line);
   else
-    now().surface.glass = named_glass(line);
+    current().surface.glass = named_glass(line);
 }
 
 void Reader::conic(const Line& line) {
-  now().surface.conic = line.number(1, diagnostics_).value_or(0);
+  current().surface.conic = line.number(1, diagnostics_).value_or(0);
 }
 
 void Reader::parameter(const Line& line) {
   const auto number = line.number(1, diagnostics_);
   const auto value = line.number(2, diagnostics_);
   if (!number || !value || *value == 0) return;
-  if (!now().parameter) now().parameter = line;
+  if (!current().parameter) current().parameter = line;
   if (*number >= 1 && *number <= static_cast<double>(kEvenCoefficients))
-    now().even[static_cast<std::size_t>(*number) - 1] = *value;
+    current().even[static_cast<std::size_t>(*number) - 1] = *value;
   else
-    error(line, 1,
-          fmt::format("parameter without a meaning here (got {:g}, allowed 1 to {})", *number,
-                      kEvenCoefficients));
+    error(line, 1, fmt::format("unknown parameter (got {:g}, allowed 1 to {})", *number, kEvenCoefficients));
 }
 
 void Reader::stop(const Line& line) {
   if (is_object()) error(line, 0, "the object cannot be the stop");
-  now().surface.stop = true;
+  current().surface.stop = true;
 }
 
-// The second number tells a diameter that the user has set from one that Zemax has worked out.
+// The second number distinguishes a diameter that the user has set from one that Zemax has calculated.
 void Reader::diameter(const Line& line) {
-  now().semi_diameter = line.number(1, diagnostics_).value_or(0);
-  if (line.text(2) == "1") now().fixed = true;
+  current().semi_diameter = line.number(1, diagnostics_).value_or(0);
+  if (line.text(2) == "1") current().fixed = true;
 }
 
 void Reader::clear_aperture(const Line& line) {
   const auto inner = line.number(1, diagnostics_);
   const auto outer = line.positive(2, diagnostics_);
-  if (inner && *inner != 0) error(line, 1, "apertures with a hole are not understood");
-  if (outer) now().surface.aperture = *outer;
+  if (inner && *inner != 0) error(line, 1, "apertures with a hole are not supported");
+  if (outer) current().surface.aperture = *outer;
 }
 
 void Reader::coating(const Line& line) {
-  diagnostics_.warning(
-      line.where(1),
-      fmt::format("the coating {} is left out: its layers are in another file", line.text(1).value_or("")));
+  diagnostics_.warning(line.where(1),
+                       fmt::format("the coating {} is ignored, because its layers are in another file",
+                                   line.text(1).value_or("")));
 }
 
 spec::LensSurface Reader::finished(const ReadSurface& read) const {

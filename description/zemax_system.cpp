@@ -6,10 +6,10 @@
 #include "description/zemax_reader.h"
 #include "io/text.h"
 
-// The part of a `.zmx` file before its surfaces.
+// Reads the part of a `.zmx` file before its surfaces.
 namespace abbe::description::zemax {
 
-const std::map<std::string, Reader::Handler>& Reader::system_words() {
+const std::map<std::string, Reader::Handler>& Reader::system_handlers() {
   static const std::map<std::string, Handler> kWords{
       {"MODE", &Reader::mode},        {"NAME", &Reader::name},          {"UNIT", &Reader::unit},
       {"ENPD", &Reader::pupil},       {"FNUM", &Reader::f_number},      {"FLOA", &Reader::open_by_stop},
@@ -24,9 +24,9 @@ const std::map<std::string, Reader::Handler>& Reader::system_words() {
 
 void Reader::mode(const Line& line) {
   if (line.text(1) != "SEQ")
-    error(
-        line, 1,
-        fmt::format("only sequential lenses are read (got mode {}, allowed SEQ)", line.text(1).value_or("")));
+    error(line, 1,
+          fmt::format("only sequential lenses are supported (got mode {}, allowed SEQ)",
+                      line.text(1).value_or("")));
 }
 
 void Reader::name(const Line& line) {
@@ -65,14 +65,15 @@ void Reader::f_number(const Line& line) {
   require_first_aperture(line);
   if (const auto value = line.positive(1, diagnostics_)) lens_.aperture = spec::FNumber{{*value}};
   if (line.text(2).value_or("0") != "0")
-    error(line, 2, "an f-number of a near object is not understood: say ENPD or FLOA");
+    error(line, 2, "an f-number of an object at a finite distance is not supported: use ENPD or FLOA");
 }
 
-// The catalogues' indices are those at 20 C and 1 atmosphere.
+// Glass catalogues give indices at 20 C and 1 atmosphere.
 void Reader::environment(const Line& line) {
   const std::vector<double> values = line.numbers(1);
   if (values.size() >= 2 && (values[0] != 20 || values[1] != 1))
-    diagnostics_.warning(line.where(1), "indices are those at 20 C and 1 atm, wherever the lens is used");
+    diagnostics_.warning(
+        line.where(1), "refractive indices at 20 C and 1 atm are used, whatever the environment of the lens");
 }
 
 void Reader::catalogues(const Line& line) {
@@ -82,11 +83,10 @@ void Reader::catalogues(const Line& line) {
 void Reader::field_type(const Line& line) {
   const std::vector<double> values = line.numbers(1);
   if (values.empty() || !(values[0] >= 0 && values[0] <= 2))
-    return error(
-        line, 1,
-        fmt::format("fields of this kind are not understood (got {}, allowed 0 angles, 1 object heights, "
-                    "2 paraxial image heights)",
-                    line.text(1).value_or("nothing")));
+    return error(line, 1,
+                 fmt::format("fields of this kind are not supported (got {}, allowed 0 angles, 1 object "
+                             "heights, 2 paraxial image heights)",
+                             line.text(1).value_or("nothing")));
   field_kind_ = static_cast<int>(values[0]);
   const auto count = [&](std::size_t i) {
     return values.size() > i && values[i] > 0 && values[i] < 1000 ? static_cast<std::size_t>(values[i]) : 0;
@@ -98,14 +98,14 @@ void Reader::field_type(const Line& line) {
   require_plain_spaces(line);
 }
 
-// The second number of FTYP tells a telecentric object space, the seventh an afocal image space.
+// The second number of FTYP declares a telecentric object space, the seventh an afocal image space.
 void Reader::require_plain_spaces(const Line& line) {
   for (const auto& [word, space] :
        {std::pair(2, "a telecentric object space"), std::pair(7, "an afocal image space")}) {
     const auto at = static_cast<std::size_t>(word);
-    const std::string said = line.text(at).value_or("0");
-    if (parse_number(said) != 0)
-      error(line, at, fmt::format("{} is not understood (got {}, allowed 0)", space, said));
+    const std::string given = line.text(at).value_or("0");
+    if (parse_number(given) != 0)
+      error(line, at, fmt::format("{} is not supported (got {}, allowed 0)", space, given));
   }
 }
 
@@ -114,7 +114,7 @@ void Reader::x_fields(const Line& line) {
   for (std::size_t i = 0; i < values.size(); ++i)
     if (values[i] != 0)
       return error(line, i + 1,
-                   fmt::format("fields are taken along y alone (got x {:g}, allowed 0)", values[i]));
+                   fmt::format("only fields along y are supported (got x {:g}, allowed 0)", values[i]));
 }
 
 void Reader::y_fields(const Line& line) {
@@ -127,7 +127,7 @@ void Reader::wavelength(const Line& line) {
   const auto um = line.number(2, diagnostics_);
   if (!number || !um) return;
   if (!spec::kWavelength.contains(*um * 1000)) {
-    // Zemax fills the places of wavelengths that are not used.
+    // Zemax writes unused wavelengths too.
     if (wavelength_count_ == 0 || *number <= static_cast<double>(wavelength_count_))
       error(line, 2,
             fmt::format("wavelength out of range (got {} nm, allowed {} nm)", *um * 1000,
@@ -149,16 +149,15 @@ void Reader::vignetting(const Line& line) {
   const std::vector<double> values = line.numbers(1);
   const auto used = std::find_if(values.begin(), values.end(), [](double v) { return v != 0; });
   if (used != values.end())
-    diagnostics_.warning(line.where(1),
-                         fmt::format("the vignetting factors of {} are left out: clear apertures alone "
-                                     "take light away",
-                                     line.keyword()));
+    diagnostics_.warning(
+        line.where(1), fmt::format("the vignetting factors of {} are ignored: only clear apertures vignette",
+                                   line.keyword()));
 }
 
 void Reader::configurations(const Line& line) {
   if (line.numbers(1).size() > 0 && line.numbers(1)[0] > 1)
     error(line, 1,
-          fmt::format("lenses of several configurations are not understood (got {:g})", line.numbers(1)[0]));
+          fmt::format("lenses of several configurations are not supported (got {:g})", line.numbers(1)[0]));
 }
 
 void Reader::require_angles() {
@@ -170,10 +169,10 @@ void Reader::require_angles() {
 }
 
 void Reader::finish_fields() {
-  // The axis needs no YFLN.
+  // A single field on the axis needs no YFLN.
   if (std::max<std::size_t>(fields_.size(), 1) < field_count_)
     diagnostics_.error(fields_line_ ? fields_line_->where() : fields_where_,
-                       fmt::format("fewer fields along y than FTYP says (got {}, expected {})",
+                       fmt::format("fewer fields along y than FTYP declares (got {}, expected {})",
                                    fields_.size(), field_count_),
                        ErrorCode::input);
   if (field_count_ > 0) fields_.resize(field_count_);
@@ -188,14 +187,14 @@ void Reader::finish_fields() {
     lens_.fields = spec::ImageHeights{{fields_}};
 }
 
-// Those of one weight are the lens's as they are.
+// Warns of different weights of wavelengths; equal weights have no effect.
 void Reader::report_weights() {
   const auto other = std::find_if(wavelengths_.begin(), wavelengths_.end(), [&](const auto& wavelength) {
     return wavelength.second.weight != wavelengths_.begin()->second.weight;
   });
   if (other != wavelengths_.end())
     diagnostics_.warning(other->second.weight_where,
-                         "the weights of WAVM are left out: all wavelengths count alike");
+                         "the weights of WAVM are ignored: all wavelengths have equal weights");
 }
 
 void Reader::finish_wavelengths() {
@@ -216,7 +215,7 @@ void Reader::finish_wavelengths() {
                       numbers.empty() ? "none without WAVM" : fmt::format("{}", fmt::join(numbers, ", "))));
   if (used_nm.size() < wavelength_count_)
     diagnostics_.error(wavelength_count_where_,
-                       fmt::format("fewer wavelengths (WAVM) than FTYP says (got {}, expected {})",
+                       fmt::format("fewer wavelengths (WAVM) than FTYP declares (got {}, expected {})",
                                    used_nm.size(), wavelength_count_),
                        ErrorCode::input);
   if (!used_nm.empty()) lens_.wavelengths_nm = std::move(used_nm);

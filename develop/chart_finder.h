@@ -9,7 +9,7 @@
 
 namespace abbe {
 
-/// A picture as people look at it: red, green and blue of each pixel, row by row.
+/// An 8-bit picture: red, green and blue of each pixel, row by row from the top.
 struct ByteImage {
   int width = 0;
   int height = 0;
@@ -18,18 +18,19 @@ struct ByteImage {
 
 /// A ColorChecker of 24 patches in a picture.
 struct FoundChart {
-  /// The outer corners of its top left, top right, bottom right and bottom left patch's cell [pixels].
+  /// Outer corners [pixels] of the cells of the top left, top right, bottom right and bottom left patch.
   std::array<Imath::V2d, 4> corners;
-  double misfit = 0;  ///< Of its colours, the smaller the more it looks like one.
+  double misfit = 0;  ///< Dissimilarity of its colours from those of a ColorChecker.
 };
 
-/// What the module that finds charts offers: OpenCV, which some seventy packages bring, is there with it.
+/// Functions of the chart detector module. OpenCV is linked to the module alone, because it depends on some
+/// seventy packages.
 struct ChartFinder {
-  /// The chart that looks most like one; nothing where there is none.
+  /// Finds the most similar chart; empty if there is none.
   std::optional<FoundChart> (*find)(const ByteImage& picture);
 };
 
-/// The name under which the module exports a function that returns a `const ChartFinder*`.
+/// Symbol of the module's function that returns a `const ChartFinder*`.
 inline constexpr const char* kChartFinderSymbol = "abbe_chart_finder";
 
 }  // namespace abbe

@@ -19,49 +19,49 @@
 namespace abbe {
 namespace {
 
-// How pictures show the film: the white is the film's own unless another was asked for.
-void tell_showing(const FilmSensor& sensor, std::map<std::string, std::string>& told) {
-  if (sensor.display_exposure) told[kDisplayExposureKey] = fmt::format("{}", *sensor.display_exposure);
+// Records how pictures show the film. The white is the film's own unless another was requested.
+void record_display(const FilmSensor& sensor, std::map<std::string, std::string>& metadata) {
+  if (sensor.display_exposure) metadata[kDisplayExposureKey] = fmt::format("{}", *sensor.display_exposure);
   if (sensor.white_name.empty() || !sensor.white || !sensor.display) return;
-  const bool asked = told.contains(kWhiteAskedKey) && told[kWhiteKey] == sensor.white_name;
-  record_white(sensor.white_name, *sensor.white, asked, told);
-  told["to_xyz_d65"] = to_text(sensor.display->to_xyz_d65());
+  const bool requested = metadata.contains(kWhiteRequestedKey) && metadata[kWhiteKey] == sensor.white_name;
+  record_white(sensor.white_name, *sensor.white, requested, metadata);
+  metadata["to_xyz_d65"] = to_text(sensor.display->to_xyz_d65());
 }
 
-// An even frame tells what share of saturation it has by the exposure and the read-out that it has now.
-void tell_frame(const ExposedFilm& exposed, std::map<std::string, std::string>& told) {
+// Records the fraction of saturation of a flat frame for its current exposure and readout.
+void record_frame(const ExposedFilm& exposed, std::map<std::string, std::string>& metadata) {
   const FilmSensor& sensor = exposed.sensor;
-  const auto frame = told.find(kFrameKey);
-  if (frame == told.end() || !frame->second.starts_with(kFlatFrame) || !sensor.readout) return;
+  const auto frame = metadata.find(kFrameKey);
+  if (frame == metadata.end() || !frame->second.starts_with(kFlatFrame) || !sensor.readout) return;
   const auto light = static_cast<double>(exposed.film.find(sensor.planes.front())->values.front());
   frame->second = fmt::format("{}, {:.6g} of saturation", kFlatFrame,
                               light * sensor.gathering_area_m2 / saturation_electrons(*sensor.readout));
 }
 
-// What the film tells, of the sensor as it is read out.
-std::map<std::string, std::string> told_of(const ExposedFilm& exposed) {
+// Metadata of the film, with the sensor as it is read out.
+std::map<std::string, std::string> metadata_of(const ExposedFilm& exposed) {
   const FilmSensor& sensor = exposed.sensor;
-  std::map<std::string, std::string> told = exposed.film.metadata;
-  forget_layers_and_features(told);
-  tell_showing(sensor, told);
-  tell_frame(exposed, told);
-  if (!sensor.description.empty()) told["sensor"] = sensor.description;
+  std::map<std::string, std::string> metadata = exposed.film.metadata;
+  erase_layer_and_feature_attributes(metadata);
+  record_display(sensor, metadata);
+  record_frame(exposed, metadata);
+  if (!sensor.description.empty()) metadata["sensor"] = sensor.description;
   if (sensor.readout && sensor.electrons_per_lx_s)
-    told[kIsoSpeedKey] =
+    metadata[kIsoSpeedKey] =
         fmt::format("{}", static_cast<float>(saturation_speed(*sensor.readout, *sensor.electrons_per_lx_s)));
-  return told;
+  return metadata;
 }
 
 Image like(const ExposedFilm& exposed) {
-  return {exposed.film.width, exposed.film.height, {}, told_of(exposed)};
+  return {exposed.film.width, exposed.film.height, {}, metadata_of(exposed)};
 }
 
-// Exposure [per m^2] that gives so many electrons, those of the dark included.
+// Exposure [1/m^2] that gives `electrons` in total, including the dark signal.
 double exposure_of(const FilmSensor& sensor, double electrons, double seconds) {
   return (electrons - sensor.readout->dark_e_per_s * seconds) / sensor.gathering_area_m2;
 }
 
-// The exposure of each pixel under a mosaic whose channels differ in it; else none.
+// Exposure time [s] of each pixel under a mosaic whose channels differ in it; empty otherwise.
 std::vector<double> pixel_exposures(const FilmSensor& sensor, const Image& film) {
   std::vector<double> seconds;
   if (!sensor.mosaic || common_exposure(sensor)) return seconds;
@@ -95,26 +95,26 @@ void read_plane(const ExposedFilm& exposed, std::size_t plane, std::uint64_t see
   developed.calibrated.channels.push_back(std::move(calibrated));
 }
 
-// The unit of what the sensor's channels count, in place of the film's.
-void tell_unit(const char* unit, std::map<std::string, std::string>& told) {
-  for (auto& [key, text] : told)
+// Records the unit of the sensor's channels in place of the film's.
+void record_unit(const char* unit, std::map<std::string, std::string>& metadata) {
+  for (auto& [key, text] : metadata)
     if (key.starts_with("channel.")) text = unit;
 }
 
-// What the numbers of a raw file stand for, so that nothing that reads it has to guess.
-void tell_codes(const FilmSensor& sensor, std::map<std::string, std::string>& told) {
+// Records the meaning of the numbers in a raw file.
+void record_codes(const FilmSensor& sensor, std::map<std::string, std::string>& metadata) {
   const Readout& readout = *sensor.readout;
-  told[kCodesKey] =
+  metadata[kCodesKey] =
       fmt::format("digital numbers 0 to {}, linear, not scaled to 16 bits", readout.highest_code());
   if (readout.response_curve)
-    told[kCodesKey] = fmt::format("digital numbers 0 to {}, by a response curve", readout.highest_code());
-  told[kBlackLevelKey] = fmt::format("{}", black_level(sensor));
-  told[kWhiteLevelKey] = fmt::format("{}", white_level(readout));
-  told[kGainKey] = fmt::format("{}", readout.gain_e_per_dn);
+    metadata[kCodesKey] = fmt::format("digital numbers 0 to {}, by a response curve", readout.highest_code());
+  metadata[kBlackLevelKey] = fmt::format("{}", black_level(sensor));
+  metadata[kWhiteLevelKey] = fmt::format("{}", white_level(readout));
+  metadata[kGainKey] = fmt::format("{}", readout.gain_e_per_dn);
 }
 
-// The film values at which the channels of a picture saturate; nothing for a sensor without a read-out, or
-// without colours.
+// Film values at which the channels of a picture saturate; empty for a sensor without a readout or without
+// colours.
 std::optional<std::vector<double>> picture_saturation(const FilmSensor& sensor) {
   if (!sensor.readout || !sensor.display || sensor.channels.size() != 3) return std::nullopt;
   const double full_e = electrons_of(*sensor.readout, white_level(*sensor.readout));
@@ -126,7 +126,7 @@ std::optional<std::vector<double>> picture_saturation(const FilmSensor& sensor) 
   return saturation;
 }
 
-// True if a pixel has these values, or more, in all channels.
+// True if a pixel reaches these values in all channels.
 bool has_pixel_at(const Image& planes, const std::vector<std::string>& channels,
                   const std::array<double, 3>& values) {
   std::array<const ImageChannel*, 3> found{};
@@ -166,9 +166,9 @@ DevelopedFilm develop(const ExposedFilm& exposed, std::uint64_t seed, std::uint3
       developed.variance.channels.push_back(*variance);
     if (exposed.sensor.readout) read_plane(exposed, plane, seed, frame, developed);
   }
-  tell_unit("electrons per pixel", developed.electrons.metadata);
-  tell_unit("digital numbers", developed.codes.metadata);
-  if (exposed.sensor.readout) tell_codes(exposed.sensor, developed.codes.metadata);
+  record_unit("electrons per pixel", developed.electrons.metadata);
+  record_unit("digital numbers", developed.codes.metadata);
+  if (exposed.sensor.readout) record_codes(exposed.sensor, developed.codes.metadata);
   if (!exposed.sensor.readout) developed.calibrated = developed.exposure;
   return developed;
 }
@@ -178,14 +178,14 @@ double black_level(const FilmSensor& sensor) {
   return exposure_s ? black_level(*sensor.readout, *exposure_s) : sensor.readout->offset_dn;
 }
 
-std::optional<std::string> own_dark_signals(const FilmSensor& sensor) {
+std::optional<std::string> unequal_dark_signals_warning(const FilmSensor& sensor) {
   const double dark_dn_per_s = sensor.readout->dark_e_per_s / sensor.readout->gain_e_per_dn;
   if (dark_dn_per_s == 0 || sensor.exposure_s.empty() || common_exposure(sensor)) return std::nullopt;
-  const auto [least_s, most_s] = std::minmax_element(sensor.exposure_s.begin(), sensor.exposure_s.end());
+  const auto [min_s, max_s] = std::minmax_element(sensor.exposure_s.begin(), sensor.exposure_s.end());
   return fmt::format(
-      "channels of exposure times of their own have dark signals of their own (of {:.3g} to {:.3g} codes), "
-      "which the black level of raw files leaves out",
-      dark_dn_per_s * *least_s, dark_dn_per_s * *most_s);
+      "channels with different exposure times have different dark signals ({:.3g} to {:.3g} DN): the "
+      "black level of raw files does not include them",
+      dark_dn_per_s * *min_s, dark_dn_per_s * *max_s);
 }
 
 std::uint64_t render_seed(const Image& film) {
@@ -196,14 +196,14 @@ std::uint64_t render_seed(const Image& film) {
 Image display_planes(const FilmSensor& sensor, const Image& calibrated) {
   Image planes = sensor.mosaic ? demosaic(calibrated, sensor.planes.front(), *sensor.mosaic, sensor.channels)
                                : calibrated;
-  forget_layers_and_features(planes.metadata);
+  erase_layer_and_feature_attributes(planes.metadata);
   if (sensor.flattens_field && sensor.white_field) flatten(planes, sensor.channels, *sensor.white_field);
   if (const auto saturation = picture_saturation(sensor))
     clip_to_white(planes, sensor.channels, sensor.display->to_xyz_d65(), *saturation);
   return planes;
 }
 
-double shown_as_white(const FilmSensor& sensor, const Image& planes) {
+double display_white(const FilmSensor& sensor, const Image& planes) {
   require_display(sensor);
   if (sensor.display_exposure) return *sensor.display_exposure;
   const double automatic = 1 / sensor.display->automatic_scale(planes);
@@ -232,7 +232,7 @@ std::vector<PlaneFigures> plane_figures(const FilmSensor& sensor, const Develope
     if (!sensor.readout) continue;
     const double seconds = own_seconds.empty() ? sensor.exposure_s[plane] : over_film(own_seconds);
     figures.noise = temporal_noise(*sensor.readout, figures.mean, seconds);
-    figures.saturated_share = over_film(developed.codes.find("Saturated." + sensor.planes[plane])->values);
+    figures.saturated_fraction = over_film(developed.codes.find("Saturated." + sensor.planes[plane])->values);
   }
   return all;
 }

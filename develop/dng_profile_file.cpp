@@ -43,10 +43,10 @@ RawLight read_light(const JsonValue& light, Diagnostics& diagnostics) {
     if (const auto number = read_number(*code, {0, 255}, diagnostics)) {
       read.illuminant = static_cast<int>(*number);
       if (read.illuminant < 1 || read.illuminant > kLastOfExif)
-        diagnostics.error(
-            code->where, fmt::format("the light has no number in Exif, so that raw converters do not know it "
-                                     "(got {}, allowed A, B, C, D50, D55, D65, D75 and fluorescent lamps)",
-                                     read.illuminant));
+        diagnostics.error(code->where,
+                          fmt::format("the illuminant has no Exif code, so raw converters cannot identify it "
+                                      "(got {}, allowed A, B, C, D50, D55, D65, D75 and fluorescent lights)",
+                                      read.illuminant));
     }
   read.color = read_matrix(light, "ColorMatrix", diagnostics);
   read.forward = read_matrix(light, "ForwardMatrix", diagnostics);
@@ -67,7 +67,7 @@ DngProfile read_profile(const std::shared_ptr<const SourceText>& source, Diagnos
   return profile;
 }
 
-// Whether both name one camera: a file of curves wherever it lies.
+// True if both name the same camera. Curve files are compared by file name, in any folder.
 bool is_same_camera(const std::filesystem::path& a, const std::filesystem::path& b) {
   return a.filename() == b.filename();
 }
@@ -82,7 +82,7 @@ bool is_shipped_camera(const std::string& camera) {
 std::optional<DngProfile> read_dng_profile(const std::filesystem::path& path, Diagnostics& diagnostics) {
   const auto source = read_text(path, diagnostics);
   if (!source) return std::nullopt;
-  Diagnostics faults;  // of an input, not of a scene
+  Diagnostics faults;  // reported as errors of an input, not of a scene
   DngProfile profile = read_profile(source, faults);
   for (const Diagnostic& fault : faults.all())
     diagnostics.error(fault.where, fault.message, ErrorCode::input);

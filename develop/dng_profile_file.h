@@ -11,20 +11,20 @@
 
 namespace abbe {
 
-/// The matrices of a camera for DNG files, in two lights, the warmer first.
+/// Matrices of a camera for DNG files under two illuminants, the warmer first.
 struct DngProfile {
-  std::string camera;  ///< As `abbe calibrate --camera` was given it; empty where the file does not tell.
+  std::string camera;  ///< Argument of `abbe calibrate --camera`; empty if the file does not record it.
   std::vector<RawLight> lights;
 };
 
-/// Reads a `dng.json` that `abbe calibrate` wrote. Reports, as an input, a file that has not two lights with
-/// their matrices, and a light without a number in Exif, by which raw converters know its temperature; then
-/// returns nothing.
+/// Reads a `dng.json` written by `abbe calibrate`. Reports an input error if the file does not have two
+/// illuminants with their matrices. Also reports an illuminant without an Exif code, because raw converters
+/// take its temperature from the code. The result is then empty.
 [[nodiscard]] std::optional<DngProfile> read_dng_profile(const std::filesystem::path& path,
                                                          Diagnostics& diagnostics);
 
-/// Throws Error{input} naming `path` where the profile read from it is of another camera than the sensor's,
-/// or of a camera of `data/camera` for a sensor with channels of its own, none of which are that camera's.
+/// Throws Error{input} naming `path` if the profile belongs to a camera other than the sensor's. A profile of
+/// a camera in `data/camera` does not fit a sensor whose channels are not that camera's either.
 void require_same_camera(const DngProfile& profile, const FilmSensor& sensor,
                          const std::filesystem::path& path);
 

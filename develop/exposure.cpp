@@ -1,4 +1,4 @@
-// Films exposed anew, and frames of no scene.
+// Exposure times of films, and calibration frames.
 #include <algorithm>
 #include <array>
 #include <memory>
@@ -22,44 +22,44 @@ void scale_plane(Image& film, const std::string& name, double factor) {
       for (float& value : channel.values) value = static_cast<float>(static_cast<double>(value) * factor);
 }
 
-// What the film says of its sensor; it has been read before.
-std::optional<JsonValue> said_of(const FilmSensor& sensor) {
+// The film's sensor description. It was parsed before, so errors are ignored.
+std::optional<JsonValue> spec_of(const FilmSensor& sensor) {
   Diagnostics none;
   return parse_json(std::make_shared<const SourceText>(SourceText{"", sensor.description}), none);
 }
 
-double* number_in(JsonValue* said, const char* key) {
-  JsonValue* member = said != nullptr ? said->find(key) : nullptr;
+double* number_in(JsonValue* spec, const char* key) {
+  JsonValue* member = spec != nullptr ? spec->find(key) : nullptr;
   return member != nullptr ? std::get_if<double>(&member->value) : nullptr;
 }
 
-// The description says the sensor's exposure and what channels have of their own; the shutter's times keep
-// their shares of it.
+// Updates the exposure times in the description: of the sensor, of channels, and of the shutter, whose times
+// scale.
 void describe_exposure(FilmSensor& sensor, double factor) {
-  std::optional<JsonValue> said = said_of(sensor);
-  if (!said) return;
+  std::optional<JsonValue> spec = spec_of(sensor);
+  if (!spec) return;
   Diagnostics none;
-  set_json(*said, "/exposure_s", fmt::format("{}", sensor.shared_exposure_s), none);
-  if (JsonValue* channels = said->find("channels"); channels != nullptr)
+  set_json(*spec, "/exposure_s", fmt::format("{}", sensor.shared_exposure_s), none);
+  if (JsonValue* channels = spec->find("channels"); channels != nullptr)
     for (std::size_t k = 0; k < sensor.channels.size(); ++k)
       if (double* seconds = number_in(channels->find(sensor.channels[k]), "exposure_s"))
         *seconds = sensor.exposure_s[k];
   for (const char* key : {"rise_s", "fall_s", "row_delay_s"})
-    if (double* seconds = number_in(said->find("shutter"), key)) *seconds *= factor;
-  sensor.description = to_text(*said);
+    if (double* seconds = number_in(spec->find("shutter"), key)) *seconds *= factor;
+  sensor.description = to_text(*spec);
 }
 
-// What the film tells of its exposure, in full and as the standard attribute in single precision.
-void tell_exposure(ExposedFilm& exposed, double factor) {
-  std::map<std::string, std::string>& told = exposed.film.metadata;
+// Records the exposure time in full, and as the standard attribute in single precision.
+void record_exposure(ExposedFilm& exposed, double factor) {
+  std::map<std::string, std::string>& metadata = exposed.film.metadata;
   const FilmSensor& sensor = exposed.sensor;
   const auto scale = [&](const std::string& key, double value) {
-    if (told.contains(key)) told[key] = fmt::format("{}", value);
+    if (metadata.contains(key)) metadata[key] = fmt::format("{}", value);
   };
   scale("exposure_s", sensor.shared_exposure_s);
   for (std::size_t k = 0; k < sensor.channels.size(); ++k)
     scale("exposure_s." + sensor.channels[k], sensor.exposure_s[k]);
-  if (const auto seconds = told.find("expTime"); seconds != told.end())
+  if (const auto seconds = metadata.find("expTime"); seconds != metadata.end())
     if (const auto before = parse_number(seconds->second))
       seconds->second = fmt::format("{}", static_cast<float>(*before * factor));
 }
@@ -68,7 +68,7 @@ void set_exposure(ExposedFilm& exposed, double factor) {
   exposed.sensor.shared_exposure_s *= factor;
   for (double& seconds : exposed.sensor.exposure_s) seconds *= factor;
   describe_exposure(exposed.sensor, factor);
-  tell_exposure(exposed, factor);
+  record_exposure(exposed, factor);
 }
 
 void fill_plane(Image& film, const std::string& name, double value) {
@@ -77,16 +77,15 @@ void fill_plane(Image& film, const std::string& name, double value) {
       std::fill(channel.values.begin(), channel.values.end(), static_cast<float>(value));
 }
 
-bool is_zero(const JsonValue& said) {
-  const auto* number = std::get_if<double>(&said.value);
+bool is_zero(const JsonValue& spec) {
+  const auto* number = std::get_if<double>(&spec.value);
   return number != nullptr && *number == 0;
 }
 
-// Whether the film's shutter passes more of the light at some times of the exposure, or in some rows, than in
-// others.
+// True if the transmission of the film's shutter varies during the exposure or between rows.
 bool has_shaped_shutter(const FilmSensor& sensor) {
-  const std::optional<JsonValue> said = said_of(sensor);
-  const JsonValue* shutter = said ? said->find("shutter") : nullptr;
+  const std::optional<JsonValue> spec = spec_of(sensor);
+  const JsonValue* shutter = spec ? spec->find("shutter") : nullptr;
   constexpr std::array kShapes{"rise_s", "fall_s", "transmission", "row_delay_s"};
   return shutter != nullptr && std::any_of(kShapes.begin(), kShapes.end(), [&](const char* key) {
            const JsonValue* shape = shutter->find(key);
@@ -94,7 +93,7 @@ bool has_shaped_shutter(const FilmSensor& sensor) {
          });
 }
 
-// The exposure time that the film is said to have.
+// The exposure time [s] that the film records.
 double stated_exposure(const FilmSensor& sensor) {
   return common_exposure(sensor).value_or(sensor.shared_exposure_s);
 }
@@ -102,10 +101,11 @@ double stated_exposure(const FilmSensor& sensor) {
 void warn_of_shutter(const FilmSensor& sensor, Diagnostics& diagnostics) {
   if (!has_shaped_shutter(sensor)) return;
   const auto option = std::make_shared<const SourceText>(SourceText{"--exposure-s", ""});
-  diagnostics.warning({option, SourcePosition::kWholeFile, ""},
-                      fmt::format("the film's motion blur is that of its own exposure time of {} s, and its "
-                                  "shutter opens, closes and delays rows in the same shares of the new one",
-                                  stated_exposure(sensor)));
+  diagnostics.warning(
+      {option, SourcePosition::kWholeFile, ""},
+      fmt::format("motion blur remains that of the film's own exposure time of {} s; the opening, "
+                  "closing and row delay of the shutter are scaled with the exposure time",
+                  stated_exposure(sensor)));
 }
 
 }  // namespace
@@ -113,10 +113,10 @@ void warn_of_shutter(const FilmSensor& sensor, Diagnostics& diagnostics) {
 void expose_for(ExposedFilm& exposed, double seconds, Diagnostics& diagnostics) {
   const FilmSensor& sensor = exposed.sensor;
   if (sensor.exposure_s.empty())
-    throw Error(ErrorCode::usage, "--exposure-s", "the film tells of no exposure: radiances have none");
+    throw Error(ErrorCode::usage, "--exposure-s", "the film records no exposure time: radiances have none");
   if (stated_exposure(sensor) == 0)
     throw Error(ErrorCode::usage, "--exposure-s",
-                "a bias frame is exposed for no time (allowed with the film that it was made of)");
+                "a bias frame is exposed for no time: use the film from which it was made");
   const double factor = seconds / stated_exposure(sensor);
   if (factor != 1) warn_of_shutter(sensor, diagnostics);
   for (const std::string& plane : sensor.planes) {
@@ -126,14 +126,14 @@ void expose_for(ExposedFilm& exposed, double seconds, Diagnostics& diagnostics) 
   set_exposure(exposed, factor);
 }
 
-void expose_to(ExposedFilm& exposed, const CalibrationFrame& frame) {
+void replace_with_frame(ExposedFilm& exposed, const CalibrationFrame& frame) {
   const FilmSensor& sensor = exposed.sensor;
   if (!sensor.readout)
     throw Error(ErrorCode::usage, "--frame",
-                "the film has no read-out to make frames with (allowed: --set '/readout={...}')");
+                "the film has no readout, which frames need: add one with --set '/readout={...}'");
   const auto* flat = std::get_if<FlatFrame>(&frame);
   const double light =
-      flat ? flat->share * saturation_electrons(*sensor.readout) / sensor.gathering_area_m2 : 0;
+      flat ? flat->saturation_fraction * saturation_electrons(*sensor.readout) / sensor.gathering_area_m2 : 0;
   for (const std::string& plane : sensor.planes) {
     fill_plane(exposed.film, plane, light);
     fill_plane(exposed.film, variance_of(plane), 0);

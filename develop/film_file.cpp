@@ -42,10 +42,10 @@ bool is_variance(const ImageChannel& channel) {
   return channel.name.starts_with(variance_of(""));
 }
 
-// Linear Rec.709 that displays show, with nothing of the sensor that would have it read as a film.
+// Linear Rec.709 for displays, without the sensor attributes that would make it a film.
 Image preview(const Image& planes, const Matrix3& to_xyz) {
   Image rgb = rec709_image(planes, to_xyz);
-  forget_sensor(rgb.metadata);
+  erase_sensor_attributes(rgb.metadata);
   return rgb;
 }
 
@@ -55,11 +55,12 @@ void require_finite(const Image& film, const std::filesystem::path& path) {
   for (const ImageChannel& channel : film.channels)
     for (std::size_t i = 0; i < channel.values.size(); ++i)
       if (const float value = channel.values[i]; is_variance(channel) ? !(value >= 0) : !std::isfinite(value))
-        throw Error(ErrorCode::input, path.string(),
-                    fmt::format("channel \"{}\" holds no {} at pixel {},{} (got {})", channel.name,
-                                value < 0 && is_variance(channel) ? "variance" : "number",
-                                i % static_cast<std::size_t>(film.width),
-                                i / static_cast<std::size_t>(film.width), value));
+        throw Error(
+            ErrorCode::input, path.string(),
+            fmt::format(
+                "channel \"{}\" has {} at pixel {},{} (got {})", channel.name,
+                value < 0 && is_variance(channel) ? "a negative variance" : "a value that is not finite",
+                i % static_cast<std::size_t>(film.width), i / static_cast<std::size_t>(film.width), value));
 }
 
 Image read_film(const std::filesystem::path& path, Inputs* inputs) {
@@ -76,14 +77,14 @@ void write_parts(const std::filesystem::path& path, const DevelopedFilm& develop
     parts.push_back({"dn", developed.codes});
   }
   if (sensor.display) {
-    const double white = shown_as_white(sensor, planes);
+    const double white = display_white(sensor, planes);
     parts.push_back({"preview", preview(planes, sensor.display->to_xyz_d65() * (1 / white))});
   }
   write_exr(path, parts);
 }
 
 void write_display(const std::filesystem::path& path, const Image& planes, const FilmSensor& sensor) {
-  const double white = shown_as_white(sensor, planes);
+  const double white = display_white(sensor, planes);
   write_picture(path, (*sensor.display)(planes, 1 / white).image);
 }
 

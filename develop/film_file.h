@@ -7,35 +7,33 @@
 
 namespace abbe {
 
-/// Throws Error{input} naming `path`, channel and pixel for a value that is no number, and for a negative
-/// variance. Variances may be infinite: they are the squares of errors whose values may be as large as single
-/// precision holds.
+/// Throws Error{input} naming `path`, channel and pixel for a value that is not finite and for a negative
+/// variance. Variances may be infinite: the square of an error may exceed single precision.
 void require_finite(const Image& film, const std::filesystem::path& path);
 
-/// Reads a film as it was rendered, or one that was developed into parts before. Throws Error{input} for a
-/// file that is none, for values that are no numbers and for negative variances; Error{resource} beyond the
-/// memory that `inputs` has left.
+/// Reads a film as rendered, or one developed into parts. Throws Error{input} if the file is not a film or
+/// fails `require_finite`, Error{resource} if it exceeds the memory left in `inputs`.
 [[nodiscard]] Image read_film(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
-/// Writes an .exr of parts: the exposure and its variance, and with a read-out the electrons and the codes.
-/// If a display can show them, a part has the `planes` of `display_planes` as linear Rec.709, in which 1 is
-/// `shown_as_white`. Throws Error{output}.
+/// Writes an .exr with the exposure and its variance as parts; with a readout also electrons and codes. If
+/// the sensor has a display transform, another part holds `planes` (of `display_planes`) as linear Rec.709,
+/// with `display_white` at 1. Throws Error{output}.
 void write_parts(const std::filesystem::path& path, const DevelopedFilm& developed, const Image& planes,
                  const FilmSensor& sensor);
 
-/// Writes a picture of the `planes` of `display_planes` for displays. Throws what `require_display` does, and
+/// Writes `planes` (of `display_planes`) as a picture for displays. Throws as `require_display`, and
 /// Error{output}.
 void write_display(const std::filesystem::path& path, const Image& planes, const FilmSensor& sensor);
 
-/// Throws Error{usage} for the name of a file that no film is developed into: `.exr` for parts, and of raw
-/// files `.tif`, `.tiff`, `.png`, `.dng`, `.fits` and `.fit`.
+/// Throws Error{usage} unless films can be developed into files of this extension. It is `.exr` for parts, or
+/// for raw files `.tif`, `.tiff`, `.png`, `.dng`, `.fits` or `.fit`.
 void require_developed_extension(const std::filesystem::path& path);
 
-/// Whether a file of such a name holds codes.
+/// True if a file with this extension holds codes.
 [[nodiscard]] bool is_raw_file(const std::filesystem::path& path);
 
-/// Writes the codes, a plane each, as a file of the kind that the extension names: 16-bit picture, DNG or
-/// FITS. Throws Error{output}.
+/// Writes the codes, one plane each, in the format of the extension: 16-bit picture, DNG or FITS. Throws
+/// Error{output}.
 void write_raw(const std::filesystem::path& path, const DevelopedFilm& developed, const FilmSensor& sensor);
 
 }  // namespace abbe

@@ -18,7 +18,7 @@ namespace {
 
 constexpr const char* kGainPointer = "/readout/gain_e_per_dn";
 
-// Metadata of one film, with words for what is missing or wrong.
+// Reads the attributes of a film; errors name its path.
 struct Metadata {
   const Image& film;
   const std::filesystem::path& path;
@@ -29,8 +29,9 @@ struct Metadata {
   }
   [[nodiscard]] std::string text(const std::string& key) const {
     if (auto found = find(key)) return *std::move(found);
-    throw Error(ErrorCode::input, path.string(),
-                fmt::format("no attribute \"{}\": no film of a render, or one of an older version", key));
+    throw Error(
+        ErrorCode::input, path.string(),
+        fmt::format("no attribute \"{}\": not a rendered film, or one from an older version of Abbe", key));
   }
   [[nodiscard]] std::optional<double> find_number(const std::string& key, bool may_be_0 = false) const {
     const auto found = find(key);
@@ -63,7 +64,7 @@ void read_planes(const Metadata& data, FilmSensor& sensor) {
     sensor.exposure_s.push_back(data.find_number("exposure_s." + channel, is_bias).value_or(exposure_s));
 }
 
-// A gain takes the place of a speed, and a speed that of a gain.
+// A gain replaces a speed, and a speed replaces a gain.
 void replace_conversion(JsonValue& sensor, const std::string& pointer) {
   const std::string_view old = pointer == kIsoPointer    ? "gain_e_per_dn"
                                : pointer == kGainPointer ? "iso"
@@ -74,7 +75,7 @@ void replace_conversion(JsonValue& sensor, const std::string& pointer) {
       std::erase_if(*members, [old](const JsonValue::Member& member) { return member.first == old; });
 }
 
-// The text under a key of an object; empty where there is none.
+// The string under a key of an object; empty if there is none.
 std::string text_in(const JsonValue& object, const char* key) {
   const JsonValue* member = object.find(key);
   const auto* text = member != nullptr ? std::get_if<std::string>(&member->value) : nullptr;
@@ -88,7 +89,7 @@ void require_one_conversion(std::span<const Override> overrides) {
   };
   if (sets(kIsoPointer) && sets(kGainPointer))
     throw Error(ErrorCode::usage, kIsoPointer,
-                fmt::format("makes the gain, which {} says too: one of them", kGainPointer));
+                fmt::format("sets the gain, which {} sets too: use only one of them", kGainPointer));
 }
 
 std::optional<Readout> read_readout_of(const Metadata& data, FilmSensor& sensor,
@@ -100,11 +101,13 @@ std::optional<Readout> read_readout_of(const Metadata& data, FilmSensor& sensor,
   require_one_conversion(overrides);
   for (const Override& o : overrides) {
     if (o.pointer != "/readout" && !o.pointer.starts_with("/readout/"))
-      throw Error(ErrorCode::usage, "--set",
-                  fmt::format("the film was rendered with it (got {}, allowed /readout and below, {})",
-                              o.pointer, kWhitePointer));
+      throw Error(
+          ErrorCode::usage, "--set",
+          fmt::format(
+              "the render has already used this value (got {}, allowed /readout and keys below it, {})",
+              o.pointer, kWhitePointer));
     replace_conversion(*json, o.pointer);
-    set_json(*json, o.pointer, o.value, diagnostics, o.said_by);
+    set_json(*json, o.pointer, o.value, diagnostics, o.option_name);
   }
   sensor.description = overrides.empty() ? data.text("sensor") : to_text(*json);
   sensor.measured_camera = text_in(*json, "camera");
@@ -115,11 +118,11 @@ std::optional<Readout> read_readout_of(const Metadata& data, FilmSensor& sensor,
   if (sensor.planes.size() > sensor.channels.size() && !sensor.mosaic)
     throw Error(
         ErrorCode::input, data.path.string(),
-        fmt::format("its plane \"{}\" has a sign, and no electrons to read out", sensor.planes.back()));
+        fmt::format("plane \"{}\" has signed values, not electrons to read out", sensor.planes.back()));
   for (const std::string& channel : sensor.channels)
     if (!data.text("channel." + channel).starts_with("quantum"))
       throw Error(ErrorCode::input, data.path.string(),
-                  fmt::format("channel \"{}\" counts no electrons to read out", channel));
+                  fmt::format("channel \"{}\" counts no electrons, so it cannot be read out", channel));
   return read_readout(*readout, data.find_number("electrons_per_lx_s"), diagnostics);
 }
 
@@ -146,7 +149,8 @@ std::optional<DisplayTransform> read_display(const Metadata& data, FilmSensor& s
   }
   if (white) {
     const auto own = recorded_white(data.film);
-    if (!own) throw Error(ErrorCode::usage, kWhitePointer, "the film tells no white that this could replace");
+    if (!own)
+      throw Error(ErrorCode::usage, kWhitePointer, "the film records no white that this could replace");
     const Matrix3 adapted = white_adaptation(*own);
     if (!is_invertible(adapted)) data.refuse(kWhiteXyKey);
     matrix = white_adaptation(*white) * adapted.inverse(true) * *matrix;
@@ -156,9 +160,9 @@ std::optional<DisplayTransform> read_display(const Metadata& data, FilmSensor& s
 
 }  // namespace
 
-std::optional<FilmSensor> film_sensor(const Image& film, const std::filesystem::path& path,
-                                      std::span<const Override> overrides, const ViewOptions& view,
-                                      std::optional<Chromaticity> white, Diagnostics& diagnostics) {
+std::optional<FilmSensor> read_film_sensor(const Image& film, const std::filesystem::path& path,
+                                           std::span<const Override> overrides, const ViewOptions& view,
+                                           std::optional<Chromaticity> white, Diagnostics& diagnostics) {
   const Metadata data{film, path};
   FilmSensor sensor;
   read_planes(data, sensor);
@@ -188,7 +192,8 @@ std::optional<double> common_exposure(const FilmSensor& sensor) {
 void require_display(const FilmSensor& sensor) {
   if (sensor.display) return;
   if (!sensor.no_picture.empty()) throw Error(ErrorCode::usage, "", sensor.no_picture);
-  throw Error(ErrorCode::usage, "film", "a picture needs a sensor of one or three channels, and a light");
+  throw Error(ErrorCode::usage, "film",
+              "a picture needs a sensor of one or three channels and a scene with a light");
 }
 
 void require_planes(const Image& film, const FilmSensor& sensor, const std::filesystem::path& path) {

@@ -15,14 +15,14 @@ namespace {
 const ChartFinder& chart_finder() {
   static const ChartFinder& finder = module_functions<ChartFinder>(
       ABBE_CHART_MODULE, kChartFinderSymbol, ModuleScope::own,
-      "--corners find: the module that finds charts, which Abbe has where it was built with OpenCV,");
+      "--corners find: the chart detector, which is part of Abbe if it was built with OpenCV,");
   return finder;
 }
 
-using Planes = std::array<const ImageChannel*, 3>;  // to be looked at as red, green and blue
+using Planes = std::array<const ImageChannel*, 3>;  // to use as red, green and blue
 
-// The ways in which the image may be looked at.
-std::vector<Planes> looks(const Image& image) {
+// Possible assignments of the image's channels to red, green and blue.
+std::vector<Planes> rgb_assignments(const Image& image) {
   for (const auto& [r, g, b] : {std::array{"R", "G", "B"}, std::array{"X", "Y", "Z"}})
     if (image.find(r) != nullptr && image.find(g) != nullptr && image.find(b) != nullptr)
       return {{image.find(r), image.find(g), image.find(b)}};
@@ -32,14 +32,14 @@ std::vector<Planes> looks(const Image& image) {
   return {rainbow, {rainbow[2], rainbow[1], rainbow[0]}};
 }
 
-// The value that a hundredth of the pixels surpasses: a chart's white, or what is brighter beside it.
+// The value that 1 % of the pixels exceed: the white of a chart, or of brighter surroundings.
 float white_of(std::vector<float> values) {
   const auto white = values.end() - 1 - static_cast<std::ptrdiff_t>(values.size() / 100);
   std::nth_element(values.begin(), white, values.end());
   return *white;
 }
 
-// Each channel up to its white, with the contrast of a display.
+// Scales each channel to its white and applies the gamma of a display.
 ByteImage picture_of(const Image& image, const Planes& planes) {
   constexpr float kDisplayGamma = 2.2F;
   ByteImage picture{image.width, image.height, std::vector<std::array<std::uint8_t, 3>>(image.pixels())};
@@ -61,14 +61,15 @@ std::array<Imath::V2d, 4> find_chart(const LinearImage& image) {
       image.mosaic ? demosaic(image.image, image.image.channels.front().name, *image.mosaic, image.channels)
                    : image.image;
   std::optional<FoundChart> best;
-  for (const Planes& look : looks(planes)) {
-    const auto found = chart_finder().find(picture_of(planes, look));
+  for (const Planes& assignment : rgb_assignments(planes)) {
+    const auto found = chart_finder().find(picture_of(planes, assignment));
     if (found && (!best || found->misfit < best->misfit)) best = found;
   }
   if (!best)
-    throw Error(ErrorCode::input, "",
-                "no ColorChecker was found: is it whole, in focus, and with its frame between the patches? "
-                "Else give --corners X,Y,X,Y,X,Y,X,Y");
+    throw Error(
+        ErrorCode::input, "",
+        "no ColorChecker was found: the picture must show all of it, in focus, with the frame between its "
+        "patches; otherwise give --corners X,Y,X,Y,X,Y,X,Y");
   return best->corners;
 }
 

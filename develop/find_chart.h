@@ -8,11 +8,11 @@
 
 namespace abbe {
 
-/// Finds a ColorChecker of 24 patches in an image of any kind, whichever way up it is, by the module that
-/// looks for charts as people see them: its channels R, G, B, or X, Y, Z; of others, in the order of the
-/// rainbow either way, the first, middle and last; the one of a grey image. Returns the corners that
-/// `outlines_between` takes, a pixel or two from the truth. Throws Error{input} where there is none, and
-/// where the module is missing.
+/// Finds a ColorChecker of 24 patches, in any orientation, by the chart detector module. The detector needs
+/// red, green and blue: channels R, G, B or X, Y, Z if the image has them. Otherwise the first, middle and
+/// last channel are tried in order of wavelength and in reverse; a grey image uses its one channel. Returns
+/// the corners that `outlines_between` takes, accurate to a pixel or two. Throws Error{input} if there is no
+/// chart or the module is missing.
 [[nodiscard]] std::array<Imath::V2d, 4> find_chart(const LinearImage& image);
 
 }  // namespace abbe

@@ -25,23 +25,24 @@
 namespace abbe {
 namespace {
 
-std::optional<std::string> told(const Image& image, const std::string& key) {
+std::optional<std::string> attribute(const Image& image, const std::string& key) {
   const auto found = image.metadata.find(key);
   return found == image.metadata.end() ? std::nullopt : std::optional(found->second);
 }
 
-// The mosaic that a film or a raw file of ours tells.
+// Reads the mosaic that a film or raw file of Abbe records.
 void read_mosaic(LinearImage& read) {
-  auto told = recorded_mosaic(read.image.metadata);
-  if (!told || read.image.channels.size() != 1) return;
-  read.mosaic = std::move(told->pattern);
-  read.channels = std::move(told->channels);
+  auto recorded = recorded_mosaic(read.image.metadata);
+  if (!recorded || read.image.channels.size() != 1) return;
+  read.mosaic = std::move(recorded->pattern);
+  read.channels = std::move(recorded->channels);
 }
 
-// Leaves the film's own planes, in the order of the sensor; files keep channels by the alphabet.
+// Removes all but the film's own planes and puts them in the order of the sensor; files order channels by
+// name.
 void keep_planes(Image& image) {
   std::vector<std::string> order = intensities(plane_names(image));
-  if (!told(image, "sensor_channels") && !is_spectral(image)) {
+  if (!attribute(image, "sensor_channels") && !is_spectral(image)) {
     std::erase_if(order, [](const std::string& name) { return name.find('.') != std::string::npos; });
     if (const auto rgb = rgb_order(order)) order = {order[(*rgb)[0]], order[(*rgb)[1]], order[(*rgb)[2]]};
   }
@@ -51,21 +52,21 @@ void keep_planes(Image& image) {
   image.channels = std::move(planes);
 }
 
-LinearImage of_film(const std::filesystem::path& path, Inputs* inputs) {
+LinearImage linear_film(const std::filesystem::path& path, Inputs* inputs) {
   LinearImage read{read_film(path, inputs), {}, {}, {}, kFilmValues};
   const bool spectral = is_spectral(read.image);
   const std::size_t all = read.image.memory_bytes();
   if (spectral) read.unit = "radiance of the band [W/(m^2 sr)]";
   keep_planes(read.image);
-  if (inputs != nullptr) inputs->give_back_memory(all - read.image.memory_bytes());
+  if (inputs != nullptr) inputs->release_memory(all - read.image.memory_bytes());
   for (const ImageChannel& channel : read.image.channels) read.channels.push_back(channel.name);
   read_mosaic(read);
   return read;
 }
 
-// Makes of codes what they stand for on a straight line above black, which is a code of that line. White is
-// rounded as they are, so that pixels of just that code are saturated.
-void take_black(LinearImage& read, const RawScale& scale, double black, double white) {
+// Linearises codes and subtracts black, which is a linear value. White is rounded like the codes, so pixels
+// with exactly that code are saturated.
+void subtract_black(LinearImage& read, const RawScale& scale, double black, double white) {
   const auto above_black = [&](double code) { return static_cast<float>(scale.linear(code) - black); };
   read.unit = kNumbersAboveBlack;
   read.saturation = static_cast<double>(above_black(white));
@@ -73,32 +74,32 @@ void take_black(LinearImage& read, const RawScale& scale, double black, double w
     for (float& code : plane.values) code = above_black(static_cast<double>(code));
 }
 
-// The values that the opcodes of a DNG make of those above black.
-void take_corrected(LinearImage& read, const RawPicture& raw, Inputs* inputs, const std::string& file) {
+// Uses the values to which the opcodes of a DNG change those above black.
+void use_corrected(LinearImage& read, const RawPicture& raw, Inputs* inputs, const std::string& file) {
   read.warnings = ignored_opcodes(raw, file);
   if (raw.corrected.empty()) return;
-  if (inputs != nullptr) inputs->take_memory(file, raw.corrected.size() * sizeof(float));
+  if (inputs != nullptr) inputs->reserve_memory(file, raw.corrected.size() * sizeof(float));
   read.exposed = read.image.channels;
   const std::size_t planes = raw.planes.size();
   for (std::size_t i = 0; i < raw.corrected.size(); ++i)
     read.image.channels[i % planes].values[i / planes] = raw.corrected[i];
 }
 
-LinearImage of_raw(const std::filesystem::path& path, Inputs* inputs) {
+LinearImage linear_raw(const std::filesystem::path& path, Inputs* inputs) {
   const RawPicture raw = read_raw_picture(path);
-  if (inputs != nullptr) inputs->take_memory(path.string(), raw.codes.size() * sizeof(float));
+  if (inputs != nullptr) inputs->reserve_memory(path.string(), raw.codes.size() * sizeof(float));
   LinearImage read{code_planes(raw), raw.channels, mosaic_of(raw), {}, {}};
-  tell_lines(read.image);
+  add_description_attributes(read.image);
   read_mosaic(read);
   const RawScale scale = raw.is_linearised ? RawScale{} : raw_scale(read.image).value_or(RawScale{});
-  // Tags tell it in single precision at most.
-  const auto black = parse_number(told(read.image, kBlackLevelKey).value_or(""));
-  take_black(read, scale, black.value_or(raw.black_level_dn), raw.white_level_dn);
-  take_corrected(read, raw, inputs, path.string());
+  // DNG tags have at most single precision, the attribute has more.
+  const auto black = parse_number(attribute(read.image, kBlackLevelKey).value_or(""));
+  subtract_black(read, scale, black.value_or(raw.black_level_dn), raw.white_level_dn);
+  use_corrected(read, raw, inputs, path.string());
   return read;
 }
 
-// Damage that a file's checks do not show may show in numbers that the sensor cannot give.
+// Damage that a file's checksums do not reveal may show as codes that the sensor cannot produce.
 void require_codes(const Image& image, const std::filesystem::path& path) {
   const std::optional<RawScale> scale = raw_scale(image);
   if (!scale) return;
@@ -107,17 +108,17 @@ void require_codes(const Image& image, const std::filesystem::path& path) {
       if (const double code = code_of(channel.values[i]); code > scale->highest())
         throw Error(
             ErrorCode::input, path.string(),
-            fmt::format("damaged, or of another sensor than it says: channel \"{}\" holds the code {} "
+            fmt::format("damaged, or from another sensor than it declares: channel \"{}\" has code {} "
                         "at pixel {},{} (allowed 0 to {})",
                         channel.name, code, i % static_cast<std::size_t>(image.width),
                         i / static_cast<std::size_t>(image.width), scale->highest()));
 }
 
-LinearImage of_picture(const std::filesystem::path& path, Inputs* inputs) {
+LinearImage linear_picture(const std::filesystem::path& path, Inputs* inputs) {
   LinearImage read{read_picture(path, inputs), {}, {}, 1.0, kCodeValues};
-  tell_lines(read.image);
-  const auto black = parse_number(told(read.image, kBlackLevelKey).value_or(""));
-  const auto white = parse_number(told(read.image, kWhiteLevelKey).value_or(""));
+  add_description_attributes(read.image);
+  const auto black = parse_number(attribute(read.image, kBlackLevelKey).value_or(""));
+  const auto white = parse_number(attribute(read.image, kWhiteLevelKey).value_or(""));
   if (black && white)
     name_planes(read.image);
   else
@@ -128,12 +129,12 @@ LinearImage of_picture(const std::filesystem::path& path, Inputs* inputs) {
   require_codes(read.image, path);
   for (ImageChannel& channel : read.image.channels)
     for (float& value : channel.values) value = static_cast<float>(code_of(value));
-  take_black(read, raw_scale(read.image).value_or(RawScale{}), *black, *white);
+  subtract_black(read, raw_scale(read.image).value_or(RawScale{}), *black, *white);
   read_mosaic(read);
   return read;
 }
 
-// The mean of each channel's pixels.
+// Mean over the pixels of each channel.
 std::vector<double> channel_means(const LinearImage& image) {
   const std::vector<double>::size_type count = image.channels.size();
   std::vector<double> sums(count, 0);
@@ -155,7 +156,8 @@ std::string described(const LinearImage& image) {
   return fmt::format("the mosaic {}", to_text(*image.mosaic, image.channels));
 }
 
-// What is clipped is even whatever the light; hot pixels are clipped in any flat.
+// Clipped values are uniform under any light, so a saturated flat is useless. A few hot pixels are clipped in
+// any flat.
 void require_unsaturated(const LinearImage& flat, const std::filesystem::path& path) {
   if (!flat.saturation) return;
   double saturated = 0;
@@ -169,7 +171,7 @@ void require_unsaturated(const LinearImage& flat, const std::filesystem::path& p
     throw Error(
         ErrorCode::input, path.string(),
         fmt::format("the flat is saturated (got {:.3g} % of its pixels, allowed {} %): expose it less",
-                    100 * saturated / pixels, 100 * kMostDefective));
+                    100 * saturated / pixels, 100 * kMaxDefectiveFraction));
 }
 
 }  // namespace
@@ -182,19 +184,19 @@ MeasuredPlanes LinearImage::planes() const {
 }
 
 LinearImage read_linear_image(const std::filesystem::path& path, Inputs* inputs) {
-  if (extension_of(path) == ".exr") return of_film(path, inputs);
-  if (is_raw_picture(path)) return of_raw(path, inputs);
-  return of_picture(path, inputs);
+  if (extension_of(path) == ".exr") return linear_film(path, inputs);
+  if (is_raw_picture(path)) return linear_raw(path, inputs);
+  return linear_picture(path, inputs);
 }
 
 void flat_field(LinearImage& image, const LinearImage& flat, const std::filesystem::path& path) {
   if (flat.image.width != image.image.width || flat.image.height != image.image.height)
     throw Error(ErrorCode::input, path.string(),
-                fmt::format("the flat has other pixels (got {} x {}, allowed {} x {})", flat.image.width,
+                fmt::format("the flat has a different size (got {} x {}, allowed {} x {})", flat.image.width,
                             flat.image.height, image.image.width, image.image.height));
   if (flat.channels != image.channels || flat.mosaic != image.mosaic)
     throw Error(ErrorCode::input, path.string(),
-                fmt::format("the flat has other channels or another mosaic (got {}, allowed {})",
+                fmt::format("the flat has different channels or a different mosaic (got {}, allowed {})",
                             described(flat), described(image)));
   require_unsaturated(flat, path);
   if (image.exposed.empty()) image.exposed = image.image.channels;

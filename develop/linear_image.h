@@ -11,20 +11,20 @@
 
 namespace abbe {
 
-/// An image of any kind, ready to be measured.
+/// An image from any kind of file, with linear values ready for measurement where the file allows it.
 struct LinearImage {
   Image image;
   std::vector<std::string> channels;
-  std::optional<Mosaic> mosaic;      ///< Then the image has one plane.
-  std::optional<double> saturation;  ///< Rounded to single precision, as the values are.
-  std::string unit;                  ///< What the values are, in words.
-  /// The planes as they were exposed, where opcodes of a DNG or a flat have changed them; empty where nothing
-  /// has.
+  std::optional<Mosaic> mosaic;      ///< If present, the image has one plane.
+  std::optional<double> saturation;  ///< Rounded to single precision, like the values.
+  std::string unit;                  ///< Description of the values' unit.
+  /// The planes as exposed, if opcodes of a DNG or a flat field have changed them; else empty.
   std::vector<ImageChannel> exposed = {};
-  std::vector<std::string> warnings = {};  ///< About the file, each of which names it.
+  std::vector<std::string> warnings = {};  ///< Warnings about the file; each names it.
 
+  /// The planes for measuring patches; they refer to this image.
   [[nodiscard]] MeasuredPlanes planes() const;
-  /// The planes that decide which pixels are saturated.
+  /// The planes that determine which pixels are saturated.
   [[nodiscard]] const std::vector<ImageChannel>& as_exposed() const {
     return exposed.empty() ? image.channels : exposed;
   }
@@ -36,10 +36,10 @@ struct LinearImage {
 /// declares and after the opcodes of a DNG. Throws Error{input} and Error{resource}.
 [[nodiscard]] LinearImage read_linear_image(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
-/// Divides each pixel by what a picture of an even surface has there, relative to the mean of its channel: so
-/// that neither vignetting nor pixels of unequal sensitivity are taken for colours. Throws Error{input}
-/// naming `path` for a flat of other pixels, channels or mosaic, for one with a pixel that is not positive,
-/// and for one of whose pixels more than a hundredth are saturated.
+/// Divides each pixel by that of a picture of a uniform surface, relative to the mean of its channel. This
+/// removes vignetting and differences in sensitivity between pixels. Throws Error{input} naming `path` if the
+/// size, channels or mosaic of the flat differ. Also throws it for a pixel that is not positive, and for more
+/// than 1 % saturated pixels.
 void flat_field(LinearImage& image, const LinearImage& flat, const std::filesystem::path& path);
 
 }  // namespace abbe

@@ -14,22 +14,22 @@ std::vector<StokesPlanes> required_planes(const Image& film) {
   if (planes.empty())
     throw Error(
         ErrorCode::usage, "--stokes",
-        "the film does not measure polarisation: sensor/stokes of a scene makes it, or polarisers of three "
-        "angles far enough apart");
+        "the film does not measure polarisation: set sensor/stokes in the scene, or use polarisers at three "
+        "sufficiently different angles");
   return planes;
 }
 
-// What the observer's Y sees of radiances.
+// Luminance of radiances, with its Stokes components.
 Image luminances(const Image& film) {
   const SpectralImage image = spectral_image(film, "film");
   const std::vector<Channel> observer = observer_channels(Observer::cie1931);
   return expose(image, with_stokes({observer.at(1)}), std::vector<double>(film.pixels(), 1.0));
 }
 
-// What a unit of each channel is in the luminance of the picture; 1 where no colours are known.
+// Luminance per unit of each channel; 1 if colours are unknown.
 std::vector<double> weights_of(const Image& film, std::size_t channels) {
-  const auto told = film.metadata.find("to_xyz_d65");
-  const auto matrix = told != film.metadata.end() ? parse_matrix3(told->second) : std::nullopt;
+  const auto recorded = film.metadata.find("to_xyz_d65");
+  const auto matrix = recorded != film.metadata.end() ? parse_matrix3(recorded->second) : std::nullopt;
   std::vector<double> weights(channels, 1.0);
   if (matrix && channels == 3)
     for (int k = 0; k < 3; ++k) weights[static_cast<std::size_t>(k)] = (*matrix)[1][k];
@@ -40,8 +40,8 @@ std::vector<double> weights_of(const Image& film, std::size_t channels) {
 
 std::vector<PolarisationFigures> polarisation_of_light(const Image& film) {
   const std::vector<StokesPlanes> own = required_planes(film);
-  const Image seen = is_spectral(film) ? luminances(film) : Image{};
-  const std::vector<StokesPlanes> planes = is_spectral(film) ? stokes_planes(seen) : own;
+  const Image luminance = is_spectral(film) ? luminances(film) : Image{};
+  const std::vector<StokesPlanes> planes = is_spectral(film) ? stokes_planes(luminance) : own;
   const std::vector<double> weights = weights_of(film, planes.size());
   std::vector<PolarisationFigures> all;
   all.reserve(film.pixels());
@@ -56,9 +56,9 @@ std::vector<PolarisationFigures> polarisation_of_light(const Image& film) {
 
 Image polarisation_image(const Image& film) {
   Image image{film.width, film.height, {}, film.metadata};
-  forget_channels(image.metadata);
-  forget_layout(image.metadata);
-  forget_layers_and_features(image.metadata);
+  erase_channel_attributes(image.metadata);
+  erase_layout_attributes(image.metadata);
+  erase_layer_and_feature_attributes(image.metadata);
   image.metadata.erase("sensor_channels");
   for (const StokesPlanes& planes : required_planes(film)) {
     ImageChannel degree{"DoP." + planes.channel, {}};
@@ -70,7 +70,7 @@ Image polarisation_image(const Image& film) {
       linear.values.push_back(static_cast<float>(of.linear_degree));
       angle.values.push_back(static_cast<float>(of.angle_deg));
     }
-    if (planes.tells_circular()) image.channels.push_back(std::move(degree));
+    if (planes.has_circular()) image.channels.push_back(std::move(degree));
     for (ImageChannel* channel : {&linear, &angle}) image.channels.push_back(std::move(*channel));
   }
   return image;

@@ -6,13 +6,13 @@
 
 namespace abbe {
 
-/// How the light of each pixel is polarised, all channels together: as the eye weighs them where the film
-/// knows colours, else added up. Throws Error{usage} for a film that does not measure polarisation.
+/// Polarisation of the light in each pixel, over all channels together. If the film has colours, channels are
+/// weighted by their luminance, else equally. Throws Error{usage} if the film does not record polarisation.
 [[nodiscard]] std::vector<PolarisationFigures> polarisation_of_light(const Image& film);
 
-/// The same of each channel C of a film: channels `DoP.C`, `DoLP.C` and `AoLP.C`, the degree, the degree of
-/// linear polarisation and its angle in degrees; without the first where linear polarisers have measured it.
-/// Throws the same.
+/// Polarisation of each channel C of a film, in channels `DoP.C`, `DoLP.C` and `AoLP.C`. They hold the degree
+/// of polarisation, the degree of linear polarisation and its angle [degrees]. Linear polarisers cannot
+/// measure `DoP.C`, which is then absent. Throws Error{usage} if the film does not record polarisation.
 [[nodiscard]] Image polarisation_image(const Image& film);
 
 }  // namespace abbe

@@ -27,8 +27,8 @@ std::map<std::string, std::vector<Measurement>> groups_of(const Image& planes,
                                                           const std::vector<std::string>& names) {
   std::map<std::string, std::vector<Measurement>> groups;
   for (const std::string& name : names) {
-    const auto told = planes.metadata.find(kAnalyserKey + name);
-    const auto row = told != planes.metadata.end() ? parse_polariser_row(told->second) : std::nullopt;
+    const auto recorded = planes.metadata.find(kAnalyserKey + name);
+    const auto row = recorded != planes.metadata.end() ? parse_polariser_row(recorded->second) : std::nullopt;
     const ImageChannel* plane = planes.find(name);
     if (row && plane != nullptr) groups[row->group].push_back({*row, plane});
   }
@@ -39,7 +39,7 @@ std::array<double, 3> row_of(const Measurement& one) {
   return {1, one.row.q, one.row.u};
 }
 
-// The inverse of the sum of r r^T over the rows r; nothing where they do not determine a Stokes vector.
+// Inverse of the sum of r r^T over the rows r; empty if they do not determine a Stokes vector.
 std::optional<Matrix3> inverse_normal(const std::vector<Measurement>& group) {
   constexpr double kDetermined = 1e-3;  // three ideal polarisers 60 degrees apart give 27/4
   Matrix3 normal(0.0);
@@ -53,7 +53,7 @@ std::optional<Matrix3> inverse_normal(const std::vector<Measurement>& group) {
   return normal.inverse(true);
 }
 
-// What the group counts at a pixel, in units of its first channel, by rows.
+// Sum over the group of row * value at a pixel, in units of its first channel.
 std::array<double, 3> projected(const std::vector<Measurement>& group, std::size_t pixel) {
   std::array<double, 3> sum{};
   for (const Measurement& one : group) {
@@ -68,8 +68,9 @@ void add_stokes(const std::string& name, const std::vector<Measurement>& group, 
                 Image& stokes) {
   std::array<std::vector<float>, 3> planes;
   for (std::size_t pixel = 0; pixel < stokes.pixels(); ++pixel) {
-    const std::array<double, 3> told = multiply(solve, projected(group, pixel));
-    for (std::size_t i = 0; i < planes.size(); ++i) planes.at(i).push_back(static_cast<float>(told.at(i)));
+    const std::array<double, 3> stokes_at_pixel = multiply(solve, projected(group, pixel));
+    for (std::size_t i = 0; i < planes.size(); ++i)
+      planes.at(i).push_back(static_cast<float>(stokes_at_pixel.at(i)));
   }
   for (int component = 0; component < 3; ++component)
     stokes.channels.push_back(
@@ -80,8 +81,8 @@ void add_stokes(const std::string& name, const std::vector<Measurement>& group, 
 
 Image stokes_of_polarisers(const Image& film) {
   const auto mosaic = recorded_mosaic(film.metadata);
-  const Image apart = mosaic ? demosaic(film, kRawPlane, mosaic->pattern, mosaic->channels) : Image{};
-  const Image& planes = mosaic ? apart : film;
+  const Image demosaiced = mosaic ? demosaic(film, kRawPlane, mosaic->pattern, mosaic->channels) : Image{};
+  const Image& planes = mosaic ? demosaiced : film;
   Image stokes{film.width, film.height, {}, film.metadata};
   for (const auto& [name, group] : groups_of(planes, mosaic ? mosaic->channels : plane_names(film)))
     if (const auto solve = inverse_normal(group)) add_stokes(name, group, *solve, stokes);

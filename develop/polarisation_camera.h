@@ -4,10 +4,10 @@
 
 namespace abbe {
 
-/// The Stokes vectors that channels behind polarisers of three angles or more tell, by least squares: for
-/// each group of channels of one response, C being the name of the first of them, planes C (what it would
-/// count of such light unpolarised), S1.C, S2.C, and S3.C, which no linear polariser tells and is 0. The
-/// channels of a mosaic are interpolated before. No planes of a film that does not tell enough.
+/// Stokes vectors from channels behind linear polarisers at three or more angles, by least squares. Channels
+/// of the same response form a group, named after its first channel C. The result has planes C (the value for
+/// the same light unpolarised), S1.C and S2.C. S3.C, which linear polarisers cannot measure, is 0. A mosaic
+/// is demosaicked first. Groups whose angles do not suffice have no planes.
 [[nodiscard]] Image stokes_of_polarisers(const Image& film);
 
 }  // namespace abbe

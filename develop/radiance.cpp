@@ -31,7 +31,8 @@ std::vector<std::string> names_of(const std::vector<Channel>& channels) {
   return names;
 }
 
-bool tells_variance(const SpectralImage& image) {
+// True if the image records variances of its bands.
+bool has_variance(const SpectralImage& image) {
   return std::any_of(image.others.begin(), image.others.end(),
                      [](const ImageChannel& channel) { return channel.name.starts_with(variance_of("")); });
 }
@@ -45,7 +46,7 @@ void check_coverage(const SpectralImage& image, const Channel& channel, const st
   const double missing = 1 - channel.weight.integral(edges.front(), edges.back()) / channel.weight.integral();
   if (!(missing > kNegligible)) return;
   const std::string text =
-      fmt::format("covers {} to {} nm only, where {:.3g} % of the response of channel \"{}\" is not",
+      fmt::format("covers only {} to {} nm, but {:.3g} % of the response of channel \"{}\" lies outside",
                   edges.front(), edges.back(), 100 * missing, channel.name);
   if (missing > 1 - kNegligible) throw Error(ErrorCode::input, path.string(), text);
   const auto source = std::make_shared<const SourceText>(SourceText{path.string(), ""});
@@ -97,26 +98,26 @@ ExposedFilm observed_film(const SpectralImage& image, const std::filesystem::pat
   return {observed(image), observer_of({0, 0, {}, image.metadata}, path, view, white)};
 }
 
-void forget_channels(std::map<std::string, std::string>& metadata) {
+void erase_channel_attributes(std::map<std::string, std::string>& metadata) {
   std::erase_if(metadata, [](const auto& entry) { return entry.first.starts_with("channel."); });
 }
 
-void forget_sensor(std::map<std::string, std::string>& metadata) {
-  forget_channels(metadata);
+void erase_sensor_attributes(std::map<std::string, std::string>& metadata) {
+  erase_channel_attributes(metadata);
   std::erase_if(metadata, [](const auto& entry) {
     return entry.first.starts_with(kAnalyserKey) || entry.first.starts_with("exposure_s");
   });
   for (const char* key : {"sensor", "sensor_channels", "mosaic", "mosaic_channels", "gathering_area_m2",
                           "electrons_per_lx_s", "to_xyz_d65", kNoPictureKey, kDisplayExposureKey, kWhiteKey,
-                          kWhiteFieldKey, kWhiteXyKey, kWhiteAskedKey, kLightsXyKey, kHandednessKey})
+                          kWhiteFieldKey, kWhiteXyKey, kWhiteRequestedKey, kLightsXyKey, kHandednessKey})
     metadata.erase(key);
 }
 
-void forget_layers_and_features(std::map<std::string, std::string>& metadata) {
+void erase_layer_and_feature_attributes(std::map<std::string, std::string>& metadata) {
   for (const char* key : {kLayersKey, kFeaturesKey, kShapeNamesKey}) metadata.erase(key);
 }
 
-void forget_layout(std::map<std::string, std::string>& metadata) {
+void erase_layout_attributes(std::map<std::string, std::string>& metadata) {
   for (const char* key : {"spectralLayoutVersion", "emissiveUnits", "whiteLuminance", "expTime", "to_xyz_d65",
                           kHandednessKey, kSpectralBinsKey, kAxisKey, kDistanceKey, kOpeningKey, kShutterKey})
     metadata.erase(key);
@@ -128,17 +129,17 @@ Image exposed_film(const SpectralImage& image, const RadianceSensor& sensor,
   Image film = expose(image, sensor.channels, sensor.exposure_per_radiance);
   if (sensor.mosaic) film = mosaicked(film, *sensor.mosaic, names_of(sensor.channels));
   film.metadata = image.metadata;
-  forget_sensor(film.metadata);
-  // Whose colours are the same to all who look at it but the observer of 1964.
+  erase_sensor_attributes(film.metadata);
+  // The chromaticities of lights hold for all sensors but the 1964 observer.
   if (const auto lights = image.metadata.find(kLightsXyKey);
       lights != image.metadata.end() && standard_observer(intensities(sensor.channels)) != Observer::cie1964)
     film.metadata.insert(*lights);
-  forget_layout(film.metadata);
+  erase_layout_attributes(film.metadata);
   for (const char* key : {"aperture", kIsoSpeedKey}) film.metadata.erase(key);  // of the camera before
-  if (tells_variance(image))
-    forget_error(film.metadata);
+  if (has_variance(image))
+    erase_error(film.metadata);
   else
-    tell_unknown_error(film.metadata);
+    record_unknown_error(film.metadata);
   for (const auto& [key, value] : sensor.metadata) film.metadata[key] = value;
   return film;
 }

@@ -15,66 +15,67 @@
 
 namespace abbe {
 
-/// Metadata that a film of spectral bins has and others have not.
+/// Attribute of spectral films alone: their bins.
 inline constexpr const char* kSpectralBinsKey = "spectral_bins";
-/// How the radiances of a spectral film were seen: the irradiance on the axis that a unit of radiance gives
-/// [sr], the distance from lens to film in pixels, which a meter has not, and the `opening_tangent` of a thin
-/// lens that is in focus at a finite distance.
+/// Attributes of the camera of a spectral film: irradiance on the axis per unit of radiance [sr]; distance
+/// from lens to film [pixels], absent for a probe; `opening_tangent` of a thin lens focused at a finite
+/// distance.
 inline constexpr const char* kAxisKey = "irradiance_per_radiance_sr";
 inline constexpr const char* kDistanceKey = "image_distance_px";
 inline constexpr const char* kOpeningKey = "opening_tangent";
-/// Mean transmission of the shutter over the exposure, of one that does not let all light through.
+/// Attribute with the mean transmission of the shutter over the exposure, if it is not 1.
 inline constexpr const char* kShutterKey = "shutter_transmission";
 
-/// Warns of a channel that responds beyond the bands of the image read from `path`: light that the image does
-/// not have cannot be counted. Throws Error{input} for one that sees nothing of them.
+/// Warns if a channel responds outside the bands of the image read from `path`, because that light is
+/// missing. Throws Error{input} if it does not respond inside them.
 void check_coverage(const SpectralImage& image, const Channel& channel, const std::filesystem::path& path,
                     Diagnostics& diagnostics);
 
-/// Linear Rec.709, channels R, G, B, of the first three planes, which `to_xyz` takes to XYZ of one scale, or
-/// of the only one, whose colour is its first column.
+/// Linear Rec.709, channels R, G, B, of the first three planes, which `to_xyz` transforms to XYZ at the same
+/// scale. A single plane has the colour of the first column of `to_xyz`.
 [[nodiscard]] Image rec709_image(const Image& planes, const Matrix3& to_xyz);
 
-/// Linear Rec.709 [cd/m^2] of radiances, channels R, G, B, as the CIE 1931 observer sees them.
+/// Radiances as the CIE 1931 observer sees them, in linear Rec.709 [cd/m^2], channels R, G, B.
 [[nodiscard]] Image observed(const SpectralImage& image);
 
-/// Takes that to pictures; without a white, colours are shown as they look beside daylight.
+/// Transforms the result of `observed` to pictures. Without `white` colours appear as next to daylight.
 [[nodiscard]] DisplayTransform display_of_radiance(const ViewOptions& view,
                                                    std::optional<Chromaticity> white);
 
-/// What shows radiances as the eye sees them, of what the spectral film read from `path` tells of its
-/// exposure and, where no other white is asked for, its white. Throws Error{input} for what makes no sense.
+/// A sensor that shows the result of `observed`, with the display exposure of the spectral film read from
+/// `path`. The white is `white` if given, else that of the film. Throws Error{input} if an attribute is
+/// invalid.
 [[nodiscard]] FilmSensor observer_of(const Image& film, const std::filesystem::path& path,
                                      const ViewOptions& view, std::optional<Chromaticity> white);
 
-/// Radiances as the eye sees them: `observed`, with `observer_of` their film.
+/// The result of `observed` with the sensor `observer_of`.
 [[nodiscard]] ExposedFilm observed_film(const SpectralImage& image, const std::filesystem::path& path,
                                         const ViewOptions& view, std::optional<Chromaticity> white);
 
-/// A sensor that looks at radiances, pixel for pixel.
+/// A sensor exposed to radiances pixel for pixel.
 struct RadianceSensor {
   std::vector<Channel> channels;
   std::optional<Mosaic> mosaic;
   std::vector<double> exposure_per_radiance;    ///< Of each pixel [s sr].
-  std::map<std::string, std::string> metadata;  ///< What its films tell of it.
+  std::map<std::string, std::string> metadata;  ///< Attributes of its films.
 };
 
-/// Drops what is said of the channels of the sensor that a film was exposed on.
-void forget_channels(std::map<std::string, std::string>& metadata);
+/// Erases the attributes of the channels of a film's sensor.
+void erase_channel_attributes(std::map<std::string, std::string>& metadata);
 
-/// Drops what is said of the sensor that a film was exposed on, of its colours and their white, from what is
-/// told of a picture made for displays, which has colours of its own.
-void forget_sensor(std::map<std::string, std::string>& metadata);
+/// Erases the attributes of a film's sensor, its colours and their white. Pictures for displays have colours
+/// of their own.
+void erase_sensor_attributes(std::map<std::string, std::string>& metadata);
 
-/// Drops what is said of layers and features, which films have beside their planes.
-void forget_layers_and_features(std::map<std::string, std::string>& metadata);
+/// Erases the attributes of layers and features.
+void erase_layer_and_feature_attributes(std::map<std::string, std::string>& metadata);
 
-/// Drops what is said of the layout of a spectral film, and of its preview.
-void forget_layout(std::map<std::string, std::string>& metadata);
+/// Erases the attributes of the layout of a spectral film and of its preview.
+void erase_layout_attributes(std::map<std::string, std::string>& metadata);
 
-/// The film of a sensor that looks at the radiances read from `path`, with the metadata of both, of
-/// which what is told of the sensor and its camera is the new one's; with a mosaic, its one plane. Warns of
-/// channels that respond beyond the image's bands. Throws Error{input} for one that sees nothing of them.
+/// Exposes a sensor to the radiances read from `path`. The film has the metadata of both; attributes of
+/// sensor and camera are those of the new sensor. With a mosaic it has one plane. Warns if a channel responds
+/// outside the image's bands, throws Error{input} if it does not respond inside them.
 [[nodiscard]] Image exposed_film(const SpectralImage& image, const RadianceSensor& sensor,
                                  const std::filesystem::path& path, Diagnostics& diagnostics);
 

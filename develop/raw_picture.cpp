@@ -26,9 +26,10 @@ std::array<double, 9> rows_of(const Matrix3& matrix) {
   return rows;
 }
 
-// What the display's matrix says of raw values, which are film values times each channel's exposure, before
-// it adapts the film's white to D65. A white that no eye adapts to is shown as it looks in D65.
-void tell_colors(const FilmSensor& sensor, RawPicture& raw) {
+// Records the colour matrices of raw values, which are film values times each channel's exposure. They come
+// from the display matrix without its adaptation of the film's white to D65. If chromatic adaptation of the
+// white is impossible, D65 takes its place.
+void record_colors(const FilmSensor& sensor, RawPicture& raw) {
   raw.lights = sensor.lights;
   if (!sensor.display || sensor.channels.size() != 3) return;
   const bool adapts = sensor.white && adaptation(unit_xyz(*sensor.white), unit_xyz(kD65));
@@ -64,7 +65,7 @@ RawPicture raw_picture(const DevelopedFilm& developed, const FilmSensor& sensor)
   raw.exposure_s = common_exposure(sensor);
   raw.f_number = sensor.f_number;
   if (sensor.electrons_per_lx_s) raw.iso_speed = saturation_speed(readout, *sensor.electrons_per_lx_s);
-  tell_colors(sensor, raw);
+  record_colors(sensor, raw);
   raw.camera = sensor.camera;
   raw.metadata = developed.codes.metadata;
   return raw;

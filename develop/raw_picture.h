@@ -5,8 +5,8 @@
 
 namespace abbe {
 
-/// What a raw file holds of a film that was read out. Its matrix is the inverse of the film's own way to
-/// colour.
+/// The contents of a raw file for a film that was read out. Its colour matrices invert the film's own
+/// transform to XYZ.
 [[nodiscard]] RawPicture raw_picture(const DevelopedFilm& developed, const FilmSensor& sensor);
 
 }  // namespace abbe

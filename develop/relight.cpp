@@ -24,17 +24,17 @@
 namespace abbe {
 namespace {
 
-// The lights that a film has layers of.
+// The lights that have layers in the film.
 std::vector<std::string> lights_of(const Image& film) {
   std::vector<std::string> lights;
-  const auto told = film.metadata.find(kLayersKey);
-  if (told != film.metadata.end())
-    for (const std::string& layer : parse_layers(told->second))
+  const auto recorded = film.metadata.find(kLayersKey);
+  if (recorded != film.metadata.end())
+    for (const std::string& layer : parse_layers(recorded->second))
       if (layer.starts_with(kLightLayer))
         lights.push_back(layer.substr(std::string_view(kLightLayer).size()));
   if (lights.empty())
     throw Error(ErrorCode::usage, "--light",
-                "the film has no layers of lights: render --layers lights makes them");
+                "the film has no layers of lights: render it with --layers lights");
   return lights;
 }
 
@@ -42,7 +42,7 @@ std::string layer_of(const std::string& light, const std::string& plane) {
   return kLightLayer + light + "." + plane;
 }
 
-// The planes that all lights have layers of, in the order of the sensor or of wavelength.
+// The planes that have a layer for every light, in the order of the sensor or of wavelength.
 std::vector<std::string> planes_with_layers(const Image& film, const std::vector<std::string>& lights) {
   std::vector<std::string> planes = plane_names(film);
   std::erase_if(planes, [&](const std::string& plane) {
@@ -52,48 +52,51 @@ std::vector<std::string> planes_with_layers(const Image& film, const std::vector
   });
   if (planes.empty())
     throw Error(ErrorCode::usage, "--light",
-                "the film has lost its layers of lights: take the one that render made");
+                "the film no longer has its layers of lights: use the rendered film");
   return planes;
 }
 
-// For each light, the factor of each plane.
+// The factor of each plane, for each light.
 std::vector<std::vector<double>> factors_by_light(const std::vector<std::string>& lights, std::size_t planes,
                                                   std::span<const LightFactor> factors) {
   std::vector<std::vector<double>> all(lights.size(), std::vector<double>(planes, 1));
-  for (const LightFactor& asked : factors) {
-    const auto light = std::find(lights.begin(), lights.end(), asked.light);
+  for (const LightFactor& requested : factors) {
+    const auto light = std::find(lights.begin(), lights.end(), requested.light);
     if (light == lights.end())
       throw Error(ErrorCode::usage, "--light",
-                  fmt::format("the film has no layer of it (got \"{}\", allowed {})", asked.light,
+                  fmt::format("the film has no layer of this light (got \"{}\", allowed {})", requested.light,
                               fmt::join(lights, ", ")));
     if (std::count_if(factors.begin(), factors.end(),
-                      [&](const LightFactor& other) { return other.light == asked.light; }) > 1)
-      throw Error(ErrorCode::usage, "--light", fmt::format("{} is named twice", asked.light));
-    if (asked.factors.size() != 1 && asked.factors.size() != planes)
-      throw Error(ErrorCode::usage, "--light",
-                  fmt::format("got {} factors of \"{}\", allowed 1{}", asked.factors.size(), asked.light,
-                              planes > 1 ? fmt::format(", or {} for the planes of the film", planes) : ""));
+                      [&](const LightFactor& other) { return other.light == requested.light; }) > 1)
+      throw Error(ErrorCode::usage, "--light", fmt::format("{} is named twice", requested.light));
+    if (requested.factors.size() != 1 && requested.factors.size() != planes)
+      throw Error(
+          ErrorCode::usage, "--light",
+          fmt::format("got {} factors of \"{}\", allowed 1{}", requested.factors.size(), requested.light,
+                      planes > 1 ? fmt::format(", or {} for the planes of the film", planes) : ""));
     std::vector<double>& of = all[static_cast<std::size_t>(light - lights.begin())];
-    of = asked.factors.size() == 1 ? std::vector<double>(planes, asked.factors[0]) : asked.factors;
+    of =
+        requested.factors.size() == 1 ? std::vector<double>(planes, requested.factors[0]) : requested.factors;
   }
   return all;
 }
 
-// Of so many times what has a variance, which may be infinite.
+// Standard deviation of `times` a quantity whose variance may be infinite.
 double deviation_of(double times, double variance) {
   return times == 0 ? 0 : std::abs(times) * std::sqrt(variance);
 }
 
-// The least bound of `relight`, which is found at one of the factors or at 0, between which it is linear.
+// The smallest bound of `relight`. The bound is piecewise linear, so its minimum is at one of the factors or
+// at 0.
 double variance_bound(double film, std::span<const double> layers, std::span<const double> factors) {
-  const auto bound = [&](double share) {
-    double deviation = deviation_of(share, film);
-    for (std::size_t g = 0; g < layers.size(); ++g) deviation += deviation_of(factors[g] - share, layers[g]);
+  const auto bound = [&](double weight) {
+    double deviation = deviation_of(weight, film);
+    for (std::size_t g = 0; g < layers.size(); ++g) deviation += deviation_of(factors[g] - weight, layers[g]);
     return deviation;
   };
-  double least = bound(0);
-  for (const double share : factors) least = std::min(least, bound(share));
-  return least * least;
+  double smallest = bound(0);
+  for (const double weight : factors) smallest = std::min(smallest, bound(weight));
+  return smallest * smallest;
 }
 
 ImageChannel* find(Image& image, const std::string& name) {
@@ -102,7 +105,7 @@ ImageChannel* find(Image& image, const std::string& name) {
   return found == image.channels.end() ? nullptr : &*found;
 }
 
-// One plane, `factors` being those of its lights.
+// Recomputes one plane; `factors` has one factor for each light.
 void relight_plane(Image& film, const std::string& plane, const std::vector<std::string>& lights,
                    const std::vector<double>& factors) {
   std::vector<const ImageChannel*> layers;
@@ -133,11 +136,11 @@ void drop_layers(Image& film) {
     return channel.name.starts_with(kLightLayer) || channel.name.starts_with(variance_of(kLightLayer));
   });
   film.metadata.erase(kLayersKey);
-  forget_error(film.metadata);
+  erase_error(film.metadata);
 }
 
-// What else has layers is the preview of a spectral film: it follows lights that are dimmed, and not those
-// whose bands are, so that there it goes.
+// The preview of a spectral film also has layers. It is recomputed if each light has a single factor, else
+// removed.
 void relight_preview(Image& film, const std::vector<std::string>& planes,
                      const std::vector<std::string>& lights,
                      const std::vector<std::vector<double>>& by_light) {
@@ -159,20 +162,20 @@ void relight_preview(Image& film, const std::vector<std::string>& planes,
   }
 }
 
-std::string told_factors(std::span<const LightFactor> factors) {
-  std::vector<std::string> told;
+std::string factors_text(std::span<const LightFactor> factors) {
+  std::vector<std::string> texts;
   for (const LightFactor& factor : factors)
-    told.push_back(fmt::format("{}={}", factor.light, fmt::join(factor.factors, ",")));
-  return fmt::format("{}", fmt::join(told, " "));
+    texts.push_back(fmt::format("{}={}", factor.light, fmt::join(factor.factors, ",")));
+  return fmt::format("{}", fmt::join(texts, " "));
 }
 
-// The mean of a layer's plane.
+// Mean of a channel over all pixels.
 double mean_of(const Image& film, const std::string& channel) {
   const std::vector<float>& values = film.find(channel)->values;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
 
-// What such means of a film's planes count.
+// The quantity of `LightContribution` for the means of a film's planes.
 double counted(const Image& film, const std::vector<std::string>& planes, const std::vector<double>& means) {
   Image one{1, 1, {}, film.metadata};
   for (std::size_t k = 0; k < planes.size(); ++k)
@@ -181,8 +184,8 @@ double counted(const Image& film, const std::vector<std::string>& planes, const 
     return static_cast<double>(image.find(channel)->values.front());
   };
   if (is_spectral(film)) {
-    const Image seen = observed(spectral_image(std::move(one), "film"));
-    return multiply(rgb_to_xyz(kRec709), {value(seen, "R"), value(seen, "G"), value(seen, "B")})[1];
+    const Image rgb = observed(spectral_image(std::move(one), "film"));
+    return multiply(rgb_to_xyz(kRec709), {value(rgb, "R"), value(rgb, "G"), value(rgb, "B")})[1];
   }
   if (is_of_observer(film)) return value(one, "Y");
   double sum = 0;
@@ -194,14 +197,14 @@ double counted(const Image& film, const std::vector<std::string>& planes, const 
 
 bool is_of_observer(const Image& film) {
   return intensities(plane_names(film)) == std::vector<std::string>{"X", "Y", "Z"} &&
-         tells_tristimulus_values(film);
+         may_hold_tristimulus_values(film);
 }
 
-std::vector<LightShare> light_shares(const Image& film, std::span<const LightFactor> factors) {
+std::vector<LightContribution> light_contributions(const Image& film, std::span<const LightFactor> factors) {
   const std::vector<std::string> lights = lights_of(film);
   const std::vector<std::string> planes = planes_with_layers(film, lights);
   const std::vector<std::vector<double>> by_light = factors_by_light(lights, planes.size(), factors);
-  std::vector<LightShare> shares;
+  std::vector<LightContribution> contributions;
   for (std::size_t g = 0; g < lights.size(); ++g) {
     std::vector<double> before;
     std::vector<double> after;
@@ -209,9 +212,9 @@ std::vector<LightShare> light_shares(const Image& film, std::span<const LightFac
       before.push_back(mean_of(film, layer_of(lights[g], planes[k])));
       after.push_back(by_light[g][k] * before.back());
     }
-    shares.push_back({lights[g], counted(film, planes, before), counted(film, planes, after)});
+    contributions.push_back({lights[g], counted(film, planes, before), counted(film, planes, after)});
   }
-  return shares;
+  return contributions;
 }
 
 void relight(Image& film, std::span<const LightFactor> factors) {
@@ -225,7 +228,7 @@ void relight(Image& film, std::span<const LightFactor> factors) {
   }
   relight_preview(film, planes, lights, by_light);
   drop_layers(film);
-  film.metadata["relit"] = told_factors(factors);
+  film.metadata["relit"] = factors_text(factors);
 }
 
 }  // namespace abbe

@@ -8,36 +8,41 @@
 
 namespace abbe {
 
-/// What a light's layer of a film counts: one factor for all planes, or one for each.
+/// Factors that multiply the layer of a light: one for all planes, or one for each.
 struct LightFactor {
-  std::string light;  ///< As the layer is called, without `light.` before it.
+  std::string light;  ///< Name of the layer, without the prefix `light.`.
   std::vector<double> factors;
 };
 
-/// What a light's layer gives the film as it is, and as often as it is to count, on a scale that all lights
-/// of a film share: luminance for the observer and for spectral films, else the sum of the film values of all
-/// channels, as `main_light` has it.
-struct LightShare {
+/// Contribution of a light's layer to the film, before and after its factors, in the same unit for all
+/// lights. The unit is luminance for an observer and for spectral films, else the sum of film values over all
+/// channels, as in `main_light`.
+struct LightContribution {
   std::string light;
   double before;
   double after;
 };
-/// That of all lights that a film has layers of. Throws as `relight` does.
-[[nodiscard]] std::vector<LightShare> light_shares(const Image& film, std::span<const LightFactor> factors);
+/// Contributions of all lights that have a layer in the film. Throws as `relight`.
+[[nodiscard]] std::vector<LightContribution> light_contributions(const Image& film,
+                                                                 std::span<const LightFactor> factors);
 
-/// Whether a film counts what an observer sees, whose colours are right in any light.
+/// True if the film records tristimulus values, whose colours are correct under any light.
 [[nodiscard]] bool is_of_observer(const Image& film);
 
-/// Adds a film up anew out of its layers of lights, those that are not named counting as they did; the film
-/// then has no layers any more, and tells the factors under `relit`. Factors of planes are in the order of
-/// the sensor's channels, or of wavelength; the preview of a spectral film whose bands are weighed apart is
-/// left out. Layers share their paths, so that their errors are not independent: with any
-/// share w of the film F itself, sum_g w_g L_g = w F + sum_g (w_g - w) L_g, whose standard deviation is at
-/// most
-///     |w| sigma_F + sum_g |w_g - w| sigma_g,
-/// and the variance is the square of the least of these bounds: that of the film, scaled, where all factors
-/// are one. Throws Error{usage} for a film without such layers, for a light that has none or is named twice,
-/// and for factors that are neither one nor as many as the film's planes.
+/// Recomputes a film as the sum of its light layers. Layers of lights that are not named keep the factor 1.
+/// Afterwards the film has no layers, and the attribute `relit` records the factors. Factors of planes are in
+/// the order of the sensor's channels or of wavelength. The preview of a spectral film is removed if the
+/// bands of a light have different factors.
+///
+/// Layers of one film use the same paths, so their errors are correlated. For any weight w of the film F:
+///     sum_g w_g L_g = w F + sum_g (w_g - w) L_g .
+/// The standard deviation of this sum is at most
+///     |w| sigma_F + sum_g |w_g - w| sigma_g.
+/// The variance is the square of the smallest of these bounds. If all factors are equal it is the scaled
+/// variance of the film.
+///
+/// Throws Error{usage} if the film has no such layers, or if a light has no layer or is named twice. Also
+/// throws it if the number of factors is neither one nor that of the planes.
 void relight(Image& film, std::span<const LightFactor> factors);
 
 }  // namespace abbe

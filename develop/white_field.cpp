@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kVisible = 1;  // CIEDE2000
 
-// The response of a channel at a distance in [0, 1] from the centre, linear between rows.
+// Response of a channel at a distance in [0, 1] from the centre, interpolated linearly between rows.
 double response(const WhiteField& field, std::size_t channel, double distance) {
   const auto last = static_cast<double>(field.relative.size() - 1);
   const double row = std::clamp(distance, 0.0, 1.0) * last;
@@ -62,7 +62,7 @@ double neutral_shift(const WhiteField& field, const Matrix3& to_xyz_d65) {
   return largest;
 }
 
-std::optional<std::string> tinted_corners(double neutral_shift, const std::string& remedy) {
+std::optional<std::string> field_tint_warning(double neutral_shift, const std::string& remedy) {
   if (!(neutral_shift > kVisible)) return std::nullopt;
   return fmt::format(
       "white is balanced for the centre of the field, and interference filters tint neutrals towards the "

@@ -11,12 +11,12 @@
 namespace abbe {
 namespace {
 
-// Padded to a multiple of four bytes.
+// Rounds up to a multiple of four bytes.
 std::size_t padded(std::size_t size) {
   return (size + 3) / 4 * 4;
 }
 
-// The description of the note "GNU" of type NT_GNU_BUILD_ID among some notes; empty if there is none.
+// Description of the note "GNU" of type NT_GNU_BUILD_ID; empty if there is none.
 std::string_view build_id_among(std::string_view notes) {
   constexpr std::string_view kOwner("GNU\0", 4);
   while (notes.size() > sizeof(ElfW(Nhdr))) {
@@ -33,7 +33,7 @@ std::string_view build_id_among(std::string_view notes) {
   return {};
 }
 
-// Whether this code is in the object: in the program itself, or in a module of another program.
+// True if this code is in the object: in the program itself, or in a module of another program.
 bool is_ours(const dl_phdr_info& object) {
   const auto here = reinterpret_cast<ElfW(Addr)>(&padded);
   for (int i = 0; i < object.dlpi_phnum; ++i) {
@@ -55,7 +55,7 @@ int add_build_id(dl_phdr_info* object, std::size_t, void* ids) {
   for (int i = 0; i < object->dlpi_phnum; ++i) {
     const ElfW(Phdr)& segment = object->dlpi_phdr[i];
     if (segment.p_type != PT_NOTE || segment.p_align > 4) continue;
-    // Where the loader has put them. NOLINTNEXTLINE(performance-no-int-to-ptr)
+    // The loader has mapped the notes to this address. NOLINTNEXTLINE(performance-no-int-to-ptr)
     const auto* notes = reinterpret_cast<const char*>(object->dlpi_addr + segment.p_vaddr);
     *static_cast<std::string*>(ids) += build_id_among({notes, segment.p_memsz});
   }

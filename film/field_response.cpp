@@ -1,7 +1,7 @@
 #include "film/field_response.h"
 
 #include "calibration/chart/patches.h"
-#include "film/sensor_identity.h"
+#include "film/film_attributes.h"
 #include "io/error.h"
 #include "scene/camera/incidence.h"
 #include "scene/colors.h"
@@ -13,8 +13,8 @@ namespace {
 
 constexpr int kDistances = 9;  // from the centre to the corner
 
-// The channels at a film position, `distance` being 0 at the centre of the film and 1 at its lower right
-// corner; those at the centre where no light arrives.
+// The channels at a film position. `distance` is 0 at the centre of the film and 1 at its lower right corner.
+// If no light arrives there, the channels at the centre.
 std::vector<Channel> channels_at(const Scene& scene, double distance) {
   if (!any_angular(scene.channels)) return scene.channels;
   const auto along = [distance](int size) { return static_cast<float>(size * (1 + distance) / 2); };
@@ -59,7 +59,7 @@ std::optional<double> neutral_shift(const Scene& scene) {
     return neutral_shift(*field, display_of(scene).to_xyz_d65());
   } catch (const Error& error) {
     if (error.code != ErrorCode::usage) throw;
-    return std::nullopt;  // no picture can be made of these channels
+    return std::nullopt;  // these channels have no pictures
   }
 }
 

@@ -12,7 +12,7 @@
 
 namespace abbe {
 
-/// A meter and what it read, by which integrator and random numbers.
+/// A meter's reading, with the integrator and the seed that produced it.
 struct MeterMeasurement {
   Meter meter;
   Integrator integrator;
@@ -21,28 +21,28 @@ struct MeterMeasurement {
   RenderStats stats;
 };
 
-/// What measuring leaves to its caller.
-struct MeterCaller {
-  /// Renders in the caller's way: progress, interruption.
-  std::function<RenderResult(const Scene& scene, const RenderOptions& how)> render;
-  /// Tells a sentence on what a reading lacks.
+/// Functions and settings of a caller of `measure_meter`.
+struct MeterCallbacks {
+  /// Renders the scene, with the caller's progress report and interruption.
+  std::function<RenderResult(const Scene& scene, const RenderOptions& options)> render;
+  /// Reports a warning about a reading.
   std::function<void(const std::string& warning)> warn;
-  /// What its user calls the error to stop at.
+  /// The caller's name for the target error, for messages.
   const char* error_name;
-  bool strict = false;  ///< What makes figures wrong from the start is an error, not a warning.
+  bool strict = false;  ///< True if a condition that makes readings wrong is an error.
 };
 
-/// The meters of these names in the scene's order, all of them for none. Throws Error{usage} at `asked_by`
-/// for a name that no meter has.
+/// The meters with these names in the scene's order, or all meters if `names` is empty. Throws Error{usage}
+/// at `option` for an unknown name.
 [[nodiscard]] std::vector<const Meter*> chosen_meters(const MeteredScene& scene,
                                                       const std::vector<std::string>& names,
-                                                      const std::string& asked_by);
+                                                      const std::string& option);
 
-/// Renders the scene as the meter sees it, which `scene_of` built, and reads the meter. A target error is
-/// that of the meter's three figures. Memory is counted in `inputs` meanwhile. Throws Error{resource} for too
-/// large a film, and Error{scene} where the caller is strict and light is missing. What lies on what is the
-/// same for all meters of a scene, so that the caller tells it, by `hidden_sheet` and `hidden_lamp`.
-[[nodiscard]] MeterMeasurement measure_meter(Scene scene, const Meter& meter, RenderOptions how,
-                                             const MeterCaller& caller, Inputs& inputs);
+/// Renders the scene as built by `scene_of` for the meter, and reads the meter. A target error applies to the
+/// meter's three figures. `inputs` counts the memory of the render. Throws Error{resource} if the film is too
+/// large. If the caller is strict, throws Error{scene} if light is missing. The caller reports
+/// `hidden_sheet_warning` and `hidden_light_warning`, which are the same for all meters of a scene.
+[[nodiscard]] MeterMeasurement measure_meter(Scene scene, const Meter& meter, RenderOptions options,
+                                             const MeterCallbacks& caller, Inputs& inputs);
 
 }  // namespace abbe

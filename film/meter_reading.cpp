@@ -19,7 +19,7 @@ Film::Average scaled(Film::Average value, double factor) {
   return value;
 }
 
-// Of a cell, or of all of them where `part` is the whole film.
+// Reading of a part of the film: a cell, or all cells.
 LightReading light_in(const Film& film, const Crop& part, double factor) {
   const auto read = [&](int plane) {
     return scaled(film.average(plane, part.x0, part.y0, part.x1, part.y1), factor);
@@ -39,7 +39,7 @@ MeterReading read_meter(const Meter& meter, const Film& film, double exposure_s)
   const int width = film.width() / columns;
   const int height = film.height() / rows;
   MeterReading reading{light_in(film, film.crop(), factor), {}, {}};
-  // A flux is told of each cell by itself, all else per area.
+  // Flux and intensity are per cell, other quantities per area.
   const double of_cell = meter.quantity == MeterQuantity::flux || meter.quantity == MeterQuantity::intensity
                              ? factor / (columns * rows)
                              : factor;

@@ -7,33 +7,34 @@
 
 namespace abbe {
 
-/// What a meter tells of light: in the units of its quantity, in W, lm and photons per second.
-/// Each comes with its standard error and the degrees of freedom that this is estimated with.
+/// Values of a meter in radiometric, photometric and photon units of its quantity. Each has a standard error
+/// and the degrees of freedom of its estimate.
 struct LightReading {
   Film::Average radiant;
   Film::Average luminous;
   Film::Average photons;
 };
 
-/// A meter's reading: the mean while the shutter is open where something moves.
+/// A meter's reading, averaged over the open shutter if something moves.
 struct MeterReading {
   LightReading whole;
-  std::vector<LightReading> cells;      ///< Row by row, `edge_u` first; none of a meter with a single one.
-  std::vector<Film::Average> spectrum;  ///< Per nm, bin by bin.
+  std::vector<LightReading> cells;      ///< Row by row, `edge_u` first; empty for a single cell.
+  std::vector<Film::Average> spectrum;  ///< Values per nm, for each bin.
 };
 
-/// The probability with which the intervals that are told of readings hold the truth.
-inline constexpr double kMeterLevel = 0.95;
+/// Confidence level of the reported intervals.
+inline constexpr double kMeterConfidence = 0.95;
 
-/// The units of what a meter tells, of energy, as the eye sees it, and of photons.
+/// Units of a meter's radiometric, photometric and photon values.
 struct MeterUnits {
   const char* radiant;
   const char* luminous;
   const char* photons;
 };
+/// Units of a meter of that quantity.
 [[nodiscard]] const MeterUnits& units_of(MeterQuantity quantity);
 
-/// Reads the meter off the film of its camera and channels, exposed for so long.
+/// Reads the meter from the film of its scene, exposed for `exposure_s` [s].
 [[nodiscard]] MeterReading read_meter(const Meter& meter, const Film& film, double exposure_s);
 
 }  // namespace abbe

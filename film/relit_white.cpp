@@ -16,12 +16,12 @@
 namespace abbe {
 namespace {
 
-// Of what the film gets: to it the pilot tells which light is the main one.
+// Relative noise of the pilot that determined the film's main light.
 constexpr double kPilotNoise = 0.02;
 
-// A layer of lights with their name and colour, where they have one.
-struct Lamp {
-  LightShare share;
+// A layer of one or more lights, with their name and colour if all have the same one.
+struct LightLayer {
+  LightContribution contribution;
   std::string name;
   std::optional<Chromaticity> xy;
 };
@@ -31,82 +31,90 @@ bool is_same(const std::optional<Chromaticity>& a, const std::optional<Chromatic
   return a && b && std::abs((*a)[0] - (*b)[0]) + std::abs((*a)[1] - (*b)[1]) < kRounding;
 }
 
-// The layer that a light is in, its own or that of all others; null where there is neither.
-Lamp* lamp_of(std::vector<Lamp>& lamps, const std::string& light) {
-  for (const std::string& layer : {layer_name(light), std::string(kRestOfLights)})
-    for (Lamp& lamp : lamps)
-      if (lamp.share.light == layer) return &lamp;
+// The layer that contains a light: its own or that of all other lights; nullptr if there is neither.
+LightLayer* layer_of(std::vector<LightLayer>& layers, const std::string& light) {
+  for (const std::string& name : {layer_name(light), std::string(kRestOfLights)})
+    for (LightLayer& layer : layers)
+      if (layer.contribution.light == name) return &layer;
   return nullptr;
 }
 
-std::vector<Lamp> lamps_of(std::vector<LightShare> shares, const std::vector<RecordedLight>& lights) {
-  std::vector<Lamp> lamps;
-  for (LightShare& share : shares) lamps.push_back({std::move(share), "", {}});
+std::vector<LightLayer> layers_of(std::vector<LightContribution> contributions,
+                                  const std::vector<RecordedLight>& lights) {
+  std::vector<LightLayer> layers;
+  for (LightContribution& contribution : contributions) layers.push_back({std::move(contribution), "", {}});
   for (const RecordedLight& light : lights) {
-    Lamp* lamp = lamp_of(lamps, light.name);
-    if (lamp == nullptr) continue;
-    if (lamp->name.empty())
-      *lamp = {lamp->share, light.name, light.xy};
-    else if (!is_same(lamp->xy, light.xy))
-      *lamp = {lamp->share, lamp->share.light, {}};
+    LightLayer* layer = layer_of(layers, light.name);
+    if (layer == nullptr) continue;
+    if (layer->name.empty())
+      *layer = {layer->contribution, light.name, light.xy};
+    else if (!is_same(layer->xy, light.xy))
+      *layer = {layer->contribution, layer->contribution.light, {}};
   }
-  return lamps;
+  return layers;
 }
 
-// What a lamp gives together with those of its colour.
-double given(const std::vector<Lamp>& lamps, const Lamp& lamp, double LightShare::*when) {
+// Contribution of a layer and of all layers of its colour.
+double group_contribution(const std::vector<LightLayer>& layers, const LightLayer& layer,
+                          double LightContribution::*when) {
   double sum = 0;
-  for (const Lamp& other : lamps)
-    if (&other == &lamp || is_same(other.xy, lamp.xy)) sum += other.share.*when;
+  for (const LightLayer& other : layers)
+    if (&other == &layer || is_same(other.xy, layer.xy)) sum += other.contribution.*when;
   return sum;
 }
 
-// The one that gives most with those of its colour, and of these the strongest.
-const Lamp& main_lamp(const std::vector<Lamp>& lamps, double LightShare::*when) {
-  return *std::max_element(lamps.begin(), lamps.end(), [&](const Lamp& a, const Lamp& b) {
-    return std::pair(given(lamps, a, when), a.share.*when) < std::pair(given(lamps, b, when), b.share.*when);
+// The layer whose colour contributes most; among layers of this colour, the one that contributes most.
+const LightLayer& main_layer(const std::vector<LightLayer>& layers, double LightContribution::*when) {
+  return *std::max_element(layers.begin(), layers.end(), [&](const LightLayer& a, const LightLayer& b) {
+    return std::pair(group_contribution(layers, a, when), a.contribution.*when) <
+           std::pair(group_contribution(layers, b, when), b.contribution.*when);
   });
 }
 
-bool is_main(const std::vector<Lamp>& lamps, const Lamp& lamp, double LightShare::*when) {
-  return given(lamps, lamp, when) >= (1 - kPilotNoise) * given(lamps, main_lamp(lamps, when), when);
+bool is_main(const std::vector<LightLayer>& layers, const LightLayer& layer,
+             double LightContribution::*when) {
+  return group_contribution(layers, layer, when) >=
+         (1 - kPilotNoise) * group_contribution(layers, main_layer(layers, when), when);
 }
 
-// The lamp that the film has its white from, which then is known by that; null where it is of no lamp.
-Lamp* lamp_of_white(std::vector<Lamp>& lamps, const std::vector<RecordedLight>& lights, const Image& film) {
+// The layer of the film's white, whose colour is set to the white. nullptr if the white is not that of a
+// layer.
+LightLayer* layer_of_white(std::vector<LightLayer>& layers, const std::vector<RecordedLight>& lights,
+                           const Image& film) {
   const auto xy = recorded_white(film);
   if (!xy) return nullptr;
   const std::string& name = film.metadata.at(kWhiteKey);
   const auto light = std::find_if(lights.begin(), lights.end(),
                                   [&](const RecordedLight& recorded) { return recorded.name == name; });
   if (light != lights.end() ? light->xy && !is_same(light->xy, xy) : !lights.empty()) return nullptr;
-  Lamp* lamp = lamp_of(lamps, name);
-  if (lamp != nullptr) lamp->xy = xy;
-  return lamp;
+  LightLayer* layer = layer_of(layers, name);
+  if (layer != nullptr) layer->xy = xy;
+  return layer;
 }
 
 }  // namespace
 
 RelitWhite relit_white(const Image& film, std::span<const LightFactor> factors) {
-  if (film.metadata.contains(kWhiteAskedKey)) return {};
+  if (film.metadata.contains(kWhiteRequestedKey)) return {};
   const std::vector<RecordedLight> lights = recorded_lights(film);
-  std::vector<Lamp> lamps = lamps_of(light_shares(film, factors), lights);
-  const Lamp* own = lamp_of_white(lamps, lights, film);
-  if (own == nullptr || !is_main(lamps, *own, &LightShare::before) ||
-      is_main(lamps, *own, &LightShare::after))
+  std::vector<LightLayer> layers = layers_of(light_contributions(film, factors), lights);
+  const LightLayer* own = layer_of_white(layers, lights, film);
+  if (own == nullptr || !is_main(layers, *own, &LightContribution::before) ||
+      is_main(layers, *own, &LightContribution::after))
     return {};
   const std::string& white = film.metadata.at(kWhiteKey);
-  const Lamp& left = main_lamp(lamps, &LightShare::after);
+  const LightLayer& left = main_layer(layers, &LightContribution::after);
   if (!left.xy)
-    return {{},
-            fmt::format("the white stays that of \"{}\", which is the main light no more: the film does not "
-                        "tell the colour of \"{}\" (--white tells another)",
-                        white, left.share.light)};
-  RelitWhite relit{White{left.name, "the main light that is left", *left.xy}, ""};
+    return {
+        {},
+        fmt::format("the white remains that of \"{}\", which is no longer the main light: the film does not "
+                    "record the colour of \"{}\" (choose a white with --white)",
+                    white, left.contribution.light)};
+  RelitWhite relit{White{left.name, "the remaining main light", *left.xy}, ""};
   if (!is_spectral(film) && !is_of_observer(film))
-    relit.shortcoming = fmt::format(
-        "\"{}\", the main light that is left, is white, while the colours of the sensor stay corrected for "
-        "\"{}\", as they were rendered (--white {} keeps that white)",
+    relit.warning = fmt::format(
+        "\"{}\", the remaining main light, is now white, but the sensor's colours are still corrected for "
+        "\"{}\", the white of the render (--white {} restores that white)",
         left.name, white, white);
   return relit;
 }

@@ -10,17 +10,19 @@
 
 namespace abbe {
 
-/// What pictures of a film show as white once its lights count other than they did.
+/// The white of a film whose lights are to be scaled.
 struct RelitWhite {
-  std::optional<White> white;  ///< The main light that is left; nothing where the film's white stays.
-  std::string shortcoming;     ///< What pictures lack then, empty where they lack nothing.
+  std::optional<White> white;  ///< The new main light; empty if the film's white remains.
+  std::string warning;         ///< A limitation of the pictures; empty if there is none.
 };
 
-/// That of a film that still has its layers of lights, before `relight`. A film shows its main light as
-/// white: lights of one colour count together, within the pilot's noise. A white that its scene asks for
-/// stays, as does one that is not that of the light which gives the film most, as of a crop, and that of a
-/// light which goes on giving most. The factors of planes change what a light gives and not the colour that
-/// it is known by. Throws as `relight` does.
+/// The white after `relight` with these factors, for a film that still has its layers of lights. A film shows
+/// its main light as white; lights of one colour count together, within the pilot's noise. The white remains
+/// in these cases:
+/// - the scene requests it;
+/// - it is not that of the brightest light in the film, as may happen in a crop;
+/// - its light remains the brightest.
+/// Factors of planes change the contribution of a light, not its recorded colour. Throws as `relight`.
 [[nodiscard]] RelitWhite relit_white(const Image& film, std::span<const LightFactor> factors);
 
 }  // namespace abbe

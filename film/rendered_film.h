@@ -8,17 +8,18 @@
 
 namespace abbe {
 
-/// The extension of files that hold exact sums.
+/// Extension of files that hold exact sums.
 inline constexpr const char* kPartExtension = ".abbepart";
 
-/// What tells the film of this scene from any other, from its scene file's name to its crop.
+/// Attributes that distinguish the film of this scene from any other, from the name of its scene file to its
+/// crop.
 [[nodiscard]] FilmIdentity identity_of(const Scene& scene, const std::filesystem::path& scene_file,
-                                       const RenderOptions& how);
+                                       const RenderOptions& options);
 
-/// Memory that the exact sums of the scene's film take.
-[[nodiscard]] std::size_t film_bytes(const Scene& scene, const RenderOptions& how = {});
+/// Memory [bytes] of the exact sums of the scene's film.
+[[nodiscard]] std::size_t film_bytes(const Scene& scene, const RenderOptions& options = {});
 
-/// Writes the exact sums to an `.abbepart`, the film's image to anything else. Throws Error{output}.
+/// Writes the exact sums if the extension is `.abbepart`, else the film's image. Throws Error{output}.
 void write_film(const std::filesystem::path& path, const RenderPart& part);
 
 }  // namespace abbe

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "develop/radiance.h"
-#include "film/sensor_identity.h"
+#include "film/film_attributes.h"
 #include "io/error.h"
 #include "io/text.h"
 #include "scene/camera/mean_weight.h"
@@ -16,7 +16,7 @@
 namespace abbe {
 namespace {
 
-// What a film says of the unit of a bin, beside the `emissiveUnits` of the layout.
+// Unit of a bin as recorded in the film, in addition to the layout's `emissiveUnits`.
 constexpr const char* kRadiance = "radiance, W per m^2 and sr of the band";
 
 double axis_weight(const Camera& camera) {
@@ -24,7 +24,7 @@ double axis_weight(const Camera& camera) {
   return mean_weight(camera, opening_tangent(camera), center);
 }
 
-// Lens to film in pixels, by which light falls off towards the corners; nothing for a probe.
+// Distance from lens to film [pixels], which determines the falloff towards the corners; empty for a probe.
 std::optional<double> image_distance(const Camera& camera) {
   const std::optional<double> distance = traits(camera).image_distance;
   return distance ? std::optional(*distance / camera.pixel_pitch) : std::nullopt;
@@ -35,11 +35,11 @@ double opening_of(const Image& film) {
   return opening == film.metadata.end() ? 0 : parse_number(opening->second).value();
 }
 
-// A camera that, with the opening of the one that made a film, weighs radiance as that did.
+// A camera that weights radiance like the one that made the film, given that one's opening.
 Camera camera_of(const Image& film) {
   const double central =
       parse_number(film.metadata.at(kAxisKey)).value() * (1 + std::pow(opening_of(film), 2));
-  Camera camera{Probe{}, film.width, film.height, 1};
+  Camera camera{IrradianceProbe{}, film.width, film.height, 1};
   if (const auto distance = film.metadata.find(kDistanceKey); distance != film.metadata.end()) {
     Pinhole lens;
     lens.image_distance = parse_number(distance->second).value();
@@ -65,14 +65,14 @@ SpectralBins bins_of(const Image& film) {
           static_cast<int>(parse_number(words.at(2)).value())};
 }
 
-// Seconds for which all light would have done the same.
+// Exposure time [s] times the mean transmission of the shutter.
 double exposure_of(const Image& film) {
   const auto shutter = film.metadata.find(kShutterKey);
   const double transmission = shutter == film.metadata.end() ? 1 : parse_number(shutter->second).value();
   return parse_number(film.metadata.at("exposure_s")).value() * transmission;
 }
 
-// Only files of other programs do not tell how their radiances were seen.
+// Files of Abbe record the camera; files of other programs do not.
 void require_same_view(const SpectralImage& image, const Camera& camera, const std::filesystem::path& path) {
   if (!image.metadata.contains(kAxisKey)) return;
   const auto found = image.metadata.find(kDistanceKey);
@@ -80,13 +80,14 @@ void require_same_view(const SpectralImage& image, const Camera& camera, const s
   const std::optional<double> ours = image_distance(camera);
   if (lens != ours.has_value())
     throw Error(ErrorCode::input, path.string(),
-                fmt::format("was seen by another camera (got {}, allowed {})", lens ? "a lens" : "a meter",
-                            lens ? "a meter" : "a lens"));
+                fmt::format("was rendered with another kind of camera (got {}, allowed {})",
+                            lens ? "a lens" : "a meter", lens ? "a meter" : "a lens"));
   if (lens && std::abs(parse_number(found->second).value_or(0) / *ours - 1) > 1e-6)
     throw Error(
         ErrorCode::input, path.string(),
-        fmt::format("was seen in another field of view (got an image distance of {} pixels, allowed {})",
-                    found->second, *ours));
+        fmt::format(
+            "was rendered with another field of view (got an image distance of {} pixels, allowed {})",
+            found->second, *ours));
 }
 
 }  // namespace
@@ -100,7 +101,7 @@ void add_spectral_identity(const Scene& scene, FilmIdentity& identity) {
   if (const double opening = opening_tangent(scene.camera); opening > 0)
     identity[kOpeningKey] = fmt::format("{}", opening);
   if (scene.shutter.mean() != 1) identity[kShutterKey] = fmt::format("{}", scene.shutter.mean());
-  identity["whiteLuminance"] = "1";  // cd/m^2 that 1 in all channels of the preview stands for
+  identity["whiteLuminance"] = "1";  // luminance [cd/m^2] of 1 in all channels of the preview
 }
 
 std::vector<double> exposure_per_radiance(const Scene& scene) {
@@ -112,25 +113,26 @@ Image spectral_film_image(const Image& film) {
   SpectralImage image = spectral_film(
       film, bins_of(film), exposure_per_radiance(camera_of(film), opening_of(film), exposure_of(film)));
   for (ImageChannel& channel : observed(image).channels) image.others.push_back(std::move(channel));
-  forget_channels(image.metadata);
+  erase_channel_attributes(image.metadata);
   for (int component = 0; component < (image.is_polarised() ? 4 : 1); ++component)
     for (const SpectralBand& band : image.bands)
       image.metadata["channel." + spectral_channel(band.center_nm, component)] = kRadiance;
   return spectral_layout(image);
 }
 
-Image seen_by(const Scene& scene, const SpectralImage& image, const std::filesystem::path& path,
-              Diagnostics& diagnostics) {
+Image expose_radiances(const Scene& scene, const SpectralImage& image, const std::filesystem::path& path,
+                       Diagnostics& diagnostics) {
   const Camera& camera = scene.camera;
   if (scene.spectral)
-    throw Error(ErrorCode::usage, "--scene", "its sensor is spectral itself (allowed: one that counts)");
+    throw Error(ErrorCode::usage, "--scene",
+                "its sensor is spectral itself (allowed: a sensor with channels)");
   if (camera.width != image.width || camera.height != image.height)
     throw Error(ErrorCode::input, path.string(),
-                fmt::format("has other pixels than the sensor (got {} x {}, allowed {} x {})", image.width,
+                fmt::format("has another size than the sensor (got {} x {}, allowed {} x {})", image.width,
                             image.height, camera.width, camera.height));
   require_same_view(image, camera, path);
   return exposed_film(image,
-                      {scene.channels, scene.mosaic, exposure_per_radiance(scene), sensor_identity(scene)},
+                      {scene.channels, scene.mosaic, exposure_per_radiance(scene), film_attributes(scene)},
                       path, diagnostics);
 }
 

@@ -11,22 +11,21 @@
 
 namespace abbe {
 
-/// What it takes to make radiances of the films of a scene whose sensor is spectral.
+/// Adds the attributes needed to convert films of a spectral sensor to radiances.
 void add_spectral_identity(const Scene& scene, FilmIdentity& identity);
 
-/// What a radiance is multiplied by to give the radiant exposure that the scene's sensor counts, pixel by
-/// pixel [s sr].
+/// Radiant exposure on the scene's sensor per unit of radiance [s sr], for each pixel.
 [[nodiscard]] std::vector<double> exposure_per_radiance(const Scene& scene);
 
 /// The film of a spectral sensor as radiances in the layout of spectral files, with their preview.
 [[nodiscard]] Image spectral_film_image(const Image& film);
 
-/// The film of a scene's sensor that looks at the radiances read from `path` through the scene's camera, with
-/// the metadata of both; with a mosaic, its one plane. Warns of channels that respond beyond the image's
-/// bands. Throws Error{input} when sensor and image have different pixels or fields of view, or a channel
-/// sees nothing of the bands, Error{usage} for a scene whose sensor is spectral itself, and for a channel
-/// whose response depends on the angle of incidence, which the image does not record.
-[[nodiscard]] Image seen_by(const Scene& scene, const SpectralImage& image, const std::filesystem::path& path,
-                            Diagnostics& diagnostics);
+/// Exposes a scene's sensor to the radiances read from `path`, through the scene's camera. The film has the
+/// metadata of both; with a mosaic it has one plane. Warns of channels that respond outside the image's
+/// bands. Throws Error{input} if sensor and image differ in size or field of view, or a channel does not
+/// respond inside the bands. Throws Error{usage} if the scene's sensor is spectral itself, or a channel
+/// depends on the angle of incidence, which the image does not record.
+[[nodiscard]] Image expose_radiances(const Scene& scene, const SpectralImage& image,
+                                     const std::filesystem::path& path, Diagnostics& diagnostics);
 
 }  // namespace abbe

@@ -15,29 +15,31 @@
 
 namespace abbe {
 
-/// Decides what pictures of the scene's film show as white (`white_of`), once for all that ask. Throws
-/// Error{scene} when the scene asks for one to which no eye adapts.
-void settle_white(Scene& scene, const std::filesystem::path& path, int threads = 1,
-                  const std::shared_ptr<const Guides>& guides = {});
+/// Sets the white of the scene's film (`white_of`) in the scene, so that later calls agree. Throws
+/// Error{scene} if the scene requests a white to which chromatic adaptation is impossible.
+void resolve_white(Scene& scene, const std::filesystem::path& path, int threads = 1,
+                   const std::shared_ptr<const GuidingData>& guides = {});
 
-/// Adds it to what a film tells of itself, with the chromaticities of up to 256 lights, by which
-/// `asked_white` finds them.
+/// Records the white in `identity`, with the chromaticities of up to 256 lights, which `requested_white` can
+/// then find by name.
 void add_white(const Scene& scene, FilmIdentity& identity);
 
-/// A light that a film tells of: several of one name have no colour of theirs.
+/// A light that a film records. Several lights of one name have no chromaticity.
 struct RecordedLight {
   std::string name;
   std::optional<Chromaticity> xy;
 };
+/// The lights that a film records; empty if it records none.
 [[nodiscard]] std::vector<RecordedLight> recorded_lights(const Image& film);
 
-/// The white of the sensor of a scene that looks at a spectral film: the one it asks for, else the film's,
-/// else that of its own lights. `said_by` is the option or the keyword that asks.
-void settle_white(Scene& scene, const std::filesystem::path& path, const Image& film,
-                  const std::optional<std::string>& asked, std::string_view said_by);
+/// Sets the white of a scene whose sensor is exposed to a spectral film. It is the requested one, else the
+/// film's, else that of the scene's lights. `origin` names the option or keyword of the request.
+void resolve_white(Scene& scene, const std::filesystem::path& path, const Image& film,
+                   const std::optional<std::string>& requested, std::string_view origin);
 
-/// The white asked for as `output/white` has it, lights being those a film tells of; by the option or the
-/// keyword `said_by`. Throws Error{usage} for an unknown one, and for one to which no eye adapts.
-[[nodiscard]] White asked_white(const std::string& text, const Image& film, std::string_view said_by);
+/// Parses a requested white in the syntax of `output/white`, with the lights that the film records. `origin`
+/// names the option or keyword of the request. Throws Error{usage} for an unknown white, and for one to which
+/// chromatic adaptation is impossible.
+[[nodiscard]] White requested_white(const std::string& text, const Image& film, std::string_view origin);
 
 }  // namespace abbe

@@ -36,15 +36,15 @@ std::string temporary_prefix(const fs::path& path) {
   return fmt::format(".{}.abbe-", companion_stem(path.stem().string()));
 }
 
-/// Keeps the extension, by which image libraries choose the format, and differs between processes and
-/// threads.
+/// Name of a temporary file. It keeps the extension, from which image libraries choose the format, and is
+/// unique among processes and threads.
 fs::path temporary_for(const fs::path& path) {
   static std::atomic<unsigned> count = 0;
   return folder_of(path) /
          fmt::format("{}{}-{}{}", temporary_prefix(path), ::getpid(), count++, path.extension().string());
 }
 
-/// Waits until a file or folder is on the disk.
+/// Waits until a file or folder has been written to disk.
 void flush(const fs::path& path) {
   const int descriptor = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (descriptor < 0) fail(path, fmt::format("cannot reopen ({})", reason()));
@@ -54,7 +54,7 @@ void flush(const fs::path& path) {
   if (!flushed) fail(path, fmt::format("cannot flush to disk ({})", why));
 }
 
-/// Whether what comes next in the file is `bytes`; reads as many.
+/// True if the next bytes of the file are `bytes`; reads as many.
 bool starts_with(std::istream& file, std::string_view bytes) {
   std::array<char, 1 << 16> block;
   while (!bytes.empty()) {
@@ -66,7 +66,7 @@ bool starts_with(std::istream& file, std::string_view bytes) {
   return true;
 }
 
-/// Removes its file on every way out; after the rename there is none.
+/// Removes its file when destroyed; after the rename there is none.
 struct Removal {
   explicit Removal(fs::path file) : path(std::move(file)) {}
   Removal(const Removal&) = delete;
@@ -82,17 +82,17 @@ struct Removal {
 }  // namespace
 
 fs::path destination(const fs::path& path) {
-  constexpr int kMostLinks = 40;  // as the system follows
+  constexpr int kMaxLinks = 40;  // Limit of the operating system.
   std::error_code ignored;
   fs::path end = path;
-  for (int links = 0; links < kMostLinks && fs::is_symlink(end, ignored); ++links)
+  for (int links = 0; links < kMaxLinks && fs::is_symlink(end, ignored); ++links)
     end = folder_of(end) / fs::read_symlink(end, ignored);
   return end;
 }
 
 std::string companion_stem(const std::string& name) {
-  constexpr std::size_t kMost = 200;  // bytes, of 255 that file systems take
-  return name.size() > kMost ? sha256(name) : name;
+  constexpr std::size_t kMaxNameBytes = 200;  // File systems allow 255 bytes.
+  return name.size() > kMaxNameBytes ? sha256(name) : name;
 }
 
 void write_atomically(const fs::path& name, const std::function<void(const fs::path&)>& write,
@@ -103,11 +103,11 @@ void write_atomically(const fs::path& name, const std::function<void(const fs::p
   try {
     write(temporary.path);
     flush(temporary.path);
-    if (!verify(temporary.path)) fail(path, "what was written does not read back; is the disk full?");
+    if (!verify(temporary.path)) fail(path, "the written file does not read back; is the disk full?");
     fs::rename(temporary.path, path);
     flush(folder_of(path));
   } catch (const Error& error) {
-    if (error.code != ErrorCode::input) throw;  // what cannot be read back is an output failure
+    if (error.code != ErrorCode::input) throw;  // A file that cannot be read back is an output failure.
     fail(path, error.what());
   } catch (const std::exception& error) {
     fail(path, error.what());
@@ -157,15 +157,15 @@ void require_writable(const fs::path& name) {
   if (!fs::is_directory(folder, ignored)) fail(path, fmt::format("no such folder \"{}\"", folder.string()));
   std::error_code unknown;
   const fs::file_status status = fs::status(path, unknown);
-  if (unknown == std::errc::filename_too_long) fail(path, "has a longer name than the file system takes");
+  if (unknown == std::errc::filename_too_long) fail(path, "the name is longer than the file system allows");
   if (fs::is_directory(status)) fail(path, "is a folder");
-  if (fs::is_symlink(path, ignored)) fail(path, "is a circle of links");
+  if (fs::is_symlink(path, ignored)) fail(path, "is a cycle of symbolic links");
   if (fs::exists(status) && !fs::is_regular_file(status)) fail(path, "is a device, not a regular file");
   if (fs::exists(status) && ::faccessat(AT_FDCWD, path.c_str(), W_OK, AT_EACCESS) != 0)
-    fail(path, fmt::format("may not be replaced ({})", reason()));
-  const Removal probe(temporary_for(path));
-  const int descriptor = ::open(probe.path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
-  if (descriptor < 0) fail(path, fmt::format("cannot create a file there ({})", reason()));
+    fail(path, fmt::format("cannot be replaced ({})", reason()));
+  const Removal trial(temporary_for(path));
+  const int descriptor = ::open(trial.path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (descriptor < 0) fail(path, fmt::format("cannot create a file in its folder ({})", reason()));
   ::close(descriptor);
 }
 

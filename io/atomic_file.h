@@ -8,30 +8,33 @@
 
 namespace abbe {
 
-/// The file that writing to `path` replaces: `path`, or where its symbolic links lead.
+/// The file that a write to `path` replaces: `path` with its symbolic links resolved.
 [[nodiscard]] std::filesystem::path destination(const std::filesystem::path& path);
 
-/// By what a file beside one of this name is called, which has an ending of its own: the name, or its SHA-256
-/// where both would be too long for file systems.
+/// Stem for companion files (temporary files, locks) of a file called `name`. It is `name`, or its SHA-256 if
+/// a companion's name would exceed the length limit of file systems.
 [[nodiscard]] std::string companion_stem(const std::string& name);
 
-/// Makes `path` appear complete or not at all: `write` fills a temporary file in the same folder, which is
-/// flushed to disk, checked by `verify`, renamed to `path`, and its folder flushed. Throws Error{output},
-/// leaving any older file as it was.
+/// Creates or replaces `path` as a whole or not at all:
+/// - `write` fills a temporary file in the same folder, which is flushed to disk;
+/// - `verify` returns true if the temporary file reads back as intended;
+/// - the temporary file is renamed to `path`, and the folder is flushed.
+/// Throws Error{output} and leaves an older file unchanged if a step fails.
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write,
                       const std::function<bool(const std::filesystem::path& temporary)>& verify);
 
-/// Writes text or bytes already in memory to a file, one piece after the other, which appears once reading it
-/// back has verified them. Throws Error{output}.
+/// Writes `pieces` one after the other to `path`, atomically. The file appears after it has been read back
+/// and compared. Throws Error{output}.
 void write_atomically(const std::filesystem::path& path, std::span<const std::string_view> pieces);
 void write_atomically(const std::filesystem::path& path, std::string_view bytes);
 
-/// Removes the temporary files of `path` that processes now dead have left. For the holder of its lock.
+/// Removes temporary files of `path` whose processes no longer run. The caller holds the lock of `path`
+/// (`FileLock`).
 void remove_leftovers(const std::filesystem::path& path);
 
-/// Throws Error{output} now if a file could not be created at `path` later: folder missing or read-only, or
-/// `path` a folder or read-only.
+/// Throws Error{output} if `path` cannot be created or replaced: its folder is missing or read-only, or
+/// `path` is a folder, a device or read-only. It creates and removes a file in the folder to find out.
 void require_writable(const std::filesystem::path& path);
 
 }  // namespace abbe

@@ -19,15 +19,15 @@ fs::path& chosen_folder() {
   return folder;
 }
 
-fs::path existing(const fs::path& folder, const std::string& chooser) {
+fs::path require_folder(const fs::path& folder, const std::string& chooser) {
   std::error_code ignored;
   if (fs::is_directory(folder, ignored)) return folder;
   throw Error(ErrorCode::input, chooser, "no such folder (got " + folder.string() + ")");
 }
 
 fs::path locate() {
-  if (const char* chosen = std::getenv("ABBE_DATA")) return existing(chosen, "ABBE_DATA");
-  if (!chosen_folder().empty()) return existing(chosen_folder(), "set_data_directory");
+  if (const char* chosen = std::getenv("ABBE_DATA")) return require_folder(chosen, "ABBE_DATA");
+  if (!chosen_folder().empty()) return require_folder(chosen_folder(), "set_data_directory");
   std::error_code error;
   const fs::path program = fs::read_symlink("/proc/self/exe", error);
   const fs::path installed = program.parent_path().parent_path() / "share/abbe/data";
@@ -36,7 +36,7 @@ fs::path locate() {
   throw Error(ErrorCode::input, installed.string(), "the tables are missing; set ABBE_DATA to their folder");
 }
 
-// Paths of the tables within the folder, sorted.
+// Paths of the tables relative to the folder, sorted.
 std::vector<std::string> tables_of(const fs::path& folder) {
   std::vector<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {

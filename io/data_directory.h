@@ -6,22 +6,24 @@
 
 namespace abbe {
 
-/// The folder of the shipped tables: `$ABBE_DATA`, else that of `set_data_directory`, else `share/abbe/data`
-/// beside the running program's folder, links to the program followed. A build folder holds a link of that
-/// name to the source tree's, so that no path of a source tree is part of a program. Throws Error{input} when
-/// there is no such folder.
+/// The folder of the shipped tables. The first of these that is set or exists:
+/// - the environment variable `ABBE_DATA`;
+/// - the folder passed to `set_data_directory`;
+/// - `../share/abbe/data`, relative to the folder of the running program with its symbolic links resolved.
+/// Build folders contain a link of that name to the source tree's data, so that no program contains a path of
+/// the source tree. Throws Error{input} if the folder does not exist.
 [[nodiscard]] const std::filesystem::path& data_directory();
 
-/// Names that folder for a program which is not installed beside it. Only a call before the first use of
-/// `data_directory` counts.
+/// Sets the folder for programs that are not installed next to the data. It has no effect after the first
+/// call of `data_directory`.
 void set_data_directory(const std::filesystem::path& folder);
 
-/// The tables of `data_directory`: every `.csv` file, its `scenes` left out; none where there is no folder.
+/// Paths of all `.csv` files of `data_directory` except those in `scenes`, sorted. Empty if the folder is
+/// missing.
 [[nodiscard]] std::vector<std::filesystem::path> data_tables();
 
-/// SHA-256 over `data_tables`: of what `sha256sum` prints for them all by their paths within the folder, in
-/// the order of the paths' bytes. Worked out when first asked for. Throws Error{input} when a table cannot be
-/// read.
+/// SHA-256 of the listing that `sha256sum` prints for all `data_tables`, with paths relative to the folder in
+/// byte order. Computed at the first call. Throws Error{input} if a table cannot be read.
 [[nodiscard]] const std::string& data_sha256();
 
 }  // namespace abbe

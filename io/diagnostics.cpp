@@ -25,7 +25,7 @@ std::size_t code_points(std::string_view text) {
          static_cast<std::size_t>(std::count_if(text.begin(), text.end(), continues_code_point));
 }
 
-/// A hostile input must not reach the user's terminal as control sequences.
+/// Replaces control characters: a hostile input must not send control sequences to the user's terminal.
 std::string printable(std::string_view text) {
   std::string shown;
   for (const char c : valid_utf8(text, "?")) {
@@ -46,7 +46,7 @@ std::string_view line_at(std::string_view text, std::size_t offset) {
   return line;
 }
 
-/// The line around byte `at` of it, and a caret below that byte.
+/// The part of the line around byte `at`, and a caret below that byte.
 std::string excerpt(std::string_view line, std::size_t at) {
   std::size_t begin = at > kExcerptBefore ? at - kExcerptBefore : 0;
   while (begin < at && continues_code_point(line[begin])) ++begin;
@@ -58,7 +58,7 @@ std::string excerpt(std::string_view line, std::size_t at) {
   return fmt::format("\n{}\n{}^", printable(line.substr(begin, end - begin)), margin);
 }
 
-/// Levenshtein's distance, ignoring the case of ASCII letters.
+/// Levenshtein distance, ignoring the case of ASCII letters.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -134,7 +134,8 @@ std::string format(const Diagnostic& diagnostic) {
 
 std::optional<std::string> nearest_name(std::string_view name, std::span<const std::string> candidates) {
   std::size_t best =
-      2 + name.size() / 4;  // one typing error, and another for every four letters, is close enough
+      // Close enough is one typing error, and another one for every four letters.
+      2 + name.size() / 4;
   std::optional<std::string> nearest;
   for (const std::string& candidate : candidates) {
     const std::size_t distance = edit_distance(name, candidate);
@@ -151,7 +152,8 @@ std::string unknown_name(std::string_view kind, std::string_view name,
     return fmt::format("unknown {} \"{}\"; did you mean \"{}\"?", kind, name, *nearest);
   if (candidates.empty() || candidates.size() > kShortList)
     return fmt::format("unknown {} \"{}\"", kind, name);
-  std::vector<std::string> known;  // each once, although two forms of a thing may have it
+  // Each once: two forms of a struct may have the same key.
+  std::vector<std::string> known;
   for (const std::string& candidate : candidates)
     if (std::find(known.begin(), known.end(), candidate) == known.end()) known.push_back(candidate);
   return fmt::format("unknown {} \"{}\"; known: {}", kind, name, fmt::join(known, ", "));

@@ -12,14 +12,14 @@
 
 namespace abbe {
 
-/// A text with the name it was read under, kept alive by whatever points into it.
+/// A text and the file name under which it was read. Source positions share ownership of it.
 struct SourceText {
   std::string file;
   std::string text;
 };
 
-/// A place in a text: byte offset (kWholeFile for a file as such), and the JSON pointer of the value there
-/// ("" for the root and for tables).
+/// A position in a text. `offset` is in bytes, or kWholeFile for the file as a whole. `pointer` is the JSON
+/// pointer of the value there, or "" for the root and for tables.
 struct SourcePosition {
   static constexpr std::size_t kWholeFile = static_cast<std::size_t>(-1);
 
@@ -28,7 +28,7 @@ struct SourcePosition {
   std::string pointer;
 };
 
-/// One complaint about an input.
+/// One error or warning about an input.
 struct Diagnostic {
   enum class Severity { warning, error };
   Severity severity = Severity::error;
@@ -37,10 +37,11 @@ struct Diagnostic {
   std::string message;
 };
 
-/// Whether an input that can be used, but hardly gives what was meant, is used all the same.
+/// `strict` treats doubtful inputs as errors: inputs that can be used, but probably do not mean what the user
+/// intended.
 enum class Strictness { lenient, strict };
 
-/// Collects every complaint about the inputs of one command, so that a user sees all of them at once.
+/// Collects all errors and warnings about the inputs of one command, so that a user sees them at once.
 class Diagnostics {
  public:
   Diagnostics() = default;
@@ -48,17 +49,18 @@ class Diagnostics {
 
   void error(const SourcePosition& where, std::string message, ErrorCode code = ErrorCode::scene);
   void warning(const SourcePosition& where, std::string message);
-  /// A complaint about what would make the result wrong without stopping it: an error of the scene when
-  /// strict, else a warning.
+  /// Reports an input that can be used but probably gives a wrong result: an error if strict, otherwise a
+  /// warning.
   void error_if_strict(const SourcePosition& where, std::string message);
 
   [[nodiscard]] bool has_errors() const { return errors_ > 0; }
   [[nodiscard]] std::span<const Diagnostic> all() const { return diagnostics_; }
 
-  /// Code of the first error; `ErrorCode::internal` when there is none.
+  /// Code of the first error, or `ErrorCode::internal` if there is none.
   [[nodiscard]] ErrorCode code() const;
 
-  /// All complaints as text, the first `limit` errors with their excerpts, ending in a newline unless empty.
+  /// All diagnostics as text, each formatted by `format` and ended by a newline. Errors beyond the first
+  /// `limit` are counted in a final line.
   [[nodiscard]] std::string text(std::size_t limit = 20) const;
 
  private:
@@ -67,18 +69,17 @@ class Diagnostics {
   Strictness strictness_ = Strictness::lenient;
 };
 
-/// `file:line:col: /pointer: error: what is wrong` followed by the line concerned and a caret under the
-/// column. Lines and columns count from 1; a column counts code points. Control characters are shown as "?";
-/// long lines are cut around the column. A position without a source gives the message alone. No newline at
-/// the end.
+/// `file:line:col: /pointer: error: message`, followed by the source line and a caret below the column. Lines
+/// and columns start at 1; a column is a code point. Control characters are replaced by "?", and long lines
+/// are cut around the column. Without a source it is the message alone. It has no trailing newline.
 [[nodiscard]] std::string format(const Diagnostic& diagnostic);
 
-/// The candidate closest to `name` by edit distance, if it is close enough to be what was meant.
+/// The candidate with the smallest edit distance to `name`; nothing if all differ by more than a few letters.
 [[nodiscard]] std::optional<std::string> nearest_name(std::string_view name,
                                                       std::span<const std::string> candidates);
 
-/// `unknown <kind> "<name>"` followed by the nearest candidate, or by the list of candidates when that is
-/// short.
+/// `unknown <kind> "<name>"`, followed by the nearest candidate or, if none is near and the list is short, by
+/// all candidates.
 [[nodiscard]] std::string unknown_name(std::string_view kind, std::string_view name,
                                        std::span<const std::string> candidates);
 

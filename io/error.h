@@ -5,14 +5,14 @@
 
 namespace abbe {
 
-/// What went wrong, as the process exit code that reports it.
+/// Classes of failure. The values are exit codes of the program.
 enum class ErrorCode : int {
   usage = 2,      ///< The command line cannot be understood.
   scene = 3,      ///< The scene file is invalid.
   input = 4,      ///< An input file is missing or corrupt.
   output = 5,     ///< An output cannot be written.
   resource = 6,   ///< A limit on memory or size would be exceeded.
-  internal = 70,  ///< A bug of ours.
+  internal = 70,  ///< A bug in Abbe.
 };
 
 /// An unrecoverable failure. Thrown anywhere, caught only in `cli/main`.

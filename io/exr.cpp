@@ -37,7 +37,7 @@ std::string number_text(float number) {
   return fmt::format("{}", number);
 }
 
-// As it reads back: a number loses the digits that a float does not have.
+// The value as it reads back: numbers are rounded to float.
 std::string stored_text(const std::string& key, const std::string& value) {
   const auto number = is_number(key) ? parse_number(value) : std::nullopt;
   return number ? number_text(static_cast<float>(*number)) : value;
@@ -71,7 +71,7 @@ Imf::FrameBuffer frame_buffer(const Image& image, const Imath::Box2i& window) {
   return buffer;
 }
 
-/// Compares bytes, not values: a NaN must survive, and -0 is not 0.
+/// Compares bytes, not values: a NaN must survive, and -0 differs from 0.
 bool same_bits(const ExrPart& written, const ExrPart& read) {
   const Image& a = written.image;
   const Image& b = read.image;
@@ -81,7 +81,7 @@ bool same_bits(const ExrPart& written, const ExrPart& read) {
         const auto other = b.metadata.find(entry.first);
         return other != b.metadata.end() && other->second == stored_text(entry.first, entry.second);
       });
-  std::map<std::string_view, const ImageChannel*> by_name;  // of layers there may be thousands
+  std::map<std::string_view, const ImageChannel*> by_name;  // There may be thousands of layers.
   for (const ImageChannel& channel : b.channels) by_name[channel.name] = &channel;
   return written.name == read.name && a.width == b.width && a.height == b.height && same_metadata &&
          a.channels.size() == b.channels.size() &&
@@ -93,7 +93,7 @@ bool same_bits(const ExrPart& written, const ExrPart& read) {
          });
 }
 
-/// The image of a window that a header announces, its channels still empty.
+/// Image of the size of `window` with the channels and metadata of a header; its channels are empty.
 Image announced(const Imf::Header& header, const Imath::Box2i& window, const std::string& name) {
   const std::int64_t width = std::int64_t{window.max.x} - window.min.x + 1;
   const std::int64_t height = std::int64_t{window.max.y} - window.min.y + 1;
@@ -108,7 +108,7 @@ Image announced(const Imf::Header& header, const Imath::Box2i& window, const std
     const std::string key = attribute.name();
     const auto* text = dynamic_cast<const Imf::StringAttribute*>(&attribute.attribute());
     const auto* number = dynamic_cast<const Imf::FloatAttribute*>(&attribute.attribute());
-    // What says how the file is laid out is no metadata.
+    // `type` and `name` describe the layout of the file; they are no metadata.
     if (text && key != "type" && key != "name") image.metadata[key] = text->value();
     if (number && is_number(key)) image.metadata[key] = number_text(number->value());
   }
@@ -120,7 +120,8 @@ Image announced(const Imf::Header& header, const Imath::Box2i& window, const std
   return image;
 }
 
-/// The picture that the display window is, of the pixels of a data window that is another: 0 beyond it.
+/// Copies the pixels of the data window into `picture`, which has the size of the display window. Pixels
+/// outside the data window are 0.
 Image displayed(const Image& stored, const Imath::Box2i& data, Image picture, const Imath::Box2i& display) {
   const Imath::Box2i both(
       Imath::V2i(std::max(data.min.x, display.min.x), std::max(data.min.y, display.min.y)),
@@ -167,7 +168,7 @@ std::vector<ExrPart> read(const std::filesystem::path& path, Inputs* inputs) {
                   fmt::format("image too large (got {} parts of more than {} bytes in all)", file.parts(),
                               kMaxImageBytes));
   }
-  if (inputs) inputs->take_memory(name, bytes);
+  if (inputs) inputs->reserve_memory(name, bytes);
   std::vector<ExrPart> parts;
   for (int i = 0; i < file.parts(); ++i) {
     if (!file.partComplete(i)) throw Error(ErrorCode::input, name, "truncated");

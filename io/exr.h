@@ -10,31 +10,30 @@
 
 namespace abbe {
 
-/// One of several images in a file.
+/// One part of a multi-part EXR file.
 struct ExrPart {
   std::string name;
   Image image;
 };
 
-/// Writes every channel as 32-bit float, ZIP compressed, metadata as string attributes, but numbers under the
-/// names that OpenEXR defines so (EV, aperture, expTime, isoSpeed, whiteLuminance) as 32-bit float;
-/// atomically, and re-read before it appears. Throws Error{output}.
+/// Writes an EXR file with ZIP compression, atomically and read back before it appears. Channels are 32-bit
+/// floats. Metadata are string attributes, except EV, aperture, expTime, isoSpeed and whiteLuminance, which
+/// OpenEXR defines as floats. Throws Error{output}.
 void write_exr(const std::filesystem::path& path, const Image& image);
-/// Writes several images of one size as the parts of one file, each under a name of its own, as `write_exr`
-/// writes one. Throws Error{output}.
+/// Writes several images of equal size as named parts of one file. Throws Error{output}.
 void write_exr(const std::filesystem::path& path, std::span<const ExrPart> parts);
 
-/// The attribute of an image whose file tells its primaries, as an EXR does by `chromaticities`: x and y of
-/// its red, green, blue and white, with blanks between them. Those of an ICC profile are adapted to D50.
+/// Metadata key for the primaries of an image: "xr yr xg yg xb yb xw yw" of red, green, blue and white. An
+/// EXR file declares them as `chromaticities`. Primaries from an ICC profile are adapted to D50.
 inline constexpr const char* kPrimariesKey = "primaries_xy";
 
-/// Reads a single-part scan-line or tiled EXR, all channels as float, string attributes, those numbers and
-/// chromaticities (`kPrimariesKey`) as metadata. Throws Error{input} for a missing, truncated or malformed
-/// file and Error{resource} for one beyond the limits of `io/image.h`, or beyond the memory that `inputs` has
-/// left, told by its header.
+/// Reads a single-part scan-line or tiled EXR. Channels become floats; string attributes, the numbers listed
+/// at `write_exr` and `chromaticities` (as `kPrimariesKey`) become metadata. Throws Error{input} for a
+/// missing, truncated or malformed file. Throws Error{resource}, judging from the header, if the image
+/// exceeds the limits of `io/image.h` or the memory left in `inputs`.
 [[nodiscard]] Image read_exr(const std::filesystem::path& path, Inputs* inputs = nullptr);
-/// Reads an EXR of one part or more, which together keep within the limits that `read_exr` has for one, with
-/// the same errors; a single part may have no name.
+/// Reads all parts of an EXR file. The limits and errors of `read_exr` apply to the parts together. A single
+/// part may be unnamed.
 [[nodiscard]] std::vector<ExrPart> read_exr_parts(const std::filesystem::path& path,
                                                   Inputs* inputs = nullptr);
 

@@ -15,12 +15,12 @@
 namespace abbe {
 namespace {
 
-// Whether the file locked is still the one of that name: its last holder may have removed it in between.
+// True if `path` still names the locked file: its last owner may have removed it in between.
 bool is_current(int descriptor, const std::filesystem::path& path) {
-  struct stat held {};
-  struct stat named {};
-  return ::fstat(descriptor, &held) == 0 && ::stat(path.c_str(), &named) == 0 &&
-         held.st_ino == named.st_ino && held.st_dev == named.st_dev;
+  struct stat locked_file {};
+  struct stat named_file {};
+  return ::fstat(descriptor, &locked_file) == 0 && ::stat(path.c_str(), &named_file) == 0 &&
+         locked_file.st_ino == named_file.st_ino && locked_file.st_dev == named_file.st_dev;
 }
 
 }  // namespace

@@ -4,9 +4,9 @@
 
 namespace abbe {
 
-/// Keeps other processes from writing the same output while it lives. The lock is a hidden file beside `path`
-/// that the system lets go when its holder ends, however it ends; what a killed holder left half written is
-/// removed.
+/// Prevents other processes from writing the same output during its lifetime. The lock is a hidden file next
+/// to `path`, which the operating system releases when the process ends, however it ends. The constructor
+/// removes temporary files of processes that were killed.
 class FileLock {
  public:
   /// Throws Error{output} when another process holds the lock or the folder cannot be written.

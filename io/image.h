@@ -14,7 +14,7 @@ namespace abbe {
 /// One float plane of an image.
 struct ImageChannel {
   std::string name;
-  std::vector<float> values;  ///< Row by row from the top left, `width * height` of them.
+  std::vector<float> values;  ///< `width * height` values, row by row from the top left.
 };
 
 /// Named float channels and metadata. Channel names are unique.
@@ -29,7 +29,7 @@ struct Image {
       if (channel.name == name) return &channel;
     return nullptr;
   }
-  /// Bytes that the values of all channels take.
+  /// Memory of the values of all channels [bytes].
   [[nodiscard]] std::size_t memory_bytes() const { return pixels() * channels.size() * sizeof(float); }
   [[nodiscard]] std::size_t pixels() const {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
@@ -39,11 +39,11 @@ struct Image {
 /// Largest image edge and pixel count accepted from any file or scene; checked before allocation.
 inline constexpr int kMaxImageEdge = 65536;
 inline constexpr std::size_t kMaxImagePixels = std::size_t{1} << 28;
-/// Largest sum of all float channels of an image file.
+/// Largest memory of all float channels of an image file [bytes].
 inline constexpr std::size_t kMaxImageBytes = std::size_t{8} << 30;
 
-/// Throws Error{resource} naming `where` for an image file beyond these limits; asked before its pixels are
-/// allocated.
+/// Throws Error{resource} with `where` if an image exceeds these limits. Callers check before they allocate
+/// pixels.
 inline void require_image_size(const std::string& where, std::int64_t width, std::int64_t height,
                                std::size_t channels) {
   if (width > kMaxImageEdge || height > kMaxImageEdge ||

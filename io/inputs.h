@@ -8,55 +8,57 @@
 
 namespace abbe {
 
-/// An amount of memory as messages tell it: "512 B", "1.0 kB", "84.3 MB", in powers of 1000.
+/// A memory size for messages: "512 B", "1.0 kB", "84.3 MB", in powers of 1000.
 [[nodiscard]] std::string bytes_text(std::size_t bytes);
 
-/// Memory that a command takes unless told otherwise [bytes]: 80 % of the machine's, or of what the process's
-/// control group or address space is limited to, whichever is least.
+/// Default memory limit of a command [bytes]: 80 % of the smallest of the machine's memory, the limit of the
+/// process's control group and its address-space limit.
 [[nodiscard]] std::size_t default_memory_limit();
 
-/// What one command reads: its files, and the memory that these and its films take, which is counted before
-/// it is asked for. Not counted are what the readers of other libraries hold while they read, the table of a
-/// mesh's edges while it is checked, what rays are traced through (Embree's), and the films of pilots.
+/// Accounts for the files that a command reads and for the memory of files and films, which is reserved
+/// before it is allocated. Not included are:
+/// - memory that libraries use while they read;
+/// - the edge table of a mesh while it is checked;
+/// - Embree's acceleration structures;
+/// - films of pilot renders.
 class Inputs {
  public:
   explicit Inputs(std::size_t memory_limit_bytes = default_memory_limit()) : limit_(memory_limit_bytes) {}
 
-  /// Remembers a file that is read.
   void add_file(std::filesystem::path file) { files_.push_back(std::move(file)); }
-  /// Every file read so far, some more than once.
+  /// Every file read so far; a file may occur more than once.
   [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
 
-  /// Counts memory that `what`, a file or the film, is about to take. Throws Error{resource} when that is
-  /// more than is left.
-  void take_memory(const std::string& what, std::size_t bytes);
-  /// Counts it no longer.
-  void give_back_memory(std::size_t bytes) { taken_ -= bytes; }
+  /// Adds memory that `what` (a file, the film) is about to allocate. Throws Error{resource} if it exceeds
+  /// the rest of the limit.
+  void reserve_memory(const std::string& what, std::size_t bytes);
+  /// Subtracts memory that was reserved.
+  void release_memory(std::size_t bytes) { reserved_ -= bytes; }
 
  private:
   std::size_t limit_;
-  std::size_t taken_ = 0;
+  std::size_t reserved_ = 0;
   std::vector<std::filesystem::path> files_;
 };
 
-/// Gives counted memory back at the end of its life.
-class HeldMemory {
+/// Owns reserved memory and releases it when destroyed.
+class MemoryReservation {
  public:
-  /// `inputs` may be none.
-  HeldMemory(Inputs* inputs, std::size_t bytes) : inputs_(inputs), bytes_(bytes) {}
-  HeldMemory(HeldMemory&& other) noexcept
+  /// `inputs` may be nullptr; then nothing is counted.
+  MemoryReservation(Inputs* inputs, std::size_t bytes) : inputs_(inputs), bytes_(bytes) {}
+  MemoryReservation(MemoryReservation&& other) noexcept
       : inputs_(std::exchange(other.inputs_, nullptr)), bytes_(other.bytes_) {}
-  HeldMemory(const HeldMemory&) = delete;
-  HeldMemory& operator=(const HeldMemory&) = delete;
-  HeldMemory& operator=(HeldMemory&&) = delete;
-  /// Counts more for `what`, to be given back with the rest. Throws as `Inputs::take_memory` does.
-  void take_more(const std::string& what, std::size_t bytes) {
+  MemoryReservation(const MemoryReservation&) = delete;
+  MemoryReservation& operator=(const MemoryReservation&) = delete;
+  MemoryReservation& operator=(MemoryReservation&&) = delete;
+  /// Reserves more memory for `what`. Throws like `Inputs::reserve_memory`.
+  void reserve(const std::string& what, std::size_t bytes) {
     if (inputs_ == nullptr) return;
-    inputs_->take_memory(what, bytes);
+    inputs_->reserve_memory(what, bytes);
     bytes_ += bytes;
   }
-  ~HeldMemory() {
-    if (inputs_ != nullptr) inputs_->give_back_memory(bytes_);
+  ~MemoryReservation() {
+    if (inputs_ != nullptr) inputs_->release_memory(bytes_);
   }
 
  private:

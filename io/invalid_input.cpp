@@ -4,7 +4,7 @@
 
 namespace abbe {
 
-void require_sound(const Diagnostics& diagnostics) {
+void require_no_errors(const Diagnostics& diagnostics) {
   if (!diagnostics.has_errors()) return;
   std::string all = diagnostics.text();
   if (all.ends_with('\n')) all.pop_back();
@@ -14,7 +14,7 @@ void require_sound(const Diagnostics& diagnostics) {
   const bool placed = first->where.source != nullptr;
   const ErrorCode code =
       !placed && diagnostics.code() == ErrorCode::scene ? ErrorCode::input : diagnostics.code();
-  // Complaints with a place each begin their own line, as editors look for them.
+  // Each diagnostic with a position begins a line, since editors parse it.
   throw InvalidInput(code, placed ? "invalid input\n" + all : all,
                      {diagnostics.all().begin(), diagnostics.all().end()});
 }

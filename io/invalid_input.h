@@ -8,16 +8,16 @@
 
 namespace abbe {
 
-/// What ends a command whose inputs are no use: everything that is wrong with them.
+/// Thrown if the inputs of a command contain errors. It carries all diagnostics.
 struct InvalidInput : Error {
   InvalidInput(ErrorCode code, const std::string& message, std::vector<Diagnostic> all)
       : Error(code, "", message), diagnostics(std::move(all)) {}
 
-  std::vector<Diagnostic> diagnostics;  ///< Warnings too, in the order in which they were found.
+  std::vector<Diagnostic> diagnostics;  ///< Errors and warnings, in the order in which they were found.
 };
 
-/// Throws the diagnostics as one when there are errors among them. A name given by a caller, in no file, that
-/// is not found counts as a missing input.
-void require_sound(const Diagnostics& diagnostics);
+/// Throws InvalidInput with all diagnostics if there is an error among them. An error without a source
+/// position, such as an unknown name from the command line, has the code ErrorCode::input.
+void require_no_errors(const Diagnostics& diagnostics);
 
 }  // namespace abbe

@@ -30,8 +30,8 @@ std::string unescaped(std::string_view token) {
   return key;
 }
 
-/// Receives the parser's events and grows the tree. Parsing in place makes the strings and numbers it is
-/// given point into the parsed copy of the text, which tells where they stand.
+/// Builds the tree from the parser's events. Parsing in place makes strings and numbers point into the copy
+/// of the text, from which their offsets follow.
 class JsonTreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, JsonTreeBuilder> {
  public:
   JsonTreeBuilder(rapidjson::InsituStringStream& stream, ValueTree& tree) : stream_(stream), tree_(tree) {}
@@ -82,7 +82,7 @@ class JsonTreeBuilder : public rapidjson::BaseReaderHandler<rapidjson::UTF8<>, J
   ValueTree& tree_;
 };
 
-/// What the grammar wanted where the parser stopped.
+/// Token that the grammar expects where the parser stopped.
 std::string_view expectation(rapidjson::ParseErrorCode code) {
   switch (code) {
     case rapidjson::kParseErrorDocumentRootNotSingular:
@@ -100,7 +100,7 @@ std::string_view expectation(rapidjson::ParseErrorCode code) {
     case rapidjson::kParseErrorStringUnicodeSurrogateInvalid:
       return "a complete surrogate pair";
     case rapidjson::kParseErrorStringEscapeInvalid:
-      return "a printable character or an escape JSON knows";
+      return "a printable character or a JSON escape";
     case rapidjson::kParseErrorStringMissQuotationMark:
       return "'\"' at the end of the string";
     case rapidjson::kParseErrorNumberMissFraction:
@@ -129,7 +129,8 @@ void report(const rapidjson::ParseResult& result, SourcePosition where, Diagnost
   if (where.offset == text.size() && text.find_first_not_of(" \t\r\n") == std::string_view::npos)
     return diagnostics.error({where.source, 0, ""}, "expected a value (got an empty text)");
   if (result.Code() ==
-      rapidjson::kParseErrorValueInvalid)  // found inside the word, or after the sign of "-Infinity"
+      // The parser stops inside the word, or after the sign of "-Infinity".
+      rapidjson::kParseErrorValueInvalid)
     while (where.offset > 0 && in_word(text[where.offset - 1])) --where.offset;
   if (where.offset == text.size())
     return diagnostics.error(
@@ -138,7 +139,7 @@ void report(const rapidjson::ParseResult& result, SourcePosition where, Diagnost
   const std::string_view rest = text.substr(where.offset, 40);
   std::size_t size =
       static_cast<std::size_t>(std::find_if_not(rest.begin(), rest.end(), in_word) - rest.begin());
-  if (size == 0)  // show one whole character instead
+  if (size == 0)  // Show one whole character instead.
     for (size = 1; size < rest.size() && valid_prefix(rest.substr(0, size)) < size;) ++size;
   const std::string_view word = rest.substr(0, size);
   if (result.Code() == rapidjson::kParseErrorNumberTooBig)
@@ -150,8 +151,8 @@ void report(const rapidjson::ParseResult& result, SourcePosition where, Diagnost
 }
 
 std::optional<JsonValue> parse(const std::shared_ptr<const SourceText>& source, const std::string& pointer,
-                               Diagnostics& diagnostics, HeldMemory* memory = nullptr) {
-  if (memory != nullptr) memory->take_more(source->file, source->text.size());
+                               Diagnostics& diagnostics, MemoryReservation* memory = nullptr) {
+  if (memory != nullptr) memory->reserve(source->file, source->text.size());
   std::string scratch = source->text;
   rapidjson::InsituStringStream stream(scratch.data());
   ValueTree tree(source, pointer, ErrorCode::scene, diagnostics, memory);
@@ -167,7 +168,8 @@ std::optional<JsonValue> parse(const std::shared_ptr<const SourceText>& source, 
   return std::nullopt;
 }
 
-/// The element a pointer's token names in an array, created when it is the one after the last.
+/// The array element that a token of a pointer names; created if it is the one after the last. nullptr if the
+/// token is no such index.
 JsonValue* element(JsonValue::Array& array, const std::string& token) {
   const bool digits = !token.empty() && std::all_of(token.begin(), token.end(),
                                                     [](unsigned char c) { return std::isdigit(c); });
@@ -179,10 +181,10 @@ JsonValue* element(JsonValue::Array& array, const std::string& token) {
   return &array[index];
 }
 
-/// The value at `pointer`, created with the objects on its way where it is missing; nullptr where there is no
-/// way.
-JsonValue* reach(JsonValue& root, const std::string& pointer,
-                 const std::shared_ptr<const SourceText>& source) {
+/// The value at `pointer`, created with the objects on the path if missing. nullptr if the path passes
+/// through another value.
+JsonValue* find_or_create(JsonValue& root, const std::string& pointer,
+                          const std::shared_ptr<const SourceText>& source) {
   JsonValue* at = &root;
   for (std::size_t begin = 0; begin < pointer.size();) {
     const std::size_t end = std::min(pointer.find('/', begin + 1), pointer.size());
@@ -233,7 +235,7 @@ void write(TextWriter& writer, const JsonValue& json) {
   }
 }
 
-// In one line, with blanks.
+// Writes the value in one line, with blanks after separators.
 void write_line(const JsonValue& json, std::string& out) {
   const auto* array = std::get_if<JsonValue::Array>(&json.value);
   const auto* object = std::get_if<JsonValue::Object>(&json.value);
@@ -251,14 +253,14 @@ void write_line(const JsonValue& json, std::string& out) {
   out += array ? ']' : '}';
 }
 
-// From a column on; what does not fit goes on lines of its own.
+// Writes the value from a column on; a value that does not fit takes several lines.
 void write_lines(const JsonValue& json, std::size_t column, std::size_t indent, std::size_t width,
                  std::string& out) {
   const auto* array = std::get_if<JsonValue::Array>(&json.value);
   const auto* object = std::get_if<JsonValue::Object>(&json.value);
   std::string line;
   write_line(json, line);
-  if ((!array && !object) || column + line.size() + 1 <= width) {  // and a comma
+  if ((!array && !object) || column + line.size() + 1 <= width) {  // One more column for a comma.
     out += line;
     return;
   }
@@ -290,7 +292,7 @@ std::string to_text(const JsonValue& value) {
   return {buffer.GetString(), buffer.GetSize()};
 }
 
-std::string_view JsonValue::kind() const {
+std::string_view JsonValue::type_name() const {
   constexpr std::array<std::string_view, 6> kNames{"null",     "a boolean", "a number",
                                                    "a string", "an array",  "an object"};
   return kNames[value.index()];
@@ -308,27 +310,28 @@ JsonValue* JsonValue::find(std::string_view key) {
 }
 
 std::optional<JsonValue> parse_json(const std::shared_ptr<const SourceText>& source, Diagnostics& diagnostics,
-                                    HeldMemory* memory) {
+                                    MemoryReservation* memory) {
   return parse(source, "", diagnostics, memory);
 }
 
 void set_json(JsonValue& root, std::string_view pointer, std::string_view text, Diagnostics& diagnostics,
-              std::string_view said_by) {
-  const auto source = std::make_shared<const SourceText>(SourceText{std::string(said_by), std::string(text)});
+              std::string_view option_name) {
+  const auto source =
+      std::make_shared<const SourceText>(SourceText{std::string(option_name), std::string(text)});
   const SourcePosition where{source, 0, std::string(pointer)};
   if (valid_prefix(text) < text.size() || valid_prefix(pointer) < pointer.size())
-    return diagnostics.error({}, std::string(said_by) + ": invalid UTF-8", ErrorCode::usage);
-  Diagnostics complaints;
-  std::optional<JsonValue> value = parse(source, where.pointer, complaints);
+    return diagnostics.error({}, std::string(option_name) + ": invalid UTF-8", ErrorCode::usage);
+  Diagnostics parse_diagnostics;
+  std::optional<JsonValue> value = parse(source, where.pointer, parse_diagnostics);
   if (!value && text.find_first_of("[{\"") == 0) {
-    const Diagnostic& first = complaints.all().front();
+    const Diagnostic& first = parse_diagnostics.all().front();
     return diagnostics.error(first.where, first.message, ErrorCode::usage);
   }
   if (!value) value = JsonValue{std::string(text), where};
 
   JsonValue* target =
-      pointer.empty() || pointer.starts_with('/') ? reach(root, where.pointer, source) : nullptr;
-  if (!target) return diagnostics.error(where, "no such place in the scene", ErrorCode::usage);
+      pointer.empty() || pointer.starts_with('/') ? find_or_create(root, where.pointer, source) : nullptr;
+  if (!target) return diagnostics.error(where, "no value can be set at this pointer", ErrorCode::usage);
   *target = std::move(*value);
 }
 

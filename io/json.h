@@ -13,7 +13,7 @@
 
 namespace abbe {
 
-/// A JSON value that remembers where it stood in its text. Objects keep the order of their members.
+/// A JSON value with its position in the source text. Objects keep the order of their members.
 struct JsonValue {
   struct Member;
   using Array = std::vector<JsonValue>;
@@ -21,14 +21,14 @@ struct JsonValue {
 
   std::variant<std::nullptr_t, bool, double, std::string, Array, Object> value;
   SourcePosition where;
-  std::size_t key_offset = 0;  ///< Byte offset of the key of an object's member.
+  std::size_t key_offset = 0;  ///< Byte offset of the value's key, if it is a member of an object.
 
   /// "null", "a boolean", "a number", "a string", "an array" or "an object".
-  [[nodiscard]] std::string_view kind() const;
-  /// The member of that name, or nullptr; nullptr too when this is no object.
+  [[nodiscard]] std::string_view type_name() const;
+  /// The member called `key`; nullptr if there is none or if this is not an object.
   [[nodiscard]] const JsonValue* find(std::string_view key) const;
   [[nodiscard]] JsonValue* find(std::string_view key);
-  /// Place of the key of an object's member, for complaints about the key.
+  /// Position of the value's key, for diagnostics about the key.
   [[nodiscard]] SourcePosition key_position() const { return {where.source, key_offset, where.pointer}; }
 };
 
@@ -38,31 +38,36 @@ struct JsonValue::Member {
   JsonValue second;
 };
 
-/// Parses JSON with `//` and `/* */` comments and trailing commas. Reports (and gives nothing for) truncated
-/// or empty text, bytes after the value, duplicate keys, NaN and infinities, numbers beyond double, strings
-/// holding NUL or half a surrogate pair, nesting deeper than 256, and JSON pointers beyond 1024 bytes.
-/// `memory`, if any, counts what the values take, and throws when it is too much.
+/// Parses JSON with `//` and `/* */` comments and trailing commas. Reports an error and returns nothing for:
+/// - truncated or empty text, or text after the value;
+/// - duplicate keys;
+/// - NaN, infinities and numbers outside the range of double;
+/// - strings with NUL or half a surrogate pair;
+/// - nesting deeper than 256 levels and JSON pointers longer than 1024 bytes.
+/// Reserves the memory of the values in `memory`, if given, which may throw Error{resource}.
 [[nodiscard]] std::optional<JsonValue> parse_json(const std::shared_ptr<const SourceText>& source,
-                                                  Diagnostics& diagnostics, HeldMemory* memory = nullptr);
+                                                  Diagnostics& diagnostics,
+                                                  MemoryReservation* memory = nullptr);
 
-/// The value as JSON in one line, numbers with the fewest digits that read back as the same.
+/// The value as JSON in one line. Numbers have the fewest digits that read back to the same double.
 [[nodiscard]] std::string to_text(const JsonValue& value);
 
-/// The value as JSON for people: what fits into a line of `width` columns stands in one.
+/// The value as indented JSON. A value that fits into a line of `width` columns takes one line.
 [[nodiscard]] std::string to_lines(const JsonValue& value, std::size_t width);
 
-/// Replaces or creates the value at a JSON pointer ("/render/samples") by `text`, which is JSON, or a bare
-/// word or path taken as a string. Objects on the way are created; the index after an array's last, or "-",
-/// appends. Reports, as usage errors, a pointer that passes through something that is no object or array, and
-/// text that opens like a JSON array, object or string but is none; `said_by` is what they call the text.
+/// Sets the value at a JSON pointer ("/render/samples"). `text` is JSON, or a bare word or path that is taken
+/// as a string. Missing objects on the path are created. The index after the last element of an array, or
+/// "-", appends. Reports usage errors, which name the text `option_name`:
+/// - a pointer through a value that is neither an object nor an array;
+/// - text that begins like a JSON array, object or string but is malformed.
 void set_json(JsonValue& root, std::string_view pointer, std::string_view text, Diagnostics& diagnostics,
-              std::string_view said_by = "--set");
+              std::string_view option_name = "--set");
 
-/// One `--set /pointer=value` of the command line: what `set_json` takes.
+/// Arguments of `set_json`, such as from one `--set /pointer=value`.
 struct Override {
   std::string pointer;
   std::string value;
-  std::string said_by = "--set";  ///< Of another option, or of a keyword of Python, its name.
+  std::string option_name = "--set";  ///< Name of the command-line option or Python keyword, for errors.
 };
 
 }  // namespace abbe

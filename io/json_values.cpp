@@ -13,19 +13,19 @@ std::string bound(double x) {
   return fmt::format("{}", x);
 }
 
-/// The value itself when it is short, else its kind.
-std::string shown(const JsonValue& value) {
+/// The value if it is short, otherwise its type.
+std::string value_text(const JsonValue& value) {
   if (const auto* number = std::get_if<double>(&value.value)) return fmt::format("{}", *number);
   if (const auto* boolean = std::get_if<bool>(&value.value)) return *boolean ? "true" : "false";
   if (const auto* string = std::get_if<std::string>(&value.value))
     return string->size() <= 40 ? fmt::format("\"{}\"", *string) : "a long string";
-  return std::string(value.kind());
+  return std::string(value.type_name());
 }
 
 std::nullopt_t mismatch(const JsonValue& value, std::string_view expected, std::string_view allowed,
                         Diagnostics& diagnostics) {
   diagnostics.error(value.where,
-                    fmt::format("expected {} (got {}, allowed {})", expected, shown(value), allowed));
+                    fmt::format("expected {} (got {}, allowed {})", expected, value_text(value), allowed));
   return std::nullopt;
 }
 
@@ -102,14 +102,14 @@ std::optional<std::vector<double>> read_numbers(const JsonValue& value, std::siz
   return numbers;
 }
 
-const JsonValue::Array* read_array(const JsonValue& value, std::string_view what, std::size_t least,
+const JsonValue::Array* read_array(const JsonValue& value, std::string_view what, std::size_t min_size,
                                    Diagnostics& diagnostics) {
   const auto* array = std::get_if<JsonValue::Array>(&value.value);
-  if (array && array->size() >= least) return array;
+  if (array && array->size() >= min_size) return array;
   diagnostics.error(value.where,
                     fmt::format("expected an array of {} (got {})", what,
-                                array ? fmt::format("{} of them, allowed [{}, inf)", array->size(), least)
-                                      : std::string(value.kind())));
+                                array ? fmt::format("{} of them, allowed [{}, inf)", array->size(), min_size)
+                                      : std::string(value.type_name())));
   return nullptr;
 }
 
@@ -128,7 +128,8 @@ std::optional<std::string_view> choose_key(const JsonValue& object, std::span<co
   const auto* members = std::get_if<JsonValue::Object>(&object.value);
   if (!members) return std::nullopt;
   const std::vector<std::string> names(keys.begin(), keys.end());
-  if (present.empty())  // a misspelt one tells more than that none is there
+  // A misspelt key is more specific than the absence of all keys.
+  if (present.empty())
     for (const auto& [key, member] : *members)
       if (nearest_name(key, names)) {
         diagnostics.error(member.key_position(), unknown_name("key", key, names));

@@ -27,7 +27,7 @@ constexpr std::size_t kMaxArrayHeaderBytes = std::size_t{1} << 16U;
   throw Error(ErrorCode::input, path.string(), message);
 }
 
-// The header, a Python dictionary as text, and where the numbers begin.
+// The header, which is a Python dictionary as text, and the offset of the numbers.
 struct ArrayHeader {
   std::string text;
   std::size_t end;
@@ -36,12 +36,13 @@ ArrayHeader read_array_header(std::istream& file, const fs::path& path) {
   std::array<char, 12> start{};
   file.read(start.data(), start.size());
   if (file.gcount() != std::ssize(start) || std::string_view(start.data(), kMagic.size()) != kMagic)
-    refuse_array(path, "not an array of NumPy's");
+    refuse_array(path, "not a NumPy array");
   const auto byte = [&start](std::size_t i) {
     return static_cast<std::size_t>(static_cast<unsigned char>(start.at(i)));
   };
   const std::size_t version = byte(6);
-  if (version != 1 && version != 2) refuse_array(path, fmt::format("format {}, allowed 1 or 2", version));
+  if (version != 1 && version != 2)
+    refuse_array(path, fmt::format("unsupported format version (got {}, allowed 1 or 2)", version));
   const std::size_t first = version == 1 ? 10 : 12;
   std::size_t length = byte(8) + 256 * byte(9);
   if (version == 2) length += 65536 * (byte(10) + 256 * byte(11));
@@ -53,11 +54,11 @@ ArrayHeader read_array_header(std::istream& file, const fs::path& path) {
   return header;
 }
 
-// What follows `'key':` in the dictionary.
+// The text after `'key':` in the dictionary.
 std::string_view value_of(std::string_view text, std::string_view key, const fs::path& path) {
   const std::string quoted = fmt::format("'{}':", key);
   const std::size_t at = text.find(quoted);
-  if (at == std::string_view::npos) refuse_array(path, fmt::format("its header has no {}", key));
+  if (at == std::string_view::npos) refuse_array(path, fmt::format("the header has no {}", key));
   text.remove_prefix(at + quoted.size());
   text.remove_prefix(std::min(text.find_first_not_of(' '), text.size()));
   return text;
@@ -105,23 +106,23 @@ NumberArray read_npy(const fs::path& path, Inputs* inputs) {
   if (!file) refuse_array(path, "cannot be read");
   const ArrayHeader header = read_array_header(file, path);
   if (value_of(header.text, "fortran_order", path).starts_with("True"))
-    refuse_array(path, "its order is Fortran's, allowed C's");
+    refuse_array(path, "values are in Fortran order (allowed C order)");
   const std::string_view type = value_of(header.text, "descr", path);
   const bool wide = type.starts_with("'<f8'");
   if (!wide && !type.starts_with("'<f4'"))
-    refuse_array(path,
-                 fmt::format("its numbers are {}, allowed '<f4' or '<f8'", type.substr(0, type.find(','))));
+    refuse_array(path, fmt::format("unsupported type of numbers (got {}, allowed '<f4' or '<f8')",
+                                   type.substr(0, type.find(','))));
   NumberArray array{shape_of(value_of(header.text, "shape", path), path), {}};
   const std::size_t count = count_of(array.shape, path);
   std::error_code error;
-  const std::uintmax_t bytes = fs::file_size(path, error);  // before memory is asked for
+  const std::uintmax_t bytes = fs::file_size(path, error);  // Checked before memory is allocated.
   if (error || bytes != header.end + count * (wide ? 8 : 4))
-    refuse_array(path, fmt::format("is cut or too long for its {} values", count));
-  if (inputs) inputs->take_memory(path.string(), count * (wide ? 8 + 4 : 2 * 4));
+    refuse_array(path, fmt::format("the file size does not fit its {} values", count));
+  if (inputs) inputs->reserve_memory(path.string(), count * (wide ? 8 + 4 : 2 * 4));
   file.seekg(static_cast<std::streamoff>(header.end));
   array.values = wide ? read_values<double>(file, count) : read_values<float>(file, count);
   if (!file) refuse_array(path, "cannot be read");
-  if (inputs) inputs->give_back_memory(count * (wide ? 8 : 4));  // as read
+  if (inputs) inputs->release_memory(count * (wide ? 8 : 4));  // The copy with the type of the file.
   return array;
 }
 

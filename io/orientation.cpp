@@ -7,27 +7,26 @@
 namespace abbe {
 namespace {
 
-/// Where the pixels of an image belong.
+/// The transform from stored to displayed pixels.
 struct Turn {
   bool rows_are_columns;
   bool from_right;
   bool from_bottom;
 };
 
-// The second four orientations have rows for columns, and go round as the first four do. Nothing of a text
-// that is none of them.
-std::optional<Turn> turn_of(const std::string& told) {
+// Orientations 5 to 8 exchange rows and columns and then reflect like 1 to 4. Nothing for any other text.
+std::optional<Turn> turn_of(const std::string& text) {
   for (int orientation = 1; orientation <= 8; ++orientation) {
-    const int round = (orientation - 1) % 4;
-    if (told == std::to_string(orientation))
-      return Turn{orientation > 4, round == 1 || round == 2, round > 1};
+    const int quarter = (orientation - 1) % 4;
+    if (text == std::to_string(orientation))
+      return Turn{orientation > 4, quarter == 1 || quarter == 2, quarter > 1};
   }
   return std::nullopt;
 }
 
-// The plane of an image as it is to be seen, with so many columns and rows then.
-std::vector<float> turned(const std::vector<float>& plane, const Turn& turn, std::size_t columns,
-                          std::size_t rows) {
+// The displayed plane, which has `columns` columns and `rows` rows.
+std::vector<float> reoriented(const std::vector<float>& plane, const Turn& turn, std::size_t columns,
+                              std::size_t rows) {
   std::vector<float> values(plane.size());
   for (std::size_t i = 0; i < plane.size(); ++i) {
     const std::size_t stored_columns = turn.rows_are_columns ? rows : columns;
@@ -43,16 +42,16 @@ std::vector<float> turned(const std::vector<float>& plane, const Turn& turn, std
 
 }  // namespace
 
-Image upright(Image image) {
-  const auto told = image.metadata.find(kOrientation);
-  if (told == image.metadata.end()) return image;
-  const std::optional<Turn> turn = turn_of(told->second);
-  image.metadata.erase(told);
+Image apply_orientation(Image image) {
+  const auto attribute = image.metadata.find(kOrientation);
+  if (attribute == image.metadata.end()) return image;
+  const std::optional<Turn> turn = turn_of(attribute->second);
+  image.metadata.erase(attribute);
   if (!turn) return image;
   if (turn->rows_are_columns) std::swap(image.width, image.height);
   for (ImageChannel& channel : image.channels)
-    channel.values = turned(channel.values, *turn, static_cast<std::size_t>(image.width),
-                            static_cast<std::size_t>(image.height));
+    channel.values = reoriented(channel.values, *turn, static_cast<std::size_t>(image.width),
+                                static_cast<std::size_t>(image.height));
   return image;
 }
 

@@ -4,12 +4,13 @@
 
 namespace abbe {
 
-/// The attribute that says on which sides of the picture the first row and the first column of an image are,
-/// from 2 to 8 as Exif counts [Exif, sec. 4.6.4]; an image without it stands upright.
+/// Metadata key for the orientation of an image: 2 to 8 name the sides of the picture that its first row and
+/// first column are on [Exif, sec. 4.6.4]. Without it, rows run from top to bottom and columns from left to
+/// right.
 inline constexpr const char* kOrientation = "Orientation";
 
-/// The image as it is to be seen: its pixels turned and mirrored as its `kOrientation` says, which it tells
-/// no longer.
-[[nodiscard]] Image upright(Image image);
+/// The image with the rotation and reflection applied that its `kOrientation` declares. The attribute is
+/// removed.
+[[nodiscard]] Image apply_orientation(Image image);
 
 }  // namespace abbe

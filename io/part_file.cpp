@@ -24,7 +24,7 @@ constexpr std::string_view kHash = "sha256";
   throw Error(ErrorCode::input, path.string(), message);
 }
 
-// Of format and header. A longer one is no header and not worth the memory.
+// Limit for format line and header; a longer header is damaged.
 constexpr std::size_t kMaxHeaderBytes = std::size_t{1} << 24;
 
 std::string header_text(const std::map<std::string, std::string>& header) {
@@ -41,13 +41,13 @@ std::string hash(const std::map<std::string, std::string>& header, std::span<con
   return sha256(sha256(header_text(header)) + sha256_of_pieces(pieces));
 }
 
-// The format's line, then `key: value` lines up to an empty one.
+// Reads the format line, then `key: value` lines up to an empty one.
 std::map<std::string, std::string> read_header(std::istream& file, const fs::path& path) {
   std::string text(kMaxHeaderBytes, '\0');
   file.read(text.data(), static_cast<std::streamsize>(text.size()));
   text.resize(static_cast<std::size_t>(file.gcount()));
   if (!text.starts_with(fmt::format("{}\n", kFormat)))
-    refuse(path, fmt::format("not a part file (\"{}\")", kFormat));
+    refuse(path, fmt::format("not a part file (expected the first line \"{}\")", kFormat));
   const std::size_t end = text.find("\n\n");
   if (end == std::string::npos) refuse(path, "damaged header");
   file.clear();
@@ -55,7 +55,7 @@ std::map<std::string, std::string> read_header(std::istream& file, const fs::pat
   std::map<std::string, std::string> header;
   std::istringstream lines(text.substr(0, end));
   std::string line;
-  std::getline(lines, line);  // the format
+  std::getline(lines, line);  // The format line.
   while (std::getline(lines, line)) {
     const std::size_t colon = line.find(": ");
     if (colon == std::string::npos) refuse(path, "damaged header");
@@ -70,15 +70,15 @@ std::string take(std::map<std::string, std::string>& header, std::string_view ke
   return std::move(entry.mapped());
 }
 
-/// Read up to its bytes, of which there are as many as it states.
+/// A part file, read up to its bytes. The file holds exactly `byte_count` of them.
 struct OpenPartFile {
   std::ifstream file;
-  std::map<std::string, std::string> header;  ///< Without what follows.
+  std::map<std::string, std::string> header;  ///< Without the length and the hash.
   std::string hash;
   std::size_t byte_count = 0;
 };
 
-// How many bytes follow in the file that is open: by its name there may be another by now.
+// Number of bytes that follow in the open file. The path is not used: another file may have its name by now.
 std::size_t rest_of(std::ifstream& file) {
   const std::streampos here = file.tellg();
   file.seekg(0, std::ios::end);
@@ -95,8 +95,9 @@ OpenPartFile open_part_file(const fs::path& path) {
   open.hash = take(open.header, kHash, path);
   const std::string length = take(open.header, kBytes, path);
   open.byte_count = rest_of(open.file);
-  if (length != fmt::format("{}", open.byte_count))  // before anything of that length is allocated
-    refuse(path, fmt::format("torn: it should hold {} bytes of sums and holds {}", length, open.byte_count));
+  if (length != fmt::format("{}", open.byte_count))  // Checked before memory of that length is allocated.
+    refuse(path, fmt::format("truncated or extended: the header declares {} bytes of sums, the file has {}",
+                             length, open.byte_count));
   return open;
 }
 
@@ -126,7 +127,7 @@ PartFile read_part_file(const fs::path& path) {
   open.file.read(part.bytes.data(), static_cast<std::streamsize>(open.byte_count));
   const std::string_view bytes = part.bytes;
   if (!open.file || hash(part.header, std::span(&bytes, 1)) != open.hash)
-    refuse(path, "damaged: its contents do not have the hash it states");
+    refuse(path, "damaged: the contents do not match the declared hash");
   return part;
 }
 

@@ -8,24 +8,26 @@
 
 namespace abbe {
 
-/// Named texts and bytes that belong together. A file of them is read back whole or refused: its header
-/// carries the length of the bytes and a SHA-256 of everything.
+/// A header of named texts and a block of bytes. The file also stores the number of bytes and a SHA-256 of
+/// everything, so that a damaged file is rejected.
 struct PartFile {
-  std::map<std::string, std::string> header;  ///< Keys without ':', keys and values without line breaks.
+  std::map<std::string, std::string>
+      header;  ///< Keys contain no ':'; keys and values contain no line breaks.
   std::string bytes;
 };
 
-/// Writes header and bytes, of pieces one after another, to `path`, atomically. Throws Error{output}, and
-/// Error{internal} for a header that could not be read back.
+/// Writes a header and the concatenated `pieces` to `path`, atomically. Throws Error{output}, and
+/// Error{internal} if the header could not be read back.
 void write_part_file(const std::filesystem::path& path, const std::map<std::string, std::string>& header,
                      std::span<const std::string_view> pieces);
 void write_part_file(const std::filesystem::path& path, const std::map<std::string, std::string>& header,
                      std::string_view bytes);
 
-/// Throws Error{input} for a file that is missing, of another format, torn or changed.
+/// Reads a file. Throws Error{input} if it is missing, has another format, is truncated or does not match its
+/// hash.
 [[nodiscard]] PartFile read_part_file(const std::filesystem::path& path);
-/// The header alone, which costs the same whatever the length of the bytes. Throws Error{input} as
-/// `read_part_file` does, but for changes, which the whole file alone tells.
+/// Reads the header only; the cost does not depend on the number of bytes. Throws Error{input} like
+/// `read_part_file`, except that changed bytes are not detected.
 [[nodiscard]] std::map<std::string, std::string> read_part_file_header(const std::filesystem::path& path);
 
 }  // namespace abbe

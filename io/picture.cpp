@@ -22,7 +22,7 @@ std::uint8_t code_value(float x) {
 
 std::uint16_t whole_number(float x) {
   if (!(x >= 0 && x <= 65535 && x == std::floor(x)))
-    throw Error(ErrorCode::internal, "raw picture", "a code that is no 16-bit number");
+    throw Error(ErrorCode::internal, "raw picture", "a code is not a 16-bit integer");
   return static_cast<std::uint16_t>(x);
 }
 
@@ -51,12 +51,11 @@ PictureHeader described(const std::filesystem::path& path, const Image& image, s
   for (std::size_t c = 0; c < channels; ++c) header.channels.push_back(image.channels[c].name);
   std::string lines;
   for (const auto& [key, value] : image.metadata) lines += key + ": " + value + "\n";
-  if (is_tiff(path))
-    header.metadata["ImageDescription"] = lines;  // which has no names for what it does not know
+  if (is_tiff(path)) header.metadata["ImageDescription"] = lines;  // TIFF has no tags for other metadata.
   return header;
 }
 
-// Almost every picture is a PNG, which needs no module.
+// PNG needs no module, and almost every picture is a PNG.
 std::string encode(const std::filesystem::path& path, const PictureHeader& header,
                    const PictureCodes& codes) {
   return extension_of(path) == ".png" ? encode_png(path.string(), header, codes)
@@ -67,13 +66,13 @@ std::string display_bytes(const std::filesystem::path& path, const Image& image)
   const std::size_t channels = image.channels.size() < 3 ? 1 : 3;
   PictureHeader header = described(path, image, channels);
   header.metadata.emplace(kColorSpace, "sRGB");
-  // Without a tag 8-bit TIFF means sRGB, and the tag's EXIF folder breaks the library's TIFF writing in
-  // memory.
+  // An untagged 8-bit TIFF means sRGB. OpenImageIO would write the tag into an Exif folder, which breaks its
+  // TIFF output to memory.
   if (is_tiff(path)) header.metadata.erase(kColorSpace);
   return encode(path, header, interleaved(image, channels, code_value));
 }
 
-/// Channel by channel what is pixel by pixel in `values`.
+/// Splits `values`, which are pixel by pixel, into channels.
 Image planes(const PictureHeader& header, const std::vector<float>& values) {
   Image image{static_cast<int>(header.width), static_cast<int>(header.height), {}, header.metadata};
   const std::size_t channels = header.channels.size();
@@ -99,10 +98,10 @@ void write_raw_picture(const std::filesystem::path& path, const Image& image) {
   const std::size_t channels = image.channels.size();
   if (!is_tiff(path) && channels != 1 && channels != 3)
     throw Error(ErrorCode::output, path.string(),
-                "a file of this kind holds one plane or three (got " + std::to_string(channels) +
-                    ", allowed any number in a .tif)");
+                "this format stores one or three channels (got " + std::to_string(channels) +
+                    "; a .tif stores any number)");
   PictureHeader header = described(path, image, channels);
-  if (!is_tiff(path)) header.metadata[kColorSpace] = kLinear;  // without which PNG means sRGB
+  if (!is_tiff(path)) header.metadata[kColorSpace] = kLinear;  // An untagged PNG means sRGB.
   write_atomically(path, encode(path, header, interleaved(image, channels, whole_number)));
 }
 
@@ -110,14 +109,16 @@ Image read_picture(const std::filesystem::path& path, Inputs* inputs) {
   require_file(path);
   PictureHeader header;
   std::vector<float> values;
-  HeldMemory held(inputs, 0);
-  picture_codec().read(path.string(), [&](const PictureHeader& found) {
-    header = found;
+  MemoryReservation reservation(inputs, 0);
+  picture_codec().read(path.string(), [&](const PictureHeader& read_header) {
+    header = read_header;
     const std::size_t channels = header.channels.size();
     require_image_size(path.string(), header.width, header.height, channels);
     const std::size_t floats = static_cast<std::size_t>(header.width * header.height) * channels;
-    held.take_more(path.string(), floats * sizeof(float));
-    if (inputs) inputs->take_memory(path.string(), floats * sizeof(float));  // the image's, which stays taken
+    reservation.reserve(path.string(), floats * sizeof(float));
+    if (inputs)
+      inputs->reserve_memory(path.string(),
+                             floats * sizeof(float));  // The memory of the image, which stays reserved.
     values.resize(floats);
     return values.data();
   });

@@ -8,28 +8,30 @@
 
 namespace abbe {
 
-/// Writes the first three channels (or the only one, as grey) as an 8-bit file: values are display code
-/// values in [0, 1], clamped and rounded, encoded as the attribute `kColorSpace` says, as sRGB without it.
-/// The format follows the extension (.png, .jpg, .tif); of encodings and primaries other than those of sRGB a
-/// PNG alone tells. Atomic; throws Error{output}.
+/// Writes an 8-bit picture of the first three channels, or of the only one as grey. Values are display code
+/// values in [0, 1]; they are clamped and rounded. `kColorSpace` declares their encoding; without it they are
+/// sRGB. The extension chooses the format (.png, .jpg, .tif). Only a PNG file records encodings and primaries
+/// other than those of sRGB. Atomic; throws Error{output}.
 void write_picture(const std::filesystem::path& path, const Image& image);
 
-/// The bytes `write_picture` would write to a file of that extension, as ".png". Throws Error{output}.
+/// The bytes that `write_picture` writes to a file with that extension, such as ".png". Throws Error{output}.
 [[nodiscard]] std::string encoded_picture(const std::string& extension, const Image& image);
 
-/// Writes whole numbers from 0 to 65535, such as the codes of a sensor, as a linear 16-bit file: one channel
-/// or three as .png, any number as .tif. Throws Error{output}, Error{internal} for other values.
+/// Writes integers from 0 to 65535, such as the codes of a sensor, as a linear 16-bit picture: one or three
+/// channels as .png, any number as .tif. Throws Error{output}, and Error{internal} for other values.
 void write_raw_picture(const std::filesystem::path& path, const Image& image);
 
-/// Reads any format OpenImageIO knows, as float channels scaled to [0, 1] for integer files. Pixels stand as
-/// in the file, whatever its `kOrientation`; an alpha channel is "A", and the others are as stored beside it.
-/// The factors are taken off that a Radiance file says it was multiplied by. Throws Error{input}, or
-/// Error{resource} for one beyond the limits of `io/image.h` or beyond the memory that `inputs` has left,
-/// told by its header.
+/// Reads a picture in any format of OpenImageIO.
+/// - Channels are floats; integer files are scaled to [0, 1].
+/// - Pixels are in the order of the file; `kOrientation` is not applied.
+/// - An alpha channel is called "A"; the other channels are as stored, not multiplied or divided by alpha.
+/// - The values of a Radiance file are divided by the exposure and colour factors of its header.
+/// Throws Error{input}. Throws Error{resource}, judging from the header, if the image exceeds the limits of
+/// `io/image.h` or the memory left in `inputs`.
 [[nodiscard]] Image read_picture(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
-/// Any image file: .exr by `read_exr`, others by `read_picture`. Its attribute `kColorSpace` is "Linear"
-/// where the file says so, or holds floats of which an ICC profile does not say otherwise.
+/// Reads an image file: .exr by `read_exr`, other formats by `read_picture`. `kColorSpace` is "Linear" if the
+/// file declares it, or if it stores floats and no ICC profile declares otherwise.
 [[nodiscard]] Image read_image(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
 }  // namespace abbe

@@ -1,4 +1,4 @@
-// The module of pictures: all of Abbe's use of OpenImageIO, behind the functions of io/picture_codec.h.
+// The picture module: all uses of OpenImageIO, called through io/picture_codec.h.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -18,20 +18,21 @@ namespace {
 OIIO::ImageSpec spec_of(const PictureHeader& header, const OIIO::TypeDesc& format) {
   OIIO::ImageSpec spec(static_cast<int>(header.width), static_cast<int>(header.height),
                        static_cast<int>(header.channels.size()), format);
-  spec.alpha_channel = -1;  // which the library takes a fourth plane for
+  // The library would take a fourth channel for alpha.
+  spec.alpha_channel = -1;
   for (const auto& [key, value] : header.metadata) spec.attribute(key, value);
   return spec;
 }
 
-// How values are encoded, in the words of `kColorSpace`; "" where the file says nothing, as no PNM does,
-// whatever the library tells of it.
+// Encoding of values, as in `kColorSpace`; "" if the file declares none. PNM files never do, whatever the
+// library reports.
 std::string color_space(const OIIO::ImageSpec& spec, std::string_view format) {
   if (spec.format.is_floating_point()) return kLinear;
-  const std::string told{spec.get_string_attribute(kColorSpace)};
+  const std::string recorded{spec.get_string_attribute(kColorSpace)};
   if (format == "pnm") return "";
-  if (OIIO::Strutil::iequals(told, kLinear)) return kLinear;
-  const float gamma = spec.get_float_attribute("oiio:Gamma", 0);  // rounded to two digits in `told`
-  return gamma > 0 && told.starts_with(kGamma) ? kGamma + OIIO::Strutil::to_string(gamma) : told;
+  if (OIIO::Strutil::iequals(recorded, kLinear)) return kLinear;
+  const float gamma = spec.get_float_attribute("oiio:Gamma", 0);  // `recorded` has it rounded to two digits.
+  return gamma > 0 && recorded.starts_with(kGamma) ? kGamma + OIIO::Strutil::to_string(gamma) : recorded;
 }
 
 void set(PictureHeader& header, const char* key, const std::string& text) {
@@ -39,26 +40,26 @@ void set(PictureHeader& header, const char* key, const std::string& text) {
   if (!text.empty()) header.metadata[key] = text;
 }
 
-// Referring to `spec`.
+// The result refers to `spec`.
 picture_module::LibraryColors library_colors(const OIIO::ImageSpec& spec, std::string_view format) {
-  picture_module::LibraryColors told{format, spec.format.is_floating_point(), spec.nchannels < 3};
+  picture_module::LibraryColors colors{format, spec.format.is_floating_point(), spec.nchannels < 3};
   for (const char* const model : {"tiff:ColorSpace", "jpeg:ColorSpace"})
-    told.model += spec.get_string_attribute(model);
-  told.exif_space = spec.get_int_attribute("Exif:ColorSpace");
-  told.profile_name = spec.get_string_attribute("ICCProfile:profile_description");
+    colors.model += spec.get_string_attribute(model);
+  colors.exif_space = spec.get_int_attribute("Exif:ColorSpace");
+  colors.profile_name = spec.get_string_attribute("ICCProfile:profile_description");
   if (const OIIO::ParamValue* profile = spec.find_attribute("ICCProfile"))
-    told.profile = {static_cast<const std::uint8_t*>(profile->data()),
-                    static_cast<std::size_t>(profile->datasize())};
-  return told;
+    colors.profile = {static_cast<const std::uint8_t*>(profile->data()),
+                      static_cast<std::size_t>(profile->datasize())};
+  return colors;
 }
 
 void set_colors(PictureHeader& header, const OIIO::ImageSpec& spec, std::string_view format,
                 const std::string& path) {
   const picture_module::LibraryColors library = library_colors(spec, format);
-  const picture_module::ColorsTold told = picture_module::colors_told(path, library);
-  set(header, kColorSpace, told.encoding.empty() ? color_space(spec, format) : told.encoding);
-  set(header, kPrimariesKey, library.is_grey ? "" : told.primaries);
-  set(header, kProfileKey, told.profile);
+  const picture_module::DeclaredColors declared = picture_module::declared_colors(path, library);
+  set(header, kColorSpace, declared.encoding.empty() ? color_space(spec, format) : declared.encoding);
+  set(header, kPrimariesKey, library.is_grey ? "" : declared.primaries);
+  set(header, kProfileKey, declared.profile);
 }
 
 void set_orientation(PictureHeader& header, int orientation) {
@@ -75,7 +76,7 @@ PictureHeader header_of(const OIIO::ImageSpec& spec, std::string_view format, co
   return header;
 }
 
-// Encoded in memory, since on a full disk some of the library's writers say nothing and one exits.
+// Encodes in memory: on a full disk some of the library's writers report nothing, and one exits.
 std::string encode_spec(const std::string& path, const OIIO::ImageSpec& spec, const void* pixels) {
   const auto output = OIIO::ImageOutput::create(path);
   if (!output) throw Error(ErrorCode::output, path, OIIO::geterror());
@@ -99,13 +100,13 @@ std::string encode(const std::string& path, const PictureHeader& header, const P
   return std::visit([&](const auto& values) { return encode_spec(path, spec, values.data()); }, codes);
 }
 
-// The red, green and blue of so many pixels.
+// Divides red, green and blue of `count` pixels by the factors.
 void divide(float* pixels, std::uint64_t count, const std::array<double, 3>& factors) {
   for (std::uint64_t i = 0; i < 3 * count; ++i)
     pixels[i] = static_cast<float>(static_cast<double>(pixels[i]) / factors.at(i % 3));
 }
 
-// The file, whose colours beside an alpha channel are to be as stored.
+// Opens the file so that colours next to an alpha channel are read as stored.
 std::unique_ptr<OIIO::ImageInput> opened(const std::string& path) {
   OIIO::ImageSpec how;
   how.attribute("oiio:UnassociatedAlpha", 1);
@@ -114,13 +115,13 @@ std::unique_ptr<OIIO::ImageInput> opened(const std::string& path) {
   return input;
 }
 
-void read(const std::string& path, const std::function<float*(const PictureHeader&)>& room) {
+void read(const std::string& path, const std::function<float*(const PictureHeader&)>& allocate) {
   constexpr const char* kDamaged = "truncated or corrupt";
   if (picture_module::is_damaged_png(path)) throw Error(ErrorCode::input, path, kDamaged);
   const auto input = opened(path);
   const OIIO::ImageSpec spec = input->spec();
   if (spec.width < 1 || spec.height < 1 || spec.depth > 1 || spec.nchannels < 1)
-    throw Error(ErrorCode::input, path, "not a flat image");
+    throw Error(ErrorCode::input, path, "not a two-dimensional image");
   const std::string_view format = input->format_name();
   PictureHeader header = header_of(spec, format, path);
   picture_module::RadianceHeader radiance;
@@ -129,8 +130,8 @@ void read(const std::string& path, const std::function<float*(const PictureHeade
     set(header, kPrimariesKey, radiance.primaries);
     set_orientation(header, radiance.orientation);
   }
-  float* pixels = room(header);
-  // Of strips that a TIFF lacks the library tells as an error, and makes something up.
+  float* pixels = allocate(header);
+  // The library reports missing strips of a TIFF as an error, but returns invented pixels.
   if (!input->read_image(0, 0, 0, spec.nchannels, OIIO::TypeDesc::FLOAT, pixels) || input->has_error())
     throw Error(ErrorCode::input, path, kDamaged);
   if (format == "hdr") divide(pixels, spec.image_pixels(), radiance.factors);

@@ -12,68 +12,70 @@
 
 namespace abbe::picture_module {
 
-/// The bytes of a DNG, by libtiff, checked to read back. Throws Error{output}.
+/// The bytes of a DNG file, written by libtiff and checked by reading them back. Throws Error{output}.
 std::string encode_dng(const std::string& path, const RawPicture& raw);
 
-/// The bytes of a FITS file, by cfitsio, checked to read back. Throws Error{output}.
+/// The bytes of a FITS file, written by cfitsio and checked by reading them back. Throws Error{output}.
 std::string encode_fits(const std::string& path, const RawPicture& raw);
 
-/// Whether a file that begins as a PNG is cut short, or one of its chunks contradicts its checksum [PNG].
-/// Such a file is not for OpenImageIO, behind which libpng tells of it on stderr and cannot be kept from it.
+/// True if the file has a PNG signature, but is truncated or has a chunk with a wrong checksum [PNG].
+/// OpenImageIO must not read such a file: libpng would print to stderr.
 bool is_damaged_png(const std::string& path);
 
-/// The data of the first chunk of that type before the pixels of a PNG; nothing where there is none.
+/// The data of the first chunk of that type before the pixels of a PNG file; nothing if there is none.
 std::optional<std::vector<std::uint8_t>> png_chunk(const std::string& path, std::string_view type);
 
-/// What a file says of its colours; "" where it says nothing.
-struct ColorsTold {
-  std::string encoding;   ///< As `kColorSpace` has it, or a text that is no encoding where it is another.
-  std::string primaries;  ///< As `kPrimariesKey` has them.
-  std::string profile;    ///< As `kProfileKey` has it.
+/// Colour properties that a picture file declares; "" if it declares none.
+struct DeclaredColors {
+  std::string encoding;  ///< A value of `kColorSpace`; an explanation instead if the encoding is unsupported.
+  std::string primaries;  ///< A value of `kPrimariesKey`.
+  std::string profile;    ///< A value of `kProfileKey`.
 };
 
-/// What OpenImageIO tells of a file's colours beside how its codes are encoded.
+/// Colour properties that OpenImageIO reports, apart from the encoding of the codes.
 struct LibraryColors {
-  std::string_view format;                     ///< The kind of file, by the library's name.
-  bool is_float = false;                       ///< Whether values are floats.
-  bool is_grey = false;                        ///< Whether there are fewer planes than red, green and blue.
-  std::string model = {};                      ///< As "CMYK", of which red, green and blue were made, or "".
-  int exif_space = 0;                          ///< The number that Exif has for the colour space, or 0.
-  std::span<const std::uint8_t> profile = {};  ///< The bytes of the ICC profile; none without one.
-  std::string profile_name = {};               ///< What the profile calls itself.
+  std::string_view format;  ///< Name of the format in OpenImageIO.
+  bool is_float = false;    ///< True if the file stores floats.
+  bool is_grey = false;     ///< True if there are fewer than three channels.
+  std::string model = {};   ///< Colour model such as "CMYK" from which the library made RGB, or "".
+  int exif_space = 0;       ///< Exif's number of the colour space, or 0.
+  std::span<const std::uint8_t> profile = {};  ///< The ICC profile; empty if there is none.
+  std::string profile_name = {};               ///< Name of the profile.
 };
 
-/// What the file at `path` says of its colours, by the library and by what that leaves out.
-ColorsTold colors_told(const std::string& path, const LibraryColors& library);
+/// Colour properties of the file at `path`, from `library` and from parts of the file that the library does
+/// not report.
+DeclaredColors declared_colors(const std::string& path, const LibraryColors& library);
 
-/// What the bytes of an ICC profile say of a picture, which may be of grey alone and then needs no primaries
-/// [ICC]: all but the profile's name. Its encoding is none, a text that says why, where the profile has
-/// tables of colours or no tone curves and primaries, where its channels differ in them, or where they are
-/// neither powers nor those of sRGB.
-ColorsTold icc_colors(std::span<const std::uint8_t> profile, bool is_grey);
+/// Colour properties of an ICC profile [ICC], without its name. A grey picture may have a grey profile, which
+/// has no primaries. The encoding is an explanation instead if the profile:
+/// - has colour lookup tables, or lacks tone curves or primaries;
+/// - has different tone curves for its channels;
+/// - has tone curves that are neither powers nor the sRGB curve.
+DeclaredColors icc_colors(std::span<const std::uint8_t> profile, bool is_grey);
 
-/// The number of 4 bytes from `at` on, the most significant first; 0 where they are not all there.
+/// The big-endian 32-bit integer at offset `at`; 0 if `bytes` is too short.
 std::uint32_t big_endian(std::span<const std::uint8_t> bytes, std::size_t at);
 
-/// Numbers with blanks between them, as `kPrimariesKey` has them.
+/// Numbers separated by blanks, as in `kPrimariesKey`.
 std::string numbers_text(const std::vector<double>& numbers);
 
-/// What the lines at the head of a Radiance picture say of its pixels.
+/// Properties in the header of a Radiance picture.
 struct RadianceHeader {
-  std::array<double, 3> factors{1, 1, 1};  ///< By which red, green and blue were multiplied.
-  std::string primaries;                   ///< As `kPrimariesKey` has them; "" where none are told.
-  int orientation = 1;                     ///< As `kOrientation` counts.
+  std::array<double, 3> factors{1, 1, 1};  ///< Factors by which red, green and blue were multiplied.
+  std::string primaries;                   ///< A value of `kPrimariesKey`; "" if the header has none.
+  int orientation = 1;                     ///< 1, or a value of `kOrientation`.
 };
 
-/// Reads them from a picture that OpenImageIO reads, which does not tell of all, and exchanges two of the
-/// orientations [Radiance]. Throws Error{input} for lines without the numbers that they should have, and for
-/// a GAMMA other than 1.
+/// Reads the header of a Radiance picture. OpenImageIO reads its pixels, but does not report all of this, and
+/// exchanges two of the orientations [Radiance]. Throws Error{input} if a line lacks its numbers, or if GAMMA
+/// is not 1.
 RadianceHeader radiance_header(const std::string& path);
 
-/// The codes of so many planes, pixel by pixel, of which a file has one plane after the other.
+/// Interleaves `planes` planes that a file stores one after the other: the result is pixel by pixel.
 std::vector<std::uint16_t> pixel_by_pixel(const std::vector<std::uint16_t>& codes, std::size_t planes);
 
-/// What such files hold. Throw Error{input} and Error{resource}.
+/// Read raw pictures. They throw Error{input} and Error{resource}.
 RawPicture read_dng(const std::string& path);
 RawPicture read_fits(const std::string& path);
 

@@ -1,4 +1,4 @@
-// What a picture's file says of the colours that its codes stand for.
+// Colour properties that a picture file declares.
 #include <tiffio.h>
 
 #include <algorithm>
@@ -19,26 +19,28 @@
 namespace abbe::picture_module {
 namespace {
 
-// What `kColorSpace` is where nothing can be said of codes: of a file with a profile that the library leaves
-// out, as it does of a WebP and where it is damaged, cut short or of another kind of image, of a HEIF, of
-// which it leaves out all, of floats whose profile has tone curves, and of codes that Exif calls so.
-constexpr const char* kUnread = "a profile that is not read";
-constexpr const char* kUnreadHeif = "that of a HEIF, which is not read";
-constexpr const char* kEncodedFloats = "floats that are not linear by their profile";
+// Values of `kColorSpace` for codes that cannot be decoded:
+// - kUnread: the library does not return the profile (of a WebP, or a damaged or unsuitable profile),
+// - kUnreadHeif: the library returns no colour properties of HEIF files,
+// - kEncodedFloats: the profile of a float image has tone curves,
+// - kUncalibrated: Exif declares it.
+constexpr const char* kUnread = "an ICC profile that cannot be read";
+constexpr const char* kUnreadHeif = "HEIF colours, which are not supported";
+constexpr const char* kEncodedFloats = "floats with a non-linear ICC profile";
 constexpr const char* kUncalibrated = "uncalibrated";
 
-// By its profile; nothing without one.
-std::optional<ColorsTold> of_profile(const LibraryColors& library) {
+// Colour properties of the ICC profile; nothing without one.
+std::optional<DeclaredColors> profile_colors(const LibraryColors& library) {
   if (library.profile.empty()) return std::nullopt;
-  ColorsTold told = icc_colors(library.profile, library.is_grey);
-  if (library.is_float && told.encoding != kLinear) told.encoding = kEncodedFloats;
-  told.profile = library.profile_name.empty() ? "without a name" : library.profile_name;
-  return told;
+  DeclaredColors colors = icc_colors(library.profile, library.is_grey);
+  if (library.is_float && colors.encoding != kLinear) colors.encoding = kEncodedFloats;
+  colors.profile = library.profile_name.empty() ? "without a name" : library.profile_name;
+  return colors;
 }
 
-// The primaries as `kPrimariesKey` has them; "" where the file tells none, or what cannot be any, which all
-// who read by libpng leave out. The chunk is of white, red, green and blue, each x and y in 100000ths [PNG,
-// sec. 11.3.3.1].
+// Primaries as in `kPrimariesKey`, from the chunk cHRM: x and y of white, red, green and blue in units of
+// 1e-5 [PNG, sec. 11.3.3.1]. "" if the chunk is missing or has impossible values, which libpng ignores as
+// well.
 std::string png_primaries(const std::string& path) {
   constexpr std::size_t kBytes = 32;
   constexpr double kRounding = 1e-4;
@@ -51,40 +53,40 @@ std::string png_primaries(const std::string& path) {
   return xy.back() > 0 ? numbers_text(xy) : "";
 }
 
-// Whether the gamma is the one that [PNG, sec. 11.3.3.5] prescribes beside sRGB, for those who do not know
-// that: many programs write it alone for sRGB.
+// True if the gamma is the one that [PNG, sec. 11.3.3.5] prescribes next to the chunk sRGB. Many programs
+// write it alone and mean sRGB.
 bool has_gamma_of_srgb(const std::string& path) {
-  constexpr std::uint32_t kOfSrgb = 45455;
+  constexpr std::uint32_t kSrgbGamma = 45455;
   const auto chunk = png_chunk(path, "gAMA");
-  return chunk && big_endian(*chunk, 0) == kOfSrgb;
+  return chunk && big_endian(*chunk, 0) == kSrgbGamma;
 }
 
-// By the chunks of the third edition of [PNG], of which the first counts that there is and that libpng takes:
-// it leaves out a profile beside an `sRGB` before it, and one of colours in a picture of grey, of which
-// nothing is told then.
-ColorsTold of_png(const std::string& path, const LibraryColors& library) {
+// Colour properties of a PNG by the chunks of its third edition [PNG]: cICP, then a profile, then sRGB, then
+// gAMA and cHRM. libpng ignores a profile after an sRGB chunk, and a colour profile in a grey picture;
+// nothing is declared then.
+DeclaredColors png_colors(const std::string& path, const LibraryColors& library) {
   if (const auto points = png_chunk(path, "cICP")) {
     const std::vector<std::uint8_t> srgb{1, 13, 0, 1};
     return {*points == srgb ? "sRGB" : "cICP " + numbers_text({points->begin(), points->end()}), "", ""};
   }
-  if (auto told = of_profile(library)) return *std::move(told);
+  if (auto colors = profile_colors(library)) return *std::move(colors);
   if (png_chunk(path, "sRGB")) return {"sRGB", "", ""};
   if (!library.is_grey && png_chunk(path, "iCCP")) return {kUnread, "", ""};
   return {has_gamma_of_srgb(path) ? "sRGB" : "", png_primaries(path), ""};
 }
 
-// The numbers of a tag, unless they are absent or all 0, as of writers that know none.
+// Copies the numbers of a tag, unless it is absent or all are 0, which some writers use for unknown values.
 void take_numbers(TIFF* tiff, std::uint32_t tag, std::span<double> numbers) {
-  const float* told = nullptr;
-  if (TIFFGetField(tiff, tag, &told) != 1) return;
-  const std::span<const float> values(told, numbers.size());
+  const float* stored = nullptr;
+  if (TIFFGetField(tiff, tag, &stored) != 1) return;
+  const std::span<const float> values(stored, numbers.size());
   if (std::ranges::any_of(values, [](float value) { return value != 0; }))
     std::ranges::copy(values, numbers.begin());
 }
 
-// By the tags of its primaries and its white, of which it may have one alone: the other counts as that of
-// Rec.709.
-ColorsTold of_tiff(const std::string& path) {
+// Colour properties of a TIFF by its tags for primaries and white. If one of them is missing, that of Rec.709
+// replaces it.
+DeclaredColors tiff_colors(const std::string& path) {
   const Tiff tiff(TIFFOpenExt(path.c_str(), "r", quiet_tiff().get()), TIFFClose);
   std::vector<double> xy{0.64, 0.33, 0.3, 0.6, 0.15, 0.06, 0.3127, 0.329};
   const std::vector<double> rec709 = xy;
@@ -94,7 +96,7 @@ ColorsTold of_tiff(const std::string& path) {
   return {"", xy == rec709 ? "" : numbers_text(xy), ""};
 }
 
-// Whether the flags of a WebP announce a profile.
+// True if the flags of a WebP declare an ICC profile.
 bool has_webp_profile(const std::string& path) {
   constexpr unsigned kProfile = 0x20;
   std::ifstream file(path, std::ios::binary);
@@ -103,7 +105,7 @@ bool has_webp_profile(const std::string& path) {
   return head.substr(12, 4) == "VP8X" && (static_cast<unsigned char>(head.back()) & kProfile) != 0;
 }
 
-// Whether a segment of a JPEG before its pixels holds a profile or a part of one [ICC, annex B].
+// True if a JPEG segment before the pixels contains an ICC profile or a part of one [ICC, annex B].
 bool has_jpeg_profile(const std::string& path) {
   constexpr std::string_view kName("ICC_PROFILE\0", 12);
   constexpr int kMarker = 0xFF;
@@ -112,7 +114,7 @@ bool has_jpeg_profile(const std::string& path) {
   std::ifstream file(path, std::ios::binary);
   file.seekg(2);
   while (file.get() == kMarker) {
-    while (file.peek() == kMarker) file.get();  // which may fill the room between segments
+    while (file.peek() == kMarker) file.get();  // Fill bytes between segments.
     const int type = file.get();
     std::array<std::uint8_t, 4> size{};
     file.read(reinterpret_cast<char*>(size.data() + 2), 2);
@@ -126,8 +128,8 @@ bool has_jpeg_profile(const std::string& path) {
   return false;
 }
 
-// What Exif's number for the colour space says; "" for sRGB and where it says nothing [Exif, sec. 4.6.5].
-std::string of_exif(int space) {
+// Encoding that Exif's number of the colour space declares; "" for sRGB and if absent [Exif, sec. 4.6.5].
+std::string exif_encoding(int space) {
   constexpr int kSrgb = 1;
   constexpr int kExifUncalibrated = 65535;
   if (space == 0 || space == kSrgb) return "";
@@ -142,16 +144,16 @@ std::string numbers_text(const std::vector<double>& numbers) {
   return text.str();
 }
 
-ColorsTold colors_told(const std::string& path, const LibraryColors& library) {
-  constexpr std::array<std::string_view, 4> kOfRgb{"", "RGB", "YCbCr", "palette"};
-  if (std::ranges::find(kOfRgb, library.model) == kOfRgb.end()) return {library.model, "", ""};
-  if (library.format == "png") return of_png(path, library);
-  if (auto told = of_profile(library)) return *std::move(told);
+DeclaredColors declared_colors(const std::string& path, const LibraryColors& library) {
+  constexpr std::array<std::string_view, 4> kRgbModels{"", "RGB", "YCbCr", "palette"};
+  if (std::ranges::find(kRgbModels, library.model) == kRgbModels.end()) return {library.model, "", ""};
+  if (library.format == "png") return png_colors(path, library);
+  if (auto colors = profile_colors(library)) return *std::move(colors);
   if (library.format == "heif") return {kUnreadHeif, "", ""};
   if (library.format == "webp" && has_webp_profile(path)) return {kUnread, "", ""};
   if (library.format == "jpeg" && has_jpeg_profile(path)) return {kUnread, "", ""};
-  if (auto told = of_exif(library.exif_space); !told.empty()) return {std::move(told), "", ""};
-  return library.format == "tiff" ? of_tiff(path) : ColorsTold{};
+  if (auto space = exif_encoding(library.exif_space); !space.empty()) return {std::move(space), "", ""};
+  return library.format == "tiff" ? tiff_colors(path) : DeclaredColors{};
 }
 
 }  // namespace abbe::picture_module

@@ -1,4 +1,4 @@
-// Raw files for the developers of photographs: DNG through libtiff, which knows its tags.
+// Writes DNG files with libtiff.
 #include <tiffio.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 constexpr std::array<std::uint8_t, 4> kVersion{1, 4, 0, 0};
 constexpr std::array<std::uint8_t, 4> kOldestReader{1, 1, 0, 0};
 
-// A file in memory, as libtiff asks for one.
+// A file in memory, for libtiff's client functions.
 struct MemoryTiff {
   std::string bytes;
   std::size_t at = 0;
@@ -43,9 +43,9 @@ tmsize_t write_some(thandle_t handle, void* from, tmsize_t size) {
   file.at += count;
   return size;
 }
-toff_t seek(thandle_t handle, toff_t offset, int whence) {
+toff_t seek(thandle_t handle, toff_t offset, int origin) {
   MemoryTiff& file = file_of(handle);
-  const std::size_t from = whence == SEEK_CUR ? file.at : whence == SEEK_END ? file.bytes.size() : 0;
+  const std::size_t from = origin == SEEK_CUR ? file.at : origin == SEEK_END ? file.bytes.size() : 0;
   file.at = from + static_cast<std::size_t>(offset);
   return file.at;
 }
@@ -56,10 +56,10 @@ toff_t size_of(thandle_t handle) {
   return file_of(handle).bytes.size();
 }
 
-// Tags of DNG 1.2 and 1.3 that libtiff does not know, and would warn of.
+// Tags of DNG 1.2 and 1.3 that libtiff does not know and would warn about.
 constexpr std::uint32_t kForward1 = 50964;
 constexpr std::uint32_t kForward2 = 50965;
-TIFFExtendProc others = nullptr;
+TIFFExtendProc previous_extender = nullptr;
 void add_dng_tags(TIFF* tiff) {
   static std::array<char, 14> matrix{"ForwardMatrix"};
   static std::array<char, 11> list{"OpcodeList"};
@@ -76,7 +76,7 @@ void add_dng_tags(TIFF* tiff) {
        opcodes(1),
        opcodes(2)}};
   TIFFMergeFieldInfo(tiff, kFields.data(), kFields.size());
-  if (others != nullptr) others(tiff);
+  if (previous_extender != nullptr) previous_extender(tiff);
 }
 
 int keep_quiet(TIFF*, void*, const char*, const char*, std::va_list) {
@@ -84,55 +84,57 @@ int keep_quiet(TIFF*, void*, const char*, const char*, std::va_list) {
 }
 
 Tiff open(const std::string& path, MemoryTiff& file, const char* mode) {
-  teach_dng_tags();
+  register_dng_tags();
   file.at = 0;
   Tiff tiff(TIFFClientOpenExt(path.c_str(), mode, &file, read_some, write_some, seek, close, size_of, nullptr,
                               nullptr, quiet_tiff().get()),
             TIFFClose);
-  if (!tiff) throw Error(ErrorCode::output, path, "libtiff makes no file of it");
+  if (!tiff) throw Error(ErrorCode::output, path, "libtiff cannot create the file");
   return tiff;
 }
 
-/// Sets tags, and remembers whether one of them failed.
+/// Sets tags; `ok` becomes false if one fails.
 struct Tags {
   TIFF* tiff;
-  bool sound = true;
+  bool ok = true;
 
   template <typename... Values>
   void set(std::uint32_t tag, Values... values) {
-    sound = TIFFSetField(tiff, tag, values...) == 1 && sound;
+    ok = TIFFSetField(tiff, tag, values...) == 1 && ok;
   }
-  // An array with its length before it.
+  // Sets an array, preceded by its length.
   template <typename T>
   void set_all(std::uint32_t tag, const std::vector<T>& values) {
     set(tag, static_cast<int>(values.size()), values.data());
   }
 };
 
-// Exposure time, f-number and speed, in the folder where programs look for them.
-std::uint64_t write_exif(TIFF* tiff, const RawPicture& raw, bool& sound) {
+// Writes exposure time, f-number and speed into the Exif folder; returns its offset, or 0.
+std::uint64_t write_exif(TIFF* tiff, const RawPicture& raw, bool& ok) {
   std::uint64_t offset = 0;
-  const bool tells = raw.exposure_s || raw.f_number || raw.iso_speed;  // an empty folder is none to libtiff
-  if (!tells || TIFFCreateEXIFDirectory(tiff) != 0) return offset;
+  const bool has_exif =
+      // libtiff rejects an empty folder.
+      raw.exposure_s || raw.f_number || raw.iso_speed;
+  if (!has_exif || TIFFCreateEXIFDirectory(tiff) != 0) return offset;
   Tags exif{tiff};
   if (raw.exposure_s) exif.set(EXIFTAG_EXPOSURETIME, *raw.exposure_s);
   if (raw.f_number) exif.set(EXIFTAG_FNUMBER, *raw.f_number);
   if (raw.iso_speed)
     exif.set_all(EXIFTAG_ISOSPEEDRATINGS,
                  std::vector{static_cast<std::uint16_t>(std::clamp(*raw.iso_speed + 0.5, 1.0, 65535.0))});
-  sound = sound && exif.sound && TIFFWriteCustomDirectory(tiff, &offset) == 1;
+  ok = ok && exif.ok && TIFFWriteCustomDirectory(tiff, &offset) == 1;
   return offset;
 }
 
-// For each channel of a DNG its number among those of the picture: readers take the three for red, green and
-// blue in this order, so that channels of these names are told in it, and others in their own.
+// Index into the picture's channels for each of the three DNG channels. Readers take DNG channels for red,
+// green and blue: channels with these names are sorted into that order, others keep theirs.
 using Order = std::array<std::size_t, 3>;
 constexpr Order kOwnOrder{0, 1, 2};
 Order order_of(const std::vector<std::string>& channels) {
   return rgb_order(channels).value_or(kOwnOrder);
 }
 
-// A list of what is told of three channels: one after the other, each by `each` entries, as often as it does.
+// Reorders a list with `each` entries per channel, repeated for each pixel if longer than three channels.
 template <typename List>
 List ordered(const List& list, const Order& order, std::size_t each = 1) {
   List sorted = list;
@@ -143,7 +145,7 @@ List ordered(const List& list, const Order& order, std::size_t each = 1) {
   return sorted;
 }
 
-// The picture with the channels of a DNG.
+// The picture with its channels in the order of the DNG.
 RawPicture ordered(RawPicture raw) {
   const Order order = order_of(raw.channels);
   if (order == kOwnOrder) return raw;
@@ -154,7 +156,7 @@ RawPicture ordered(RawPicture raw) {
   else
     raw.codes = ordered(raw.codes, order);
   for (RawLight& light : raw.lights) {
-    light.color = ordered(light.color, order, 3);  // whose rows are the camera's
+    light.color = ordered(light.color, order, 3);  // Rows belong to camera channels.
     light.forward = ordered(light.forward, order);
   }
   if (raw.neutral) raw.neutral = ordered(*raw.neutral, order);
@@ -185,7 +187,7 @@ void set_layout(Tags& tags, const RawPicture& raw) {
 void set_levels(Tags& tags, const RawPicture& raw) {
   const std::size_t samples = raw.planes.size();
   const auto code = static_cast<std::uint32_t>(raw.white_level_dn);
-  // Converters put the black and the white level behind the table.
+  // Readers apply the black and white level after the linearisation table.
   const std::uint32_t white = raw.linear_codes.empty() ? code : raw.linear_codes[code];
   tags.set_all(TIFFTAG_BLACKLEVEL, std::vector<float>(samples, static_cast<float>(raw.black_level_dn)));
   tags.set_all(TIFFTAG_WHITELEVEL, std::vector<std::uint32_t>(samples, white));
@@ -197,7 +199,7 @@ std::vector<float> floats(const std::array<double, N>& values) {
   return {values.begin(), values.end()};
 }
 
-// The matrices of the lights, the white of the picture and the numbers of both.
+// Sets the matrices and numbers of the lights, and the neutral.
 void set_colors(Tags& tags, const RawPicture& raw) {
   struct LightTags {
     std::uint32_t illuminant, color, forward;
@@ -227,7 +229,7 @@ void set_names(Tags& tags, const RawPicture& raw) {
 }
 
 bool reads_back(const std::string& path, MemoryTiff& file, const RawPicture& raw) {
-  const Tiff tiff = open(path, file, "rmc");  // c: the strip as it is
+  const Tiff tiff = open(path, file, "rmc");  // c: read the strip unchanged.
   std::vector<std::uint16_t> codes(raw.codes.size());
   const auto size = static_cast<tmsize_t>(codes.size() * sizeof(std::uint16_t));
   return TIFFReadEncodedStrip(tiff.get(), 0, codes.data(), size) == size && codes == raw.codes;
@@ -235,8 +237,8 @@ bool reads_back(const std::string& path, MemoryTiff& file, const RawPicture& raw
 
 }  // namespace
 
-void teach_dng_tags() {
-  static const bool once = (others = TIFFSetTagExtender(add_dng_tags), true);
+void register_dng_tags() {
+  static const bool once = (previous_extender = TIFFSetTagExtender(add_dng_tags), true);
   static_cast<void>(once);
 }
 
@@ -250,11 +252,11 @@ TiffOptions quiet_tiff() {
 std::string encode_dng(const std::string& path, const RawPicture& picture) {
   const RawPicture raw = ordered(picture);
   MemoryTiff file;
-  bool sound = true;
+  bool ok = true;
   {
     const Tiff tiff = open(path, file, "wlm");
-    const std::uint64_t exif = write_exif(tiff.get(), raw, sound);
-    TIFFFreeDirectory(tiff.get());  // which making another does not do
+    const std::uint64_t exif = write_exif(tiff.get(), raw, ok);
+    TIFFFreeDirectory(tiff.get());  // Creating another directory does not free it.
     TIFFCreateDirectory(tiff.get());
     Tags tags{tiff.get()};
     set_layout(tags, raw);
@@ -262,12 +264,12 @@ std::string encode_dng(const std::string& path, const RawPicture& picture) {
     set_colors(tags, raw);
     set_names(tags, raw);
     if (exif != 0) tags.set(TIFFTAG_EXIFIFD, exif);
-    std::vector<std::uint16_t> codes = raw.codes;  // which libtiff may swap
+    std::vector<std::uint16_t> codes = raw.codes;  // A copy: libtiff may swap its bytes.
     const auto size = static_cast<tmsize_t>(codes.size() * sizeof(std::uint16_t));
-    sound = sound && tags.sound && TIFFWriteEncodedStrip(tiff.get(), 0, codes.data(), size) == size &&
-            TIFFWriteDirectory(tiff.get()) == 1;
+    ok = ok && tags.ok && TIFFWriteEncodedStrip(tiff.get(), 0, codes.data(), size) == size &&
+         TIFFWriteDirectory(tiff.get()) == 1;
   }
-  if (!sound || !reads_back(path, file, raw))
+  if (!ok || !reads_back(path, file, raw))
     throw Error(ErrorCode::output, path, "the encoded DNG does not read back");
   return std::move(file.bytes);
 }

@@ -8,19 +8,19 @@
 
 namespace abbe::picture_module {
 
-/// The photometric interpretation of planes that are no mosaic [DNG, "LinearRaw"].
+/// PhotometricInterpretation of demosaicked raw data [DNG, "LinearRaw"].
 constexpr std::uint16_t kLinearRaw = 34892;
 
 using Tiff = std::unique_ptr<TIFF, decltype(&TIFFClose)>;
 using TiffOptions = std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFree)>;
 
-/// The program says itself what a file lacks: libtiff's own lines would stand beside it on stderr.
+/// Options that silence libtiff: its messages on stderr would duplicate the program's errors.
 TiffOptions quiet_tiff();
 
-/// The opcode lists of a raw picture [DNG, ch. 7].
+/// Tags of the opcode lists of a raw picture [DNG, ch. 7].
 constexpr std::array<std::uint32_t, 3> kOpcodeLists{51008, 51009, 51022};
 
-/// Lets libtiff know the tags of a DNG that it does not know by itself, and would warn of.
-void teach_dng_tags();
+/// Registers DNG tags that libtiff does not know and would warn about.
+void register_dng_tags();
 
 }  // namespace abbe::picture_module

@@ -1,4 +1,4 @@
-// Opcode lists of a DNG [DNG, ch. 7]: corrections that the camera's maker asks readers to make.
+// Opcode lists of a DNG [DNG, ch. 7]: corrections that the camera maker requests from readers.
 #include "io/picture_module_dng_opcodes.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t kMapPolynomial = 8;
 constexpr std::uint32_t kGainMap = 9;
-constexpr std::uint32_t kOptional = 1;  // bit of an opcode's flags
+constexpr std::uint32_t kOptional = 1;  // Bit of an opcode's flags.
 constexpr std::uint32_t kMaxDegree = 8;
 
 std::string opcode_name(std::uint32_t id) {
@@ -25,14 +25,14 @@ std::string opcode_name(std::uint32_t id) {
   return id >= 1 && id <= kNames.size() ? kNames[id - 1] : "number " + std::to_string(id);
 }
 
-// Reads numbers one after the other, the most significant byte first whatever the order of the file's own.
+// Reads numbers in sequence. Opcodes are big-endian, whatever the byte order of the file.
 class Cursor {
  public:
   Cursor(std::span<const std::uint8_t> bytes, const std::string& path, int list)
       : bytes_(bytes), path_(path), list_(list) {}
 
   [[noreturn]] void fail(const std::string& what) const {
-    throw Error(ErrorCode::input, path_, "its OpcodeList" + std::to_string(list_) + " is damaged: " + what);
+    throw Error(ErrorCode::input, path_, "OpcodeList" + std::to_string(list_) + " is damaged: " + what);
   }
   std::uint32_t integer() {
     const std::uint32_t number = big_endian(take(4), 0);
@@ -43,7 +43,7 @@ class Cursor {
     const std::uint64_t high = integer();
     return finite(std::bit_cast<double>(high << 32 | integer()));
   }
-  /// The next bytes, as numbers of their own.
+  /// A cursor over the next `size` bytes.
   Cursor part(std::size_t size) { return {take(size), path_, list_}; }
   [[nodiscard]] std::size_t left() const { return bytes_.size(); }
 
@@ -84,10 +84,10 @@ GainMap read_gain_map(Cursor& cursor) {
   const bool is_sound = map.rows > 0 && map.columns > 0 && map.planes > 0 &&
                         (map.rows == 1 || map.row_spacing > 0) &&
                         (map.columns == 1 || map.column_spacing > 0);
-  // A product of three 32-bit numbers fits into 128 bits.
+  // The product of three 32-bit numbers fits into 128 bits.
   __extension__ using Wide = unsigned __int128;
   if (!is_sound || Wide{map.rows} * map.columns * map.planes != cursor.left() / sizeof(float))
-    cursor.fail("a GainMap has another size than it states");
+    cursor.fail("a GainMap does not have the declared size");
   while (cursor.left() >= sizeof(float)) map.gains.push_back(cursor.real32());
   return map;
 }
@@ -100,7 +100,7 @@ std::vector<double> read_polynomial(Cursor& cursor) {
   return coefficients;
 }
 
-// A position among so many points of a grid: the points on both sides and the weight of the second.
+// A position between two grid points: their indices and the weight of the second.
 struct GridPosition {
   std::uint32_t first, second;
   double weight;
@@ -114,8 +114,8 @@ GridPosition grid_position(double fraction, double origin, double spacing, std::
   return {first, first + 1, at - first};
 }
 
-// Bilinear between the points of the map, and constant outside it. A map of fewer planes than the area
-// repeats its last one.
+// Gain by bilinear interpolation, constant outside the grid. If the map has fewer planes than the area, its
+// last plane is used for the rest.
 double gain_at(const GainMap& map, const GridPosition& row, const GridPosition& column, std::uint32_t plane) {
   const std::size_t p = std::min(plane, map.planes - 1);
   const auto at = [&](std::uint32_t i, std::uint32_t j) {
@@ -132,7 +132,7 @@ double polynomial_at(const std::vector<double>& coefficients, double x) {
   return y;
 }
 
-// The plane that opcodes know a value by: its own, or the channel of its filter.
+// The plane number that opcodes use for a value: its plane, or the channel of its mosaic filter.
 std::size_t plane_of(const OpcodeImage& image, std::int64_t x, std::int64_t y, std::size_t plane) {
   if (image.mosaic_width == 0) return plane;
   const std::int64_t rows = static_cast<std::int64_t>(image.mosaic.size()) / image.mosaic_width;
@@ -173,16 +173,16 @@ OpcodeList parse_opcodes(std::span<const std::uint8_t> bytes, int list, const st
   Cursor cursor(bytes, path, list);
   for (std::uint32_t count = cursor.integer(); count > 0; --count) {
     const std::uint32_t id = cursor.integer();
-    cursor.integer();  // the version of the format that introduced the opcode
+    cursor.integer();  // Version of the format that introduced the opcode.
     const bool is_optional = (cursor.integer() & kOptional) != 0;
     Cursor parameters = cursor.part(cursor.integer());
     const bool is_applied = id == kGainMap || id == kMapPolynomial;
     const DngOpcode name{opcode_name(id), list, is_optional, is_applied};
     if (!is_applied && !is_optional)
-      throw Error(
-          ErrorCode::input, path,
-          "it requires corrections that are not made here (got the mandatory opcode " + name.text() +
-              ", allowed GainMap and MapPolynomial); a raw converter can make a linear picture of it");
+      throw Error(ErrorCode::input, path,
+                  "a mandatory correction is not supported (got the opcode " + name.text() +
+                      ", allowed GainMap and MapPolynomial); convert the file to a linear picture with a raw "
+                      "converter");
     parsed.names.push_back(name);
     if (!is_applied) continue;
     PixelOpcode opcode{read_area(parameters)};

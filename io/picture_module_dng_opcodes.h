@@ -10,15 +10,15 @@
 
 namespace abbe::picture_module {
 
-/// Pixels of an image that an opcode changes: every `row_pitch`-th row and `column_pitch`-th column from its
-/// top left corner, in planes from `plane` on.
+/// Pixels that an opcode changes: every `row_pitch`-th row and `column_pitch`-th column from the top left
+/// corner, in `planes` planes from `plane` on.
 struct OpcodeArea {
-  std::uint32_t top, left, bottom, right;  ///< The last row and column are excluded.
+  std::uint32_t top, left, bottom, right;  ///< `bottom` and `right` are exclusive.
   std::uint32_t plane, planes;
   std::uint32_t row_pitch, column_pitch;
 };
 
-/// The factors of a GainMap at the points of a grid, in fractions of the image from its top left corner.
+/// A grid of gain factors. Positions are fractions of the image from its top left corner.
 struct GainMap {
   std::uint32_t rows, columns;
   double row_spacing, column_spacing;
@@ -27,7 +27,7 @@ struct GainMap {
   std::vector<float> gains;  ///< By row, by column, by plane.
 };
 
-/// An opcode that changes each pixel for itself: a GainMap, or a MapPolynomial where the map has no gains.
+/// An opcode that changes each pixel independently: a GainMap, or a MapPolynomial if `map.gains` is empty.
 struct PixelOpcode {
   OpcodeArea area;
   GainMap map = {};
@@ -36,27 +36,26 @@ struct PixelOpcode {
 
 /// An opcode list of a DNG [DNG, ch. 7].
 struct OpcodeList {
-  std::vector<PixelOpcode> opcodes;  ///< Those that are applied here, in their order.
-  std::vector<DngOpcode> names;      ///< All of them.
+  std::vector<PixelOpcode> opcodes;  ///< Supported opcodes, in order.
+  std::vector<DngOpcode> names;      ///< All opcodes of the list.
 };
 
-/// Parses the bytes of the list of that number, 1 to 3. Throws Error{input} naming `path` for damaged bytes,
-/// and by name for a mandatory opcode that is not applied here.
+/// Parses opcode list number `list`, 1 to 3. Throws Error{input} with `path` if the bytes are damaged, or if
+/// a mandatory opcode is not supported.
 OpcodeList parse_opcodes(std::span<const std::uint8_t> bytes, int list, const std::string& path);
 
-/// Pixels that opcodes change: values pixel by pixel, in each plane by plane.
+/// Pixels to which opcodes are applied: values pixel by pixel, interleaved by plane.
 struct OpcodeImage {
   std::int64_t width, height;
   std::size_t planes;
   std::span<float> values;
-  double unit;  ///< The value that a MapPolynomial takes for 1.
-  /// The pattern of a mosaic whose opcodes count channels as planes, and its width; 0 where planes are
-  /// planes.
+  double unit;  ///< The value that a MapPolynomial treats as 1.
+  /// The mosaic pattern and its width if opcodes address the channels of the mosaic as planes; 0 otherwise.
   std::span<const std::uint8_t> mosaic = {};
   std::int64_t mosaic_width = 0;
 };
 
-/// Applies opcodes in their order. Values are not clipped: a pixel is saturated by its code.
+/// Applies opcodes in order. Values are not clipped: saturation is decided by the stored code.
 void apply_opcodes(const std::vector<PixelOpcode>& opcodes, const OpcodeImage& image);
 
 }  // namespace abbe::picture_module

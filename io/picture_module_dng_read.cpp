@@ -1,4 +1,4 @@
-// Raw files for the developers of photographs: DNG through libtiff, read.
+// Reads DNG files with libtiff.
 #include <tiffio.h>
 
 #include <algorithm>
@@ -19,34 +19,34 @@
 namespace abbe::picture_module {
 namespace {
 
-// The lines "key: value" of the description, as `set_names` writes them.
+// Reads the description, whose lines "key: value" `set_names` wrote.
 void read_lines(TIFF* tiff, RawPicture& raw) {
   char* lines = nullptr;
   if (TIFFGetField(tiff, TIFFTAG_IMAGEDESCRIPTION, &lines) == 1) raw.metadata["ImageDescription"] = lines;
 }
 
-// The names that the description lists under a key.
-std::vector<std::string> told_names(const RawPicture& raw, const std::string& key) {
+// The comma-separated names in the description's line `key`.
+std::vector<std::string> recorded_names(const RawPicture& raw, const std::string& key) {
   const auto description = raw.metadata.find("ImageDescription");
   std::istringstream lines(description == raw.metadata.end() ? "" : description->second);
   std::vector<std::string> names;
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with(key + ": ")) continue;
-    std::istringstream told(line.substr(key.size() + 2));
-    for (std::string name; std::getline(told, name, ',');) names.push_back(name);
+    std::istringstream items(line.substr(key.size() + 2));
+    for (std::string name; std::getline(items, name, ',');) names.push_back(name);
   }
   return names;
 }
 
 // The channels of a DNG in its order: red, green and blue, unless its description names three others.
 std::vector<std::string> channels_of(const RawPicture& raw, const std::string& key) {
-  const std::vector<std::string> names = told_names(raw, key);
+  const std::vector<std::string> names = recorded_names(raw, key);
   if (names.size() != 3) return {"R", "G", "B"};
   const auto order = rgb_order(names);
   return order ? std::vector{names[(*order)[0]], names[(*order)[1]], names[(*order)[2]]} : names;
 }
 
-// The filters of a mosaic, row by row; none where there is no mosaic.
+// The filter of each pixel of the mosaic pattern, row by row; empty without a mosaic.
 std::vector<std::uint8_t> read_pattern(TIFF* tiff, std::int64_t& width) {
   std::uint16_t photometric = 0;
   TIFFGetField(tiff, TIFFTAG_PHOTOMETRIC, &photometric);
@@ -57,16 +57,17 @@ std::vector<std::uint8_t> read_pattern(TIFF* tiff, std::int64_t& width) {
   if (TIFFGetField(tiff, TIFFTAG_CFAREPEATPATTERNDIM, &repeats) != 1 ||
       TIFFGetField(tiff, TIFFTAG_CFAPATTERN, &count, &filters) != 1 || count == 0 ||
       count != repeats[0] * repeats[1])
-    throw Error(ErrorCode::input, TIFFFileName(tiff), "it does not tell the pattern of its mosaic");
-  if (const std::uint8_t most = *std::max_element(filters, filters + count); most > 2)
     throw Error(ErrorCode::input, TIFFFileName(tiff),
-                "its mosaic has filters other than red, green and blue (got number " + std::to_string(most) +
-                    ", allowed 0 to 2)");
+                "the mosaic pattern is missing (CFARepeatPatternDim, CFAPattern)");
+  if (const std::uint8_t max_filter = *std::max_element(filters, filters + count); max_filter > 2)
+    throw Error(ErrorCode::input, TIFFFileName(tiff),
+                "the mosaic has filters other than red, green and blue (got number " +
+                    std::to_string(max_filter) + ", allowed 0 to 2)");
   width = repeats[1];
   return {filters, filters + count};
 }
 
-// The planes of a DNG and the channels of its pattern.
+// Reads the planes and the channels of the mosaic.
 void read_layout(TIFF* tiff, RawPicture& raw) {
   raw.mosaic = read_pattern(tiff, raw.mosaic_width);
   if (raw.mosaic_width > 0) {
@@ -76,25 +77,25 @@ void read_layout(TIFF* tiff, RawPicture& raw) {
   }
   if (raw.planes.size() == 3)
     raw.planes = channels_of(raw, "sensor_channels");
-  else if (auto names = told_names(raw, "sensor_channels"); names.size() == raw.planes.size())
+  else if (auto names = recorded_names(raw, "sensor_channels"); names.size() == raw.planes.size())
     raw.planes = std::move(names);
   raw.channels = raw.planes;
 }
 
-// The level that a tag tells of each filter or plane, in place of `level` where the file has the tag.
+// Replaces `level` by the value of a tag, if present. Throws if its values differ between filters or planes.
 template <typename Number>
 void read_level(TIFF* tiff, std::uint32_t tag, const char* name, double& level) {
   std::uint16_t count = 0;
-  Number* told = nullptr;
-  if (TIFFGetField(tiff, tag, &count, &told) != 1 || count == 0) return;
-  const auto [least, greatest] = std::minmax_element(told, told + count);
-  if (*least != *greatest) {
+  Number* levels = nullptr;
+  if (TIFFGetField(tiff, tag, &count, &levels) != 1 || count == 0) return;
+  const auto [lowest, highest] = std::minmax_element(levels, levels + count);
+  if (*lowest != *highest) {
     std::ostringstream differs;
-    differs << "filters or planes have a " << name << " of their own (got from " << *least << " to "
-            << *greatest << ", allowed one for all)";
+    differs << "filters or planes differ in their " << name << " (got " << *lowest << " to " << *highest
+            << ", allowed one value)";
     throw Error(ErrorCode::input, TIFFFileName(tiff), differs.str());
   }
-  level = static_cast<double>(*told);
+  level = static_cast<double>(*levels);
 }
 
 void read_levels(TIFF* tiff, RawPicture& raw) {
@@ -108,7 +109,7 @@ void read_levels(TIFF* tiff, RawPicture& raw) {
   }
 }
 
-// Levels of single rows and columns are refused.
+// Rejects black levels that differ between rows or columns.
 void require_even_black(TIFF* tiff) {
   for (const std::uint32_t tag : {TIFFTAG_BLACKLEVELDELTAH, TIFFTAG_BLACKLEVELDELTAV}) {
     std::uint16_t count = 0;
@@ -116,12 +117,13 @@ void require_even_black(TIFF* tiff) {
     if (TIFFGetField(tiff, tag, &count, &deltas) == 1 &&
         std::any_of(deltas, deltas + count, [](float delta) { return delta != 0; }))
       throw Error(ErrorCode::input, TIFFFileName(tiff),
-                  "rows or columns have a black level of their own (BlackLevelDeltaV or BlackLevelDeltaH; "
-                  "allowed one for all)");
+                  "rows or columns differ in their black level (BlackLevelDeltaV or BlackLevelDeltaH; "
+                  "allowed one value)");
   }
 }
 
-// Without the border that no light comes to: mosaics begin at its inner corner [DNG, "ActiveArea"].
+// Removes the border that light does not reach: the mosaic begins at the corner of the active area [DNG,
+// "ActiveArea"].
 void keep_active_area(TIFF* tiff, RawPicture& raw) {
   const std::uint32_t* area = nullptr;
   if (TIFFGetField(tiff, TIFFTAG_ACTIVEAREA, &area) != 1) return;
@@ -131,21 +133,21 @@ void keep_active_area(TIFF* tiff, RawPicture& raw) {
   const std::size_t right = area[3];
   const auto width = static_cast<std::size_t>(raw.width);
   if (top >= bottom || left >= right || bottom > static_cast<std::size_t>(raw.height) || right > width)
-    throw Error(ErrorCode::input, TIFFFileName(tiff), "its ActiveArea is no part of it");
+    throw Error(ErrorCode::input, TIFFFileName(tiff), "the ActiveArea is not inside the image");
   const std::size_t planes = raw.planes.size();
-  std::vector<std::uint16_t> lit;
-  lit.reserve((bottom - top) * (right - left) * planes);
+  std::vector<std::uint16_t> active;
+  active.reserve((bottom - top) * (right - left) * planes);
   for (std::size_t y = top; y < bottom; ++y) {
     const auto row = raw.codes.begin() + static_cast<std::ptrdiff_t>(y * width * planes);
-    lit.insert(lit.end(), row + static_cast<std::ptrdiff_t>(left * planes),
-               row + static_cast<std::ptrdiff_t>(right * planes));
+    active.insert(active.end(), row + static_cast<std::ptrdiff_t>(left * planes),
+                  row + static_cast<std::ptrdiff_t>(right * planes));
   }
-  raw.codes = std::move(lit);
+  raw.codes = std::move(active);
   raw.width = static_cast<decltype(raw.width)>(right - left);
   raw.height = static_cast<decltype(raw.height)>(bottom - top);
 }
 
-// The opcode list of that number; an empty one where the file has none.
+// Opcode list number `list`; empty if the file has none.
 OpcodeList read_opcodes(TIFF* tiff, int list, RawPicture& raw) {
   std::uint32_t count = 0;
   const std::uint8_t* bytes = nullptr;
@@ -155,7 +157,7 @@ OpcodeList read_opcodes(TIFF* tiff, int list, RawPicture& raw) {
   return parsed;
 }
 
-// List 1 works on the codes as stored, which are the argument of its polynomials too.
+// Applies list 1 to the stored codes, which are also the argument of its polynomials.
 void apply_first_opcodes(TIFF* tiff, RawPicture& raw) {
   const OpcodeList list = read_opcodes(tiff, 1, raw);
   if (list.opcodes.empty()) return;
@@ -166,8 +168,8 @@ void apply_first_opcodes(TIFF* tiff, RawPicture& raw) {
   });
 }
 
-// Lists 2 and 3 work on values that are 0 at black and 1 at the white level. The second sees the planes that
-// are stored, the third those of the demosaicked picture, of which a mosaic has each pixel's own.
+// Applies lists 2 and 3 to values that are 0 at the black and 1 at the white level. List 2 addresses the
+// stored planes. List 3 addresses the planes of the demosaicked picture, of which a mosaic pixel has one.
 void apply_later_opcodes(TIFF* tiff, RawPicture& raw) {
   const OpcodeList stored = read_opcodes(tiff, 2, raw);
   const OpcodeList demosaicked = read_opcodes(tiff, 3, raw);
@@ -177,7 +179,7 @@ void apply_later_opcodes(TIFF* tiff, RawPicture& raw) {
   const double unit = raw.white_level_dn - raw.black_level_dn;
   if (!(unit > 0))
     throw Error(ErrorCode::input, TIFFFileName(tiff),
-                "its white level is not above its black level, between which its opcodes work");
+                "the white level must exceed the black level to apply opcodes");
   OpcodeImage image{raw.width, raw.height, raw.planes.size(), raw.corrected, unit};
   apply_opcodes(stored.opcodes, image);
   image.mosaic = raw.mosaic;
@@ -185,8 +187,8 @@ void apply_later_opcodes(TIFF* tiff, RawPicture& raw) {
   apply_opcodes(demosaicked.opcodes, image);
 }
 
-// The exposure time, of which the folder of Exif tells, beside the first picture; the last to be read, since
-// it leaves the image.
+// Reads the exposure time from the Exif folder of the first picture. It must be read last: it leaves the raw
+// picture.
 void read_exposure(TIFF* tiff, RawPicture& raw) {
   toff_t folder = 0;
   float seconds = 0;
@@ -203,21 +205,21 @@ void require_codes(TIFF* tiff) {
   TIFFGetFieldDefaulted(tiff, TIFFTAG_SAMPLEFORMAT, &format);
   if (bits != 16 || TIFFIsTiled(tiff) != 0)
     throw Error(ErrorCode::input, TIFFFileName(tiff),
-                "its raw picture has no strips of 16-bit numbers (got " +
+                "the raw picture is not stored as strips of 16-bit numbers (got " +
                     std::string(TIFFIsTiled(tiff) != 0 ? "tiles" : "strips") + " of " + std::to_string(bits) +
-                    " bits); a raw converter can make an uncompressed DNG of it");
+                    " bits); convert it to an uncompressed DNG with a raw converter");
   if (format != SAMPLEFORMAT_UINT)
     throw Error(ErrorCode::input, TIFFFileName(tiff),
-                "its raw picture has no whole numbers without sign (got SampleFormat " +
+                "the raw picture is not stored as unsigned integers (got SampleFormat " +
                     std::to_string(format) + ", allowed 1)");
 }
 
-// What a folder of a TIFF says that its picture is.
+// Type of the picture in a TIFF folder.
 struct PictureKind {
   std::uint32_t subfile = 0;
   std::uint16_t photometric = 0;
 
-  // A picture made of the raw one, such as a preview, has colours and tones of its own.
+  // True for a raw picture. A picture derived from it, such as a preview, has been developed.
   [[nodiscard]] bool is_raw() const {
     return subfile == 0 && (photometric == PHOTOMETRIC_CFA || photometric == kLinearRaw);
   }
@@ -230,8 +232,8 @@ PictureKind kind_of(TIFF* tiff) {
   return kind;
 }
 
-// Goes to the raw picture: the first of the file or, where that is a preview, of the folders within [DNG,
-// "DNG File Structure"].
+// Moves to the raw picture: the first of the file or, if that is a preview, one of its SubIFDs [DNG, "DNG
+// File Structure"].
 void find_raw(TIFF* tiff) {
   const PictureKind first = kind_of(tiff);
   if (first.is_raw()) return;
@@ -241,7 +243,7 @@ void find_raw(TIFF* tiff) {
     for (const toff_t folder : std::vector<toff_t>(within, within + count))
       if (TIFFSetSubDirectory(tiff, folder) == 1 && kind_of(tiff).is_raw()) return;
   throw Error(ErrorCode::input, TIFFFileName(tiff),
-              "it holds no raw picture (got NewSubfileType " + std::to_string(first.subfile) +
+              "no raw picture in the file (got NewSubfileType " + std::to_string(first.subfile) +
                   " and PhotometricInterpretation " + std::to_string(first.photometric) +
                   " first, allowed 0 and 32803 or 34892, or such a picture among its SubIFDs)");
 }
@@ -250,12 +252,11 @@ void require_rectangular(TIFF* tiff) {
   std::uint16_t layout = 1;
   TIFFGetField(tiff, TIFFTAG_CFALAYOUT, &layout);
   if (layout != 1)
-    throw Error(
-        ErrorCode::input, TIFFFileName(tiff),
-        "the filters of its mosaic are staggered (got CFALayout " + std::to_string(layout) + ", allowed 1)");
+    throw Error(ErrorCode::input, TIFFFileName(tiff),
+                "the mosaic filters are staggered (got CFALayout " + std::to_string(layout) + ", allowed 1)");
 }
 
-// Strip by strip, or nothing where libtiff cannot undo the compression.
+// Reads all strips. False if libtiff cannot decompress them.
 bool read_codes(TIFF* tiff, RawPicture& raw) {
   const std::uint32_t strips = TIFFNumberOfStrips(tiff);
   std::size_t at = 0;
@@ -276,16 +277,16 @@ std::string why_unreadable(TIFF* tiff) {
   std::uint16_t compression = COMPRESSION_NONE;
   TIFFGetFieldDefaulted(tiff, TIFFTAG_COMPRESSION, &compression);
   if (compression == COMPRESSION_NONE) return "truncated or corrupt";
-  return "its raw picture is damaged, or compressed as is not read here (got Compression " +
-         std::to_string(compression) + "); a raw converter can make an uncompressed DNG of it";
+  return "the raw picture is damaged or has an unsupported compression (got Compression " +
+         std::to_string(compression) + "); convert it to an uncompressed DNG with a raw converter";
 }
 
 }  // namespace
 
 RawPicture read_dng(const std::string& path) {
-  teach_dng_tags();
+  register_dng_tags();
   const Tiff tiff(TIFFOpenExt(path.c_str(), "r", quiet_tiff().get()), TIFFClose);
-  if (!tiff) throw Error(ErrorCode::input, path, "no DNG, or a damaged one");
+  if (!tiff) throw Error(ErrorCode::input, path, "not a DNG file, or damaged");
   RawPicture raw;
   read_lines(tiff.get(), raw);
   find_raw(tiff.get());

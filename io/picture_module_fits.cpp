@@ -1,4 +1,4 @@
-// Raw files for astronomers: FITS through cfitsio.
+// Reads and writes FITS files with cfitsio.
 #include <fitsio.h>
 
 #include <algorithm>
@@ -26,7 +26,7 @@ namespace {
   throw Error(ErrorCode::output, path, std::string("cfitsio: ") + text.data());
 }
 
-// A file in memory, which cfitsio lets grow.
+// A file in memory that cfitsio can grow.
 struct MemoryFits {
   void* bytes = nullptr;
   std::size_t size = 0;
@@ -42,7 +42,7 @@ struct MemoryFits {
   }
 };
 
-/// Writes keywords; `status` keeps the first failure, as the library has it.
+/// Writes keywords. `status` keeps the first failure, as in all functions of cfitsio.
 struct Header {
   fitsfile* fits;
   int& status;
@@ -55,8 +55,8 @@ struct Header {
   }
 };
 
-// "RGGB": the channels of a pattern of two by two, as capturing programs write it and readers take it for; ""
-// of any other, or of names that are no letters.
+// The channels of a 2 x 2 pattern, such as "RGGB", as capture programs write it. "" for other patterns, and
+// for names longer than a letter.
 std::string bayer_pattern(const RawPicture& raw) {
   std::string letters;
   for (const std::uint8_t channel : raw.mosaic) letters += raw.channels[channel];
@@ -92,7 +92,7 @@ void write_header(Header header, const RawPicture& raw) {
     fits_write_history(header.fits, (key + ": " + value).c_str(), &header.status);
 }
 
-// cfitsio has planes one after the other.
+// The codes plane by plane, as cfitsio stores them.
 std::vector<std::uint16_t> plane_by_plane(const RawPicture& raw) {
   const std::size_t planes = raw.planes.size();
   std::vector<std::uint16_t> codes;
@@ -104,7 +104,8 @@ std::vector<std::uint16_t> plane_by_plane(const RawPicture& raw) {
 
 bool reads_back(std::string& bytes, const std::vector<std::uint16_t>& codes) {
   int status = 0;
-  MemoryFits file;  // which owns none of the bytes
+  // It does not own the bytes.
+  MemoryFits file;
   void* data = bytes.data();
   std::size_t size = bytes.size();
   fits_open_memfile(&file.fits, "memory", READONLY, &data, &size, 0, nullptr, &status);
@@ -114,13 +115,13 @@ bool reads_back(std::string& bytes, const std::vector<std::uint16_t>& codes) {
   return status == 0 && read == codes;
 }
 
-double number_of(fitsfile* fits, const char* key, double otherwise) {
-  double value = otherwise;
+double number_of(fitsfile* fits, const char* key, double fallback) {
+  double value = fallback;
   int status = 0;
-  return fits_read_key(fits, TDOUBLE, key, &value, nullptr, &status) == 0 ? value : otherwise;
+  return fits_read_key(fits, TDOUBLE, key, &value, nullptr, &status) == 0 ? value : fallback;
 }
 
-// Whole, on however many cards.
+// Text of a keyword, joined from all its cards; "" if absent.
 std::string text_of(fitsfile* fits, const char* key) {
   char* value = nullptr;
   int status = 0;
@@ -134,19 +135,19 @@ std::size_t shift_of(fitsfile* fits, const char* key) {
   return std::fmod(std::round(number_of(fits, key, 0)), 2) == 0 ? 0 : 1;
 }
 
-// A pattern of two by two, as "RGGB", told from the top and shifted as an area of a larger sensor has it. Of
-// files that Abbe wrote the history tells any.
+// Reads a 2 x 2 pattern such as "RGGB", from the top and shifted by the offsets of a sub-area of the sensor.
+// Other patterns are read from the history of files that Abbe wrote.
 void read_pattern(fitsfile* fits, const std::string& path, RawPicture& raw) {
   constexpr std::string_view kLetters = "RGB";
-  const std::string told = text_of(fits, "BAYERPAT");
-  if (told.empty() || raw.planes.size() != 1) return;
-  std::string pattern = told;
+  const std::string recorded = text_of(fits, "BAYERPAT");
+  if (recorded.empty() || raw.planes.size() != 1) return;
+  std::string pattern = recorded;
   for (char& c : pattern) c = static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
   if (pattern.size() != 4 || pattern.find_first_not_of(kLetters) != std::string::npos) {
     if (raw.metadata.contains("mosaic")) return;
-    throw Error(ErrorCode::input, path,
-                "BAYERPAT is no pattern of two by two filters R, G and B (got \"" + told +
-                    "\", allowed as \"RGGB\")");
+    throw Error(
+        ErrorCode::input, path,
+        "BAYERPAT is not a 2 x 2 pattern of R, G and B (got \"" + recorded + "\", for example \"RGGB\")");
   }
   raw.mosaic_width = 2;
   raw.channels = {"R", "G", "B"};
@@ -156,11 +157,11 @@ void read_pattern(fitsfile* fits, const std::string& path, RawPicture& raw) {
     raw.mosaic.push_back(static_cast<std::uint8_t>(kLetters.find(pattern[i ^ right ^ (2 * down)])));
 }
 
-// The names that `PLANES` lists, as files of ours do. Without them, three planes are red, green and blue, as
-// programs for astronomers write colour pictures.
-std::vector<std::string> plane_names(const std::string& told, std::size_t count) {
+// Names of the planes as listed in `PLANES` of Abbe's files. Without them, three planes are red, green and
+// blue, as astronomy programs write them.
+std::vector<std::string> plane_names(const std::string& recorded, std::size_t count) {
   std::vector<std::string> names(1);
-  for (const char c : told)
+  for (const char c : recorded)
     if (c == ',')
       names.emplace_back();
     else
@@ -172,8 +173,8 @@ std::vector<std::string> plane_names(const std::string& told, std::size_t count)
   return names;
 }
 
-// The lines "key: value" that `write_header` leaves as history, of which the library cuts long ones. A key
-// may end in the name of a channel, which has hyphens as well as letters, digits and _.
+// Reads the lines "key: value" that `write_header` writes as history; the library splits long ones. A key may
+// end in the name of a channel, which contains letters, digits, '_', '.' and '-'.
 void read_history(fitsfile* fits, RawPicture& raw) {
   constexpr std::size_t kName = 8;
   constexpr std::size_t kCut = 72;
@@ -200,18 +201,18 @@ void read_history(fitsfile* fits, RawPicture& raw) {
   }
 }
 
-// The code that is expected without light. Below 0 some programs mean what was taken away, and others the
-// same level with the other sign.
+// Expected code without light. Programs disagree on the meaning of negative values: some mean a level that
+// was subtracted, others the level with the opposite sign.
 double pedestal_of(fitsfile* fits, const std::string& path) {
   const double pedestal = number_of(fits, "PEDESTAL", 0);
   if (pedestal >= 0) return pedestal;
   std::ostringstream negative;
-  negative << "PEDESTAL is below 0, which programs mean differently (got " << pedestal
-           << ", allowed the code of no light, 0 or more)";
+  negative << "PEDESTAL is negative, which programs interpret differently (got " << pedestal
+           << ", allowed the code without light, 0 or more)";
   throw Error(ErrorCode::input, path, negative.str());
 }
 
-// The numbers of all planes, one after the other.
+// Reads the codes of all planes, one plane after the other.
 std::vector<std::uint16_t> read_codes(fitsfile* fits, const std::string& path, std::size_t count) {
   std::vector<int> numbers(count);
   int status = 0;
@@ -221,14 +222,15 @@ std::vector<std::uint16_t> read_codes(fitsfile* fits, const std::string& path, s
                 &status);
   if (status != 0) throw Error(ErrorCode::input, path, "truncated or corrupt");
   if (any_undefined != 0)
-    throw Error(ErrorCode::input, path, "pixels have no value (they hold its BLANK, allowed a code in each)");
-  if (const auto least = std::min_element(numbers.begin(), numbers.end()); *least < 0)
     throw Error(ErrorCode::input, path,
-                "a pixel is below 0 (got " + std::to_string(*least) + ", allowed 0 to 65535)");
+                "pixels are undefined (they hold the value BLANK; every pixel needs a code)");
+  if (const auto lowest = std::min_element(numbers.begin(), numbers.end()); *lowest < 0)
+    throw Error(ErrorCode::input, path,
+                "a pixel is below 0 (got " + std::to_string(*lowest) + ", allowed 0 to 65535)");
   return {numbers.begin(), numbers.end()};
 }
 
-// The greatest code of an image whose numbers are of that type once scaled.
+// Largest code of an image whose scaled values have that type.
 double greatest_code(fitsfile* fits, int type) {
   const double of_type = type == BYTE_IMG ? 255 : type == SHORT_IMG ? 32767 : 65535;
   int stored = 0;
@@ -238,17 +240,17 @@ double greatest_code(fitsfile* fits, int type) {
   return std::min(of_type, std::max(zero, zero + 255 * number_of(fits, "BSCALE", 1)));
 }
 
-// The greatest code that an image can hold, or what its header says it saturates at, where that is less. Some
-// programs write 0 where they do not know it.
+// Largest code that the image can hold, or its header's saturation level if that is smaller. Some programs
+// write 0 for an unknown level.
 double white_level_of(fitsfile* fits, int type, double black_level_dn) {
   const double greatest = greatest_code(fits, type);
   const double saturate = number_of(fits, "SATURATE", greatest);
   return saturate > black_level_dn ? std::min(saturate, greatest) : greatest;
 }
 
-// Opens a file by its very name and goes to its first image that has pixels. The library's other functions
-// take brackets in a name for what they are to make of the file, and this one blanks before it for none of it
-// and ~ for a user's folder.
+// Opens a file by its exact name and moves to its first image with pixels. Other functions of the library
+// interpret brackets in the name. This one interprets leading blanks and '~', which an absolute path does not
+// have.
 void open_image(fitsfile** fits, const std::string& path, int& status) {
   fits_open_diskfile(fits, std::filesystem::absolute(path).c_str(), READONLY, &status);
   while (status == 0) {
@@ -261,7 +263,7 @@ void open_image(fitsfile** fits, const std::string& path, int& status) {
   }
 }
 
-// Turns the picture upside down.
+// Reverses the order of rows.
 void flip(RawPicture& raw) {
   const auto row = static_cast<std::ptrdiff_t>(raw.planes.size()) * raw.width;
   for (std::ptrdiff_t y = 0; y < raw.height / 2; ++y)
@@ -290,9 +292,9 @@ RawPicture read_fits(const std::string& path) {
   fits_get_img_equivtype(file.fits, &type, &status);
   fits_get_img_dim(file.fits, &axes, &status);
   fits_get_img_size(file.fits, 3, size.data(), &status);
-  if (status != 0) throw Error(ErrorCode::input, path, "no FITS image, or a damaged one");
+  if (status != 0) throw Error(ErrorCode::input, path, "not a FITS image, or damaged");
   if (axes < 2 || axes > 3 || (type != USHORT_IMG && type != SHORT_IMG && type != BYTE_IMG))
-    throw Error(ErrorCode::input, path, "no image of whole 16-bit numbers with two or three axes");
+    throw Error(ErrorCode::input, path, "not an image of 8-bit or 16-bit integers with two or three axes");
   RawPicture raw;
   raw.width = size[0];
   raw.height = size[1];

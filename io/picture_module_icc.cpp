@@ -1,4 +1,4 @@
-// What an ICC profile says of colours: three tone curves and the primaries, or the curve of grey [ICC].
+// Colour properties of an ICC profile: three tone curves and the primaries, or the tone curve of grey [ICC].
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -17,26 +17,26 @@ namespace {
 using Bytes = std::span<const std::uint8_t>;
 
 constexpr double kNoCurve = std::numeric_limits<double>::quiet_NaN();
-// What `kColorSpace` is of profiles that no curve and three primaries stand for.
-constexpr const char* kOtherCurves = "tone curves or primaries of another kind";
-constexpr const char* kTables = "tables of colours or L*a*b*";
+// Values of `kColorSpace` for profiles that are not one curve and three primaries.
+constexpr const char* kOtherCurves = "unsupported tone curves or primaries";
+constexpr const char* kTables = "colour lookup tables or L*a*b*";
 
 bool has_word(Bytes bytes, std::size_t at, std::string_view word) {
   return bytes.size() >= at + word.size() &&
          std::equal(word.begin(), word.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at));
 }
 
-// A number with 16 bits behind the point.
+// A signed fixed-point number with 16 fractional bits.
 double fixed(Bytes bytes, std::size_t at) {
   return static_cast<std::int32_t>(big_endian(bytes, at)) / 65536.0;
 }
 
-// The bytes of a tag; none where there is no such tag, or it does not lie within the profile.
+// The bytes of a tag; empty if it is missing or exceeds the profile.
 Bytes tag(Bytes profile, std::string_view name) {
   constexpr std::size_t kCount = 128;
   constexpr std::size_t kEntry = 12;
-  const std::size_t room = profile.size() / kEntry;
-  const std::size_t count = std::min<std::size_t>(big_endian(profile, kCount), room);
+  const std::size_t max_count = profile.size() / kEntry;
+  const std::size_t count = std::min<std::size_t>(big_endian(profile, kCount), max_count);
   for (std::size_t at = kCount + 4; at < kCount + 4 + count * kEntry; at += kEntry) {
     if (!has_word(profile, at, name)) continue;
     const std::size_t from = big_endian(profile, at + 4);
@@ -46,7 +46,7 @@ Bytes tag(Bytes profile, std::string_view name) {
   return {};
 }
 
-// By a `curv`: of no number a straight line, of one a power, else a table.
+// Value of a `curv` curve: the identity for no entries, a power for one entry, otherwise a table.
 double by_table(Bytes curve, double code) {
   constexpr std::size_t kFirst = 12;
   const std::size_t count = big_endian(curve, 8);
@@ -61,7 +61,7 @@ double by_table(Bytes curve, double code) {
   return std::lerp(number(i), number(i + 1), at - static_cast<double>(i)) / 65535;
 }
 
-// By a `para`: of all its types (a x + b)^g + e from d on, c x + f below.
+// Value of a `para` curve: (a x + b)^g + e for x >= d, otherwise c x + f.
 double by_parameters(Bytes curve, double code) {
   constexpr std::array<std::size_t, 5> kCounts{1, 3, 4, 5, 7};
   const std::size_t type = big_endian(curve, 8) >> 16U;
@@ -75,7 +75,7 @@ double by_parameters(Bytes curve, double code) {
   return code < from ? c * code + f : std::pow(p(1) * code + p(2), p(0)) + e;
 }
 
-// The linear value of a code in [0, 1]; no number where a curve is none.
+// Linear value of a code in [0, 1]; NaN if the curve is invalid.
 double decoded(Bytes curve, double code) {
   if (has_word(curve, 0, "curv")) return by_table(curve, code);
   return has_word(curve, 0, "para") ? by_parameters(curve, code) : kNoCurve;
@@ -86,7 +86,7 @@ double srgb(double code) {
   return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
 }
 
-// Whether a tone curve keeps to `linear` all over [0, 1].
+// True if the tone curve agrees with `linear` on [0, 1] within `tolerance`.
 template <typename Linear>
 bool is_near(Bytes curve, double tolerance, Linear linear) {
   constexpr int kSteps = 32;
@@ -97,8 +97,8 @@ bool is_near(Bytes curve, double tolerance, Linear linear) {
   return true;
 }
 
-// As `kColorSpace` has it. Small profiles have tables of sRGB that are a few thousandths off between few
-// rows; from a power of 2.2 sRGB differs by up to 0.008.
+// The curve as a value of `kColorSpace`. Small profiles have short tables of the sRGB curve, with
+// interpolation errors of a few thousandths. sRGB differs from a power of 2.2 by up to 0.008.
 std::string curve_encoding(Bytes curve) {
   constexpr double kPower = 1e-3;
   constexpr double kSmallTable = 5e-3;
@@ -111,7 +111,7 @@ std::string curve_encoding(Bytes curve) {
   return is_near(curve, kSmallTable, srgb) ? "sRGB" : kOtherCurves;
 }
 
-// The primaries' chromaticities and that of the white to which profiles relate them; "" without three.
+// Chromaticities of the primaries and of D50, to which profiles refer; "" if primaries are missing.
 std::string profile_primaries(Bytes profile) {
   std::vector<double> xy;
   for (const char* const name : {"rXYZ", "gXYZ", "bXYZ"}) {
@@ -133,17 +133,17 @@ std::uint32_t big_endian(std::span<const std::uint8_t> bytes, std::size_t at) {
   return number;
 }
 
-ColorsTold icc_colors(std::span<const std::uint8_t> profile, bool is_grey) {
+DeclaredColors icc_colors(std::span<const std::uint8_t> profile, bool is_grey) {
   constexpr std::size_t kConnectionSpace = 20;
   const bool has_table = !has_word(profile, kConnectionSpace, "XYZ ") || !tag(profile, "A2B0").empty();
   const bool has_grey = is_grey && !tag(profile, "kTRC").empty();
   const std::vector<const char*> names = has_grey ? std::vector{"kTRC"} : std::vector{"rTRC", "gTRC", "bTRC"};
   std::set<std::string> encodings;
   for (const char* const name : names) encodings.insert(curve_encoding(tag(profile, name)));
-  ColorsTold told{*encodings.begin(), profile_primaries(profile), ""};
-  if (encodings.size() > 1 || (!is_grey && told.primaries.empty())) told.encoding = kOtherCurves;
-  if (has_table) told.encoding = kTables;
-  return told;
+  DeclaredColors colors{*encodings.begin(), profile_primaries(profile), ""};
+  if (encodings.size() > 1 || (!is_grey && colors.primaries.empty())) colors.encoding = kOtherCurves;
+  if (has_table) colors.encoding = kTables;
+  return colors;
 }
 
 }  // namespace abbe::picture_module

@@ -1,4 +1,4 @@
-// The chunks of a PNG: what its own checksums say of it, and what OpenImageIO does not tell.
+// Reads the chunks of a PNG: verifies their checksums and finds chunks that OpenImageIO does not report.
 #include <array>
 #include <fstream>
 #include <optional>
@@ -15,7 +15,7 @@ struct Chunk {
   std::vector<std::uint8_t> data;
 };
 
-/// A file that may be a PNG, read chunk by chunk.
+/// Reads a file chunk by chunk, if it is a PNG.
 class PngFile {
  public:
   explicit PngFile(const std::string& path) : file_(path, std::ios::binary | std::ios::ate) {
@@ -25,13 +25,12 @@ class PngFile {
     std::string begin(kSignature.size(), '\0');
     is_png_ = file_.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == kSignature;
   }
-  /// Whether it begins as one.
+  /// True if the file has a PNG signature.
   [[nodiscard]] bool is_png() const { return is_png_; }
 
-  /// The next chunk, whose data stand between its length and type and the checksum of type and data; nothing
-  /// for one that is cut short or contradicts its checksum.
+  /// The next chunk. Nothing if it is truncated or its checksum is wrong.
   std::optional<Chunk> next() {
-    constexpr std::uint64_t kAround = 12;  // bytes beside the data
+    constexpr std::uint64_t kAround = 12;  // Length, type and checksum [bytes].
     const std::uint64_t left = size_ - static_cast<std::uint64_t>(file_.tellg());
     const std::uint32_t length = left < kAround ? 0 : number();
     if (left < kAround || length > left - kAround) return std::nullopt;

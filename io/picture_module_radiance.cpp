@@ -1,4 +1,4 @@
-// What the lines at the head of a Radiance picture say [Radiance].
+// Reads the header of a Radiance picture [Radiance].
 #include <algorithm>
 #include <fstream>
 #include <sstream>
@@ -10,31 +10,32 @@
 namespace abbe::picture_module {
 namespace {
 
-// The numbers of a line after its "KEY=", of which there must be so many.
+// The numbers after "KEY=" in a line; throws unless there are `count`.
 std::vector<double> numbers_of(const std::string& line, std::size_t count, const std::string& path) {
   std::istringstream words(line.substr(line.find('=') + 1));
   std::vector<double> numbers;
   for (double number = 0; words >> number;) numbers.push_back(number);
   if (!words.eof() || numbers.size() != count)
     throw Error(ErrorCode::input, path,
-                "numbers expected (got \"" + line + "\", allowed " + std::to_string(count) + ")");
+                "wrong count of numbers (got \"" + line + "\", allowed " + std::to_string(count) + ")");
   return numbers;
 }
 
-// Multiplies them by those of a line, of one for all or one for each.
+// Multiplies `factors` by the numbers of a line: one for all channels or one for each.
 void take_factors(const std::string& line, std::size_t count, const std::string& path,
                   std::array<double, 3>& factors) {
-  const std::vector<double> told = numbers_of(line, count, path);
-  if (std::ranges::any_of(told, [](double factor) { return !(factor > 0); }))
-    throw Error(ErrorCode::input, path, "pixels were multiplied by (got \"" + line + "\", allowed > 0)");
-  for (std::size_t c = 0; c < 3; ++c) factors.at(c) *= told[c % count];
+  const std::vector<double> values = numbers_of(line, count, path);
+  if (std::ranges::any_of(values, [](double factor) { return !(factor > 0); }))
+    throw Error(ErrorCode::input, path,
+                "factors of the pixels must be positive (got \"" + line + "\", allowed > 0)");
+  for (std::size_t c = 0; c < 3; ++c) factors.at(c) *= values[c % count];
 }
 
-// "" of zeros, by which some programs mean that they do not say.
+// Primaries of a line; "" for zeros, which some programs write for unknown primaries.
 std::string primaries_of(const std::string& line, const std::string& path) {
-  const std::vector<double> told = numbers_of(line, 8, path);
-  if (std::ranges::all_of(told, [](double number) { return number == 0; })) return "";
-  return numbers_text(told);
+  const std::vector<double> values = numbers_of(line, 8, path);
+  if (std::ranges::all_of(values, [](double number) { return number == 0; })) return "";
+  return numbers_text(values);
 }
 
 void read_line(const std::string& line, const std::string& path, RadianceHeader& header) {
@@ -45,14 +46,14 @@ void read_line(const std::string& line, const std::string& path, RadianceHeader&
     throw Error(ErrorCode::input, path, "values are not linear (got \"" + line + "\", allowed GAMMA=1)");
 }
 
-// Of the line "-Y 600 +X 800", whose first axis runs from row to row and the second along them; X counts to
-// the right, and Y upwards.
+// Orientation from the line "-Y 600 +X 800". The first axis runs across rows, the second along them. +X
+// points to the right, +Y upwards.
 int orientation_of(const std::string& line) {
   const bool from_right = line.find("-X") != std::string::npos;
   const bool from_bottom = line.find("+Y") != std::string::npos;
   const bool rows_are_columns = line.find('X') < line.find('Y');
-  const int round = from_bottom ? (from_right ? 2 : 3) : (from_right ? 1 : 0);
-  return 1 + round + (rows_are_columns ? 4 : 0);
+  const int quarter = from_bottom ? (from_right ? 2 : 3) : (from_right ? 1 : 0);
+  return 1 + quarter + (rows_are_columns ? 4 : 0);
 }
 
 }  // namespace

@@ -15,19 +15,19 @@
 namespace abbe {
 namespace {
 
-// What libpng works with, and what it said when it gave up.
+// State of libpng and its error message.
 struct Png {
   png_structp write = nullptr;
   png_infop info = nullptr;
   std::string bytes = {};
-  std::string said = {};
+  std::string error = {};
 };
 
-// What a file says of its codes.
+// Colour chunks of a file.
 struct Tags {
   bool is_srgb = false;
   std::optional<double> gamma = {};
-  std::vector<double> primaries = {};  // x and y of red, green, blue and white
+  std::vector<double> primaries = {};  // x and y of red, green, blue and white.
 };
 
 struct Pixels {
@@ -36,18 +36,18 @@ struct Pixels {
   int bits;
 };
 
-[[noreturn]] void give_up(png_structp write, const char* message) {
-  static_cast<Png*>(png_get_error_ptr(write))->said = message;
+[[noreturn]] void on_error(png_structp write, const char* message) {
+  static_cast<Png*>(png_get_error_ptr(write))->error = message;
   png_longjmp(write, 1);
 }
 
-void say_nothing(png_structp /*write*/, const char* /*message*/) {}
+void ignore_warning(png_structp /*write*/, const char* /*message*/) {}
 
 void append(png_structp write, png_bytep bytes, std::size_t count) {
   static_cast<Png*>(png_get_io_ptr(write))->bytes.append(reinterpret_cast<const char*>(bytes), count);
 }
 
-// Referring to the header. What is not ASCII is an international text.
+// Text chunks, which refer to the header. Text that is not ASCII becomes an international text chunk.
 std::vector<png_text> texts_of(const PictureHeader& header) {
   std::vector<png_text> texts;
   for (const auto& [key, value] : header.metadata) {
@@ -55,28 +55,28 @@ std::vector<png_text> texts_of(const PictureHeader& header) {
     const bool ascii = std::all_of(value.begin(), value.end(), [](char c) { return c > 0; });
     png_text& text = texts.emplace_back();
     text.compression = ascii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
-    text.key = const_cast<char*>(key.c_str());  // png_text serves readers too
+    text.key = const_cast<char*>(key.c_str());  // Also used for reading, hence not const.
     text.text = const_cast<char*>(value.c_str());
     text.text_length = value.size();
   }
   return texts;
 }
 
-std::string told(const PictureHeader& header, const char* key) {
+std::string attribute(const PictureHeader& header, const char* key) {
   const auto text = header.metadata.find(key);
   return text == header.metadata.end() ? "" : text->second;
 }
 
-// The gamma of a file is the power that made its codes, the inverse of `kColorSpace`'s.
+// A PNG stores the encoding exponent, the inverse of the exponent in `kColorSpace`.
 Tags tags_of(const PictureHeader& header) {
-  const std::string space = told(header, kColorSpace);
+  const std::string space = attribute(header, kColorSpace);
   Tags tags{.is_srgb = space == "sRGB"};
   if (space == kLinear) tags.gamma = 1;
   if (space.starts_with(kGamma))
     if (const auto power = parse_number(space.substr(std::string_view(kGamma).size())))
       tags.gamma = 1 / *power;
   if (!tags.gamma) return tags;
-  for (const std::string& number : split(told(header, kPrimariesKey), ' '))
+  for (const std::string& number : split(attribute(header, kPrimariesKey), ' '))
     tags.primaries.push_back(parse_number(number).value_or(0));
   return tags;
 }
@@ -88,7 +88,7 @@ void write_tags(const Png& png, const Tags& tags) {
     png_set_cHRM(png.write, png.info, p[6], p[7], p[0], p[1], p[2], p[3], p[4], p[5]);
 }
 
-// Whether libpng has not given up. As it jumps back here then, nothing between has a destructor.
+// Returns false if libpng fails. libpng then jumps back here, so nothing in between may have a destructor.
 bool write(Png& png, const PictureHeader& header, const Tags& tags, const std::vector<png_text>& texts,
            const Pixels& pixels) {
   if (setjmp(png_jmpbuf(png.write)) != 0) return false;
@@ -122,12 +122,12 @@ Pixels pixels_of(const PictureHeader& header, const PictureCodes& codes) {
 
 std::string encode_png(const std::string& path, const PictureHeader& header, const PictureCodes& codes) {
   Png png;
-  png.write = png_create_write_struct(PNG_LIBPNG_VER_STRING, &png, give_up, say_nothing);
+  png.write = png_create_write_struct(PNG_LIBPNG_VER_STRING, &png, on_error, ignore_warning);
   if (png.write != nullptr) png.info = png_create_info_struct(png.write);
   const bool written =
       png.info != nullptr && write(png, header, tags_of(header), texts_of(header), pixels_of(header, codes));
   png_destroy_write_struct(&png.write, &png.info);
-  if (!written) throw Error(ErrorCode::output, path, "libpng: " + png.said);
+  if (!written) throw Error(ErrorCode::output, path, "libpng: " + png.error);
   return std::move(png.bytes);
 }
 

@@ -6,10 +6,10 @@
 
 namespace abbe {
 
-/// The bytes of a PNG of one channel, as grey, or three: rows from the top, with the metadata as texts. Codes
-/// are tagged by the attribute `kColorSpace`, as "sRGB", or with the gamma of "Linear" or "Gamma" and a
-/// number and with the primaries of `kPrimariesKey`; by another word they are not. `path` names the file in
-/// errors: throws Error{output}.
+/// The bytes of a PNG file with one channel, as grey, or three, with rows from the top and the metadata as
+/// text chunks. `kColorSpace` decides the colour chunks: "sRGB", or a gamma and `kPrimariesKey` for "Linear"
+/// and "Gamma" with an exponent; other values write none. `path` names the file in errors. Throws
+/// Error{output}.
 [[nodiscard]] std::string encode_png(const std::string& path, const PictureHeader& header,
                                      const PictureCodes& codes);
 

@@ -12,9 +12,8 @@ void write_dng(const std::filesystem::path& path, const RawPicture& raw) {
   const bool mosaic = raw.mosaic_width > 0;
   if (raw.channels.size() != 3 && (mosaic || raw.planes.size() != 1))
     throw Error(ErrorCode::output, path.string(),
-                "a DNG has one plane, three, or a mosaic of three channels (got " +
-                    std::to_string(raw.channels.size()) +
-                    " channels, allowed any number in a .tif or .fits)");
+                "a DNG stores one plane, three planes or a mosaic of three channels (got " +
+                    std::to_string(raw.channels.size()) + " channels; .tif and .fits store any number)");
   write_atomically(path, picture_codec().encode_dng(path.string(), raw));
 }
 

@@ -7,8 +7,8 @@
 
 namespace abbe {
 
-/// A table of known answers from `data/reference`, read by column name: what the program's own figures are
-/// compared with. Throws Error{input} for a table, row, column or number that is not there.
+/// A table of reference values from `data/reference`, accessed by column name. Validation compares computed
+/// values with it. Its functions throw Error{input} for a missing table, row, column or number.
 class ReferenceTable {
  public:
   explicit ReferenceTable(const std::string& name);

@@ -10,8 +10,7 @@
 
 namespace abbe {
 
-/// 0, 1 or 2 for a name of red, green or blue: "R" or "red", in capitals or small letters; nothing for any
-/// other name.
+/// 0, 1 or 2 for a name of red, green or blue: "R" or "red", in either case. Nothing for other names.
 [[nodiscard]] inline std::optional<std::size_t> rgb_index(std::string_view name) {
   constexpr std::array<std::string_view, 3> kNames{"red", "green", "blue"};
   std::string lower(name);
@@ -21,8 +20,8 @@ namespace abbe {
   return std::nullopt;
 }
 
-/// Positions of red, green and blue among these names, in that order, which pictures and tables have; nothing
-/// unless the names are one of each (`rgb_index`).
+/// Positions of red, green and blue in `names`, in that order. Nothing unless `names` are exactly one name of
+/// each (`rgb_index`).
 [[nodiscard]] inline std::optional<std::array<std::size_t, 3>> rgb_order(std::span<const std::string> names) {
   constexpr std::size_t kNone = 3;
   std::array<std::size_t, 3> order{kNone, kNone, kNone};

@@ -6,7 +6,7 @@
 
 namespace abbe {
 
-/// SHA-256 of pieces of bytes, one after another, as `sha256` tells it of one.
+/// SHA-256 of the concatenated pieces, as 64 lower-case hexadecimal digits.
 [[nodiscard]] std::string sha256_of_pieces(std::span<const std::string_view> pieces);
 
 }  // namespace abbe

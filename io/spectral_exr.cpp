@@ -19,16 +19,16 @@ constexpr const char* kVersionKey = "spectralLayoutVersion";
 constexpr const char* kVersion = "1.0";
 constexpr const char* kUnitsKey = "emissiveUnits";
 constexpr const char* kUnits = "W.m^-2.sr^-1";
-constexpr double kLightSpeed = 299792458;  // m/s
+constexpr double kLightSpeed = 299792458;  // [m/s]
 
 [[noreturn]] void refuse(const std::string& where, const std::string& what) {
   throw Error(ErrorCode::input, where, what);
 }
 
-// What begins and ends as the name of a spectral channel.
+// True if the name begins and ends like that of a spectral channel.
 bool looks_spectral(const std::string& name) {
-  static const std::regex kLook(R"(^(S[0-3]|T)\..*(m|Hz)$)");
-  return std::regex_match(name, kLook);
+  static const std::regex kPattern(R"(^(S[0-3]|T)\..*(m|Hz)$)");
+  return std::regex_match(name, kPattern);
 }
 
 int power_of_ten(const std::string& prefix) {
@@ -42,9 +42,9 @@ void require_attribute(const Image& image, const std::string& key, const std::st
                        const std::string& where) {
   const auto found = image.metadata.find(key);
   if (found == image.metadata.end())
-    refuse(where, fmt::format("no attribute \"{}\" (allowed \"{}\")", key, allowed));
+    refuse(where, fmt::format("missing attribute \"{}\" (allowed \"{}\")", key, allowed));
   if (found->second != allowed)
-    refuse(where, fmt::format("another {} (got \"{}\", allowed \"{}\")", key, found->second, allowed));
+    refuse(where, fmt::format("unsupported {} (got \"{}\", allowed \"{}\")", key, found->second, allowed));
 }
 
 using Component = std::vector<SpectralBand>;
@@ -64,8 +64,10 @@ void check_polarisation(const Image& image, const std::array<Component, 4>& stok
   const auto handedness = image.metadata.find(kHandednessKey);
   if (handedness == image.metadata.end() ||
       (handedness->second != "left" && handedness->second != kRightHanded))
-    refuse(where,
-           fmt::format("polarised, but no attribute \"{}\" (allowed \"left\", \"right\")", kHandednessKey));
+    refuse(
+        where,
+        fmt::format("polarised, but the attribute \"{}\" is missing or invalid (allowed \"left\", \"right\")",
+                    kHandednessKey));
   const auto same_center = [](const SpectralBand& a, const SpectralBand& b) {
     return a.center_nm == b.center_nm;
   };
@@ -74,8 +76,8 @@ void check_polarisation(const Image& image, const std::array<Component, 4>& stok
       refuse(where, fmt::format("S{} has other wavelengths than S0", i));
 }
 
-// Of images whose S3 has the other sign.
-void turn_to_right(Image& image, Component& s3) {
+// Negates S3 of left-handed images.
+void make_right_handed(Image& image, Component& s3) {
   if (std::exchange(image.metadata.at(kHandednessKey), kRightHanded) == kRightHanded) return;
   for (SpectralBand& band : s3)
     for (float& value : band.radiance) value = -value;
@@ -96,7 +98,8 @@ std::optional<SpectralName> parse_spectral_channel(std::string_view name, const 
   if (!looks_spectral(text)) return std::nullopt;
   std::smatch parts;
   if (!std::regex_match(text, parts, kGrammar))
-    refuse(where, fmt::format("channel \"{}\" is not named as a spectral one (as S0.550,5nm)", name));
+    refuse(where, fmt::format("channel \"{}\" is not a valid spectral name (expected a name like S0.550,5nm)",
+                              name));
   std::string digits = parts[3].str() + parts[4].str();
   std::replace(digits.begin(), digits.end(), ',', '.');
   if (digits.starts_with('.')) digits.insert(0, "0");
@@ -155,13 +158,13 @@ SpectralImage spectral_image(Image image, const std::string& where) {
   }
   for (Component& component : stokes) sort_by_wavelength(component, where);
   if (stokes[0].size() < 2)
-    refuse(where, fmt::format("too few bands of radiance to tell their widths (got {}, allowed 2 or more)",
+    refuse(where, fmt::format("too few bands of radiance to infer their widths (got {}, allowed 2 or more)",
                               stokes[0].size()));
   require_attribute(image, kUnitsKey, kUnits, where);
   check_polarisation(image, stokes, where);
   result.bands = std::move(stokes[0]);
   std::move(stokes.begin() + 1, stokes.end(), result.polarised.begin());
-  if (result.is_polarised()) turn_to_right(image, result.polarised[2]);
+  if (result.is_polarised()) make_right_handed(image, result.polarised[2]);
   result.metadata = std::move(image.metadata);
   return result;
 }

@@ -5,13 +5,13 @@
 
 namespace abbe {
 
-/// The path that stands for standard input where a command reads, for standard output where it writes.
+/// The path that means standard input for reading and standard output for writing.
 inline constexpr const char* kStandardStream = "-";
 
-/// What messages call standard input.
+/// Name of standard input in messages.
 inline constexpr const char* kStandardInputName = "<stdin>";
 
-/// What messages call a path that is read.
+/// Name in messages of a path that is read.
 [[nodiscard]] inline std::string input_name(const std::filesystem::path& path) {
   return path == kStandardStream ? kStandardInputName : path.string();
 }

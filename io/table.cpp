@@ -17,17 +17,18 @@ namespace fs = std::filesystem;
 
 struct Cell {
   std::string text;
-  std::size_t offset;  ///< In the line.
+  std::size_t offset;  ///< Byte offset in the line.
 };
 
-/// Where the quote is closed that opens at `at`, which two within it do not; the line's end if nowhere.
+/// Position of the quote that closes the one at `at`; two quotes in a row do not. The end of the line if
+/// there is none.
 std::size_t closing_quote(std::string_view line, std::size_t at) {
   for (++at; at < line.size() && (line[at] != '"' || line.substr(at, 2) == "\"\""); ++at)
     if (line[at] == '"') ++at;
   return std::min(at, line.size());
 }
 
-/// The cells of one line; nothing if a quoted cell is not closed by a quote followed by a comma or the end.
+/// The cells of a line. Nothing if a quoted cell is not closed by a quote before a comma or the end.
 std::optional<std::vector<Cell>> cells_of(std::string_view line) {
   std::vector<Cell> cells;
   for (std::size_t at = 0;;) {
@@ -54,7 +55,7 @@ std::optional<std::vector<Cell>> cells_of(std::string_view line) {
   }
 }
 
-/// The line beginning at `offset`, without its end.
+/// The line that begins at `offset`, without its end.
 std::string_view line_from(std::string_view text, std::size_t offset) {
   std::string_view line = text.substr(offset, text.find('\n', offset) - offset);
   if (line.ends_with('\r')) line.remove_suffix(1);
@@ -67,8 +68,8 @@ bool has_byte_order_mark(const fs::path& path) {
   return file.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == kByteOrderMark;
 }
 
-/// Where a line of these cells has the first semicolon or, between what it holds, tab where commas are
-/// expected. Behind a quoted cell, which they follow at once, they leave none.
+/// Position of the first semicolon or tab that separates values where commas are expected. The cells are
+/// missing after a quoted cell that a semicolon or tab follows directly.
 std::optional<std::size_t> wrong_separator(std::string_view line,
                                            const std::optional<std::vector<Cell>>& cells) {
   const std::size_t begin = std::min(line.find_first_not_of(" \t"), line.size());
@@ -84,7 +85,7 @@ bool is_blank(std::string_view line) {
   return line.find_first_not_of(" \t\r") == std::string_view::npos;
 }
 
-/// `# key: value` taken apart; nothing for a comment that has not this form.
+/// Splits `# key: value`; nothing for a comment of another form.
 std::optional<std::pair<std::string, std::string>> key_line(std::string_view line) {
   const std::size_t colon = line.find(':');
   if (colon == std::string_view::npos) return std::nullopt;
@@ -96,15 +97,15 @@ bool governs(const std::string& key) {
   return std::ranges::find(governing_keys(), key) != governing_keys().end();
 }
 
-/// The key of a comment `# key = value` that would say how the table is read, had it a colon.
-std::optional<std::string> key_said_equal(std::string_view line) {
+/// The key of a comment `# key = value`, if it would be a governing key with a colon.
+std::optional<std::string> key_with_equals_sign(std::string_view line) {
   const std::size_t sign = line.find_first_of("=:");
   if (sign == std::string_view::npos || line[sign] == ':') return std::nullopt;
   std::string key = split(line.substr(1, sign - 1), '\n').front();
   return governs(key) ? std::optional(std::move(key)) : std::nullopt;
 }
 
-/// Grows one table line by line, complaining about each line it cannot use.
+/// Builds a table line by line and reports each line that it cannot use.
 class TableReader {
  public:
   TableReader(std::shared_ptr<const SourceText> source, Diagnostics& diagnostics)
@@ -123,12 +124,10 @@ class TableReader {
       offset = std::min(text.find('\n', offset), text.size() - 1) + 1;
     }
     if (table_.rows.empty() && !wrongly_separated_)
-      complain(text.size(), "expected a line of column names and at least one row");
+      report(text.size(), "expected a line of column names and at least one row");
   }
 
-  void refuse_byte_order_mark() {
-    complain(0, "begins with a byte order mark; save it as UTF-8 without one");
-  }
+  void refuse_byte_order_mark() { report(0, "begins with a byte order mark; save it as UTF-8 without one"); }
 
   void check_provenance(TableOrigin origin) {
     Provenance& provenance = table_.provenance;
@@ -147,33 +146,32 @@ class TableReader {
     constexpr std::array<std::string_view, 3> kNames{"clamp", "zero", "error"};
     const auto name = std::find(kNames.begin(), kNames.end(), outside);
     if (name == kNames.end())
-      complain(key_offsets_["outside"],
-               fmt::format("unknown range rule (got {}, allowed {})", outside, fmt::join(kNames, ", ")));
+      report(key_offsets_["outside"],
+             fmt::format("unknown range rule (got {}, allowed {})", outside, fmt::join(kNames, ", ")));
     else
       table_.outside = static_cast<Outside>(name - kNames.begin());
   }
 
   [[nodiscard]] std::optional<Table> result() {
-    if (complained_) return std::nullopt;
+    if (has_errors_) return std::nullopt;
     return std::move(table_);
   }
 
  private:
-  void complain(std::size_t offset, std::string message) {
+  void report(std::size_t offset, std::string message) {
     diagnostics_.error({source_, offset, ""}, std::move(message), ErrorCode::input);
-    complained_ = true;
+    has_errors_ = true;
   }
 
   void read_key(std::string_view line, std::size_t offset) {
-    if (const auto key = key_said_equal(line))
-      return complain(offset, fmt::format("\"# {0} =\" is not read; write \"# {0}: <{0}>\"", *key));
+    if (const auto key = key_with_equals_sign(line))
+      return report(offset, fmt::format("\"# {0} =\" is not read; write \"# {0}: <{0}>\"", *key));
     const auto key = key_line(line);
     if (key && !table_.columns.empty() && governs(key->first))
-      return complain(offset, fmt::format("\"# {}:\" is not read below the column names; move it above them",
-                                          key->first));
+      return report(offset, fmt::format("\"# {}:\" is not read below the column names; move it above them",
+                                        key->first));
     if (!table_.columns.empty() || !key) return;
-    if (!table_.keys.insert(*key).second)
-      complain(offset, fmt::format("repeated line \"# {}:\"", key->first));
+    if (!table_.keys.insert(*key).second) report(offset, fmt::format("repeated line \"# {}:\"", key->first));
     key_offsets_[key->first] = offset;
   }
 
@@ -182,23 +180,23 @@ class TableReader {
     const auto wrong = table_.columns.size() == 1 ? std::nullopt : wrong_separator(line, cells);
     wrongly_separated_ = wrong.has_value();
     if (wrong)
-      return complain(offset + *wrong,
-                      fmt::format("cells are separated by {}, allowed ',')",
-                                  line[*wrong] == ';' ? "semicolons (got ';'" : "tabs (got a tab"));
-    if (!cells) return complain(offset, "quoted cell without its closing quote");
+      return report(offset + *wrong,
+                    fmt::format("cells are separated by {}, allowed ',')",
+                                line[*wrong] == ';' ? "semicolons (got ';'" : "tabs (got a tab"));
+    if (!cells) return report(offset, "quoted cell without its closing quote");
     if (!table_.columns.empty()) {
       if (cells->size() != table_.columns.size())
-        return complain(offset, fmt::format("wrong number of cells (got {}, allowed {})", cells->size(),
-                                            table_.columns.size()));
+        return report(offset, fmt::format("wrong number of cells (got {}, allowed {})", cells->size(),
+                                          table_.columns.size()));
       table_.row_offsets.push_back(offset);
       std::vector<std::string>& row = table_.rows.emplace_back();
       for (Cell& cell : *cells) row.push_back(std::move(cell.text));
       return;
     }
     for (Cell& cell : *cells) {
-      if (cell.text.empty()) complain(offset + cell.offset, "empty column name");
+      if (cell.text.empty()) report(offset + cell.offset, "empty column name");
       if (!cell.text.empty() && table_.column(cell.text))
-        complain(offset + cell.offset, fmt::format("duplicate column \"{}\"", cell.text));
+        report(offset + cell.offset, fmt::format("duplicate column \"{}\"", cell.text));
       table_.columns.push_back(std::move(cell.text));
     }
   }
@@ -208,22 +206,23 @@ class TableReader {
     if (found != table_.keys.end() && !found->second.empty())
       value = found->second;
     else if (required)
-      complain(0, fmt::format("missing {}; add a line \"# {}: <{}>\"", key, key, key));
+      report(0, fmt::format("missing {}; add a line \"# {}: <{}>\"", key, key, key));
   }
 
   std::shared_ptr<const SourceText> source_;
   Diagnostics& diagnostics_;
   Table table_;
   std::map<std::string, std::size_t> key_offsets_;
-  bool complained_ = false;
-  bool wrongly_separated_ = false;  ///< By no commas, after which nothing more is read.
+  bool has_errors_ = false;
+  bool wrongly_separated_ = false;  ///< Cells are not separated by commas; reading stops.
 };
 
-/// What the lines above the rows say of a table, without reading the rows.
+/// The information above the rows of a table, read without the rows.
 struct Heading {
   std::string aliases;
-  std::vector<std::string> values;  ///< Column names but for those of wavelengths or, without any, the first.
-  bool wrongly_separated = false;   ///< By no commas, so that the column names are not known.
+  std::vector<std::string>
+      values;  ///< Column names except those of wavelengths or, without any, except the first.
+  bool wrongly_separated = false;  ///< Cells are not separated by commas; the column names are unknown.
 };
 
 Heading heading_of(const fs::path& path) {
@@ -255,7 +254,7 @@ std::string only_value(const Heading& heading) {
 
 using Names = std::map<std::string, TableColumn, std::less<>>;
 
-/// Every name of a folder; stems win over aliases, these over column names.
+/// All names of a folder. Stems precede aliases, and aliases precede column names.
 Names index_folder(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code missing;
@@ -282,8 +281,8 @@ Names index_folder(const fs::path& folder) {
     }
   }
   names.merge(aliases);
-  for (const auto& [name, places] : columns)
-    if (places.size() == 1) names.try_emplace(name, places.front());
+  for (const auto& [name, locations] : columns)
+    if (locations.size() == 1) names.try_emplace(name, locations.front());
   return names;
 }
 
@@ -296,7 +295,7 @@ const Names& names_in(std::string_view folder) {
   return folders.emplace(folder, index_folder(data_directory() / folder)).first->second;
 }
 
-/// "stem:column" of another folder than the one that is looked through.
+/// Finds "stem:column" in the spectral folders.
 std::optional<TableColumn> column_elsewhere(const std::string& name) {
   if (name.find(':') == std::string::npos) return std::nullopt;
   for (const char* folder : {"camera", "filter", "illuminant", "observer", "reflectance"})
@@ -304,7 +303,7 @@ std::optional<TableColumn> column_elsewhere(const std::string& name) {
   return std::nullopt;
 }
 
-/// `path.csv` or `path.csv:column` of a user.
+/// Finds `path.csv` or `path.csv:column` of a user.
 std::optional<TableColumn> user_column(const std::string& name, const SourcePosition& where,
                                        Diagnostics& diagnostics) {
   const std::size_t end = user_table_end(name);
@@ -313,7 +312,8 @@ std::optional<TableColumn> user_column(const std::string& name, const SourcePosi
   const Heading heading = heading_of(path);
   if (end == name.size()) return TableColumn{path, only_value(heading)};
   const std::string column = name.substr(end + 1);
-  if (heading.wrongly_separated) return TableColumn{path, column};  // which `read_table` refuses at its place
+  // `read_table` reports the wrong separator with its position.
+  if (heading.wrongly_separated) return TableColumn{path, column};
   if (std::find(heading.values.begin(), heading.values.end(), column) != heading.values.end())
     return TableColumn{path, column};
   diagnostics.error(where, unknown_name("column", column, heading.values), ErrorCode::input);
@@ -371,9 +371,9 @@ const std::vector<std::string>& governing_keys() {
 
 std::size_t user_table_end(std::string_view name) {
   constexpr std::string_view kExtension = ".csv";
-  const std::string small = lower_case(name);
-  if (small.ends_with(kExtension)) return name.size();
-  const std::size_t dot = small.rfind(std::string(kExtension) + ':');
+  const std::string lower = lower_case(name);
+  if (lower.ends_with(kExtension)) return name.size();
+  const std::size_t dot = lower.rfind(std::string(kExtension) + ':');
   return dot == std::string::npos ? dot : dot + kExtension.size();
 }
 
@@ -390,7 +390,7 @@ std::optional<TableColumn> find_table(std::string_view folder, const std::string
 std::vector<std::string> table_names(std::string_view folder) {
   const Names& names = names_in(folder);
   std::vector<std::string> listed;
-  for (const auto& [name, place] : names) {
+  for (const auto& [name, location] : names) {
     const std::size_t colon = name.find(':');
     if (colon == std::string::npos || !names.contains(name.substr(colon + 1))) listed.push_back(name);
   }

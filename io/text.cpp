@@ -35,7 +35,7 @@ std::string reason(int error) {
 
 class Descriptor {
  public:
-  /// Does not wait for the writer of a FIFO.
+  /// O_NONBLOCK: does not wait for the writer of a FIFO.
   explicit Descriptor(const std::filesystem::path& path)
       : value_(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC)) {}
   Descriptor(const Descriptor&) = delete;
@@ -49,7 +49,8 @@ class Descriptor {
   int value_;
 };
 
-/// True for a file system whose files the kernel makes up when they are read; its regular files may block.
+/// True for a file system whose files the kernel generates when they are read. Reading its regular files may
+/// block.
 bool is_made_by_kernel(const struct statfs& system) {
   constexpr std::array<std::uint64_t, 10> kMadeByKernel{
       PROC_SUPER_MAGIC,   SYSFS_MAGIC,    DEBUGFS_MAGIC,       TRACEFS_MAGIC, SECURITYFS_MAGIC,
@@ -57,7 +58,8 @@ bool is_made_by_kernel(const struct statfs& system) {
   return std::ranges::find(kMadeByKernel, static_cast<std::uint64_t>(system.f_type)) != kMadeByKernel.end();
 }
 
-/// Appends up to `limit` bytes to `bytes`; gives the error number, or 0 at the end of the file or the limit.
+/// Appends bytes until `bytes` has `limit` bytes. Returns the error number, or 0 at the limit or the end of
+/// the file.
 int read_bytes(int descriptor, std::size_t limit, std::string& bytes) {
   std::array<char, 1 << 16> block;
   while (bytes.size() < limit) {
@@ -96,7 +98,7 @@ std::nullptr_t refuse_length(const std::shared_ptr<const SourceText>& source, st
                 ErrorCode::resource, diagnostics);
 }
 
-// What the open file holds, as the bytes of `source`.
+// Reads the open file into `source`. False after an error.
 bool read_source(int descriptor, const std::shared_ptr<SourceText>& source, Diagnostics& diagnostics,
                  ErrorCode code, std::size_t limit_bytes) {
   if (const int error = read_bytes(descriptor, limit_bytes + 1, source->text)) {
@@ -108,7 +110,7 @@ bool read_source(int descriptor, const std::shared_ptr<SourceText>& source, Diag
   return false;
 }
 
-// The bytes of a regular file.
+// Reads a regular file. nullptr after an error.
 std::shared_ptr<SourceText> read_source(const std::filesystem::path& path, Diagnostics& diagnostics,
                                         ErrorCode code, std::size_t limit_bytes) {
   auto source = std::make_shared<SourceText>(SourceText{path.string(), {}});
@@ -123,14 +125,14 @@ std::shared_ptr<SourceText> read_source(const std::filesystem::path& path, Diagn
   return source;
 }
 
-// The source, if its bytes are UTF-8.
+// The source, if its bytes are valid UTF-8; otherwise reports and returns nullptr.
 std::shared_ptr<const SourceText> checked(const std::shared_ptr<SourceText>& source, Diagnostics& diagnostics,
                                           ErrorCode code) {
   if (source->text.starts_with(kByteOrderMark)) source->text.erase(0, kByteOrderMark.size());
   const std::size_t valid = valid_prefix(source->text);
   if (valid == source->text.size()) return source;
   const auto byte = static_cast<unsigned char>(source->text[valid]);
-  source->text.resize(valid);  // so that no excerpt shows the bad bytes
+  source->text.resize(valid);  // Excerpts must not show the invalid bytes.
   return refuse(source, valid,
                 byte == 0 ? "NUL byte in a text" : fmt::format("invalid UTF-8 (got byte 0x{:02X})", byte),
                 code, diagnostics);
@@ -138,7 +140,8 @@ std::shared_ptr<const SourceText> checked(const std::shared_ptr<SourceText>& sou
 
 enum class ByteOrder { little, big };
 
-// Of UTF-16: by its mark, or by which byte of the first letter is zero.
+// Byte order of UTF-16, from its mark or from the byte of the first letter that is zero. Nothing for other
+// encodings.
 std::optional<ByteOrder> utf16_order(std::string_view bytes) {
   if (bytes.size() < 2) return std::nullopt;
   if (bytes.starts_with("\xFF\xFE")) return ByteOrder::little;
@@ -148,7 +151,7 @@ std::optional<ByteOrder> utf16_order(std::string_view bytes) {
   return std::nullopt;
 }
 
-// The units of a UTF-16 text, without its mark.
+// The code units of a UTF-16 text, without its mark.
 std::u16string utf16_units(std::string_view bytes, ByteOrder order) {
   std::u16string units;
   for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
@@ -160,7 +163,7 @@ std::u16string utf16_units(std::string_view bytes, ByteOrder order) {
   return units;
 }
 
-// Appends the text as UTF-8, up to the first unpaired surrogate; false if there is one.
+// Appends the text as UTF-8, up to the first unpaired surrogate. False if there is one.
 bool append_utf8(const std::u16string& units, std::string& text) {
   using Utf16 = boost::locale::utf::utf_traits<char16_t>;
   const char16_t* at = units.data();
@@ -173,24 +176,26 @@ bool append_utf8(const std::u16string& units, std::string& text) {
   return true;
 }
 
-// The same text in UTF-8, up to the first byte that is no letter; all of it is taken from `bytes`.
+// Converts Windows-1252 to UTF-8 up to the first byte that is not a letter. Removes the converted bytes from
+// `bytes`.
 std::string taken_from_windows_1252(std::string_view& bytes) {
   const iconv_t converter = ::iconv_open("UTF-8", "WINDOWS-1252");
-  if (std::bit_cast<std::intptr_t>(converter) == -1)  // which it says by a pointer
+  // iconv reports an error by this pointer value.
+  if (std::bit_cast<std::intptr_t>(converter) == -1)
     throw Error(ErrorCode::input, "", "the C library of this system does not convert Windows-1252");
-  std::string text(3 * bytes.size(), '\0');  // no letter of it takes more
+  std::string text(3 * bytes.size(), '\0');  // A letter takes at most three bytes.
   auto* from = const_cast<char*>(bytes.data());
   std::size_t left = bytes.size();
   char* to = text.data();
-  std::size_t room = text.size();
-  ::iconv(converter, &from, &left, &to, &room);
+  std::size_t space_left = text.size();
+  ::iconv(converter, &from, &left, &to, &space_left);
   ::iconv_close(converter);
   bytes.remove_prefix(bytes.size() - left);
-  text.resize(text.size() - room);
+  text.resize(text.size() - space_left);
   return text;
 }
 
-// The source in UTF-8, if its bytes are letters of Windows-1252.
+// The source in UTF-8, if all bytes are letters of Windows-1252.
 std::shared_ptr<const SourceText> from_windows_1252(const std::shared_ptr<SourceText>& source,
                                                     Diagnostics& diagnostics, ErrorCode code) {
   const std::string bytes = std::move(source->text);
@@ -267,13 +272,13 @@ std::size_t valid_prefix(std::string_view text) {
   return text.size();
 }
 
-std::string valid_utf8(std::string_view text, std::string_view instead) {
+std::string valid_utf8(std::string_view text, std::string_view replacement) {
   std::string valid;
   for (;;) {
     const std::size_t size = valid_prefix(text);
     valid += text.substr(0, size);
     if (size == text.size()) return valid;
-    valid += instead;
+    valid += replacement;
     text.remove_prefix(size + 1);
   }
 }
@@ -304,7 +309,8 @@ std::string lower_case(std::string_view text) {
 }
 
 std::string base64(std::string_view bytes) {
-  std::string text((bytes.size() + 2) / 3 * 4 + 1, '\0');  // with the zero that OpenSSL puts behind
+  std::string text((bytes.size() + 2) / 3 * 4 + 1,
+                   '\0');  // Includes the terminating zero that OpenSSL writes.
   const auto* from = reinterpret_cast<const unsigned char*>(bytes.data());
   auto* to = reinterpret_cast<unsigned char*>(text.data());
   text.resize(static_cast<std::size_t>(EVP_EncodeBlock(to, from, static_cast<int>(bytes.size()))));

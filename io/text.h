@@ -13,57 +13,56 @@
 namespace abbe {
 
 inline constexpr std::size_t kMaxTextBytes = std::size_t{1} << 28;
-/// What spreadsheets write before UTF-8 text.
+/// UTF-8 byte order mark, which spreadsheets write at the start of a text.
 inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
-/// Reads a regular file of at most `limit_bytes` of valid UTF-8 text. A missing file, a folder, a FIFO or
-/// device, an oversized file, a NUL byte or invalid UTF-8 is reported and gives nullptr.
+/// Reads a regular file of at most `limit_bytes` of UTF-8 text. Reports and returns nullptr for a missing
+/// file, a folder, a FIFO or device, an oversized file, a NUL byte and invalid UTF-8.
 [[nodiscard]] std::shared_ptr<const SourceText> read_text(const std::filesystem::path& path,
                                                           Diagnostics& diagnostics,
                                                           ErrorCode code = ErrorCode::input,
                                                           std::size_t limit_bytes = kMaxTextBytes);
-/// The same of a file that may be UTF-16 as well, which is told by its byte order mark, or by the zeros that
-/// the letters of plain text have in it, or Windows-1252, which holds Latin-1 and is what any other text is
-/// that is not UTF-8. Unpaired surrogates, and bytes that no letter has, are reported. The text given is
-/// UTF-8.
+/// Reads a text in UTF-8, UTF-16 or Windows-1252 and converts it to UTF-8.
+/// - UTF-16 is recognised by its byte order mark, or by a zero byte in the first letter.
+/// - Any other text that is not UTF-8 is taken as Windows-1252, which includes Latin-1.
+/// Reports unpaired surrogates and bytes that are not letters.
 [[nodiscard]] std::shared_ptr<const SourceText> read_unicode_text(const std::filesystem::path& path,
                                                                   Diagnostics& diagnostics,
                                                                   ErrorCode code = ErrorCode::input);
-/// Reads standard input, whatever kind of file it is, under the name "<stdin>", with the limits and errors of
-/// a file.
+/// Reads standard input under the name "<stdin>", with the limits and errors of a file.
 [[nodiscard]] std::shared_ptr<const SourceText> read_standard_input(Diagnostics& diagnostics, ErrorCode code);
 
-/// The reason why `path` is not read: "no such file", or "not a regular file" for what may block its reader
-/// or has no end. These are folders, devices, FIFOs, sockets, and what the kernel shows as files in /proc,
-/// /sys and the like. Nothing for a file that a disk holds.
+/// The reason why `path` cannot be read. "no such file", or "not a regular file" for a folder, device, FIFO
+/// or socket. Files in /proc, /sys and the like are not regular: reading them may block or never end. Nothing
+/// for a regular file on disk.
 [[nodiscard]] std::optional<std::string> file_fault(const std::filesystem::path& path);
-/// Throws Error{input} with that reason, if there is one.
+/// Throws Error{input} with the text of `file_fault`, if there is one.
 void require_file(const std::filesystem::path& path);
-/// True if there is none; else the path is reported at `where`, as what names it.
+/// True if `path` is a regular file. Otherwise reports `file_fault` at `where`, the position that names the
+/// path.
 [[nodiscard]] bool is_file(const std::filesystem::path& path, const SourcePosition& where,
                            Diagnostics& diagnostics);
 
-/// How many leading bytes of `text` are valid UTF-8 without NUL; all of them for a proper text.
+/// Number of leading bytes that are valid UTF-8 without NUL; the whole size for valid text.
 [[nodiscard]] std::size_t valid_prefix(std::string_view text);
 
-/// `text` with `instead` in place of each byte that valid UTF-8 has not there, and of NUL: a name that is in
-/// another encoding, for files that say they are UTF-8.
-[[nodiscard]] std::string valid_utf8(std::string_view text, std::string_view instead = "\uFFFD");
+/// `text` with each invalid UTF-8 byte and NUL replaced by `replacement`, for names in other encodings.
+[[nodiscard]] std::string valid_utf8(std::string_view text, std::string_view replacement = "\uFFFD");
 
-/// A finite number in the C locale's syntax, whatever the process's locale; nothing unless all of `text` is
-/// one.
+/// Parses all of `text` as a finite number in the syntax of the C locale, whatever the process's locale.
+/// Nothing if that fails.
 [[nodiscard]] std::optional<double> parse_number(std::string_view text);
 
-/// `text` cut at every `separator`, each piece without surrounding blanks.
+/// The pieces of `text` between separators, without surrounding blanks.
 [[nodiscard]] std::vector<std::string> split(std::string_view text, char separator);
 
-/// `text` with the capitals of ASCII as small letters.
+/// `text` with ASCII letters in lower case.
 [[nodiscard]] std::string lower_case(std::string_view text);
 
-/// The bytes in base64, as data URLs hold them [RFC4648, sec. 4].
+/// The bytes in base64, as in data URLs [RFC4648, sec. 4].
 [[nodiscard]] std::string base64(std::string_view bytes);
 
-/// The source of a user's file: its name and the hash of its text.
+/// Provenance of a user's file: its name and the hash of its text.
 [[nodiscard]] std::string user_source(const SourceText& text);
 
 /// SHA-256 of the bytes, as 64 lower-case hexadecimal digits.

@@ -25,7 +25,7 @@ std::string escaped(std::string_view key) {
 }  // namespace
 
 ValueTree::ValueTree(std::shared_ptr<const SourceText> source, std::string pointer, ErrorCode code,
-                     Diagnostics& diagnostics, HeldMemory* memory)
+                     Diagnostics& diagnostics, MemoryReservation* memory)
     : source_(std::move(source)),
       pointer_(std::move(pointer)),
       code_(code),
@@ -45,16 +45,16 @@ bool ValueTree::add(decltype(JsonValue::value) value, std::size_t offset) {
         fmt::format("keys too long (got a path of {} bytes, allowed {})", pointer.size(), kMaxPointer),
         this->pointer());
   if (memory_ != nullptr) count(value, pointer);
-  last_ = place({std::move(value), {source_, offset, std::move(pointer)}});
+  last_ = insert({std::move(value), {source_, offset, std::move(pointer)}});
   return true;
 }
 
-// Lists have up to twice the room that they need.
+// The factor 2 allows for the spare capacity of growing lists.
 void ValueTree::count(const decltype(JsonValue::value)& value, const std::string& pointer) {
   const bool in_object = !open_.empty() && std::holds_alternative<JsonValue::Object>(open_.back()->value);
   const auto* text = std::get_if<std::string>(&value);
-  memory_->take_more(source_->file, 2 * (in_object ? sizeof(JsonValue::Member) : sizeof(JsonValue)) +
-                                        pointer.size() + key_.size() + (text != nullptr ? text->size() : 0));
+  memory_->reserve(source_->file, 2 * (in_object ? sizeof(JsonValue::Member) : sizeof(JsonValue)) +
+                                      pointer.size() + key_.size() + (text != nullptr ? text->size() : 0));
 }
 
 bool ValueTree::open(decltype(JsonValue::value) container, std::size_t offset) {
@@ -107,8 +107,9 @@ std::string ValueTree::next_pointer() const {
   return pointer.append(parent.where.pointer).append("/").append(token);
 }
 
-// The new value stays in place while it is open: its parent grows again only after it was closed.
-JsonValue* ValueTree::place(JsonValue value) {
+// The returned pointer stays valid while the value is open: its parent grows again only after it has been
+// closed.
+JsonValue* ValueTree::insert(JsonValue value) {
   if (open_.empty()) return &(root_ = std::move(value));
   JsonValue& parent = *open_.back();
   if (auto* array = std::get_if<JsonValue::Array>(&parent.value))

@@ -9,32 +9,34 @@
 
 namespace abbe {
 
-/// Grows a `JsonValue` from the events of a parser, in their order, whatever the text's format. Refuses
-/// duplicate keys, nesting deeper than `kMaxDepth`, and JSON pointers beyond `kMaxPointer` bytes.
+/// Builds a `JsonValue` from the events of a parser of any text format. Rejects duplicate keys, nesting
+/// deeper than `kMaxDepth` and JSON pointers longer than `kMaxPointer` bytes.
 class ValueTree {
  public:
   static constexpr std::size_t kMaxDepth = 256;
   static constexpr std::size_t kMaxPointer =
-      1024;  // every value stores its pointer: long keys would multiply
+      // Limits memory: every value stores its pointer, so long keys would multiply.
+      1024;
 
-  /// `pointer` is that of the root; complaints carry `code`. `memory`, if any, counts the values.
+  /// `pointer` is the JSON pointer of the root; errors have the code `code`. `memory`, if given, reserves the
+  /// memory of the values.
   ValueTree(std::shared_ptr<const SourceText> source, std::string pointer, ErrorCode code,
-            Diagnostics& diagnostics, HeldMemory* memory = nullptr);
+            Diagnostics& diagnostics, MemoryReservation* memory = nullptr);
 
-  /// The key of the next value.
+  /// Sets the key of the next value.
   void key(std::string name, std::size_t offset);
-  /// One value that holds no others. False when it is refused.
+  /// Adds a null, boolean, number or string. False if it is rejected.
   bool add(decltype(JsonValue::value) value, std::size_t offset);
-  /// An array or object that takes what follows until `close`. False when it is refused.
+  /// Adds an array or object; the following values are added to it until `close`. False if it is rejected.
   bool open(decltype(JsonValue::value) container, std::size_t offset);
   void close();
 
-  /// Complains; gives false.
+  /// Reports an error at `pointer` and returns false.
   bool refuse(std::size_t offset, std::string message, std::string pointer);
-  /// Refuses the document at the next value, as the other does at `pointer`.
+  /// Reports an error at the pointer of the next value and returns false.
   bool refuse(std::size_t offset, std::string message);
 
-  /// Where the parser stands, as a JSON pointer.
+  /// JSON pointer of the innermost open container.
   [[nodiscard]] std::string pointer() const;
   [[nodiscard]] bool refused() const { return refused_; }
   /// The innermost open array or object, nullptr when all are closed.
@@ -43,7 +45,7 @@ class ValueTree {
 
  private:
   [[nodiscard]] std::string next_pointer() const;
-  JsonValue* place(JsonValue value);
+  JsonValue* insert(JsonValue value);
   void count(const decltype(JsonValue::value)& value, const std::string& pointer);
   void report_duplicates(const JsonValue::Object& object);
 
@@ -51,7 +53,7 @@ class ValueTree {
   std::string pointer_;
   ErrorCode code_;
   Diagnostics& diagnostics_;
-  HeldMemory* memory_;
+  MemoryReservation* memory_;
   JsonValue root_;
   std::vector<JsonValue*> open_;
   JsonValue* last_ = nullptr;

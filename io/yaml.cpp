@@ -15,10 +15,10 @@
 namespace abbe {
 namespace {
 
-/// Ends the parsing of a document that was refused.
+/// Thrown to end the parsing of a rejected document.
 struct Refused {};
 
-/// Receives the parser's events and grows the tree.
+/// Builds the tree from the parser's events.
 class YamlTreeBuilder : public YAML::EventHandler {
  public:
   YamlTreeBuilder(ValueTree& tree, std::size_t first) : tree_(tree), first_(first) {}
@@ -108,7 +108,7 @@ class YamlTreeBuilder : public YAML::EventHandler {
 std::optional<JsonValue> parse_yaml(const std::shared_ptr<const SourceText>& source,
                                     Diagnostics& diagnostics) {
   ValueTree tree(source, "", ErrorCode::input, diagnostics);
-  // The parser does not count a byte order mark.
+  // The parser's offsets do not include the byte order mark.
   YamlTreeBuilder builder(tree, source->text.starts_with(kByteOrderMark) ? kByteOrderMark.size() : 0);
   std::istringstream text(source->text);
   try {

@@ -8,15 +8,17 @@
 
 namespace abbe {
 
-/// Values a YAML document may hold.
+/// Largest number of values in a YAML document.
 inline constexpr std::size_t kMaxYamlValues = 100000;
 
-/// Parses a YAML document into the same tree as JSON: a mapping is an object, a sequence an array, and every
-/// scalar the string it is written as, since YAML leaves its type to the reader; nothing at all is null.
-/// Reports as input errors (and gives nothing for) text that is not YAML, empty text, several documents,
-/// anchors and aliases (a few lines of them stand for billions of values), keys that are no scalars,
-/// duplicate keys, nesting deeper than 256, JSON pointers beyond 1024 bytes, and more than `kMaxYamlValues`
-/// values.
+/// Parses a YAML document into the tree used for JSON: mappings are objects, sequences are arrays, empty
+/// values are null. Scalars are strings, since in YAML their type depends on the reader. Reports input errors
+/// and returns nothing for:
+/// - text that is not YAML, empty text, several documents;
+/// - anchors and aliases, a few lines of which can expand to billions of values;
+/// - keys that are not scalars, duplicate keys;
+/// - nesting deeper than 256 levels, JSON pointers longer than 1024 bytes, more than `kMaxYamlValues`
+///   values.
 [[nodiscard]] std::optional<JsonValue> parse_yaml(const std::shared_ptr<const SourceText>& source,
                                                   Diagnostics& diagnostics);
 

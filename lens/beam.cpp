@@ -17,14 +17,15 @@ using V3d = Imath::V3d;
 
 constexpr int kMaxAimingSteps = 40;
 constexpr int kMaxHalvings = 20;
-constexpr double kAimed = 1e-12;      // in radii of the stop: what Newton's method strives for,
-constexpr double kGoodEnough = 1e-9;  // and what is taken where rounding does not let it
-constexpr double kDifference = 1e-4;  // of the beam's radius, for the Jacobian
-constexpr double kFieldStep = 0.1;    // of the field, from chief ray to chief ray
-constexpr double kLeastStep = 1e-4;
+constexpr double kAimed = 1e-12;      // target of Newton's method, in radii of the stop
+constexpr double kGoodEnough = 1e-9;  // accepted if rounding prevents the target
+constexpr double kDifference = 1e-4;  // step for the Jacobian, in radii of the beam
+constexpr double kFieldStep = 0.1;    // fraction of the field from one chief ray to the next
+constexpr double kMinStep = 1e-4;
 constexpr int kRimRays = 32;
 
-// What must be added to the argument of a function of this Jacobian, given by columns, to add `wanted` to it.
+// Solves the linear system of a Jacobian, given by columns: the change of the argument that changes the
+// function by `wanted`.
 V2d solved(const V2d& by_x, const V2d& by_y, const V2d& wanted) {
   const double det = by_x.x * by_y.y - by_y.x * by_x.y;
   return V2d(wanted.x * by_y.y - by_y.x * wanted.y, by_x.x * wanted.y - wanted.x * by_x.y) / det;
@@ -52,7 +53,9 @@ void Beam::set_field(double field) {
 
 Ray Beam::launch(const V2d& p) const {
   if (at_->system->object_distance_mm) {
-    const V3d through(p.x, p.y, 0);  // not from the object: far ones are rounded more than the stop allows
+    const V3d through(
+        p.x, p.y,
+        0);  // far objects are rounded more coarsely than the stop allows, so the ray does not start there
     return {through, (through - object_).normalized()};
   }
   const V3d up(0, direction_.z, -direction_.y);
@@ -69,13 +72,13 @@ double Beam::density(const V2d& p) const {
 std::optional<V2d> Beam::pupil_of(const V2d& launched) const {
   const std::size_t stop = at_->system->stop;
   const RayPath path = trace(*at_, launch(launched), Apertures::ignored, stop + 1);
-  // The ray's end behind the stop does not matter for where it passed it.
+  // The position at the stop is valid even if the ray ends behind it.
   if (path.hits.size() <= stop) return std::nullopt;
   const V3d point = local_point(*at_, stop, path.hits[stop].point);
   return V2d(point.x, point.y) / radius_;
 }
 
-// Newton's method with a Jacobian of differences, its steps halved until they come nearer.
+// Newton's method with a finite-difference Jacobian. Steps are halved until the error decreases.
 bool Beam::solve(const V2d& pupil, V2d& launched) const {
   auto now = pupil_of(launched);
   if (!now) return false;
@@ -103,7 +106,8 @@ bool Beam::solve(const V2d& pupil, V2d& launched) const {
   return (*now - pupil).length() <= kGoodEnough;
 }
 
-// From the axis outwards, in steps that are halved where the last chief ray does not lead to the next.
+// Follows the chief ray from the axis outwards. The step is halved if Newton's method fails from the last
+// chief ray.
 bool Beam::find_chief(double field) {
   V2d launched(0, 0);
   double reached = 0;
@@ -118,7 +122,7 @@ bool Beam::find_chief(double field) {
       reached = next;
       launched = tried;
       step = std::min(2 * step, 2 * kFieldStep);
-    } else if ((step /= 2) < kLeastStep) {
+    } else if ((step /= 2) < kMinStep) {
       return false;
     }
   }
@@ -153,13 +157,13 @@ Imath::Box2d Beam::bounds() const {
   Imath::Box2d box(chief_);
   for (int i = 0; i < kRimRays; ++i) {
     const double angle = 2 * std::numbers::pi * i / kRimRays;
-    for (double share = 1; share > 0; share -= 0.125)  // as far out as rays get
-      if (const auto launched = aim(share * V2d(std::cos(angle), std::sin(angle)))) {
+    for (double fraction = 1; fraction > 0; fraction -= 0.125)  // the outermost ray that exists
+      if (const auto launched = aim(fraction * V2d(std::cos(angle), std::sin(angle)))) {
         box.extendBy(*launched);
         break;
       }
   }
-  const V2d room = 0.01 * box.size();  // what of the rim lies between its rays
+  const V2d room = 0.01 * box.size();  // margin for the rim between its rays
   return {box.min - room, box.max + room};
 }
 

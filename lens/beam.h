@@ -9,28 +9,29 @@
 
 namespace abbe::lens {
 
-/// The rays from one point of the object at one wavelength, found by where they pass the stop.
+/// The rays from one object point at one wavelength, addressed by their position at the stop.
 ///
-/// Rays are counted by where they cross a plane before the lens: of an object at infinity the plane across
-/// its direction through the middle of the paraxial entrance pupil, of a near one the tangent plane of the
-/// first vertex. Equal areas of the former carry equal power.
+/// A ray is given by its point in a launch plane in front of the lens. For an object at infinity, this is the
+/// plane normal to its direction through the center of the paraxial entrance pupil, and equal areas carry
+/// equal power. For a near object, it is the tangent plane of the first vertex.
 class Beam {
  public:
-  /// `field` as in `System`. Nothing when no ray gets through the middle of the stop. Clear apertures are
-  /// ignored while rays are looked for. `at` must outlive the beam.
+  /// Creates the beam of `field` as defined in `System`, ignoring clear apertures. Nothing if no ray passes
+  /// through the center of the stop. `at` must outlive the beam.
   [[nodiscard]] static std::optional<Beam> of(const SystemAt& at, double field, double stop_radius_mm);
 
-  /// The ray through a point of the launch plane [mm].
+  /// Ray through a point of the launch plane [mm].
   [[nodiscard]] Ray launch(const Imath::V2d& point) const;
-  /// Where the ray must be launched that passes the stop at so many of its radii from its middle.
+  /// Point of the launch plane [mm] whose ray passes the stop at `pupil` (in radii of the stop); nothing if
+  /// there is none.
   [[nodiscard]] std::optional<Imath::V2d> aim(const Imath::V2d& pupil) const;
   [[nodiscard]] Imath::V2d chief() const { return chief_; }
-  /// Where a ray passes the stop, in its radii; nothing when it does not get there.
+  /// Position of a ray at the stop, in radii of the stop; nothing if it does not arrive there.
   [[nodiscard]] std::optional<Imath::V2d> pupil_of(const Imath::V2d& launched) const;
-  /// The rectangle of the launch plane that the stop fills.
+  /// Bounding rectangle of the stop in the launch plane.
   [[nodiscard]] Imath::Box2d bounds() const;
-  /// Power that a source of radiance 1 sends from its point through an element of area of the launch plane:
-  /// 1 for one at infinity; for a near one what a square millimetre there fills of its projected solid angle.
+  /// Power per area of the launch plane for an object point of radiance 1. It is 1 at infinity. For a near
+  /// object, it is the projected solid angle per square millimetre.
   [[nodiscard]] double density(const Imath::V2d& launched) const;
   [[nodiscard]] const SystemAt& at() const { return *at_; }
 
@@ -43,17 +44,17 @@ class Beam {
   const SystemAt* at_;
   double radius_;
   double pupil_z_;
-  double scale_;  // of the beam in the launch plane, paraxially
+  double scale_;  // paraxial radius of the beam in the launch plane
   Imath::V3d direction_{0, 0, 1};
   Imath::V3d object_{0, 0, 0};
   Imath::V2d chief_{0, 0};
 };
 
-/// Apertures that differ by no more than this share of them are the same: nominal f-numbers are rounded.
+/// Relative difference below which apertures count as equal, because nominal f-numbers are rounded.
 inline constexpr double kNominalRounding = 1e-3;
 
-/// Radius of the stop [mm], as the aperture of the system says at the primary wavelength. Throws Error{scene}
-/// when the ray that tells it does not get there.
+/// Radius of the stop [mm] that gives the aperture of the system at the primary wavelength. Throws
+/// Error{scene} if the ray that determines it does not arrive at the stop.
 [[nodiscard]] double stop_radius(const System& system);
 
 }  // namespace abbe::lens

@@ -26,15 +26,15 @@ void to_world(const SystemAt::Frame& frame, BasicRayHit<Real>& hit) {
     hit.direction = hit.direction * frame.to_world;
   }
   hit.point += Vec3<Real>(frame.vertex);
-  // Its length is 1 to rounding; a step of Newton's method keeps it so from surface to surface.
+  // The length is 1 except for rounding; one Newton step prevents errors from accumulating over the surfaces.
   hit.direction *= Real(1.5) - 0.5 * hit.direction.dot(hit.direction);
 }
 
 template <typename Real>
-Truth<Real> within_aperture(const Surface& surface, const Vec3<Real>& point) {
+Mask<Real> within_aperture(const Surface& surface, const Vec3<Real>& point) {
   if (!surface.semi_aperture_mm) return true;
   const double radius = *surface.semi_aperture_mm;
-  const Truth<Real> round = point.x * point.x + point.y * point.y <= Real(radius * radius);
+  const Mask<Real> round = point.x * point.x + point.y * point.y <= Real(radius * radius);
   if (!surface.iris) return round;
   const Real between_blades = by_lane<Real>([&](int j) {
     return surface.iris->contains(Imath::V2d(lane_of(point.x, j), lane_of(point.y, j)) / radius) ? 1.0 : 0.0;
@@ -42,20 +42,22 @@ Truth<Real> within_aperture(const Surface& surface, const Vec3<Real>& point) {
   return round && between_blades > 0;
 }
 
-// In the surface's own coordinates, of a ray that leads towards +z, as all that follow.
+// Intersects a ray that travels towards +z with a surface, in the coordinates of the surface.
 template <typename Real>
-Crossing<Real> meet_local(const Surface& surface, const BasicRay<Real>& ray) {
-  const auto [met, length_mm] = surface.profile.meet(ray);
-  Crossing<Real> crossing{{ray.origin + ray.direction * length_mm, {}, {}, length_mm}, met, true, true};
+Crossing<Real> intersect_local(const Surface& surface, const BasicRay<Real>& ray) {
+  const auto [intersects, length_mm] = surface.profile.find_intersection(ray);
+  Crossing<Real> crossing{
+      {ray.origin + ray.direction * length_mm, {}, {}, length_mm}, intersects, true, true};
   crossing.within = within_aperture(surface, crossing.hit.point);
   crossing.hit.normal = surface.profile.normal(crossing.hit.point);
   return crossing;
 }
 
-// Light goes along the ray, `sense` 1, or against it, `sense` -1, from an index to one `eta` times as large.
+// Refracts light that travels along the ray (`sense` 1) or against it (`sense` -1). `eta` is the index behind
+// over that before.
 template <typename Real>
 Crossing<Real> cross_local(const Surface& surface, const BasicRay<Real>& ray, double sense, const Real& eta) {
-  auto crossing = meet_local(surface, ray);
+  auto crossing = intersect_local(surface, ray);
   BasicRayHit<Real>& hit = crossing.hit;
   crossing.refracted = refraction_radicand(Real(hit.normal.dot(ray.direction)), eta) > 0;
   const auto onwards = refract<Real>(-ray.direction * sense, -hit.normal * sense, eta);
@@ -65,7 +67,7 @@ Crossing<Real> cross_local(const Surface& surface, const BasicRay<Real>& ray, do
 
 template <typename Real>
 Crossing<Real> reflect_local(const Surface& surface, const BasicRay<Real>& ray, double sense) {
-  auto crossing = meet_local(surface, ray);
+  auto crossing = intersect_local(surface, ray);
   BasicRayHit<Real>& hit = crossing.hit;
   hit.direction = (ray.direction - hit.normal * Real(2 * ray.direction.dot(hit.normal))) * sense;
   return crossing;
@@ -73,8 +75,7 @@ Crossing<Real> reflect_local(const Surface& surface, const BasicRay<Real>& ray, 
 
 }  // namespace
 
-// What these call is laid into them: most of it is a few instructions on values that would go through memory
-// otherwise.
+// Flattened: the callees are mostly a few instructions, whose values would otherwise pass through memory.
 template <typename Real>
 [[gnu::flatten]] Crossing<Real> cross(const SurfaceBetween<Real>& at, const BasicRay<Real>& ray) {
   auto crossing = cross_local<Real>(at.surface, to_local(at.frame, ray), 1, at.n_behind / at.n_before);
@@ -100,7 +101,7 @@ template <typename Real>
   return crossing;
 }
 
-// Coatings lie on glass, of two glasses on that behind.
+// A coating is on the glass side of a surface; between two glasses it is on the one behind.
 FresnelPower<double> surface_power(const SurfaceBetween<double>& at, double wavelength_nm, double cos_i,
                                    bool forwards) {
   const bool glass_before = !at.surface.behind;
@@ -126,7 +127,7 @@ FresnelPower<Floats> surface_power(const SurfaceBetween<Floats>& at, const Float
 
 namespace {
 
-// What becomes of unit fields along s and p.
+// Amplitudes of unit fields along s and p after a surface.
 template <typename Real>
 struct Amplitudes {
   Real s, p;
@@ -138,8 +139,8 @@ Amplitudes<Real> transmitted(const FresnelPower<Real>& power) {
   return {sqrt(power.Ts), sqrt(power.Tp)};
 }
 
-// The amplitude of reflected p over that of s is negative below Brewster's angle, where the refracted ray and
-// the reflected one are at an obtuse angle.
+// The ratio of the reflected p amplitude to that of s is negative below Brewster's angle, where the refracted
+// and the reflected ray form an obtuse angle.
 template <typename Real>
 Amplitudes<Real> reflected(const FresnelPower<Real>& power, const Real& cos_i, const Real& eta) {
   using abbe::refracted_cosine;
@@ -152,24 +153,24 @@ Amplitudes<Real> reflected(const FresnelPower<Real>& power, const Real& cos_i, c
 }  // namespace
 
 template <typename Real>
-WeakenedLight<Real>::WeakenedLight(const Vec3<Real>& direction) {
+UnpolarisedFields<Real>::UnpolarisedFields(const Vec3<Real>& direction) {
   using std::abs;
-  const Truth<Real> steep = abs(direction.x) < 0.5;
+  const Mask<Real> steep = abs(direction.x) < 0.5;
   first_ = unit(direction.cross(select<Real>(steep, {1, 0, 0}, {0, 1, 0})));
   second_ = direction.cross(first_);
 }
 
 template <typename Real>
-[[gnu::flatten]] void WeakenedLight<Real>::meet(const SurfaceBetween<Real>& at, const Real& wavelength_nm,
-                                                const Vec3<Real>& from, const BasicRayHit<Real>& hit,
-                                                Encounter how) {
+[[gnu::flatten]] void UnpolarisedFields<Real>::apply(const SurfaceBetween<Real>& at,
+                                                     const Real& wavelength_nm, const Vec3<Real>& from,
+                                                     const BasicRayHit<Real>& hit, Encounter how) {
   const bool bare = at.surface.coating.layers.empty();
-  const Truth<Real> differs = at.n_before < at.n_behind || at.n_before > at.n_behind;
-  if (bare && !differs) {  // as at a stop
+  const Mask<Real> differs = at.n_before < at.n_behind || at.n_before > at.n_behind;
+  if (bare && !differs) {  // such as a stop
     if (how.reflects) first_ = second_ = Vec3<Real>(0);
     return;
   }
-  // A ray that grazes the surface may seem to come from behind it by rounding.
+  // Rounding can move a grazing ray to the other side of the surface.
   constexpr double kGrazing = 1e-30;
   const Real cosine = how.forwards ? from.dot(hit.normal) : -from.dot(hit.normal);
   const Real cos_i = select(cosine > kGrazing, select(cosine < 1, cosine, 1), kGrazing);
@@ -180,14 +181,14 @@ template <typename Real>
   };
   const Amplitudes<Real> along =
       how.reflects ? reflected<Real>(power(), cos_i, eta) : transmitted<Real>(power());
-  // Along s and p, whose lengths are those of what s is found from.
+  // Vectors along s and p. They are not normalised: their lengths are that of the cross product.
   const Vec3<Real> across = from.cross(hit.normal);
   const Vec3<Real> s = select<Real>(across.dot(across) > 0, across, hit.normal.cross(first_));
   const Vec3<Real> p_before = s.cross(from);
   const Real over_length2 = Real(1) / s.dot(s);
   const Vec3<Real> s_behind = s * Real(along.s * over_length2);
   const Vec3<Real> p_behind = s.cross(hit.direction) * Real(along.p * over_length2);
-  const Truth<Real> acts = differs || Truth<Real>(!bare || how.reflects);
+  const Mask<Real> acts = differs || Mask<Real>(!bare || how.reflects);
   const auto behind = [&](const Vec3<Real>& field) {
     return select<Real>(acts, s_behind * field.dot(s) + p_behind * field.dot(p_before), field);
   };
@@ -204,7 +205,7 @@ template Crossing<Floats> cross_back(const SurfaceBetween<Floats>&, const BasicR
 template Crossing<double> reflect(const SurfaceBetween<double>&, const Ray&, bool);
 template Crossing<Doubles> reflect(const SurfaceBetween<Doubles>&, const BasicRay<Doubles>&, bool);
 template Crossing<Floats> reflect(const SurfaceBetween<Floats>&, const BasicRay<Floats>&, bool);
-template class WeakenedLight<double>;
-template class WeakenedLight<Floats>;
+template class UnpolarisedFields<double>;
+template class UnpolarisedFields<Floats>;
 
 }  // namespace abbe::lens

@@ -3,11 +3,11 @@
 #include "lens/route.h"
 #include "lens/system.h"
 
-// What a surface does to a ray, for one ray or for several: templates are there for `double`, `Doubles` and
-// `Floats`, of light for `double` and `Floats`.
+// Effect of a surface on one ray or several. Templates are instantiated for `double`, `Doubles` and `Floats`,
+// and `UnpolarisedFields` for `double` and `Floats`.
 namespace abbe::lens {
 
-/// A surface where it stands, between the indices before and behind it.
+/// A surface at its position, with the indices before and behind it.
 template <typename Real>
 struct SurfaceBetween {
   const Surface& surface;
@@ -16,63 +16,62 @@ struct SurfaceBetween {
   Real n_behind;
 };
 
-/// Where a ray passes a surface.
+/// Intersection of a ray with a surface.
 template <typename Real>
 struct BasicRayHit {
   Imath::Vec3<Real> point;      ///< On the surface.
-  Imath::Vec3<Real> normal;     ///< Unit, towards +z.
-  Imath::Vec3<Real> direction;  ///< Behind the surface.
-  Real length_mm;               ///< From the last surface, or from the ray's origin.
+  Imath::Vec3<Real> normal;     ///< Unit vector, towards +z.
+  Imath::Vec3<Real> direction;  ///< Direction after the surface.
+  Real length_mm;               ///< Length from the last surface or the origin of the ray.
 };
 using RayHit = BasicRayHit<double>;
 
-/// A ray at a surface. Where it does not meet it or is totally reflected, `hit` says nothing of use.
+/// Result of tracing a ray to a surface. `hit` is meaningless if the ray misses it or is totally reflected.
 template <typename Real>
 struct Crossing {
   BasicRayHit<Real> hit;
-  Truth<Real> met;
-  Truth<Real> within;     ///< The clear aperture.
-  Truth<Real> refracted;  ///< Not totally reflected.
+  Mask<Real> intersects;
+  Mask<Real> within;     ///< True if the hit is inside the clear aperture.
+  Mask<Real> refracted;  ///< False for total reflection.
 };
 
-/// Takes a ray through a surface.
+/// Refracts a ray that travels towards +z.
 template <typename Real>
 [[nodiscard]] Crossing<Real> cross(const SurfaceBetween<Real>& at, const BasicRay<Real>& ray);
 
-/// The same of a ray that goes the other way, towards -z; its direction in `hit` is that before the surface,
-/// and the length is as negative as it is long.
+/// Refracts a ray that travels towards -z. The direction in `hit` is that before the surface, and the length
+/// is negative.
 template <typename Real>
 [[nodiscard]] Crossing<Real> cross_back(const SurfaceBetween<Real>& at, const BasicRay<Real>& ray);
 
-/// The same of a ray that the surface reflects, on its way towards +z if it goes `forwards`, else towards -z.
+/// Reflects a ray. `forwards` is true if it arrives travelling towards +z.
 template <typename Real>
 [[nodiscard]] Crossing<Real> reflect(const SurfaceBetween<Real>& at, const BasicRay<Real>& ray,
                                      bool forwards);
 
-/// What the surface, with its coating, reflects and lets through of light that comes to it on its way towards
-/// +z, or, if not `forwards`, towards -z.
+/// Reflectance and transmittance of a surface with its coating, for light that arrives travelling towards +z
+/// (`forwards`) or -z.
 [[nodiscard]] FresnelPower<double> surface_power(const SurfaceBetween<double>& at, double wavelength_nm,
                                                  double cos_i, bool forwards);
-/// The same of the lanes of a packet.
+/// Reflectance and transmittance at the wavelengths of two packets.
 [[nodiscard]] FresnelPower<Floats> surface_power(const SurfaceBetween<Floats>& at,
                                                  const Floats& wavelengths_nm, const Floats& cos_i,
                                                  bool forwards);
 
-/// Unpolarised light on its way through surfaces: two fields across each other, s and p of which every
-/// surface weakens by its own amplitudes. Of coatings and of total reflection the phases are left out, so
-/// that beyond them s and p keep the phase they had; but reflected p is turned against s below Brewster's
-/// angle.
+/// Unpolarised light on its path through surfaces, as two orthogonal fields. Every surface attenuates their s
+/// and p components by its own amplitudes. The phases of coatings and of total reflection are ignored, so s
+/// and p keep their relative phase. Reflection below Brewster's angle reverses p relative to s.
 template <typename Real>
-class WeakenedLight {
+class UnpolarisedFields {
  public:
-  explicit WeakenedLight(const Imath::Vec3<Real>& direction);
-  /// Meets a surface, coming along `from`.
-  void meet(const SurfaceBetween<Real>& at, const Real& wavelength_nm, const Imath::Vec3<Real>& from,
-            const BasicRayHit<Real>& hit, Encounter how);
-  /// Share of the power that is left.
+  explicit UnpolarisedFields(const Imath::Vec3<Real>& direction);
+  /// Applies a surface to light that arrives in direction `from`.
+  void apply(const SurfaceBetween<Real>& at, const Real& wavelength_nm, const Imath::Vec3<Real>& from,
+             const BasicRayHit<Real>& hit, Encounter how);
+  /// Remaining fraction of the power.
   [[nodiscard]] Real power() const { return (first_.dot(first_) + second_.dot(second_)) * 0.5; }
-  /// What has become of a unit field along the first axis, and of one along the second, which is the
-  /// direction at the start x the first.
+  /// Fields that began as unit vectors along two axes. The second axis is the cross product of the initial
+  /// direction and the first.
   [[nodiscard]] const Imath::Vec3<Real>& first() const { return first_; }
   [[nodiscard]] const Imath::Vec3<Real>& second() const { return second_; }
 

@@ -14,53 +14,54 @@ namespace {
 using V2d = Imath::V2d;
 
 constexpr int kRadii = 64;
-constexpr int kCells = 16;               // along a side, of systems with displaced surfaces
-constexpr double kWider = 1.02;          // than the rim found at some points and wavelengths
-constexpr double kInwards = 0.99;        // of cosines, likewise
-constexpr double kLeastForward = 0.052;  // cosine of 87 degrees
-constexpr int kPlanes = 65;              // that the disc in front may lie in
-constexpr int kEdgeBisections = 6;       // towards where light ends between two points of the image
+constexpr int kCells = 16;                   // per side, for systems with displaced surfaces
+constexpr double kMargin = 1.02;             // for rims between the traced points and wavelengths
+constexpr double kCosineMargin = 0.99;       // the corresponding factor for cosines
+constexpr double kMinForwardCosine = 0.052;  // cosine of 87 degrees
+constexpr int kPlanes = 65;                  // candidate planes of the entrance disc
+constexpr int kEdgeBisections = 6;           // to locate the edge of the image between two of its points
 
-// The pupil as a point of the image sees it, at all wavelengths; no points where no light comes.
-struct SeenFrom {
+// Exit pupil at all wavelengths from a point of the image. Empty if no light arrives there.
+struct PupilView {
   V2d image;
   std::vector<V2d> points;
 
-  [[nodiscard]] bool is_lit() const { return !points.empty(); }
+  [[nodiscard]] bool is_illuminated() const { return !points.empty(); }
 };
 
-// The points of some pupils, and where their rays come in.
-class Findings {
+// Collects the pupils of several image points, and bounds the rays that enter the lens.
+class PupilCollector {
  public:
-  Findings(const SpectralSystem& system, std::span<const double> wavelengths_nm)
+  PupilCollector(const SpectralSystem& system, std::span<const double> wavelengths_nm)
       : system_(system), wavelengths_nm_(wavelengths_nm) {
     const double length = system.last_z() + system.stop_radius_mm();
     for (int i = 0; i < kPlanes; ++i) planes_.push_back({length * i / (kPlanes - 1), 0});
   }
 
-  SeenFrom seen_from(const V2d& image) {
+  PupilView view_from(const V2d& image) {
     std::vector<V2d> points;
     for (const double nm : wavelengths_nm_) {
-      const SeenPupil seen = search_pupil(system_, image, nm);
-      points.insert(points.end(), seen.points.begin(), seen.points.end());
-      for (const Ray& ray : seen.leaving) add(ray);
+      const VisiblePupil pupil = search_pupil(system_, image, nm);
+      points.insert(points.end(), pupil.points.begin(), pupil.points.end());
+      for (const Ray& ray : pupil.leaving) add(ray);
     }
     const double depth = system_.image_z() - system_.last_z();
     for (const V2d& point : points)
-      least_cosine_ = std::min(least_cosine_, depth / std::hypot(depth, (point - image).length()));
+      min_cosine_ = std::min(min_cosine_, depth / std::hypot(depth, (point - image).length()));
     return {image, std::move(points)};
   }
 
-  // From next to where light ends between two points of the image; nothing where it does not end there.
-  std::vector<SeenFrom> rim_between(const SeenFrom& a, const SeenFrom& b) {
-    if (a.is_lit() == b.is_lit()) return {};
-    V2d lit = a.is_lit() ? a.image : b.image;
-    V2d dark = a.is_lit() ? b.image : a.image;
-    std::vector<SeenFrom> rim;
+  // View from a point next to the edge of the illuminated image between two points; empty if there is no edge
+  // between them.
+  std::vector<PupilView> rim_between(const PupilView& a, const PupilView& b) {
+    if (a.is_illuminated() == b.is_illuminated()) return {};
+    V2d illuminated = a.is_illuminated() ? a.image : b.image;
+    V2d dark = a.is_illuminated() ? b.image : a.image;
+    std::vector<PupilView> rim;
     for (int i = 0; i < kEdgeBisections; ++i) {
-      SeenFrom middle = seen_from((lit + dark) / 2);
-      (middle.is_lit() ? lit : dark) = middle.image;
-      if (middle.is_lit()) rim = {std::move(middle)};
+      PupilView halfway = view_from((illuminated + dark) / 2);
+      (halfway.is_illuminated() ? illuminated : dark) = halfway.image;
+      if (halfway.is_illuminated()) rim = {std::move(halfway)};
     }
     return rim;
   }
@@ -70,15 +71,15 @@ class Findings {
     EntranceDisc best = planes_.front();
     for (const EntranceDisc& plane : planes_)
       if (plane.radius < best.radius) best = plane;
-    return {best.z, best.radius * kWider};
+    return {best.z, best.radius * kMargin};
   }
-  [[nodiscard]] double least_cosine() const { return least_cosine_ * kInwards; }
+  [[nodiscard]] double min_cosine() const { return min_cosine_ * kCosineMargin; }
 
  private:
   void add(const Ray& leaving) {
-    if (-leaving.direction.z < kLeastForward)
+    if (-leaving.direction.z < kMinForwardCosine)
       throw Error(ErrorCode::scene, system_.system().title,
-                  "the film sees more than 87 degrees off the axis of the lens (allowed less)");
+                  "the field extends more than 87 degrees from the axis of the lens (allowed less)");
     for (EntranceDisc& plane : planes_) {
       const Imath::V3d at =
           leaving.origin + (plane.z - leaving.origin.z) / leaving.direction.z * leaving.direction;
@@ -89,10 +90,10 @@ class Findings {
   const SpectralSystem& system_;
   std::span<const double> wavelengths_nm_;
   std::vector<EntranceDisc> planes_;
-  double least_cosine_ = 1;
+  double min_cosine_ = 1;
 };
 
-// An ellipse around points, its axes those of their box.
+// Ellipse around points, with the axes of their bounding box.
 PupilBound around(const std::vector<V2d>& points) {
   PupilBound bound;
   if (points.empty()) return bound;
@@ -102,20 +103,20 @@ PupilBound around(const std::vector<V2d>& points) {
   bound.semi = box.size() / 2;
   double largest = 0;
   for (const V2d& point : points) largest = std::max(largest, ((point - bound.center) / bound.semi).length());
-  bound.semi *= largest * kWider;
+  bound.semi *= largest * kMargin;
   return bound;
 }
 
-// An ellipse around what points of the image near `middle` see, as that sees it if pupils move by `shift`
-// times as much as who looks.
-PupilBound around(std::span<const SeenFrom> seen, const V2d& middle, double shift) {
+// Ellipse around the pupils of image points near `center`, as seen from there. A pupil moves by `shift` times
+// the movement of the image point.
+PupilBound around(std::span<const PupilView> views, const V2d& center, double shift) {
   std::vector<V2d> points;
-  for (const SeenFrom& from : seen)
-    for (const V2d& point : from.points) points.push_back(point - shift * (from.image - middle));
+  for (const PupilView& from : views)
+    for (const V2d& point : from.points) points.push_back(point - shift * (from.image - center));
   return around(points);
 }
 
-void append(std::vector<SeenFrom>& all, const std::vector<SeenFrom>& more) {
+void append(std::vector<PupilView>& all, const std::vector<PupilView>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
@@ -141,11 +142,11 @@ ExitPupil::ExitPupil(const SpectralSystem& system, const V2d& half_image_mm, dou
                         : 2.0 * half_image_mm / V2d(columns_, rows_)),
       shift_(pupil_shift(system, (low_nm + high_nm) / 2)) {
   const std::array<double, 3> wavelengths_nm{low_nm, (low_nm + high_nm) / 2, high_nm};
-  // Of which the bounds along a radius are those all around.
+  // A round stop, so that the bounds along a radius are valid in all directions.
   const SpectralSystem round(with_round_stop(system.system()), system.stop_radius_mm());
   centred_ ? bound_along_radius(round, wavelengths_nm) : bound_all_over(round, wavelengths_nm);
   if (std::all_of(bounds_.begin(), bounds_.end(), [](const PupilBound& b) { return !(b.area() > 0); }))
-    throw Error(ErrorCode::scene, system.system().title, "no light comes through the lens to the film");
+    throw Error(ErrorCode::scene, system.system().title, "the lens transmits no light to the film");
 }
 
 V2d ExitPupil::at(double column, double row) const {
@@ -153,46 +154,46 @@ V2d ExitPupil::at(double column, double row) const {
 }
 
 void ExitPupil::bound_along_radius(const SpectralSystem& system, std::span<const double> wavelengths_nm) {
-  Findings findings(system, wavelengths_nm);
-  SeenFrom before = findings.seen_from(at(0, 0));
+  PupilCollector collector(system, wavelengths_nm);
+  PupilView before = collector.view_from(at(0, 0));
   for (int i = 1; i <= columns_; ++i) {
-    SeenFrom here = findings.seen_from(at(i, 0));
-    std::vector<SeenFrom> seen = findings.rim_between(before, here);
-    append(seen, {std::move(before), here});
-    bounds_.push_back(around(seen, at(i - 0.5, 0), shift_));
+    PupilView here = collector.view_from(at(i, 0));
+    std::vector<PupilView> views = collector.rim_between(before, here);
+    append(views, {std::move(before), here});
+    bounds_.push_back(around(views, at(i - 0.5, 0), shift_));
     before = std::move(here);
   }
-  entrance_ = findings.entrance();
-  least_cosine_ = findings.least_cosine();
+  entrance_ = collector.entrance();
+  min_cosine_ = collector.min_cosine();
 }
 
 void ExitPupil::bound_all_over(const SpectralSystem& system, std::span<const double> wavelengths_nm) {
-  Findings findings(system, wavelengths_nm);
+  PupilCollector collector(system, wavelengths_nm);
   const auto index = [this](int i, int j) { return static_cast<std::size_t>(j * (columns_ + 1) + i); };
-  std::vector<SeenFrom> corners;
+  std::vector<PupilView> corners;
   for (int j = 0; j <= rows_; ++j)
-    for (int i = 0; i <= columns_; ++i) corners.push_back(findings.seen_from(at(i, j)));
-  // Where light ends on the edges that leave a corner in x and in y.
-  std::vector<std::vector<SeenFrom>> ends_in_x(corners.size());
-  std::vector<std::vector<SeenFrom>> ends_in_y(corners.size());
+    for (int i = 0; i <= columns_; ++i) corners.push_back(collector.view_from(at(i, j)));
+  // Edges of the illuminated image on the sides of the cells that leave a corner along x and y.
+  std::vector<std::vector<PupilView>> ends_in_x(corners.size());
+  std::vector<std::vector<PupilView>> ends_in_y(corners.size());
   for (int j = 0; j <= rows_; ++j)
     for (int i = 0; i <= columns_; ++i) {
       const std::size_t here = index(i, j);
-      if (i < columns_) ends_in_x[here] = findings.rim_between(corners[here], corners[index(i + 1, j)]);
-      if (j < rows_) ends_in_y[here] = findings.rim_between(corners[here], corners[index(i, j + 1)]);
+      if (i < columns_) ends_in_x[here] = collector.rim_between(corners[here], corners[index(i + 1, j)]);
+      if (j < rows_) ends_in_y[here] = collector.rim_between(corners[here], corners[index(i, j + 1)]);
     }
   for (int j = 0; j < rows_; ++j)
     for (int i = 0; i < columns_; ++i) {
-      std::vector<SeenFrom> seen{corners[index(i, j)], corners[index(i + 1, j)], corners[index(i, j + 1)],
-                                 corners[index(i + 1, j + 1)]};
-      append(seen, ends_in_x[index(i, j)]);
-      append(seen, ends_in_x[index(i, j + 1)]);
-      append(seen, ends_in_y[index(i, j)]);
-      append(seen, ends_in_y[index(i + 1, j)]);
-      bounds_.push_back(around(seen, at(i + 0.5, j + 0.5), shift_));
+      std::vector<PupilView> views{corners[index(i, j)], corners[index(i + 1, j)], corners[index(i, j + 1)],
+                                   corners[index(i + 1, j + 1)]};
+      append(views, ends_in_x[index(i, j)]);
+      append(views, ends_in_x[index(i, j + 1)]);
+      append(views, ends_in_y[index(i, j)]);
+      append(views, ends_in_y[index(i + 1, j)]);
+      bounds_.push_back(around(views, at(i + 0.5, j + 0.5), shift_));
     }
-  entrance_ = findings.entrance();
-  least_cosine_ = findings.least_cosine();
+  entrance_ = collector.entrance();
+  min_cosine_ = collector.min_cosine();
 }
 
 PupilBound ExitPupil::bound(const V2d& image) const {

@@ -14,7 +14,7 @@ namespace {
 using V2d = Imath::V2d;
 
 constexpr double kFirstZeroOfJ1 = 3.8317059702075123;
-constexpr double kFieldDifference = 1e-3;  // degrees, of near objects as seen from the first vertex
+constexpr double kFieldDifference = 1e-3;  // degrees; for near objects, as seen from the first vertex
 
 std::optional<RayPath> traced(const Beam& beam, const V2d& pupil, Apertures apertures) {
   const auto launched = beam.aim(pupil);
@@ -28,17 +28,17 @@ std::optional<RayPath> chief_path(const SystemAt& at, double field, double stop_
   return beam ? traced(*beam, {0, 0}, Apertures::ignored) : std::nullopt;
 }
 
-// What is said of the rays through the right, left, upper and lower end of the stop.
+// Values for the rays through the right, left, upper and lower edge of the stop.
 using Ends = std::array<V2d, 4>;
 
-// Of the circle as large as the ellipse that has these ends of two conjugate diameters.
+// Radius of the circle with the area of an ellipse, given the ends of two conjugate diameters.
 double mean_radius(const Ends& ends) {
   return std::sqrt(std::abs((ends[0] - ends[1]).cross(ends[2] - ends[3]))) / 2;
 }
 
 struct Rim {
-  Ends launch_mm;      // where they cross the launch plane
-  Ends image_cosines;  // of their directions at the image, along x and y
+  Ends launch_mm;      // points in the launch plane
+  Ends image_cosines;  // direction cosines at the image, along x and y
 };
 
 std::optional<Rim> rim_of(const Beam& beam) {
@@ -56,10 +56,10 @@ std::optional<Rim> rim_of(const Beam& beam) {
   return rim;
 }
 
-// Of the axial beam's widths, that in the paraxial entrance pupil over that in the launch plane. Light of an
-// object at infinity has the same width in every plane, a pupil at infinity included. A pupil that is so far
-// away that its chief rays are parallel to what digits of a prescription tell has no width. As objects may
-// touch a lens, far is by its length too.
+// Ratio of the width of the axial beam in the paraxial entrance pupil to that in the launch plane. Light of
+// an object at infinity has the same width everywhere, even in a pupil at infinity. The width is infinite for
+// a pupil so far away that its chief rays are parallel to the precision of a prescription. Objects can be
+// very close to a lens, so this distance also scales with the length of the lens.
 double pupil_over_launch(const SystemAt& at) {
   constexpr double kFar = 1e4;
   const auto& distance = at.system->object_distance_mm;
@@ -70,18 +70,19 @@ double pupil_over_launch(const SystemAt& at) {
                                                               : std::numeric_limits<double>::infinity();
 }
 
-// Of the power that would fill the round stop, what the image has: `round` tells it without blades, whose
-// share is exact where nothing else cuts the beam. Cells of a spot tell it less well.
-double share_at_image(const SystemAt& at, double stop_radius_mm, const Spot& round, int side) {
+// Fraction of the power through the round stop that arrives at the image. `round` is the spot without blades.
+// If nothing else cuts the beam, the area fraction of the iris is exact. The cells of a spot are less
+// accurate.
+double fraction_at_image(const SystemAt& at, double stop_radius_mm, const Spot& round, int side) {
   const auto& iris = at.surface(at.system->stop).iris;
   if (!iris) return round.transmitted / round.filled;
-  if (round.passed == round.filled) return round.transmitted / round.filled * iris->share();
+  if (round.passed == round.filled) return round.transmitted / round.filled * iris->area_fraction();
   const auto beam = Beam::of(at, 0, stop_radius_mm);
   const Spot bladed = spot(*beam, 0, side);
   return bladed.transmitted / bladed.filled;
 }
 
-// What the height of the real chief ray, which comes in that direction, is compared with.
+// Reference for the height of the real chief ray `real`.
 double ideal_height(const SystemAt& at, double field, const Imath::V3d& real) {
   constexpr double kNear = 0.1;  // of the focal length
   const FirstOrder first = first_order(at);
@@ -111,7 +112,7 @@ std::optional<Speed> speed(const SystemAt& at, double stop_radius_mm, int side) 
                        : std::numeric_limits<double>::quiet_NaN();
   speed.working_f_number = 1 / (2 * at.n.back() * mean_radius(rim->image_cosines));
   speed.transmittance = axial.transmitted / axial.passed;
-  speed.t_stop = speed.f_number / std::sqrt(share_at_image(at, stop_radius_mm, axial, side));
+  speed.t_stop = speed.f_number / std::sqrt(fraction_at_image(at, stop_radius_mm, axial, side));
   speed.airy_radius_um = kFirstZeroOfJ1 / std::numbers::pi * at.wavelength_nm * 1e-3 * speed.working_f_number;
   return speed;
 }
@@ -145,7 +146,7 @@ std::optional<double> relative_illumination(const SystemAt& at, double field, do
   constexpr double kDegree = std::numbers::pi / 180;
   const double unit = distance ? 1 : kDegree;
   const double h = distance ? *distance * kFieldDifference * kDegree : kFieldDifference;
-  std::array<double, 4> y{};  // of the chief rays beside the field, and beside the axis
+  std::array<double, 4> y{};  // of the chief rays on both sides of the field point, and of the axis
   const std::array<double, 4> fields{field - h, field + h, -h, h};
   for (std::size_t i = 0; i < y.size(); ++i) {
     const auto path = chief_path(at, fields[i], stop_radius_mm);

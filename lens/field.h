@@ -8,50 +8,53 @@
 
 namespace abbe::lens {
 
-/// How fast a lens is on its axis, at one wavelength. Of displaced surfaces its beam is an ellipse: it counts
-/// as the circle of the same area.
+/// Speed of a lens on its axis at one wavelength. With displaced surfaces, the elliptical beam counts as the
+/// circle of equal area.
 struct Speed {
-  double entrance_diameter_mm;  ///< Of the real axial beam at the entrance pupil.
-  double launch_diameter_mm;    ///< The same in the plane where `Beam` counts rays.
-  double f_number;              ///< Focal length over the former; not a number where that is infinite.
-  double working_f_number;      ///< 1/(2 n' sin U'): U' of the real marginal ray, sin^2 U' the area that the
-                                ///< direction cosines of the beam along x and y fill, over pi.
-  double transmittance;         ///< Mean over the axial beam.
-  double t_stop;                ///< f-number over the root of the share of the power through the round stop
-                                ///< that blades, clear apertures and the transmittance leave.
-  double airy_radius_um;        ///< Of the first dark ring, 0.6098 lambda/(n' sin U'). [Born1999]
+  double entrance_diameter_mm;  ///< Diameter of the real axial beam at the entrance pupil.
+  double launch_diameter_mm;    ///< Its diameter in the launch plane of `Beam`.
+  double f_number;              ///< Focal length over `entrance_diameter_mm`; NaN if that is infinite.
+  double working_f_number;  ///< 1/(2 n' sin U'), U' of the real marginal ray. pi sin^2 U' is the area of the
+                            ///< direction cosines of the beam along x and y.
+  double transmittance;     ///< Mean over the axial beam.
+  double t_stop;  ///< f-number / sqrt(T), T being the fraction of the power through the round stop that
+                  ///< arrives at the image.
+  double airy_radius_um;  ///< First dark ring, 0.6098 lambda/(n' sin U') [Born1999].
 };
-/// Nothing where the axial beam does not get to the image.
+/// Speed of a lens from a spot of `side` x `side` cells. Nothing if the axial beam does not arrive at the
+/// image.
 [[nodiscard]] std::optional<Speed> speed(const SystemAt& at, double stop_radius_mm, int side);
 
-/// The way of a ray along the rim of the axial beam that does not get to the image, clear apertures obeyed;
-/// nothing where the beam passes whole, to within `kNominalRounding` of the stop's radius.
+/// Path of a ray at the rim of the axial beam that a clear aperture or surface stops. Nothing if the whole
+/// beam arrives, to within `kNominalRounding` of the stop radius.
 [[nodiscard]] std::optional<RayPath> cut_rim_ray(const SystemAt& at, double stop_radius_mm);
 
-/// The chief ray of a field in the plane of the image.
+/// Chief ray of a field in the image plane.
 struct Chief {
-  double height_mm;                  ///< y there.
-  std::optional<double> distortion;  ///< Share by which it is off the paraxial height; none where that is 0,
-                                     ///< and of directions of 90 degrees and more.
+  double height_mm;                  ///< y coordinate.
+  std::optional<double> distortion;  ///< Relative deviation from the paraxial height; nothing if that is 0,
+                                     ///< or for directions of 90 degrees and more.
 };
-/// Where the image is off the paraxial focus the paraxial height is moved along the real chief ray.
+/// Traces the chief ray of a field. If the image is not at the paraxial focus, the paraxial height is moved
+/// along the real chief ray.
 [[nodiscard]] std::optional<Chief> chief_ray(const SystemAt& at, double field, double stop_radius_mm);
 
-/// Irradiance of the image of an evenly bright object at a field, over that on the axis, apertures and losses
-/// counted: the power P of the beam over the area of the image that its element of the object fills,
+/// Irradiance of the image of a uniform object at a field, relative to the axis, including apertures and
+/// losses. It is the power P of the beam divided by the image area of the object element:
 ///
-///   E(t)/E(0) = P(t)/P(0) sin t (dy/dt)^2_0/(y dy/dt),   E(h)/E(0) = P(h)/P(0) h (dy/dh)^2_0/(y dy/dh),
+///   E(t)/E(0) = P(t)/P(0) sin t (dy/dt)^2_0/(y dy/dt)  for directions t,
+///   E(h)/E(0) = P(h)/P(0) h (dy/dh)^2_0/(y dy/dh)      for heights h.
 ///
-/// for directions t and heights h of objects, y the chief ray's height. Of systems with displaced surfaces,
-/// and where a beam does not get to the image, none.
+/// y is the height of the chief ray. Nothing for systems with displaced surfaces, and if a beam does not
+/// arrive at the image.
 [[nodiscard]] std::optional<double> relative_illumination(const SystemAt& at, double field,
                                                           double stop_radius_mm, const Spot& there,
                                                           const Spot& on_axis);
 
-/// Errors of rays along the tangential (y) and the sagittal (x) diameter of the stop, against the chief ray
-/// of the primary wavelength [mm]; nothing where a ray does not get through.
+/// Transverse ray errors [mm] along the tangential (y) and sagittal (x) diameter of the stop, relative to the
+/// chief ray of the primary wavelength. Nothing for rays that do not arrive.
 struct RayFan {
-  std::vector<double> pupil;  ///< In radii of the stop, from -1 to 1.
+  std::vector<double> pupil;  ///< Pupil coordinates in radii of the stop, from -1 to 1.
   std::vector<std::optional<double>> tangential;
   std::vector<std::optional<double>> sagittal;
 };

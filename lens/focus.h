@@ -4,12 +4,12 @@
 
 namespace abbe::lens {
 
-/// The spots of every field, each at all wavelengths of the system; a beam that does not get through has
-/// none.
+/// Spots of every field at all wavelengths of the system. A beam that does not arrive has an empty spot.
 [[nodiscard]] std::vector<std::vector<Spot>> all_spots(const System& system, double stop_radius_mm, int side);
 
-/// How far the image must move towards +z for the least mean square of the spots of all fields, each at all
-/// wavelengths about its own centroid [mm]; nothing where the rays of every field are parallel, or none.
+/// Displacement of the image plane towards +z [mm] that minimises the mean square radius of the spots of all
+/// fields. The spots of a field at all wavelengths have a common centroid. Nothing if the rays of every field
+/// are parallel or missing.
 [[nodiscard]] std::optional<double> best_focus(const System& system);
 
 }  // namespace abbe::lens

@@ -4,37 +4,38 @@
 
 namespace abbe::lens {
 
-inline constexpr int kLeastBlades = 3;
-inline constexpr int kMostBlades = 32;
+inline constexpr int kMinBlades = 3;
+inline constexpr int kMaxBlades = 32;
 
-/// What straight blades leave of the round opening of a stop: the regular polygon inscribed in its circle,
-/// with a corner for each blade. Points are in radii of the circle from its middle, x to the right of who
-/// looks out of the camera and y up.
+/// Opening of a stop with straight blades: the regular polygon inscribed in its circle, with one corner per
+/// blade. Points are in radii of the circle from its center, x to the right for a viewer who looks out of the
+/// camera, y up.
 class Iris {
  public:
-  /// `blades` in [`kLeastBlades`, `kMostBlades`]. A corner is up, or turned from there by `rotation_deg`
-  /// clockwise, as the camera looks.
+  /// `blades` in [`kMinBlades`, `kMaxBlades`]. One corner points up, rotated by `rotation_deg` clockwise in
+  /// the viewing direction of the camera.
   Iris(int blades, double rotation_deg);
 
-  /// Whether light passes there.
+  /// True if light passes at the point.
   [[nodiscard]] bool contains(const Imath::V2d& point) const;
-  /// Area of the polygon over that of the circle, N/(2 pi) sin(2 pi/N) of N blades.
-  [[nodiscard]] double share() const;
-  /// The point of the polygon that one of the unit disc stands for. Equal areas stand for equal ones, the
-  /// middle for the middle, and what is near stays near.
+  /// Area of the polygon over that of the circle: N/(2 pi) sin(2 pi/N) for N blades.
+  [[nodiscard]] double area_fraction() const;
+  /// Maps a point of the unit disc to the polygon, continuously and with equal areas. The center maps to the
+  /// center.
   [[nodiscard]] Imath::V2d point(const Imath::V2d& disc) const;
 
  private:
-  /// A point by the blade that is next to it.
-  struct Beside {
+  /// Polar coordinates of a point relative to the nearest blade.
+  struct BladeCoordinates {
     double radius;
-    double angle;        ///< From the middle of the blade's edge, clockwise, no more than `half_angle_`.
-    double blade_angle;  ///< From up, clockwise, of that middle.
+    double
+        angle;  ///< Angle from the center of the blade's edge, clockwise, at most `half_angle_` in magnitude.
+    double blade_angle;  ///< Direction of that center, clockwise from up.
   };
-  [[nodiscard]] Beside beside_blade(const Imath::V2d& point) const;
+  [[nodiscard]] BladeCoordinates blade_coordinates(const Imath::V2d& point) const;
 
   double rotation_;
-  double half_angle_;  ///< Of an edge, seen from the middle.
+  double half_angle_;  ///< Half of the angle of an edge at the center.
 };
 
 }  // namespace abbe::lens

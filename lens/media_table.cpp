@@ -29,20 +29,20 @@ MediaTable::MediaTable(const System& system) : absorbs_(system.surfaces.size() +
 }
 
 template <typename Real>
-MediaTable::Place<Real> MediaTable::place(const Real& wavelength_nm) const {
-  Place<Real> place;
-  place.share = by_lane<Real>([&](int j) {
+MediaTable::Coordinate<Real> MediaTable::coordinate(const Real& wavelength_nm) const {
+  Coordinate<Real> coordinate;
+  coordinate.fraction = by_lane<Real>([&](int j) {
     const double x = std::clamp(static_cast<double>(lane_of(wavelength_nm, j)) - kMinWavelengthNm, 0.0,
                                 double{kTableCells});
     const int cell = std::min(static_cast<int>(x), kTableCells - 1);
-    place.row[static_cast<std::size_t>(j)] = &values_[columns() * static_cast<std::size_t>(cell)];
+    coordinate.row[static_cast<std::size_t>(j)] = &values_[columns() * static_cast<std::size_t>(cell)];
     return x - cell;
   });
-  return place;
+  return coordinate;
 }
 
-template MediaTable::Place<double> MediaTable::place(const double&) const;
-template MediaTable::Place<Doubles> MediaTable::place(const Doubles&) const;
-template MediaTable::Place<Floats> MediaTable::place(const Floats&) const;
+template MediaTable::Coordinate<double> MediaTable::coordinate(const double&) const;
+template MediaTable::Coordinate<Doubles> MediaTable::coordinate(const Doubles&) const;
+template MediaTable::Coordinate<Floats> MediaTable::coordinate(const Floats&) const;
 
 }  // namespace abbe::lens

@@ -6,68 +6,70 @@
 #include <ImathVec.h>
 
 #include "materials/interface/snell.h"
-#include "spectral/packet.h"
+#include "spectral/sampled_spectrum.h"
 
 namespace abbe::lens {
 
-/// What holds for each of some numbers. As a condition it holds if it does for any, so that formulas written
-/// for one number go on for all of them.
+/// Results of comparing several numbers. As a condition it is true if any of them is true, so that formulas
+/// for one number apply to several.
 template <typename Scalar, int Count>
-class TruthsOf;
+class MaskOf;
 
-/// So many numbers, held as vectors of the machine: a number type for the formulas of one ray, which then
-/// trace as many rays at once.
+/// `Count` numbers in SIMD registers: a number type for the formulas of one ray, which then trace `Count`
+/// rays at once.
 template <typename Scalar, int Count>
 class NumbersOf {
  public:
   static constexpr int kCount = Count;
   static constexpr int kBytes = 32;
-  static constexpr int kOfPart = kBytes / sizeof(Scalar);
-  static constexpr int kParts = Count / kOfPart;
-  using Part [[gnu::vector_size(kBytes)]] = Scalar;
-  using Truths = TruthsOf<Scalar, Count>;
+  static constexpr int kPerRegister = kBytes / sizeof(Scalar);
+  static constexpr int kRegisters = Count / kPerRegister;
+  using Register [[gnu::vector_size(kBytes)]] = Scalar;
+  using Masks = MaskOf<Scalar, Count>;
 
   NumbersOf() = default;
-  NumbersOf(double value) {  // not explicit, so that constants stand in formulas as they do for one number
-    for (Part& part : parts_) part = static_cast<Scalar>(value) - Part{};
+  NumbersOf(double value) {  // not explicit, so that formulas can use constants
+    for (Register& reg : registers_) reg = static_cast<Scalar>(value) - Register{};
   }
-  [[nodiscard]] Scalar operator[](int lane) const { return parts_[lane / kOfPart][lane % kOfPart]; }
-  void set(int lane, Scalar value) { parts_[lane / kOfPart][lane % kOfPart] = value; }
+  [[nodiscard]] Scalar operator[](int lane) const {
+    return registers_[lane / kPerRegister][lane % kPerRegister];
+  }
+  void set(int lane, Scalar value) { registers_[lane / kPerRegister][lane % kPerRegister] = value; }
 
   friend NumbersOf operator+(const NumbersOf& a, const NumbersOf& b) {
-    return each([&](int i) { return a.parts_[i] + b.parts_[i]; });
+    return each([&](int i) { return a.registers_[i] + b.registers_[i]; });
   }
   friend NumbersOf operator-(const NumbersOf& a, const NumbersOf& b) {
-    return each([&](int i) { return a.parts_[i] - b.parts_[i]; });
+    return each([&](int i) { return a.registers_[i] - b.registers_[i]; });
   }
   friend NumbersOf operator*(const NumbersOf& a, const NumbersOf& b) {
-    return each([&](int i) { return a.parts_[i] * b.parts_[i]; });
+    return each([&](int i) { return a.registers_[i] * b.registers_[i]; });
   }
   friend NumbersOf operator/(const NumbersOf& a, const NumbersOf& b) {
-    return each([&](int i) { return a.parts_[i] / b.parts_[i]; });
+    return each([&](int i) { return a.registers_[i] / b.registers_[i]; });
   }
   NumbersOf operator-() const {
-    return each([&](int i) { return -parts_[i]; });
+    return each([&](int i) { return -registers_[i]; });
   }
   NumbersOf& operator+=(const NumbersOf& o) { return *this = *this + o; }
   NumbersOf& operator-=(const NumbersOf& o) { return *this = *this - o; }
   NumbersOf& operator*=(const NumbersOf& o) { return *this = *this * o; }
   NumbersOf& operator/=(const NumbersOf& o) { return *this = *this / o; }
 
-  friend Truths operator<(const NumbersOf& a, const NumbersOf& b) {
-    return compare([&](int i) { return a.parts_[i] < b.parts_[i]; });
+  friend Masks operator<(const NumbersOf& a, const NumbersOf& b) {
+    return compare([&](int i) { return a.registers_[i] < b.registers_[i]; });
   }
-  friend Truths operator>(const NumbersOf& a, const NumbersOf& b) { return b < a; }
-  friend Truths operator<=(const NumbersOf& a, const NumbersOf& b) {
-    return compare([&](int i) { return a.parts_[i] <= b.parts_[i]; });
+  friend Masks operator>(const NumbersOf& a, const NumbersOf& b) { return b < a; }
+  friend Masks operator<=(const NumbersOf& a, const NumbersOf& b) {
+    return compare([&](int i) { return a.registers_[i] <= b.registers_[i]; });
   }
-  friend NumbersOf select(const Truths& which, const NumbersOf& yes, const NumbersOf& no) {
-    return each([&](int i) { return part(which, i) ? yes.parts_[i] : no.parts_[i]; });
+  friend NumbersOf select(const Masks& which, const NumbersOf& yes, const NumbersOf& no) {
+    return each([&](int i) { return reg(which, i) ? yes.registers_[i] : no.registers_[i]; });
   }
   friend NumbersOf sqrt(const NumbersOf& x) {
     return each([&](int i) {
-      Part root = x.parts_[i];
-      for (int j = 0; j < kOfPart; ++j) root[j] = std::sqrt(root[j]);
+      Register root = x.registers_[i];
+      for (int j = 0; j < kPerRegister; ++j) root[j] = std::sqrt(root[j]);
       return root;
     });
   }
@@ -77,64 +79,64 @@ class NumbersOf {
   template <typename F>
   static NumbersOf each(F f) {
     NumbersOf result;
-    for (int i = 0; i < kParts; ++i) result.parts_[i] = f(i);
+    for (int i = 0; i < kRegisters; ++i) result.registers_[i] = f(i);
     return result;
   }
   template <typename F>
-  static Truths compare(F f) {
-    return Truths::each(f);
+  static Masks compare(F f) {
+    return Masks::each(f);
   }
-  static const auto& part(const Truths& of, int i) { return of.parts_[i]; }
+  static const auto& reg(const Masks& of, int i) { return of.registers_[i]; }
 
-  Part parts_[kParts]{};
+  Register registers_[kRegisters]{};
 };
-/// One for each of as many rays as a packet has lanes.
+/// One number per lane of a packet.
 using Doubles = NumbersOf<double, kLanes>;
-/// One for each lane of two packets: what one alone would wait for goes on with the other.
+/// One number per lane of two packets, so that the latency of one is hidden by the other.
 using Floats = NumbersOf<float, 2 * kLanes>;
 
 template <typename Scalar, int Count>
-class TruthsOf {
+class MaskOf {
  public:
   using Numbers = NumbersOf<Scalar, Count>;
-  using Part = decltype(typename Numbers::Part{} < typename Numbers::Part{});
+  using Register = decltype(typename Numbers::Register{} < typename Numbers::Register{});
 
-  TruthsOf() = default;
-  TruthsOf(bool value) {  // not explicit, for the same reason
-    for (Part& part : parts_) part = value ? ~Part{} : Part{};
+  MaskOf() = default;
+  MaskOf(bool value) {  // not explicit, like that of NumbersOf
+    for (Register& reg : registers_) reg = value ? ~Register{} : Register{};
   }
 
   [[nodiscard]] bool operator[](int lane) const {
-    return parts_[lane / Numbers::kOfPart][lane % Numbers::kOfPart] != 0;
+    return registers_[lane / Numbers::kPerRegister][lane % Numbers::kPerRegister] != 0;
   }
   explicit operator bool() const {
-    Part any{};
-    for (const Part& part : parts_) any |= part;
-    bool found = false;
-    for (int i = 0; i < Numbers::kOfPart; ++i) found = found || any[i] != 0;
-    return found;
+    Register any{};
+    for (const Register& reg : registers_) any |= reg;
+    bool any_set = false;
+    for (int i = 0; i < Numbers::kPerRegister; ++i) any_set = any_set || any[i] != 0;
+    return any_set;
   }
 
-  friend TruthsOf operator&&(const TruthsOf& a, const TruthsOf& b) {
-    return each([&](int i) { return a.parts_[i] & b.parts_[i]; });
+  friend MaskOf operator&&(const MaskOf& a, const MaskOf& b) {
+    return each([&](int i) { return a.registers_[i] & b.registers_[i]; });
   }
-  friend TruthsOf operator||(const TruthsOf& a, const TruthsOf& b) {
-    return each([&](int i) { return a.parts_[i] | b.parts_[i]; });
+  friend MaskOf operator||(const MaskOf& a, const MaskOf& b) {
+    return each([&](int i) { return a.registers_[i] | b.registers_[i]; });
   }
 
  private:
   friend Numbers;
   template <typename F>
-  static TruthsOf each(F f) {
-    TruthsOf result;
-    for (int i = 0; i < Numbers::kParts; ++i) result.parts_[i] = f(i);
+  static MaskOf each(F f) {
+    MaskOf result;
+    for (int i = 0; i < Numbers::kRegisters; ++i) result.registers_[i] = f(i);
     return result;
   }
 
-  Part parts_[Numbers::kParts]{};
+  Register registers_[Numbers::kRegisters]{};
 };
 
-/// The number of a lane.
+/// Number in a lane.
 [[nodiscard]] inline double lane_of(double x, int /*lane*/) {
   return x;
 }
@@ -142,11 +144,11 @@ template <typename Scalar, int Count>
 [[nodiscard]] Scalar lane_of(const NumbersOf<Scalar, Count>& x, int lane) {
   return x[lane];
 }
-/// The type of one of them.
+/// Type of one of the numbers.
 template <typename Real>
 using ScalarOf = decltype(lane_of(Real(), 0));
 
-/// The vector of a lane.
+/// Vector in a lane.
 template <typename Scalar, int Count>
 [[nodiscard]] Imath::Vec3<Scalar> lane_of(const Imath::Vec3<NumbersOf<Scalar, Count>>& v, int lane) {
   return {v.x[lane], v.y[lane], v.z[lane]};
@@ -157,7 +159,7 @@ void set_lane(Imath::Vec3<NumbersOf<Scalar, Count>>& v, int lane, const Imath::V
   v.y.set(lane, value.y);
   v.z.set(lane, value.z);
 }
-/// The numbers that a function gives for each lane; for one number it is asked for lane 0.
+/// Numbers that a function returns for each lane; for a single number, that of lane 0.
 template <typename Real, typename F>
 [[nodiscard]] Real by_lane(F f) {
   if constexpr (std::is_same_v<Real, double>) {
@@ -169,27 +171,27 @@ template <typename Real, typename F>
   }
 }
 
-/// What comparing two numbers gives.
+/// Result of comparing two numbers.
 template <typename Real>
-using Truth = decltype(Real() < Real());
+using Mask = decltype(Real() < Real());
 
 [[nodiscard]] inline double select(bool which, double yes, double no) {
   return which ? yes : no;
 }
 template <typename Real>
-[[nodiscard]] Imath::Vec3<Real> select(const Truth<Real>& which, const Imath::Vec3<Real>& yes,
+[[nodiscard]] Imath::Vec3<Real> select(const Mask<Real>& which, const Imath::Vec3<Real>& yes,
                                        const Imath::Vec3<Real>& no) {
   return {select(which, yes.x, no.x), select(which, yes.y, no.y), select(which, yes.z, no.z)};
 }
 
-/// The vector over its length.
+/// Normalised vector.
 template <typename Real>
 [[nodiscard]] Imath::Vec3<Real> unit(const Imath::Vec3<Real>& v) {
   using std::sqrt;
   return v * (Real(1) / sqrt(v.dot(v)));
 }
 
-/// Lane by lane.
+/// Cosine of the refraction angle in each lane; 0 for total reflection.
 template <typename Scalar, int Count>
 [[nodiscard]] NumbersOf<Scalar, Count> refracted_cosine(const NumbersOf<Scalar, Count>& cos_i,
                                                         const NumbersOf<Scalar, Count>& eta) {

@@ -7,8 +7,8 @@
 namespace abbe::lens {
 namespace {
 
-// (y, n u) behind surfaces first .. last - 1 of (y, n u) before them, and on to the vertex of `last` if it is
-// one.
+// Maps (y, n u) before surface `first` to (y, n u) behind surface `last` - 1. With `onwards`, maps on to the
+// vertex of `last` or to the image.
 struct Matrix {
   double a = 1, b = 0, c = 0, d = 1;
 };
@@ -55,7 +55,8 @@ FirstOrder first_order(const SystemAt& at) {
   first.back_focus_mm = or_infinity(-n_image * all.a / all.c);
   first.front_focus_mm = or_infinity(all.d / all.c);
   const double far = std::numeric_limits<double>::infinity();
-  const bool afocal = std::isinf(first.focal_length_mm);  // where a or d is 1, digits alone set the planes
+  const bool afocal = std::isinf(
+      first.focal_length_mm);  // without power, a or d is 1 except for rounding, which would set the planes
   first.front_principal_mm = afocal ? far : or_infinity((all.d - 1) / all.c);
   first.rear_principal_mm = afocal ? far : or_infinity(n_image * (1 - all.a) / all.c);
   first.entrance_pupil_mm = or_infinity(before.b / before.a);
@@ -65,7 +66,7 @@ FirstOrder first_order(const SystemAt& at) {
   first.exit_magnification = 1 / (std::isinf(first.exit_pupil_mm) ? 0 : behind.d);
   first.image_distance_mm = first.back_focus_mm;
   if (const auto distance = at.system->object_distance_mm) {
-    const double y = all.a * *distance + all.b;  // of the ray that leaves the axis at a slope of 1
+    const double y = all.a * *distance + all.b;  // of the ray that leaves the axis with slope 1
     const double nu = all.c * *distance + all.d;
     first.image_distance_mm = or_infinity(-n_image * y / nu);
     first.magnification = 1 / (std::isinf(first.image_distance_mm) ? 0 : nu);
@@ -73,10 +74,10 @@ FirstOrder first_order(const SystemAt& at) {
   return first;
 }
 
-// A ray that leaves the stop at (y_s, n u_s) passes the last vertex at y = a y_s + b n u_s, and the plane at
-// z behind it at x = A y_s + B n u_s with A = a + z c/n', B = b + z d/n'. As ad - bc = 1,
+// A ray that leaves the stop at (y_s, n u_s) passes the last vertex at y = a y_s + b n u_s. It passes the
+// plane at z behind that vertex at x = A y_s + B n u_s, with A = a + z c/n', B = b + z d/n'. As ad - bc = 1,
 //   y = x b/B + y_s (z/n')/B.
-SeenStop stop_seen_from(const SystemAt& at, double distance_mm) {
+StopImage stop_image(const SystemAt& at, double distance_mm) {
   const Matrix behind = matrix(at, at.system->stop, at.size(), false);
   const double reduced = distance_mm / at.n.back();
   const double by_slope = behind.b + reduced * behind.d;
@@ -94,8 +95,8 @@ ParaxialRay paraxial_chief_ray(const SystemAt& at, double field) {
     // A ray passes the stop at by_height y + by_slope u, wherever the entrance pupil is.
     const double by_height = 1 / first.entrance_magnification;
     const double by_slope = first.stop_by_slope_mm;
-    const double share = field / (by_height * *distance + by_slope);
-    return {by_slope * share, -by_height * share};
+    const double scale = field / (by_height * *distance + by_slope);
+    return {by_slope * scale, -by_height * scale};
   }
   const double slope = paraxial_slope(field);
   return {-first.entrance_pupil_mm * slope, slope};

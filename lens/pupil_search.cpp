@@ -21,11 +21,11 @@ using V2d = Imath::V2d;
 using V3d = Imath::V3d;
 
 constexpr int kGridSide = 24;
-constexpr int kMostGrids = 40;
+constexpr int kMaxGrids = 40;
 constexpr int kRimDirections = 64;
 constexpr int kBisections = 12;
 
-// Rays from a point of the image by where they pass the tangent plane of the last vertex.
+// Rays from an image point, addressed by their point in the tangent plane of the last vertex.
 struct PupilRays {
   const SpectralSystem& system;
   V2d image;
@@ -41,110 +41,111 @@ struct PupilRays {
     for (const V2d& point : points) rays.push_back({through(point), wavelength_nm});
     return system.to_object(rays);
   }
-  // In radii of the stop.
+  // Distance from the center of the stop, in radii of the stop; infinite for rays that do not arrive.
   [[nodiscard]] double off_axis(const V2d& point) const {
     const auto there = system.at_stop(through(point), wavelength_nm);
     return there ? there->length() : std::numeric_limits<double>::infinity();
   }
 };
 
-// As the image sees it paraxially; nothing for an image in the exit pupil.
-std::optional<SeenStop> seen_stop(const SpectralSystem& system, double wavelength_nm) {
-  const SeenStop seen =
-      stop_seen_from(SystemAt(system.system(), wavelength_nm), system.image_z() - system.last_z());
-  return std::isfinite(seen.magnification) ? std::optional(seen) : std::nullopt;
+// Paraxial image of the stop; nothing if the image plane is in the exit pupil.
+std::optional<StopImage> finite_stop_image(const SpectralSystem& system, double wavelength_nm) {
+  const StopImage image =
+      stop_image(SystemAt(system.system(), wavelength_nm), system.image_z() - system.last_z());
+  return std::isfinite(image.magnification) ? std::optional(image) : std::nullopt;
 }
 
-// A square around where paraxial optics has the exit pupil.
-Box first_guess(const PupilRays& rays) {
+// Square around the paraxial exit pupil.
+Box paraxial_box(const PupilRays& rays) {
   const SpectralSystem& system = rays.system;
-  const std::optional<SeenStop> seen = seen_stop(system, rays.wavelength_nm);
-  const V2d center = rays.image * (seen ? seen->shift : 1);
-  const double half = seen ? 1.5 * std::abs(system.stop_radius_mm() * seen->magnification)
-                           : (system.image_z() - system.last_z()) / 2;
+  const std::optional<StopImage> image = finite_stop_image(system, rays.wavelength_nm);
+  const V2d center = rays.image * (image ? image->shift : 1);
+  const double half = image ? 1.5 * std::abs(system.stop_radius_mm() * image->magnification)
+                            : (system.image_z() - system.last_z()) / 2;
   return {center - V2d(half), center + V2d(half)};
 }
 
 struct Grid {
   Box box;
   [[nodiscard]] V2d cell() const { return box.size() / kGridSide; }
-  [[nodiscard]] V2d middle(int i, int j) const {
+  [[nodiscard]] V2d cell_center(int i, int j) const {
     return box.min + V2d((i + 0.5) * cell().x, (j + 0.5) * cell().y);
   }
-  [[nodiscard]] std::vector<V2d> middles() const {
+  [[nodiscard]] std::vector<V2d> centers() const {
     std::vector<V2d> all;
     for (int j = 0; j < kGridSide; ++j)
-      for (int i = 0; i < kGridSide; ++i) all.push_back(middle(i, j));
+      for (int i = 0; i < kGridSide; ++i) all.push_back(cell_center(i, j));
     return all;
   }
 };
 
-// The box of the cells whose middles pass; empty where none does.
+// Bounding box of the centers of the cells whose rays pass; empty if none does.
 Box passing_cells(const PupilRays& rays, const Grid& grid) {
   Box passing;
-  const std::vector<V2d> middles = grid.middles();
-  const std::vector<std::optional<Ray>> leaving = rays.leaving(middles);
-  for (std::size_t i = 0; i < middles.size(); ++i)
-    if (leaving[i]) passing.extendBy(middles[i]);
+  const std::vector<V2d> centers = grid.centers();
+  const std::vector<std::optional<Ray>> leaving = rays.leaving(centers);
+  for (std::size_t i = 0; i < centers.size(); ++i)
+    if (leaving[i]) passing.extendBy(centers[i]);
   return passing;
 }
 
-// Around the cell whose ray comes next to the middle of the stop; a larger box where none comes there.
+// Box around the cell whose ray passes nearest to the center of the stop; a larger box if no ray arrives.
 Box towards_stop(const PupilRays& rays, const Grid& grid) {
   double nearest = std::numeric_limits<double>::infinity();
   V2d there = grid.box.center();
-  for (const V2d& middle : grid.middles())
-    if (const double off = rays.off_axis(middle); off < nearest) {
+  for (const V2d& center : grid.centers())
+    if (const double off = rays.off_axis(center); off < nearest) {
       nearest = off;
-      there = middle;
+      there = center;
     }
   const V2d half = std::isfinite(nearest) ? 3.0 * grid.cell() : grid.box.size();
   return {there - half, there + half};
 }
 
-bool touches_edge(const Grid& grid, const Box& passing) {
+bool is_cut_by_edge(const Grid& grid, const Box& passing) {
   const V2d c = grid.cell();
   return passing.min.x < grid.box.min.x + c.x || passing.min.y < grid.box.min.y + c.y ||
          passing.max.x > grid.box.max.x - c.x || passing.max.y > grid.box.max.y - c.y;
 }
 
-// A box that fills a good part of the grid, so that cells tell its rim from afar.
+// True if the passing cells fill enough of the grid to resolve their rim.
 bool is_fine(const Grid& grid, const Box& passing) {
-  constexpr double kShare = 0.3;
-  return passing.size().x > kShare * grid.box.size().x && passing.size().y > kShare * grid.box.size().y;
+  constexpr double kMinFraction = 0.3;
+  return passing.size().x > kMinFraction * grid.box.size().x &&
+         passing.size().y > kMinFraction * grid.box.size().y;
 }
 
-// The grid that holds all that passes; nothing where nothing does.
-std::optional<Grid> holding_grid(const PupilRays& rays) {
-  Grid grid{first_guess(rays)};
+// Grid that encloses all passing rays; nothing if none passes.
+std::optional<Grid> enclosing_grid(const PupilRays& rays) {
+  Grid grid{paraxial_box(rays)};
   bool passes = false;
-  for (int tried = 0; tried < kMostGrids; ++tried) {
+  for (int tried = 0; tried < kMaxGrids; ++tried) {
     const Box passing = passing_cells(rays, grid);
     if (passing.isEmpty()) {
-      if (tried > kMostGrids / 4) return std::nullopt;
+      if (tried > kMaxGrids / 4) return std::nullopt;
       grid.box = towards_stop(rays, grid);
       continue;
     }
     passes = true;
-    const bool outside = touches_edge(grid, passing);
-    if (!outside && is_fine(grid, passing)) return grid;
-    const V2d room = outside ? V2d(0.4 * passing.size() + 3.0 * grid.cell()) : V2d(1.5 * grid.cell());
+    const bool is_cut = is_cut_by_edge(grid, passing);
+    if (!is_cut && is_fine(grid, passing)) return grid;
+    const V2d room = is_cut ? V2d(0.4 * passing.size() + 3.0 * grid.cell()) : V2d(1.5 * grid.cell());
     grid.box = {passing.min - room, passing.max + room};
   }
   if (!passes) return std::nullopt;
   throw Error(ErrorCode::scene, rays.system.system().title,
-              fmt::format("there is no end to what the lens lets through to ({:g}, {:g}) mm of its image: it "
-                          "needs clear apertures",
+              fmt::format("the rays that the lens transmits to ({:g}, {:g}) mm of its image have no bound: "
+                          "add clear apertures",
                           rays.image.x, rays.image.y));
 }
 
-// The farthest points that pass from an inner one all around, no farther than `far`.
+// Rim around an inner point: the farthest points that pass in all directions, up to the distance `far`.
 std::vector<V2d> rim_around(const PupilRays& rays, const V2d& inner, double far) {
   struct Search {
     V2d direction;
-    double within;
-    double beyond;
-    [[nodiscard]] double middle() const { return (within + beyond) / 2; }
+    double inside;
+    double outside;
+    [[nodiscard]] double midpoint() const { return (inside + outside) / 2; }
   };
   std::vector<Search> searches;
   for (int i = 0; i < kRimDirections; ++i) {
@@ -154,44 +155,44 @@ std::vector<V2d> rim_around(const PupilRays& rays, const V2d& inner, double far)
   std::vector<V2d> points(searches.size());
   for (int step = 0; step < kBisections; ++step) {
     std::transform(searches.begin(), searches.end(), points.begin(),
-                   [&](const Search& search) { return inner + search.middle() * search.direction; });
+                   [&](const Search& search) { return inner + search.midpoint() * search.direction; });
     const std::vector<std::optional<Ray>> leaving = rays.leaving(points);
     for (std::size_t i = 0; i < searches.size(); ++i)
-      (leaving[i] ? searches[i].within : searches[i].beyond) = searches[i].middle();
+      (leaving[i] ? searches[i].inside : searches[i].outside) = searches[i].midpoint();
   }
   std::transform(searches.begin(), searches.end(), points.begin(),
-                 [&](const Search& search) { return inner + search.beyond * search.direction; });
+                 [&](const Search& search) { return inner + search.outside * search.direction; });
   return points;
 }
 
 }  // namespace
 
 double pupil_shift(const SpectralSystem& system, double wavelength_nm) {
-  const std::optional<SeenStop> seen = seen_stop(system, wavelength_nm);
-  return seen ? seen->shift : 1;
+  const std::optional<StopImage> stop = finite_stop_image(system, wavelength_nm);
+  return stop ? stop->shift : 1;
 }
 
-SeenPupil search_pupil(const SpectralSystem& system, const V2d& image, double wavelength_nm) {
+VisiblePupil search_pupil(const SpectralSystem& system, const V2d& image, double wavelength_nm) {
   const PupilRays rays{system, image, wavelength_nm};
-  const std::optional<Grid> grid = holding_grid(rays);
-  SeenPupil seen;
-  if (!grid) return seen;
-  const std::vector<V2d> middles = grid->middles();
-  const std::vector<std::optional<Ray>> inner_rays = rays.leaving(middles);
+  const std::optional<Grid> grid = enclosing_grid(rays);
+  VisiblePupil pupil;
+  if (!grid) return pupil;
+  const std::vector<V2d> centers = grid->centers();
+  const std::vector<std::optional<Ray>> inner_rays = rays.leaving(centers);
   V2d inner(0, 0);
-  for (std::size_t i = 0; i < middles.size(); ++i) {
+  for (std::size_t i = 0; i < centers.size(); ++i) {
     if (!inner_rays[i]) continue;
-    seen.points.push_back(middles[i]);
-    seen.leaving.push_back(*inner_rays[i]);
-    inner += middles[i];
+    pupil.points.push_back(centers[i]);
+    pupil.leaving.push_back(*inner_rays[i]);
+    inner += centers[i];
   }
-  inner /= static_cast<double>(seen.points.size());
+  inner /= static_cast<double>(pupil.points.size());
   std::vector<V2d> rim = rim_around(rays, inner, grid->box.size().length());
-  seen.points.insert(seen.points.end(), rim.begin(), rim.end());
+  pupil.points.insert(pupil.points.end(), rim.begin(), rim.end());
   for (V2d& point : rim) point = inner + 0.999 * (point - inner);
   for (const auto& ray : rays.leaving(rim))
-    if (ray) seen.leaving.push_back(*ray);
-  return seen;
+    if (ray) pupil.leaving.push_back(*ray);
+  return pupil;
 }
 
 }  // namespace abbe::lens

@@ -8,20 +8,21 @@
 
 namespace abbe::lens {
 
-/// What gets from a point of the image through a lens, backwards.
-struct SeenPupil {
-  std::vector<Imath::V2d> points;  ///< In the tangent plane of the last vertex [mm]: inside it, and its rim.
-  std::vector<Ray> leaving;        ///< The rays of the object's side that these points make.
+/// Light that passes backwards through a lens from an image point.
+struct VisiblePupil {
+  std::vector<Imath::V2d>
+      points;  ///< Points inside the pupil and on its rim, in the tangent plane of the last vertex [mm].
+  std::vector<Ray> leaving;  ///< Rays in object space through these points.
 };
 
-/// How far the middle of the exit pupil moves in that plane, over how far the point of the image does that
-/// sees it, near the axis: 1 where the pupil is far away.
+/// Movement of the center of the exit pupil in that plane over that of the image point, near the axis; 1 for
+/// a distant pupil.
 [[nodiscard]] double pupil_shift(const SpectralSystem& system, double wavelength_nm);
 
-/// Finds it at one wavelength: first by a grid that is moved and zoomed until it holds all that passes, then
-/// by bisection from the middle to the rim. No points where nothing passes. Throws Error{scene} where there
-/// is no end to what passes.
-[[nodiscard]] SeenPupil search_pupil(const SpectralSystem& system, const Imath::V2d& image,
-                                     double wavelength_nm);
+/// Finds the exit pupil from an image point at one wavelength. A grid is moved and zoomed until it contains
+/// all passing rays; bisection from the center then finds the rim. Empty if no ray passes. Throws
+/// Error{scene} if the passing rays have no bound.
+[[nodiscard]] VisiblePupil search_pupil(const SpectralSystem& system, const Imath::V2d& image,
+                                        double wavelength_nm);
 
 }  // namespace abbe::lens

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kWavelengths = 9;
 
-// Along the normal.
+// Reflectance along the normal.
 double reflectance(const SystemAt& at, std::size_t surface) {
   const SurfaceBetween<double> between{at.surface(surface), at.frames[surface], at.n[surface],
                                        at.n[surface + 1]};
@@ -45,20 +45,21 @@ std::vector<Ghost> ghosts(const System& system, double low_nm, double high_nm) {
   std::vector<std::vector<double>> reflectances;  // by wavelength and surface
   for (int k = 0; k < kWavelengths; ++k) {
     const SystemAt at(system, low_nm + (high_nm - low_nm) * k / (kWavelengths - 1));
-    std::vector<double>& of = reflectances.emplace_back();
-    for (std::size_t i = 0; i < count; ++i) of.push_back(reflectance(at, i));
+    std::vector<double>& by_surface = reflectances.emplace_back();
+    for (std::size_t i = 0; i < count; ++i) by_surface.push_back(reflectance(at, i));
   }
   std::vector<Ghost> all;
   for (std::size_t first = 1; first < count; ++first)
     for (std::size_t second = 0; second < first; ++second) {
       double both = 0;
-      for (const std::vector<double>& of : reflectances) both += of[first] * of[second] / kWavelengths;
+      for (const std::vector<double>& by_surface : reflectances)
+        both += by_surface[first] * by_surface[second] / kWavelengths;
       if (both > 0) all.push_back({first, second, both});
     }
   return all;
 }
 
-// With n and thickness of the opposite sign on the way back, a reflection is a refraction from n to -n.
+// A reflection is a refraction from n to -n if n and thicknesses are negated on the way back.
 GhostFocus ghost_focus(const SystemAt& at, const Ghost& ghost, double stop_radius_mm) {
   const auto object = at.system->object_distance_mm;
   double y = 1;
@@ -68,8 +69,8 @@ GhostFocus ghost_focus(const SystemAt& at, const Ghost& ghost, double stop_radiu
   for (std::size_t k = 0; k < route.size(); ++k) {
     const auto& [i, how] = route[k];
     const double before = how.forwards ? at.n[i] : -at.n[i + 1];
-    const double beyond = how.forwards ? at.n[i + 1] : -at.n[i];
-    const double behind = how.reflects ? -before : beyond;
+    const double across = how.forwards ? at.n[i + 1] : -at.n[i];
+    const double behind = how.reflects ? -before : across;
     nu -= y * at.surface(i).profile.vertex_curvature() * (behind - before);
     const double u = nu / behind;
     const bool last = k + 1 == route.size();

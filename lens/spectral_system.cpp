@@ -10,7 +10,7 @@ using Imath::Vec3;
 using V3d = Imath::V3d;
 
 template <typename Real>
-Crossing<Real> meet(const SurfaceBetween<Real>& at, const BasicRay<Real>& ray, Encounter how) {
+Crossing<Real> interact(const SurfaceBetween<Real>& at, const BasicRay<Real>& ray, Encounter how) {
   if (how.reflects) return reflect(at, ray, how.forwards);
   return how.forwards ? cross(at, ray) : cross_back(at, ray);
 }
@@ -29,28 +29,28 @@ SpectralSystem::SpectralSystem(System system, double stop_radius_mm)
   vertex_z_ = at.vertex_z;
 }
 
-// Lanes that have ended stay where they were.
+// Lanes that have ended do not move any more.
 template <typename Real>
-BasicArrival<Real> SpectralSystem::follow(BasicRay<Real> ray, const Real& wavelength_nm,
-                                          const Route& route) const {
-  const auto place = media_.place(wavelength_nm);
-  WeakenedLight<Real> light(ray.direction);
-  Truth<Real> passes = true;
+BasicImageRay<Real> SpectralSystem::trace_to_image(BasicRay<Real> ray, const Real& wavelength_nm,
+                                                   const Route& route) const {
+  const auto coordinate = media_.coordinate(wavelength_nm);
+  UnpolarisedFields<Real> light(ray.direction);
+  Mask<Real> passes = true;
   Real depth = 0;
   Real n_here = 1;
   for (const auto& [i, how] : route) {
     const std::size_t medium = how.forwards ? i : i + 1;
-    const Real n_beyond = media_.n(how.forwards ? i + 1 : i, place);
-    const SurfaceBetween<Real> at{system_.surfaces[i], frames_[i], how.forwards ? n_here : n_beyond,
-                                  how.forwards ? n_beyond : n_here};
-    const auto [hit, met, within, refracted] = meet(at, ray, how);
-    passes = passes && met && within && refracted;
+    const Real n_next = media_.n(how.forwards ? i + 1 : i, coordinate);
+    const SurfaceBetween<Real> at{system_.surfaces[i], frames_[i], how.forwards ? n_here : n_next,
+                                  how.forwards ? n_next : n_here};
+    const auto [hit, intersects, within, refracted] = interact(at, ray, how);
+    passes = passes && intersects && within && refracted;
     if (!passes) return {passes, {}, {}, {}, {}, {}, {}};
-    light.meet(at, wavelength_nm, ray.direction, hit, how);
+    light.apply(at, wavelength_nm, ray.direction, hit, how);
     if (medium > 0 && media_.absorbs(medium))
-      depth += media_.absorption_per_mm(medium, place) * (how.forwards ? hit.length_mm : -hit.length_mm);
+      depth += media_.absorption_per_mm(medium, coordinate) * (how.forwards ? hit.length_mm : -hit.length_mm);
     ray = {select<Real>(passes, hit.point, ray.origin), select<Real>(passes, hit.direction, ray.direction)};
-    if (!how.reflects) n_here = n_beyond;
+    if (!how.reflects) n_here = n_next;
   }
   const Vec3<Real>& d = ray.direction;
   const Vec3<Real> there = ray.origin + d * Real((image_z() - ray.origin.z) / d.z);
@@ -59,14 +59,14 @@ BasicArrival<Real> SpectralSystem::follow(BasicRay<Real> ray, const Real& wavele
           light.first(),     light.second()};
 }
 
-std::optional<Arrival> SpectralSystem::to_image(const Ray& ray, double wavelength_nm,
-                                                const Route& route) const {
-  const Arrival arrival = follow(ray, wavelength_nm, route);
-  return arrival.arrived ? std::optional(arrival) : std::nullopt;
+std::optional<ImageRay> SpectralSystem::to_image(const Ray& ray, double wavelength_nm,
+                                                 const Route& route) const {
+  const ImageRay arrival = trace_to_image(ray, wavelength_nm, route);
+  return arrival.reached_image ? std::optional(arrival) : std::nullopt;
 }
 
-BasicArrival<Floats> SpectralSystem::to_image(const std::array<PacketRay, 2>& rays,
-                                              const Route& route) const {
+BasicImageRay<Floats> SpectralSystem::to_image(const std::array<PacketRay, 2>& rays,
+                                               const Route& route) const {
   BasicRay<Floats> together;
   Floats wavelengths_nm;
   for (int lane = 0; lane < Floats::kCount; ++lane) {
@@ -75,27 +75,28 @@ BasicArrival<Floats> SpectralSystem::to_image(const std::array<PacketRay, 2>& ra
     set_lane(together.direction, lane, Imath::V3f(ray.direction));
     wavelengths_nm.set(lane, of_packet_nm[lane % kLanes]);
   }
-  return follow(together, wavelengths_nm, route);
+  return trace_to_image(together, wavelengths_nm, route);
 }
 
 template <typename Real>
-Crossing<Real> SpectralSystem::meet_next(const Step& step, const MediaTable::Place<Real>& place,
-                                         const BasicRay<Real>& ray) const {
+Crossing<Real> SpectralSystem::interact_next(const Step& step, const MediaTable::Coordinate<Real>& coordinate,
+                                             const BasicRay<Real>& ray) const {
   const auto& [i, how] = step;
-  return meet<Real>({system_.surfaces[i], frames_[i], media_.n(i, place), media_.n(i + 1, place)}, ray, how);
+  return interact<Real>(
+      {system_.surfaces[i], frames_[i], media_.n(i, coordinate), media_.n(i + 1, coordinate)}, ray, how);
 }
 
-// Backwards, what was crossed forwards is crossed back, and what was reflected comes from the same side.
+// Backwards, light crosses in the opposite direction but arrives at a reflecting surface from the same side.
 template <typename Real>
-BasicDeparture<Real> SpectralSystem::leave(BasicRay<Real> ray, const Real& wavelength_nm,
-                                           const Route& route) const {
-  const auto place = media_.place(wavelength_nm);
-  Truth<Real> passes = true;
+BasicObjectRay<Real> SpectralSystem::trace_to_object(BasicRay<Real> ray, const Real& wavelength_nm,
+                                                     const Route& route) const {
+  const auto coordinate = media_.coordinate(wavelength_nm);
+  Mask<Real> passes = true;
   for (auto step = route.rbegin(); step != route.rend(); ++step) {
     const auto [of, how] = *step;
-    const auto [hit, met, within, refracted] =
-        meet_next<Real>({of, {how.reflects == how.forwards, how.reflects}}, place, ray);
-    passes = passes && met && within && refracted;
+    const auto [hit, intersects, within, refracted] =
+        interact_next<Real>({of, {how.reflects == how.forwards, how.reflects}}, coordinate, ray);
+    passes = passes && intersects && within && refracted;
     if (!passes) return {passes, ray};
     ray = {select<Real>(passes, hit.point, ray.origin), select<Real>(passes, hit.direction, ray.direction)};
   }
@@ -103,8 +104,8 @@ BasicDeparture<Real> SpectralSystem::leave(BasicRay<Real> ray, const Real& wavel
 }
 
 std::optional<Ray> SpectralSystem::to_object(const Ray& ray, double wavelength_nm, const Route& route) const {
-  const auto [left, out] = leave(ray, wavelength_nm, route);
-  return left ? std::optional(out) : std::nullopt;
+  const auto [reached_object, out] = trace_to_object(ray, wavelength_nm, route);
+  return reached_object ? std::optional(out) : std::nullopt;
 }
 
 std::vector<std::optional<Ray>> SpectralSystem::to_object(std::span<const ColouredRay> rays) const {
@@ -113,27 +114,28 @@ std::vector<std::optional<Ray>> SpectralSystem::to_object(std::span<const Colour
     const std::size_t count = std::min<std::size_t>(kLanes, rays.size() - first);
     BasicRay<Doubles> together;
     Doubles wavelengths_nm;
-    for (std::size_t i = 0; i < kLanes; ++i) {  // lanes beyond the last ray are like it
+    for (std::size_t i = 0; i < kLanes; ++i) {  // lanes after the last ray repeat it
       const auto& [ray, wavelength_nm] = rays[first + std::min(i, count - 1)];
       const int lane = static_cast<int>(i);
       set_lane(together.origin, lane, ray.origin);
       set_lane(together.direction, lane, ray.direction);
       wavelengths_nm.set(lane, wavelength_nm);
     }
-    const auto [left, out] = leave(together, wavelengths_nm, direct_);
+    const auto [reached_object, out] = trace_to_object(together, wavelengths_nm, direct_);
     for (std::size_t i = 0; i < count; ++i)
-      if (const int lane = static_cast<int>(i); left[lane])
+      if (const int lane = static_cast<int>(i); reached_object[lane])
         all[first + i] = Ray{lane_of(out.origin, lane), lane_of(out.direction, lane)};
   }
   return all;
 }
 
 std::optional<Imath::V2d> SpectralSystem::at_stop(const Ray& start, double wavelength_nm) const {
-  const auto place = media_.place(wavelength_nm);
+  const auto coordinate = media_.coordinate(wavelength_nm);
   Ray ray = start;
   for (std::size_t i = frames_.size(); i-- > system_.stop + 1;) {
-    const auto [hit, met, within, refracted] = meet_next<double>({i, {false, false}}, place, ray);
-    if (!met || !refracted) return std::nullopt;
+    const auto [hit, intersects, within, refracted] =
+        interact_next<double>({i, {false, false}}, coordinate, ray);
+    if (!intersects || !refracted) return std::nullopt;
     ray = {hit.point, hit.direction};
   }
   const SystemAt::Frame& frame = frames_[system_.stop];

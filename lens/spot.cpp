@@ -72,7 +72,7 @@ std::optional<SpotSize> size_of(std::span<const Spot> spots) {
   return size;
 }
 
-// A plane moved by z takes a ray by z times its slope, so that the mean square is a parabola in z.
+// A plane moved by z shifts a ray by z times its slope, so the mean square is a parabola in z.
 std::optional<double> best_focus(std::span<const std::vector<Spot>> groups) {
   double across = 0;
   double slopes = 0;
@@ -86,7 +86,7 @@ std::optional<double> best_focus(std::span<const std::vector<Spot>> groups) {
         slopes += ray.weight / mean.weight * slope.length2();
       }
   }
-  constexpr double kParallel = 1e-9;  // slopes that rounding, of sums of many rays, may part
+  constexpr double kParallel = 1e-9;  // differences of slopes due to rounding in sums of many rays
   return slopes > kParallel * kParallel ? std::optional(-across / slopes) : std::nullopt;
 }
 

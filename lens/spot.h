@@ -10,47 +10,49 @@
 
 namespace abbe::lens {
 
-/// A ray of a beam in the plane of the image.
+/// A ray of a beam in the image plane.
 struct SpotRay {
-  Imath::V2d point;  ///< [mm]
-  Imath::V2d slope;  ///< dx/dz and dy/dz.
-  double weight;     ///< Power, in units of `Beam::density` times the launch plane's area [mm^2].
+  Imath::V2d point;  ///< Position [mm].
+  Imath::V2d slope;  ///< Slopes dx/dz and dy/dz.
+  double weight;     ///< Power, in units of `Beam::density` times area of the launch plane [mm^2].
 };
 
-/// Where the rays of a beam meet the image: even in the launch plane, so that each stands for its power.
+/// Intersections of a beam with the image plane. The rays are evenly spaced in the launch plane, so each
+/// carries its own power.
 struct Spot {
   double wavelength_nm;
   double field;
   std::vector<SpotRay> rays;
-  double filled = 0;       ///< Power through the stop, were there no other clear apertures.
-  double passed = 0;       ///< Power that reaches the image, surfaces and glass not yet counted.
-  double transmitted = 0;  ///< The same times what these let through.
+  double filled = 0;       ///< Power through the stop without other clear apertures.
+  double passed = 0;       ///< Power that arrives at the image without losses in surfaces and glass.
+  double transmitted = 0;  ///< Power that arrives at the image with these losses.
 
-  /// Share of the power through the stop that clear apertures, missed surfaces and total reflection take;
-  /// none where no ray was aimed through it.
+  /// Fraction of the power through the stop that is lost at clear apertures, by missed surfaces and by total
+  /// reflection. Nothing if no ray passes the stop.
   [[nodiscard]] std::optional<double> vignetting() const {
     return filled > 0 ? std::optional(1 - passed / filled) : std::nullopt;
   }
 };
 
-/// Rays from the middles of `side` times `side` cells of the rectangle around the beam.
+/// Traces rays through the centers of `side` x `side` cells of the beam's bounding rectangle.
 [[nodiscard]] Spot spot(const Beam& beam, double field, int side);
 
-/// Size of spots taken together, about their common centroid.
+/// Size of several spots about their common centroid.
 struct SpotSize {
   Imath::V2d centroid;
   double rms_mm;      ///< Root of the mean square distance from the centroid.
-  double largest_mm;  ///< Largest distance from it.
+  double largest_mm;  ///< Largest distance from the centroid.
 };
-/// Of no rays nothing.
+/// Size of spots; nothing without rays.
 [[nodiscard]] std::optional<SpotSize> size_of(std::span<const Spot> spots);
 
-/// How far the image must move towards +z for the least sum of the mean squares of groups of spots, each
-/// about its own centroid [mm]; nothing where no move changes it, as of parallel rays.
+/// Displacement of the image plane towards +z [mm] that minimises the sum of the mean squares of groups of
+/// spots, each about its own centroid. Nothing if the displacement has no effect, as for parallel rays.
 [[nodiscard]] std::optional<double> best_focus(std::span<const std::vector<Spot>> groups);
 
-/// Modulus of the Fourier transform of spots taken together: the geometric modulation transfer of lines
-/// across `direction` (unit) at so many per millimetre. Diffraction is left out. Of no rays 0.
+/// Geometric modulation transfer of several spots together: the modulus of their Fourier transform for a
+/// pattern of `per_mm` cycles per mm that varies along the unit vector `direction`. Ignores diffraction. 0
+/// without rays.
 [[nodiscard]] double geometric_mtf(std::span<const Spot> spots, double per_mm, const Imath::V2d& direction);
 
 }  // namespace abbe::lens

@@ -9,7 +9,7 @@ namespace {
 
 using M33d = Imath::M33d;
 
-// About x, then about the y that has been tilted, for row vectors.
+// Rotation about x, then about the tilted y, for row vectors.
 M33d tilted(const Imath::V2d& deg) {
   const double a = deg.x * std::numbers::pi / 180;
   const double b = deg.y * std::numbers::pi / 180;

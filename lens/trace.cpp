@@ -10,7 +10,7 @@ namespace {
 using V3d = Imath::V3d;
 
 RayEnd end_at(const Crossing<double>& crossing, Apertures apertures) {
-  if (!crossing.met) return RayEnd::missed;
+  if (!crossing.intersects) return RayEnd::missed;
   if (apertures == Apertures::obeyed && !crossing.within) return RayEnd::stopped;
   return crossing.refracted ? RayEnd::image : RayEnd::total_reflection;
 }
@@ -55,11 +55,11 @@ V3d local_point(const SystemAt& at, std::size_t surface, const V3d& point) {
 
 double transmittance(const SystemAt& at, const Ray& start, const RayPath& path) {
   V3d from = start.direction;
-  WeakenedLight<double> light(from);
+  UnpolarisedFields<double> light(from);
   double depth = 0;
   for (std::size_t i = 0; i < path.hits.size(); ++i) {
     const RayHit& hit = path.hits[i];
-    light.meet(surface_between(at, i), at.wavelength_nm, from, hit, {});
+    light.apply(surface_between(at, i), at.wavelength_nm, from, hit, {});
     if (i > 0) depth += at.absorption_per_mm[i] * hit.length_mm;
     from = hit.direction;
   }

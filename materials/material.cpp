@@ -22,7 +22,7 @@ bool needs_coordinates(const Material& material) {
 }
 
 bool is_dispersive(const Material& material) {
-  const RefractiveIndex* inside = interior(material);
+  const RefractiveIndex* inside = interior_index(material);
   return inside && inside->dispersive();
 }
 
@@ -34,29 +34,28 @@ bool opaque(const Material& material) {
   return std::visit([](const auto& model) { return model.opaque(); }, material.model);
 }
 
-const RefractiveIndex* interior(const Material& material) {
-  return std::visit([](const auto& model) { return model.interior(); }, material.model);
+const RefractiveIndex* interior_index(const Material& material) {
+  return std::visit([](const auto& model) { return model.interior_index(); }, material.model);
 }
 
 const Medium* medium(const Material& material) {
   return std::visit([](const auto& model) { return model.medium(); }, material.model);
 }
 
-std::optional<std::string> clear_fault(const Material& material, double wavelength_nm) {
-  constexpr double kLeastTold = 1e-4;
+std::optional<std::string> transparency_fault(const Material& material, double wavelength_nm) {
+  constexpr double kTolerance = 1e-4;
   const auto* pane = std::get_if<ThinGlassMaterial>(&material.model);
-  const RefractiveIndex* index = pane != nullptr ? &pane->index : interior(material);
+  const RefractiveIndex* index = pane != nullptr ? &pane->index : interior_index(material);
   if (index == nullptr) return std::nullopt;
   const double n = index->n(wavelength_nm);
   const double k = index->k(wavelength_nm);
   const double clear = fresnel_conductor(1.0, n, 0.0).R();
-  const double true_one = fresnel_conductor(1.0, n, k).R();
-  if (std::abs(true_one - clear) <= kLeastTold) return std::nullopt;
+  const double exact = fresnel_conductor(1.0, n, k).R();
+  if (std::abs(exact - clear) <= kTolerance) return std::nullopt;
   return fmt::format(
       "\"{}\" is not clear: with n = {:.4g} and k = {:.4g} at {:g} nm it reflects {:.4f} along the normal, "
-      "where "
-      "dielectrics and panes reflect {:.4f} by n alone (a conductor reflects by both)",
-      material.name, n, k, wavelength_nm, true_one, clear);
+      "but dielectrics and thin glass are computed from n alone and reflect {:.4f}: use a conductor",
+      material.name, n, k, wavelength_nm, exact, clear);
 }
 
 std::vector<IndexUse> indices(const Material& material) {
@@ -71,7 +70,7 @@ std::size_t texture_bytes(const Material& material) {
 }
 
 bool encloses_medium(const Material& material) {
-  return interior(material) != nullptr || medium(material) != nullptr;
+  return interior_index(material) != nullptr || medium(material) != nullptr;
 }
 
 bool is_boundary(const Material& material) {

@@ -20,10 +20,14 @@
 
 namespace abbe {
 
-/// What every model of a material tells: its scattering at a lookup and the lobes of it; whether that depends
-/// on surface coordinates, and on what is outside; whether no light passes through; the index of the matter
-/// inside a closed surface, nullptr when light does not enter it, and what else it meets there, if anything;
-/// the indices it uses, and the bytes of its images.
+/// Interface of the models in `MaterialModel`.
+/// - `bsdf`: the scattering at a lookup; `lobes`: its kinds of lobes.
+/// - `needs_coordinates`: true if the scattering depends on surface coordinates; `depends_on_outside`: true
+///   if it depends on the index outside.
+/// - `opaque`: true if no light passes through the surface.
+/// - `interior_index`: the index inside a closed surface, or nullptr if light does not enter.
+/// - `medium`: the scattering medium inside, or nullptr.
+/// - `indices`: all refractive indices that the model uses; `texture_bytes`: the size of its images.
 template <typename Model>
 concept SurfaceModel = requires(const Model& model, const SurfaceLookup& at) {
   { model.bsdf(at) } -> std::same_as<Bsdf>;
@@ -31,13 +35,13 @@ concept SurfaceModel = requires(const Model& model, const SurfaceLookup& at) {
   { model.needs_coordinates() } -> std::same_as<bool>;
   { model.depends_on_outside() } -> std::same_as<bool>;
   { model.opaque() } -> std::same_as<bool>;
-  { model.interior() } -> std::same_as<const RefractiveIndex*>;
+  { model.interior_index() } -> std::same_as<const RefractiveIndex*>;
   { model.medium() } -> std::same_as<const Medium*>;
   { model.indices() } -> std::same_as<std::vector<IndexUse>>;
   { model.texture_bytes() } -> std::same_as<std::size_t>;
 };
 
-/// The closed list of what surfaces are made of.
+/// The closed list of material models.
 using MaterialModel =
     std::variant<DiffuseMaterial, DielectricMaterial, FilmMaterial, ConductorMaterial,
                  RoughDielectricMaterial, RoughConductorMaterial, MediumMaterial, CoatedDiffuseMaterial,
@@ -51,46 +55,48 @@ template <typename... Models>
 inline constexpr bool kAllSurfaceModels<std::variant<Models...>> = (SurfaceModel<Models> && ...);
 static_assert(kAllSurfaceModels<MaterialModel>);
 
-/// What a surface is made of, over all wavelengths.
+/// The material of a surface, for all wavelengths.
 struct Material {
   std::string name;
   MaterialModel model;
-  std::shared_ptr<const Relief> relief = nullptr;  ///< Turns the normal that scattering sees.
-  /// Where matter overlaps, that of the highest priority is there; of equals that of the smallest shape.
+  std::shared_ptr<const Relief> relief = nullptr;  ///< Perturbs the shading normal.
+  /// Rank of the medium inside. The medium of highest priority prevails in an overlap; among equals, that of
+  /// the smallest shape.
   int priority = 0;
 };
 
-/// The scattering of `material` at the wavelengths of a packet, against what is outside. It may refer to the
+/// The BSDF of `material` at the wavelengths of a lookup, relative to the medium outside. It may refer to the
 /// material, which must outlive it.
 [[nodiscard]] Bsdf make_bsdf(const Material& material, const SurfaceLookup& at);
 
-/// Whether its scattering depends on surface coordinates: by a texture, a relief, or a direction along the
-/// surface.
+/// True if the scattering depends on surface coordinates: through a texture, a relief or a direction along
+/// the surface.
 [[nodiscard]] bool needs_coordinates(const Material& material);
-/// Tells in which ways light leaves the surface.
+/// The kinds of lobes into which the surface scatters.
 [[nodiscard]] Lobes lobes(const Material& material);
-/// Sends different wavelengths different ways.
+/// True if the index inside the surface depends on wavelength, so that refraction disperses light.
 [[nodiscard]] bool is_dispersive(const Material& material);
-/// Whether its scattering depends on the matter around it: it has an index.
+/// True if the scattering depends on the index of the medium outside.
 [[nodiscard]] bool depends_on_outside(const Material& material);
-/// The index of the matter inside a closed surface of this material, or nullptr when light does not enter it.
-[[nodiscard]] const RefractiveIndex* interior(const Material& material);
-/// What light meets inside besides the absorption of that index, or nullptr.
+/// The refractive index inside a closed surface of this material, or nullptr if light does not enter it.
+[[nodiscard]] const RefractiveIndex* interior_index(const Material& material);
+/// The medium inside that absorbs or scatters in addition to the absorption of that index, or nullptr.
 [[nodiscard]] const Medium* medium(const Material& material);
-/// Why a dielectric or a pane may not be taken as clear at a wavelength [nm], where its reflectance is that
-/// of n alone: with its k it reflects along the normal what differs by more than 1e-4. Nothing of other
-/// matter.
-[[nodiscard]] std::optional<std::string> clear_fault(const Material& material, double wavelength_nm);
-/// Whether no light passes through its surfaces.
+/// An error message if the renderer may not treat a dielectric or thin glass as clear at a wavelength [nm].
+/// The renderer uses n alone for its reflectance; the message is given if k changes the reflectance along the
+/// normal by more than 1e-4. Empty otherwise and for other materials.
+[[nodiscard]] std::optional<std::string> transparency_fault(const Material& material, double wavelength_nm);
+/// True if no light passes through the surface.
 [[nodiscard]] bool opaque(const Material& material);
-/// The refractive indices it uses, those of coatings too; of a mixture none, as the scene has its components
-/// as materials of their own. They refer to the material, which must outlive them.
+/// All refractive indices that the material uses, including those of coatings. Empty for a mixture, because
+/// the scene lists its components as materials of their own. The result refers to the material, which must
+/// outlive it.
 [[nodiscard]] std::vector<IndexUse> indices(const Material& material);
-/// Bytes of the images it looks up.
+/// Size of the material's images in bytes.
 [[nodiscard]] std::size_t texture_bytes(const Material& material);
-/// Whether its surfaces bound matter that light enters, so that they must be closed.
+/// True if the surface bounds a medium that light enters. Such a surface must be closed.
 [[nodiscard]] bool encloses_medium(const Material& material);
-/// Matter begins and ends at a surface of this material, but light is neither reflected nor refracted there.
+/// True if a medium begins and ends at the surface without reflection or refraction.
 [[nodiscard]] bool is_boundary(const Material& material);
 
 }  // namespace abbe

@@ -17,7 +17,7 @@ SampledSpectrum total_weight(const MixtureMaterial& material, const SampledSpect
   return sum;
 }
 
-/// A component, what it weighs in each lane, and the number in [0, 1) left for its own choice.
+/// A component, its weight at each wavelength, and a random number in [0, 1) left for sampling the component.
 struct Choice {
   const MixtureMaterial::Component* component = nullptr;
   SampledSpectrum weight;
@@ -48,10 +48,10 @@ std::optional<BsdfSample> MixtureBsdf::sample(const Imath::V3f& wo, const BsdfRa
       abbe::sample(make_bsdf(*chosen.component->material, at()), wo, {chosen.rest, u.direction}, hero, mode);
   if (!s) return std::nullopt;
   if (s->delta) {
-    const SampledSpectrum share = quotient(chosen.weight, total);
-    s->pdf *= share[hero];
-    s->lane_pdf *= share * (1 / share[hero]);
-    s->weight *= chosen.weight * (1 / share[hero]);
+    const SampledSpectrum probability = quotient(chosen.weight, total);
+    s->pdf *= probability[hero];
+    s->lane_pdf *= probability * (1 / probability[hero]);
+    s->weight *= chosen.weight * (1 / probability[hero]);
     return s;
   }
   const SampledSpectrum density = pdf(wo, s->wi);
@@ -92,7 +92,7 @@ SampledSpectrum MixtureBsdf::delta_power(const Imath::V3f& wo, bool through) con
   return power;
 }
 
-// Light enters no part, so that none scales what passes.
+// A transmitted direction has no refraction scale, because light does not enter any component.
 std::optional<MuellerMatrix> MixtureBsdf::mueller(const Imath::V3f& wo, const Imath::V3f& wi,
                                                   bool delta) const {
   MuellerMean<SampledSpectrum> mean;

@@ -59,7 +59,7 @@ struct PowerOf {
   Power operator()(const DepolariserMaterial& sheet) const {
     return straight_on(sheet.transmittance(at.wavelength_nm));
   }
-  // Matter that begins without an interface.
+  // The boundary of a medium without an interface transmits all light.
   Power operator()(const MediumMaterial&) const { return straight_on(1); }
   Power operator()(const MixtureMaterial& mixture) const {
     Power sum;
@@ -80,7 +80,7 @@ struct PowerOf {
   }
 
   [[nodiscard]] Power straight_on(double T) const { return {{0, 0, T, T, at.cos_i}}; }
-  // Of an opaque surface.
+  // Opaque surfaces transmit nothing.
   static Power reflected(const FresnelPower<double>& power) { return {{power.Rs, power.Rp, 0, 0, 0}}; }
 };
 
@@ -117,7 +117,7 @@ struct SmoothMuellerOf {
   }
   SmoothMueller operator()(const DepolariserMaterial& /*sheet*/) const { return {{{}, kUnpolarised}}; }
   SmoothMueller operator()(const MediumMaterial& /*boundary*/) const { return {}; }
-  // The mean over the parts, by the power that each sends that way.
+  // Mean over the components, weighted by the power that each reflects or transmits.
   SmoothMueller operator()(const MixtureMaterial& mixture) const {
     MuellerMean<double> reflected;
     MuellerMean<double> through;
@@ -125,7 +125,7 @@ struct SmoothMuellerOf {
       const auto power = smooth_power(*component.material, at);
       if (!power) continue;
       const double weight = component.weight(at.wavelength_nm);
-      const MuellerBothWays<double> part = smooth_mueller(*component.material, at)->ways;
+      const InterfaceMueller<double> part = smooth_mueller(*component.material, at)->matrices;
       reflected.add(weight * power->R(), part.reflected);
       through.add(weight * power->transmitted(), part.through);
     }

@@ -10,30 +10,30 @@
 
 namespace abbe {
 
-/// How one ray of one wavelength meets a surface.
+/// A ray of one wavelength at a surface.
 struct SmoothLookup {
   double wavelength_nm;
-  double cos_i;                             ///< In [0, 1].
-  bool inside;                              ///< From within the matter that the surface bounds.
-  double outside = 1;                       ///< Index of what that matter is in, relative to air.
-  std::optional<Imath::V2f> coordinates{};  ///< Of the surface; unknown where nothing.
+  double cos_i;        ///< Cosine of the angle of incidence, in [0, 1].
+  bool inside;         ///< True if the ray arrives from inside the medium that the surface bounds.
+  double outside = 1;  ///< Index of the medium outside, relative to air.
+  std::optional<Imath::V2f> coordinates{};  ///< Surface coordinates; empty if unknown.
 };
 
-/// What a surface sends on in single directions, the mirror's and through it, by the formulas of its model in
-/// double precision; T is 0 where what is let in is scattered or absorbed there. Of unpolarised light alone
-/// where the model knows no polarisation. Nothing of a surface that sends none on so, nor where textures
-/// decide at unknown coordinates.
+/// Reflectance and transmittance of the delta lobes, in double precision by the formulas of the model. T is 0
+/// if the transmitted light is scattered or absorbed inside. A model without polarisation returns equal
+/// values for s and p. Empty if the material has no delta lobe, or if a textured value is needed at unknown
+/// coordinates.
 [[nodiscard]] std::optional<FresnelPower<double>> smooth_power(const Material& material,
                                                                const SmoothLookup& at);
 
-/// What that does to polarisation, all elements being 0 where it depolarises.
+/// Mueller matrices of the delta lobes. All elements are 0 if the lobe depolarises.
 struct SmoothMueller {
-  MuellerBothWays<double> ways;
-  /// In the surface, x being along u; of thin elements, whose axis is its projection across the ray. Without
-  /// it the axis is that across the plane of incidence.
+  InterfaceMueller<double> matrices;
+  /// Axis of a thin element in the plane of the surface, with x along u. The axis of the matrices is its
+  /// projection perpendicular to the ray. Empty if that axis is perpendicular to the plane of incidence.
   std::optional<Imath::V2d> axis = {};
 };
-/// Nothing where `smooth_power` says nothing.
+/// Mueller matrices of the delta lobes; empty if `smooth_power` is empty.
 [[nodiscard]] std::optional<SmoothMueller> smooth_mueller(const Material& material, const SmoothLookup& at);
 
 }  // namespace abbe

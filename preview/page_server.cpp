@@ -22,18 +22,18 @@
 #include <httplib.h>
 
 #include "io/error.h"
-#include "preview/question_reader.h"
+#include "preview/request_reader.h"
 
 namespace abbe {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr std::chrono::seconds kTakeWithin{5};
-constexpr int kWaiting = 128;
-constexpr std::size_t kThreads = 16;  // nearly all of which wait for clients that take their answers slowly
+constexpr std::chrono::seconds kSendTimeout{5};
+constexpr int kBacklog = 128;
+constexpr std::size_t kThreads = 16;  // most of them wait for slow clients
 
-// Calls on the thread that accepts connections, which hands them over at once.
+// A queue that runs its tasks at once on the accepting thread; they only hand over connections.
 class HandOver : public httplib::TaskQueue {
  public:
   explicit HandOver(std::function<void()> shut_down) : shut_down_(std::move(shut_down)) {}
@@ -44,11 +44,10 @@ class HandOver : public httplib::TaskQueue {
   std::function<void()> shut_down_;
 };
 
-// A connection whose question has been read. Its client has so much time to take the answer and no more,
-// however it deals it out.
+// A connection whose request has been read. The client has a fixed total time to take the answer.
 class Connection : public httplib::Stream {
  public:
-  Connection(int socket, std::string question) : socket_(socket), question_(std::move(question)) {}
+  Connection(int socket, std::string request_text) : socket_(socket), request_(std::move(request_text)) {}
   ~Connection() override {
     (void)::shutdown(socket_, SHUT_RDWR);
     (void)::close(socket_);
@@ -56,7 +55,7 @@ class Connection : public httplib::Stream {
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
 
-  bool is_readable() const override { return at_ < question_.size(); }
+  bool is_readable() const override { return at_ < request_.size(); }
   bool is_writable() const override {
     const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(until_ - Clock::now()).count();
     pollfd descriptor{socket_, POLLOUT, 0};
@@ -64,7 +63,7 @@ class Connection : public httplib::Stream {
   }
 
   ssize_t read(char* to, std::size_t size) override {
-    const std::size_t count = question_.copy(to, size, at_);
+    const std::size_t count = request_.copy(to, size, at_);
     at_ += count;
     return static_cast<ssize_t>(count);
   }
@@ -74,20 +73,20 @@ class Connection : public httplib::Stream {
     return ::send(socket_, from, size, MSG_NOSIGNAL | MSG_DONTWAIT);
   }
 
-  // Nobody asks.
+  // These functions are never called.
   void get_remote_ip_and_port(std::string&, int&) const override {}
   void get_local_ip_and_port(std::string&, int&) const override {}
   socket_t socket() const override { return socket_; }
 
  private:
   int socket_;
-  Clock::time_point until_ = Clock::now() + kTakeWithin;
-  std::string question_;
+  Clock::time_point until_ = Clock::now() + kSendTimeout;
+  std::string request_;
   std::size_t at_ = 0;
 };
 
-// Another program that listens there is to be noticed, so the port is not shared; but one that a program has
-// just left may be taken.
+// The port is not shared, so that another program that listens there is noticed. A port that a program has
+// just left may be reused.
 void set_options(int socket) {
   const int yes = 1;
   (void)::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof(yes));
@@ -97,7 +96,7 @@ bool is_same_name(const std::string& a, const std::string& b) {
   return ::strcasecmp(a.c_str(), b.c_str()) == 0;
 }
 
-// By no more than its text: what a name server says of a name is up to others.
+// Decides by the text alone, because name servers are not trusted.
 bool is_loopback(const std::string& host) {
   in_addr v4{};
   in6_addr v6{};
@@ -117,19 +116,19 @@ std::string own_name() {
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
-// Whether no stranger can have let the name that a page is asked by point at this machine: addresses have no
-// names, and its own names are not for strangers to give.
-bool is_own(const std::string& host, const std::string& listens_at) {
+// True if `host` cannot be a foreign name that resolves to this machine: it is an address or one of this
+// machine's own names.
+bool is_own_host(const std::string& host, const std::string& listen_host) {
   if (host.empty()) return false;
   if (is_loopback(host)) return true;
-  if (is_loopback(listens_at)) return false;
+  if (is_loopback(listen_host)) return false;
   const std::string own = own_name();
   return is_address(host) || is_same_name(host, own) || is_same_name(host, own.substr(0, own.find('.'))) ||
-         is_same_name(host, listens_at);
+         is_same_name(host, listen_host);
 }
 
-// The host of "host", "host:port" or either with an address of IPv6 in brackets [RFC9110, sec. 7.2; RFC3986,
-// sec. 3.2]. Nothing for a text of another form.
+// The host of "host" or "host:port", with an IPv6 address in brackets [RFC9110, sec. 7.2; RFC3986, sec. 3.2].
+// Empty for malformed text.
 std::optional<std::string> host_of(std::string_view text) {
   const bool bracketed = text.starts_with('[');
   const std::size_t end = bracketed ? text.find(']') : std::min(text.find(':'), text.size());
@@ -169,10 +168,10 @@ std::string to_text(const ServerAddress& address) {
 struct PageServer::Listener {
   class HttpServer : public httplib::Server {
    public:
-    // The library lets five connections wait to be accepted, and others try again after a second.
-    void let_more_wait() { (void)::listen(svr_sock_, kWaiting); }
+    // The library's backlog of five connections is too short: further clients retry only after a second.
+    void let_more_wait() { (void)::listen(svr_sock_, kBacklog); }
 
-    // Queue that hands over accepted connections. The library owns it.
+    // A queue that hands over accepted connections. The library owns it.
     httplib::TaskQueue* hand_over() {
       return new HandOver([this] { end(); });
     }
@@ -189,15 +188,15 @@ struct PageServer::Listener {
       if (!std::exchange(ended_, true)) threads_.shutdown();
     }
 
-    void serve(int socket, std::string question) {
-      process(socket, std::move(question));
+    void serve(int socket, std::string request_text) {
+      process(socket, std::move(request_text));
       reader_.served();
     }
 
-    void process(int socket, std::string question) {
-      Connection connection(socket, std::move(question));
+    void process(int socket, std::string request_text) {
+      Connection connection(socket, std::move(request_text));
       bool closed = false;
-      // Answers on one machine are not worth compressing, and whoever asks for parts is given the whole.
+      // Compression is useless on one machine, and range requests get the whole answer.
       (void)process_request(connection, true, closed, [](httplib::Request& request) {
         request.headers.erase("Accept-Encoding");
         request.headers.erase("Range");
@@ -207,8 +206,9 @@ struct PageServer::Listener {
 
     bool ended_ = false;
     httplib::ThreadPool threads_{kThreads};
-    QuestionReader reader_{[this](int socket, std::string question) {
-      threads_.enqueue([this, socket, question = std::move(question)] { serve(socket, question); });
+    RequestReader reader_{[this](int socket, std::string request_text) {
+      threads_.enqueue(
+          [this, socket, request_text = std::move(request_text)] { serve(socket, request_text); });
     }};
   };
 
@@ -221,15 +221,17 @@ struct PageServer::Listener {
   [[nodiscard]] PageAnswer reply(const httplib::Request& request) const {
     if (request.method != "GET" && request.method != "HEAD") return failure(405, "allowed: GET, HEAD");
     const std::size_t names = request.get_header_value_count("Host");
-    if (names != 1) return failure(400, names == 0 ? "asked by no name" : "asked by several names");
+    if (names != 1)
+      return failure(400,
+                     names == 0 ? "the request has no Host header" : "the request has several Host headers");
     const std::optional<std::string> name = host_of(request.get_header_value("Host"));
-    if (!name) return failure(400, "asked by a malformed name");
-    if (!is_own(*name, host))
-      return failure(403, "asked by the name of another host: ask by the address of this one");
-    PageRequest question{request.path, {}};
-    for (const auto& [key, value] : request.params) question.parameters.emplace(key, value);
+    if (!name) return failure(400, "the Host header is malformed");
+    if (!is_own_host(*name, host))
+      return failure(403, "the Host header names another machine: use the address of this one");
+    PageRequest page_request{request.path, {}};
+    for (const auto& [key, value] : request.params) page_request.parameters.emplace(key, value);
     try {
-      return answer(question);
+      return answer(page_request);
     } catch (const std::exception& e) {
       return failure(500, e.what());
     }
@@ -237,7 +239,7 @@ struct PageServer::Listener {
 };
 
 PageServer::PageServer(const ServerAddress& address, std::function<PageAnswer(const PageRequest&)> answer) {
-  const auto on_broken_pipe = std::signal(SIGPIPE, SIG_IGN);  // which the library changes for the program
+  const auto on_broken_pipe = std::signal(SIGPIPE, SIG_IGN);  // the library changes it for the whole program
   listener_ = std::make_unique<Listener>();
   (void)std::signal(SIGPIPE, on_broken_pipe);
   listener_->host = address.host;
@@ -260,7 +262,7 @@ PageServer::PageServer(const ServerAddress& address, std::function<PageAnswer(co
                                                                       : -1;
   if (listener_->port < 0)
     throw Error(ErrorCode::output, to_text(address),
-                "cannot be listened on: another program does, or there is no such address");
+                "cannot be listened on: another program uses it, or there is no such address");
   server.let_more_wait();
   listener_->thread = std::jthread([&server] { (void)server.listen_after_bind(); });
   while (!server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));

@@ -7,51 +7,53 @@
 
 namespace abbe {
 
-/// Where a server listens: only to programs of this machine, unless told.
+/// Address at which a server listens; by default only for programs of this machine.
 struct ServerAddress {
   std::string host = "127.0.0.1";
-  int port = 0;  ///< 0: any that is free.
+  int port = 0;  ///< 0 selects any free port.
 };
 
-/// "host:port", an address of IPv6 in brackets.
+/// "host:port", with an IPv6 address in brackets.
 [[nodiscard]] std::string to_text(const ServerAddress& address);
 
-/// A question to a server of pages.
+/// An HTTP request to a `PageServer`.
 struct PageRequest {
   std::string path;
   std::map<std::string, std::string> parameters;
 };
 
-/// What it answers: a page by its type and text, or by its HTTP status why there is none.
+/// The answer to a request: the content of a page with its type, or the HTTP status of an error with a
+/// message.
 struct PageAnswer {
   int status = 200;
   std::string type = "text/plain";
   std::shared_ptr<const std::string> body = {};
 };
 
-/// A page there is not.
+/// The answer 404 for a page that does not exist.
 [[nodiscard]] inline PageAnswer not_found() {
   return {404, "text/plain", std::make_shared<const std::string>("no such page\n")};
 }
 
-/// Answers GET and HEAD of HTTP/1.1 while it lives, each connection one question, on threads of its own. A
-/// `QuestionReader` drops connections that ask too slowly, too much, or are too many, and an answer that is
-/// not taken within five seconds is dropped. Whoever asks for parts of an answer is given the whole.
+/// An HTTP/1.1 server with threads of its own, which answers GET and HEAD during its lifetime, one request
+/// per connection. A `RequestReader` closes connections with slow or long requests, and excess connections.
+/// An answer that the client does not take within five seconds is dropped. Requests for a range get the whole
+/// answer.
 ///
-/// A question without one well-formed Host header is answered by 400. Names of other hosts, by which pages of
-/// strangers could read the answers, are refused by 403: on an address of this machine alone all but
-/// "localhost" and such addresses, on others all but addresses, "localhost", this machine's own name and the
-/// one that it listens at.
+/// The Host header protects against DNS rebinding, by which pages of other hosts could read the answers.
+/// Without exactly one well-formed Host header the answer is 400. With the name of another host it is 403. If
+/// the server listens only on this machine, it accepts "localhost" and loopback addresses. Otherwise it
+/// accepts all addresses, "localhost", this machine's name and the name at which it listens.
 class PageServer {
  public:
-  /// `answer` is called by several threads at once; what it throws is answered as a failure of the server.
-  /// Throws Error{output} when the address cannot be listened on.
+  /// Starts the server. Several threads call `answer` at once; an exception from it becomes the answer 500.
+  /// Throws Error{output} if the address cannot be listened on.
   PageServer(const ServerAddress& address, std::function<PageAnswer(const PageRequest&)> answer);
   ~PageServer();
   PageServer(const PageServer&) = delete;
   PageServer& operator=(const PageServer&) = delete;
 
-  /// What to open in a browser, such as "http://127.0.0.1:8080/".
+  /// The URL to open in a browser, such as "http://127.0.0.1:8080/".
   [[nodiscard]] std::string url() const;
 
  private:

@@ -16,20 +16,20 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// A page asks for the state twice a second.
+// The page requests the state twice a second.
 constexpr std::chrono::seconds kWatchedFor{3};
 constexpr std::chrono::seconds kLingers{2};
-constexpr double kMaxEncodingShare = 0.01;
+constexpr double kMaxEncodingFraction = 0.01;
 constexpr std::chrono::milliseconds kMinPause{200};
 constexpr double kMaxStops = 30;
 
-// Files may have names of any bytes: those that are no UTF-8 are told by U+FFFD.
+// File names may contain any bytes: those that are not UTF-8 become U+FFFD.
 PageAnswer json_page(const Json& json) {
   return {200, "application/json",
           std::make_shared<const std::string>(json.dump(-1, ' ', false, Json::error_handler_t::replace))};
 }
 
-// Nothing for what is not known yet.
+// Unknown values become null.
 Json number_or_null(double x) {
   return std::isfinite(x) ? Json(x) : Json();
 }
@@ -62,24 +62,24 @@ Preview::Preview(const Scene& scene, FilmIdentity identity, const ViewOptions& v
       server_(address, [this](const PageRequest& request) { return answer(request); }) {}
 
 bool Preview::is_watched() const {
-  return Clock::now() - kWatchedFor < asked_.load();
+  return Clock::now() - kWatchedFor < last_request_.load();
 }
 
-bool Preview::wants_to_see() {
+bool Preview::viewer_is_ready() {
   if (!is_watched()) return false;
   cost_s_ += film_.take_time_spent();
-  const std::chrono::duration<double> pause(cost_s_ / threads_ / kMaxEncodingShare);
-  return Clock::now() - shown_ > std::max<std::chrono::duration<double>>(pause, kMinPause);
+  const std::chrono::duration<double> pause(cost_s_ / threads_ / kMaxEncodingFraction);
+  return Clock::now() - last_snapshot_ > std::max<std::chrono::duration<double>>(pause, kMinPause);
 }
 
 void Preview::show(const RenderResult& result) {
   const Clock::time_point begin = Clock::now();
   film_.replace(take_snapshot(scene_, identity_, result, threads_));
-  shown_ = Clock::now();
-  cost_s_ = std::chrono::duration<double>(shown_ - begin).count() * threads_;
+  last_snapshot_ = Clock::now();
+  cost_s_ = std::chrono::duration<double>(last_snapshot_ - begin).count() * threads_;
 }
 
-void Preview::tell(const Progress& progress) {
+void Preview::set_progress(const Progress& progress) {
   const std::scoped_lock lock(progress_mutex_);
   progress_ = progress;
 }
@@ -93,7 +93,7 @@ void Preview::end(const RenderResult& result) {
 
 PageAnswer Preview::answer(const PageRequest& request) {
   if (request.path == "/") return {200, "text/html", std::make_shared<const std::string>(kPreviewPage)};
-  asked_ = Clock::now();
+  last_request_ = Clock::now();
   if (request.path == "/state") return state();
   if (request.path == "/picture.png") return picture(request);
   if (request.path == "/pixel") return pixel(request);
@@ -109,7 +109,7 @@ PageAnswer Preview::state() const {
   const bool ended = ended_;
   return json_page({{"scene", identity_.at("scene")},
                     {"ended", ended},
-                    {"share", progress.share},
+                    {"share", progress.fraction_done},
                     {"samples_per_pixel", progress.samples},
                     {"samples_per_s", progress.rate},
                     {"elapsed_s", progress.elapsed_s},

@@ -14,27 +14,28 @@
 
 namespace abbe {
 
-/// A page on which a render is watched while it runs: its picture, the spectrum or the channels of a pixel,
-/// and how far it has come. What nobody looks at costs nothing, and all the looking no more than a hundredth
-/// of the time.
+/// A web page that shows a render in progress: the picture, the spectrum or channels of a pixel, and the
+/// progress. Without viewers it costs nothing; with viewers it takes at most 1 % of the CPU time.
 ///
-/// `/` is the page itself, `/state` what `tell` and `show` were told last, as JSON, `/picture.png` with
-/// `view` and `exposure` [stops] the film, `/pixel` with `x` and `y` its values as JSON.
+/// - `/` is the page, `/state` the latest progress as JSON.
+/// - `/picture.png` is the picture with the parameters `view` and `exposure` [stops].
+/// - `/pixel` is the pixel `x`, `y` as JSON.
 class Preview {
  public:
-  /// Of a scene that outlives it, rendered on so many threads. Throws Error{output} when the address cannot
-  /// be listened on, and what `view_names` throws.
+  /// Starts the server for a render of `scene`, which must outlive it, on `threads` threads. Throws
+  /// Error{output} if the address cannot be listened on, and as `view_names`.
   Preview(const Scene& scene, FilmIdentity identity, const ViewOptions& view, const ServerAddress& address,
           int threads);
 
   [[nodiscard]] std::string url() const { return server_.url(); }
 
-  /// Whether somebody looks and it is time for a new picture.
-  [[nodiscard]] bool wants_to_see();
-  /// Takes a snapshot of a film that no thread adds to.
+  /// True if a viewer is connected and a new picture is due.
+  [[nodiscard]] bool viewer_is_ready();
+  /// Takes a snapshot of the film. No thread may add to the film meanwhile.
   void show(const RenderResult& result);
-  void tell(const Progress& progress);
-  /// Tells those who look that the film shown last is the whole, and lets them see it for two seconds.
+  /// Sets the progress that `/state` reports. Thread-safe.
+  void set_progress(const Progress& progress);
+  /// Shows the finished film to connected viewers and waits two seconds, so that they can load it.
   void end(const RenderResult& result);
 
  private:
@@ -50,13 +51,13 @@ class Preview {
   const FilmIdentity identity_;
   const int threads_;
   ViewerFilm film_;
-  Clock::time_point shown_{};  // when the last snapshot was taken
-  double cost_s_ = 0;          // of it and of what was made of it, on all threads
-  std::atomic<Clock::time_point> asked_{Clock::time_point::min()};
+  Clock::time_point last_snapshot_{};  // time of the last snapshot
+  double cost_s_ = 0;                  // CPU time of the last snapshot and its pictures
+  std::atomic<Clock::time_point> last_request_{Clock::time_point::min()};
   std::atomic<bool> ended_{false};
   mutable std::mutex progress_mutex_;
   Progress progress_{};
-  PageServer server_;  // last, since it calls the rest
+  PageServer server_;  // last, because it calls the other members
 };
 
 }  // namespace abbe

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "film/sensor_identity.h"
+#include "film/film_attributes.h"
 #include "io/image.h"
 #include "scene/scene.h"
 #include "sensor/film/crop.h"
@@ -10,14 +10,15 @@
 
 namespace abbe {
 
-/// A film under way, after a whole number of passes.
+/// A film in progress, after a whole number of passes.
 struct Snapshot {
-  std::uint64_t samples = 0;  ///< Per pixel.
-  Crop crop = {};             ///< The pixels that are rendered.
-  Image film = {};            ///< Its planes, without variance, and what they tell of their sensor.
+  std::uint64_t samples = 0;  ///< Samples per pixel.
+  Crop crop = {};             ///< Rendered pixels.
+  Image film = {};            ///< Planes without variance, with the attributes of the sensor.
 };
 
-/// Takes it of a film that no thread adds to, on so many threads, as renders stand still meanwhile.
+/// Copies the film's means on `threads` threads, because the render waits meanwhile. No thread may add to the
+/// film.
 [[nodiscard]] Snapshot take_snapshot(const Scene& scene, const FilmIdentity& identity,
                                      const RenderResult& result, int threads);
 

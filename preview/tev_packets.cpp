@@ -8,12 +8,12 @@
 namespace abbe {
 namespace {
 
-enum class Kind : std::uint8_t { update_image = 3, create_image = 4 };
+enum class PacketKind : std::uint8_t { update_image = 3, create_image = 4 };
 
 class Packet {
  public:
-  Packet(Kind kind, bool in_front) {
-    add(std::int32_t{0});  // the length, once it is known
+  Packet(PacketKind kind, bool in_front) {
+    add(std::int32_t{0});  // placeholder for the length
     bytes_ += static_cast<char>(kind);
     bytes_ += in_front ? '\1' : '\0';
   }
@@ -40,7 +40,7 @@ class Packet {
 
 std::string tev_create_image(const std::string& image, int width, int height,
                              const std::vector<std::string>& channels) {
-  Packet packet(Kind::create_image, true);
+  Packet packet(PacketKind::create_image, true);
   packet.add(image);
   packet.add(width);
   packet.add(height);
@@ -51,7 +51,7 @@ std::string tev_create_image(const std::string& image, int width, int height,
 
 std::string tev_update_rows(const std::string& image, const std::string& channel, int width, int y,
                             std::span<const float> values) {
-  Packet packet(Kind::update_image, false);
+  Packet packet(PacketKind::update_image, false);
   packet.add(image);
   packet.add(channel);
   packet.add(0);

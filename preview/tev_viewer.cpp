@@ -12,14 +12,14 @@
 
 #include <fmt/format.h>
 
-#include "film/sensor_identity.h"
+#include "film/film_attributes.h"
 #include "io/error.h"
 #include "preview/tev_packets.h"
 
 namespace abbe {
 namespace {
 
-constexpr double kMaxSendingShare = 0.01;
+constexpr double kMaxSendingFraction = 0.01;
 constexpr double kMinPause_s = 0.2;
 constexpr std::size_t kPacketFloats = std::size_t{1} << 18;
 constexpr timeval kPatience{3, 0};
@@ -66,18 +66,18 @@ TevViewer::~TevViewer() {
   (void)::close(socket_);
 }
 
-bool TevViewer::wants_to_see() {
+bool TevViewer::viewer_is_ready() {
   const std::scoped_lock lock(mutex_);
   if (busy_ || gone_) return false;
-  const double pause = std::max(kMinPause_s, (cost_s_ + sending_s_) / threads_ / kMaxSendingShare);
-  return Clock::now() - shown_ > std::chrono::duration<double>(pause);
+  const double pause = std::max(kMinPause_s, (cost_s_ + sending_s_) / threads_ / kMaxSendingFraction);
+  return Clock::now() - last_snapshot_ > std::chrono::duration<double>(pause);
 }
 
 void TevViewer::show(const RenderResult& result) {
   const Clock::time_point begin = Clock::now();
   Image film = take_snapshot(scene_, identity_, result, threads_).film;
-  shown_ = Clock::now();
-  cost_s_ = std::chrono::duration<double>(shown_ - begin).count() * threads_;
+  last_snapshot_ = Clock::now();
+  cost_s_ = std::chrono::duration<double>(last_snapshot_ - begin).count() * threads_;
   {
     const std::scoped_lock lock(mutex_);
     waiting_ = std::move(film);
@@ -105,7 +105,7 @@ void TevViewer::send_all() {
     lock.unlock();
     const Clock::time_point begin = Clock::now();
     const bool sent = send_image(film_image(std::move(film)));
-    if (!sent) warn_("the viewer went away: the render goes on without it");
+    if (!sent) warn_("the viewer closed the connection: the render continues without it");
     lock.lock();
     sending_s_ = std::chrono::duration<double>(Clock::now() - begin).count();
     busy_ = false;

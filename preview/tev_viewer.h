@@ -16,24 +16,24 @@
 
 namespace abbe {
 
-/// Shows a render in the viewer tev while it runs: all channels that the film's file will have, but for
-/// variances. A thread of its own sends them, and all of it takes no more than a hundredth of the time.
+/// Shows a render in progress in the image viewer tev: all channels of the film's file except variances. A
+/// thread of its own sends them. Snapshots and sending take at most 1 % of the CPU time.
 class TevViewer {
  public:
-  /// Of a scene that outlives it, rendered on so many threads. `warn` is told, once and from another thread,
-  /// when the viewer goes away; the render then goes on without. Throws Error{output} when no viewer listens
-  /// there.
+  /// Connects to the viewer for a render of `scene`, which must outlive it, on `threads` threads. `warn` is
+  /// called once, from another thread, if the viewer closes the connection; the render continues without it.
+  /// Throws Error{output} if no viewer listens at the address.
   TevViewer(const Scene& scene, FilmIdentity identity, const ServerAddress& address, int threads,
             std::function<void(const std::string&)> warn);
   ~TevViewer();
   TevViewer(const TevViewer&) = delete;
   TevViewer& operator=(const TevViewer&) = delete;
 
-  /// Whether the viewer is there, has taken what it was sent, and it is time for more.
-  [[nodiscard]] bool wants_to_see();
-  /// Takes a snapshot of a film that no thread adds to.
+  /// True if the viewer is connected and has received the previous image, and a new one is due.
+  [[nodiscard]] bool viewer_is_ready();
+  /// Takes a snapshot of the film and queues it. No thread may add to the film meanwhile.
   void show(const RenderResult& result);
-  /// Shows the last film, and waits until it is sent.
+  /// Sends the last film and waits until it is sent.
   void end(const RenderResult& result);
 
  private:
@@ -50,13 +50,13 @@ class TevViewer {
   const std::function<void(const std::string&)> warn_;
   int socket_ = -1;
   bool created_ = false;
-  Clock::time_point shown_{};
-  double cost_s_ = 0;  // of the last snapshot, on all threads
+  Clock::time_point last_snapshot_{};
+  double cost_s_ = 0;  // CPU time of the last snapshot
 
-  std::mutex mutex_;  // of all that follows
+  std::mutex mutex_;  // guards the members below
   std::condition_variable changed_;
   std::optional<Image> waiting_;
-  double sending_s_ = 0;  // of the last image
+  double sending_s_ = 0;  // time to send the last image
   bool busy_ = false;
   bool gone_ = false;
   bool ending_ = false;

@@ -4,7 +4,7 @@
 #include <chrono>
 #include <cmath>
 
-#include "film/sensor_identity.h"
+#include "film/film_attributes.h"
 #include "io/error.h"
 #include "io/picture.h"
 #include "io/spectral_exr.h"
@@ -12,10 +12,10 @@
 namespace abbe {
 namespace {
 
-// Of one snapshot, at a time.
+// Number of cached pictures of a snapshot.
 constexpr std::size_t kMaxPictures = 16;
 
-// Adds the time it lives to a sum.
+// Adds its lifetime to a sum [s].
 class Stopwatch {
  public:
   explicit Stopwatch(std::atomic<double>& sum_s) : sum_s_(sum_s) {}
@@ -42,7 +42,7 @@ ViewerFilm::ViewerFilm(const Scene& scene, ViewOptions options)
 }
 
 void ViewerFilm::replace(Snapshot snapshot) {
-  auto next = std::make_shared<Shown>();
+  auto next = std::make_shared<ProcessedSnapshot>();
   next->samples = snapshot.samples;
   next->crop = snapshot.crop;
   next->film = std::move(snapshot.film);
@@ -51,7 +51,7 @@ void ViewerFilm::replace(Snapshot snapshot) {
   latest_ = std::move(next);
 }
 
-std::shared_ptr<ViewerFilm::Shown> ViewerFilm::latest() const {
+std::shared_ptr<ViewerFilm::ProcessedSnapshot> ViewerFilm::latest() const {
   const std::scoped_lock lock(swap_);
   return latest_;
 }
@@ -64,11 +64,11 @@ std::uint64_t ViewerFilm::samples() const {
   return latest()->samples;
 }
 
-void ViewerFilm::make_film(Shown& shown) const {
-  if (shown.made) return;
-  shown.film = film_image(std::move(shown.film));
-  if (scene_.mosaic) shown.demosaiced = shown_film(scene_, shown.film);
-  shown.made = true;
+void ViewerFilm::make_film(ProcessedSnapshot& snapshot) const {
+  if (snapshot.made) return;
+  snapshot.film = film_image(std::move(snapshot.film));
+  if (scene_.mosaic) snapshot.demosaiced = film_for_display(scene_, snapshot.film);
+  snapshot.made = true;
 }
 
 const DisplayTransform& ViewerFilm::transform(const std::string& view) {
@@ -86,14 +86,14 @@ const DisplayTransform& ViewerFilm::transform(const std::string& view) {
 
 std::shared_ptr<const std::string> ViewerFilm::picture(const std::string& view, double stops) {
   const std::scoped_lock lock(work_);
-  const std::shared_ptr<Shown> shown = latest();
-  if (shown->number == 0 || std::find(views_.begin(), views_.end(), view) == views_.end()) return nullptr;
-  auto& pictures = shown->pictures;
+  const std::shared_ptr<ProcessedSnapshot> snapshot = latest();
+  if (snapshot->number == 0 || std::find(views_.begin(), views_.end(), view) == views_.end()) return nullptr;
+  auto& pictures = snapshot->pictures;
   if (const auto made = pictures.find({view, stops}); made != pictures.end()) return made->second;
   const Stopwatch watch(spent_s_);
-  make_film(*shown);
+  make_film(*snapshot);
   const DisplayTransform& display = transform(view);
-  const Image& planes = scene_.mosaic ? shown->demosaiced : shown->film;
+  const Image& planes = scene_.mosaic ? snapshot->demosaiced : snapshot->film;
   const std::optional<double> white = scene_.output.display_exposure;
   const double scale = white ? 1 / *white : display.automatic_scale(planes);
   Image image = display(planes, scale * std::exp2(stops)).image;
@@ -104,13 +104,13 @@ std::shared_ptr<const std::string> ViewerFilm::picture(const std::string& view, 
 
 std::optional<ViewerFilm::Pixel> ViewerFilm::pixel(int x, int y) {
   const std::scoped_lock lock(work_);
-  const std::shared_ptr<Shown> shown = latest();
-  const Crop& rendered = shown->crop;  // none before the first snapshot
+  const std::shared_ptr<ProcessedSnapshot> snapshot = latest();
+  const Crop& rendered = snapshot->crop;  // empty before the first snapshot
   if (x < rendered.x0 || y < rendered.y0 || x >= rendered.x1 || y >= rendered.y1) return std::nullopt;
   const Stopwatch watch(spent_s_);
-  make_film(*shown);
-  const Image& film = shown->film;
-  Pixel pixel{shown->samples, {}};
+  make_film(*snapshot);
+  const Image& film = snapshot->film;
+  Pixel pixel{snapshot->samples, {}};
   for (const ImageChannel& channel : film.channels) {
     const auto name = parse_spectral_channel(channel.name, "");
     pixel.values.push_back(

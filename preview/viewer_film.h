@@ -17,55 +17,57 @@
 
 namespace abbe {
 
-/// The film that viewers look at: the latest snapshot, and what they have asked of it so far, each made once.
-/// Any thread may call all of it.
+/// The film that viewers see: the latest snapshot and its cached pictures. Thread-safe.
 class ViewerFilm {
  public:
-  /// Of a scene that outlives it, as the options' display shows it.
+  /// `scene` must outlive it; `options` select the display.
   ViewerFilm(const Scene& scene, ViewOptions options);
 
-  /// What `picture` can show: views of the display; of a sensor that no display shows, its channels.
+  /// Names that `picture` accepts: the views of the display, or the channels of a sensor that no display can
+  /// show.
   [[nodiscard]] const std::vector<std::string>& views() const { return views_; }
 
+  /// Replaces the latest snapshot.
   void replace(Snapshot snapshot);
-  /// Snapshots so far, and the samples per pixel of the latest.
+  /// Number of snapshots so far.
   [[nodiscard]] std::uint64_t number() const;
+  /// Samples per pixel of the latest snapshot.
   [[nodiscard]] std::uint64_t samples() const;
 
-  /// The snapshot as a PNG, through one of the views, so many stops brighter than the scene asks for or than
-  /// is chosen for it; nothing before the first snapshot and for a view there is not.
+  /// The snapshot as a PNG in a view. `stops` is relative to the exposure that the scene requests, or to the
+  /// automatic one. Empty before the first snapshot and for an unknown view.
   [[nodiscard]] std::shared_ptr<const std::string> picture(const std::string& view, double stops);
 
-  /// What the film's file would hold of a pixel after so many samples.
+  /// The values of a pixel as in the film's file, after `samples` samples.
   struct Pixel {
     struct Value {
       std::string channel;
       float value;
-      std::optional<double> wavelength_nm;  ///< Of the middle of a spectrum's band.
+      std::optional<double> wavelength_nm;  ///< Center of the band of a spectral channel.
     };
     std::uint64_t samples;
     std::vector<Value> values;
   };
-  /// Nothing before the first snapshot and for a pixel that is not rendered.
+  /// The pixel's values; empty before the first snapshot and for a pixel that is not rendered.
   [[nodiscard]] std::optional<Pixel> pixel(int x, int y);
 
-  /// Time spent on what was asked [s], since the last call.
+  /// Time spent in `picture` and `pixel` [s] since the last call.
   [[nodiscard]] double take_time_spent() { return spent_s_.exchange(0); }
 
  private:
-  /// A snapshot, and what has been made of it.
-  struct Shown {
+  /// A snapshot with its cached results.
+  struct ProcessedSnapshot {
     std::uint64_t number = 0;
     std::uint64_t samples = 0;
     Crop crop{};
-    Image film;        // planes until `made`, then as the film's file holds it
-    Image demosaiced;  // what displays are given of a mosaic's
+    Image film;        // planes until `made`, then in the form of the film's file
+    Image demosaiced;  // planes for displays if the sensor has a mosaic
     bool made = false;
     std::map<std::pair<std::string, double>, std::shared_ptr<const std::string>> pictures = {};
   };
 
-  [[nodiscard]] std::shared_ptr<Shown> latest() const;
-  void make_film(Shown& shown) const;
+  [[nodiscard]] std::shared_ptr<ProcessedSnapshot> latest() const;
+  void make_film(ProcessedSnapshot& snapshot) const;
   [[nodiscard]] const DisplayTransform& transform(const std::string& view);
 
   const Scene& scene_;
@@ -73,10 +75,10 @@ class ViewerFilm {
   bool displayable_ = true;
   std::vector<std::string> views_;
   std::atomic<double> spent_s_{0};
-  std::mutex work_;  // of what is made of snapshots, and by what
+  std::mutex work_;  // guards the contents of snapshots and `transforms_`
   std::map<std::string, DisplayTransform> transforms_;
-  mutable std::mutex swap_;  // of the pointer alone: a render waits for no picture
-  std::shared_ptr<Shown> latest_ = std::make_shared<Shown>();
+  mutable std::mutex swap_;  // guards the pointer only, so that the render never waits for a picture
+  std::shared_ptr<ProcessedSnapshot> latest_ = std::make_shared<ProcessedSnapshot>();
 };
 
 }  // namespace abbe

@@ -5,7 +5,8 @@
 
 namespace abbe::python {
 
-/// An argument as a T; another object is a TypeError of Python: "`name`: expected `what` (got a set)".
+/// Converts an argument to a T. Throws Python's TypeError for other objects: "`name`: expected `what` (got a
+/// set)".
 template <typename T>
 [[nodiscard]] T argument(const pybind11::handle& object, const char* name, const char* what) {
   pybind11::detail::make_caster<T> caster;
@@ -15,8 +16,9 @@ template <typename T>
   return pybind11::detail::cast_op<T>(std::move(caster));
 }
 
-/// Lets a class make objects by its constructor alone: without, pybind11 gives out memory that nobody set. A
-/// `__new__` of its own suffices, since Python finds that of pybind11's base and refuses one that skips it.
+/// Makes the constructor the only way to create objects of a class. Otherwise `__new__` of pybind11 would
+/// return uninitialised memory. An own `__new__` suffices, because Python refuses to call that of the base in
+/// its place.
 inline void forbid_bare_new(const pybind11::handle& of_class) {
   auto* const type = reinterpret_cast<PyTypeObject*>(of_class.ptr());
   type->tp_new = [](PyTypeObject* subtype, PyObject* /*arguments*/, PyObject* /*keywords*/) {

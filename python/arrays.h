@@ -9,41 +9,41 @@
 #include <pybind11/numpy.h>
 
 #include "io/error.h"
-#include "python/lock.h"
+#include "python/gil.h"
 #include "python/numbers.h"
 
 namespace abbe::python {
 
-[[nodiscard]] inline std::span<const double> all(const Numbers& numbers) {
+[[nodiscard]] inline std::span<const double> span_of(const Numbers& numbers) {
   return {numbers.data(), static_cast<std::size_t>(numbers.size())};
 }
 
-/// A number, or None for one that is not finite, as errors are until they are measured.
-[[nodiscard]] inline pybind11::object known(double value) {
+/// The number, or None if it is not finite, such as an error that is not measured yet.
+[[nodiscard]] inline pybind11::object finite_or_none(double value) {
   return std::isfinite(value) ? pybind11::object(pybind11::float_(value))
                               : pybind11::object(pybind11::none());
 }
 
-/// A new array of the shape of another.
-[[nodiscard]] inline Numbers alike(const Numbers& numbers) {
+/// A new array of the same shape, uninitialised.
+[[nodiscard]] inline Numbers empty_like(const Numbers& numbers) {
   return Numbers(std::vector<pybind11::ssize_t>(numbers.shape(), numbers.shape() + numbers.ndim()));
 }
 
-/// `f` of each number, without Python's lock; a number for a number.
+/// Array of `f` of each number, computed without the GIL; a number for a number.
 template <typename F>
-[[nodiscard]] pybind11::object each(const Numbers& numbers, F f) {
-  Numbers results = alike(numbers);
+[[nodiscard]] pybind11::object map(const Numbers& numbers, F f) {
+  Numbers results = empty_like(numbers);
   double* to = results.mutable_data();
-  const std::span<const double> from = all(numbers);
+  const std::span<const double> from = span_of(numbers);
   {
-    const Released released;
+    const GilReleased released;
     for (std::size_t i = 0; i < from.size(); ++i) to[i] = f(from[i]);
   }
-  return results[pybind11::tuple()];  // of an array without axes, its number
+  return results[pybind11::tuple()];  // an array without axes gives its number
 }
 
-/// The arrays of the arguments `a_name` and `b_name` as two of one shape, by the rules of numpy. Throws
-/// Error{usage} where these give them none.
+/// Broadcasts the arguments `a_name` and `b_name` to a common shape by numpy's rules. Throws Error{usage} if
+/// there is none.
 [[nodiscard]] inline std::pair<Numbers, Numbers> broadcast(const Numbers& a, const Numbers& b,
                                                            const char* a_name, const char* b_name) {
   try {

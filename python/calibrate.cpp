@@ -10,7 +10,7 @@
 #include "calibration/calibration_case.h"
 #include "python/develop.h"
 #include "python/errors.h"
-#include "python/lock.h"
+#include "python/gil.h"
 #include "python/numbers.h"
 #include "python/query.h"
 
@@ -28,7 +28,8 @@ py::array_t<double> matrix_of(const CameraProfile& profile) {
   return rows;
 }
 
-// Of each channel, over codes as shares of the largest, exposure and the bounds of its 95 % interval.
+// Per channel an array over codes: the code as a fraction of the largest, the exposure, and the bounds of its
+// 95 % interval.
 py::dict curves_of(const std::vector<ChannelResponse>& responses) {
   py::dict curves;
   for (const ChannelResponse& response : responses) {
@@ -47,24 +48,25 @@ py::dict curves_of(const std::vector<ChannelResponse>& responses) {
   return curves;
 }
 
-py::dict told_of(const CameraCalibration& made) {
-  py::dict told;
-  told["patches"] = made.patches;
-  told["dE00"] = py::array(py::cast(made.correction.errors.delta_e));
-  told["dE00_mean"] = made.correction.errors.mean;
-  told["dE00_max"] = made.correction.errors.max;
-  told["dE00_unseen_mean"] = made.unseen.mean;
-  if (made.profile.correction.model == CorrectionModel::linear) told["to_xyz_d65"] = matrix_of(made.profile);
-  told["gains"] = made.profile.gains;
+py::dict dict_of(const CameraCalibration& made) {
+  py::dict result;
+  result["patches"] = made.patches;
+  result["dE00"] = py::array(py::cast(made.correction.errors.delta_e));
+  result["dE00_mean"] = made.correction.errors.mean;
+  result["dE00_max"] = made.correction.errors.max;
+  result["dE00_unseen_mean"] = made.unseen.mean;
+  if (made.profile.correction.model == CorrectionModel::linear)
+    result["to_xyz_d65"] = matrix_of(made.profile);
+  result["gains"] = made.profile.gains;
   py::dict errors;
   for (const ChannelResponse& response : made.responses)
     errors[py::str(response.channel)] = response.max_error;
-  told["response_max_error"] = errors;
-  told["responses"] = curves_of(made.responses);
-  return told;
+  result["response_max_error"] = errors;
+  result["responses"] = curves_of(made.responses);
+  return result;
 }
 
-// Arguments beside which others would have no effect are refused, as options are by the command.
+// Throws if an argument has no effect because of another one, as the command does for its options.
 void require_effect(const CalibrationSource& source, bool is_measured, bool has_bits) {
   const auto refuse = [](const char* argument, const char* why) {
     throw Error(ErrorCode::usage, argument, why);
@@ -73,13 +75,13 @@ void require_effect(const CalibrationSource& source, bool is_measured, bool has_
     refuse("response", "is planted into a simulated camera, not into a measured one");
   if (is_measured && has_bits) refuse("bits", "are those of a simulated camera, not of a measured one");
   if (!source.series.empty() && !is_measured)
-    refuse("series", "needs measured (its curves alone are those of recover_response)");
+    refuse("series", "needs measured; recover_response returns the curves alone");
   if (source.camera.empty() && (!is_measured || !source.training.empty()))
     refuse("camera", "is needed, unless measured is given without training");
   if (!source.camera.empty() && is_measured && source.training.empty())
-    refuse("camera", "is allowed with measured only for training, which is seen through its curves");
+    refuse("camera", "is allowed with measured only for training, to which its curves apply");
   if (source.camera.empty() && source.camera_response)
-    refuse("camera_response", "needs camera, whose curves it speaks of");
+    refuse("camera_response", "needs camera, to whose curves it applies");
 }
 
 py::dict calibrate(const std::string& camera, const std::string& illuminant, const std::string& chart,
@@ -103,20 +105,20 @@ py::dict calibrate(const std::string& camera, const std::string& illuminant, con
   std::optional<CalibrationCase> made;
   Diagnostics diagnostics;
   {
-    const Released released;
+    const GilReleased released;
     Inputs photographs;
     made = measured ? measured_calibration(source, illuminant, photographs, diagnostics)
                     : simulated_calibration(source, illuminant, diagnostics);
   }
   check(diagnostics);
-  return told_of(made->result);
+  return dict_of(made->result);
 }
 
 py::dict responses_of(const fs::path& series) {
   RecoveredResponses recovered;
   Diagnostics diagnostics;
   {
-    const Released released;
+    const GilReleased released;
     Inputs photographs;
     recovered = recover_responses(series, photographs, diagnostics);
   }
@@ -132,38 +134,28 @@ void add_calibrate(py::module_& module) {
       py::arg("chart") = "colorchecker24_babelcolor_average", py::arg("response") = "",
       py::arg("bits") = py::none(), py::arg("measured") = py::none(), py::arg("series") = py::none(),
       py::arg("training") = "", py::arg("correction") = "matrix", py::arg("camera_response") = "",
-      "Calibrates a camera on a chart under an illuminant, as `abbe calibrate` does: the white-preserving "
-      "correction with the least mean CIEDE2000 is fitted.\n\n`camera` is a camera whose curves are known: "
-      "the "
-      "chart is photographed at so many `bits`, 12 by default, by a linear camera, or through a planted "
-      "response (\"linear\", "
-      "\"gamma:G\" or \"s-curve\") that is recovered without knowing it. Or `measured` is a table of a real "
-      "camera's values of the chart, and `series` its photographs at known exposure times, by whose curves "
-      "these "
-      "are made linear. `training` names reflectances to fit to instead, seen through `camera`, which is "
-      "given beside `measured` "
-      "for that alone. `correction` "
-      "is "
-      "\"matrix\", \"root-polynomial-2\", \"root-polynomial-3\" or \"auto\". `camera_response` says what the "
-      "camera's curves multiply, \"energy\" or \"quantum\"; without it those of columns named QE are quantum "
-      "efficiencies, and all others responses to energy.\n\nReturns a dict: CIEDE2000 of "
-      "each "
-      "patch, its mean and largest, its mean over patches that the fit has not seen, the gains that balance "
-      "white, "
-      "of a matrix that from linear camera values to XYZ relative to D65, and of each "
-      "recovered response its curve, as `recover_response` has it, and the largest error where it was "
-      "planted, as a "
-      "share of full scale. Raises InputError for an unknown name and for files that cannot be used, "
-      "UsageError for "
-      "arguments that have no effect beside others.");
+      "Calibrates a camera on a chart under an illuminant, as `abbe calibrate` does. It fits the "
+      "white-preserving correction with the least mean CIEDE2000.\n\n`camera` is a camera with known curves. "
+      "It photographs the chart with `bits` bits, 12 by default, linearly or through a planted response "
+      "(\"linear\", \"gamma:G\" or \"s-curve\"), which is then recovered without knowledge of it. Instead, "
+      "`measured` is a table of a real camera's values of the chart. `series` are photographs of the same "
+      "camera at known exposure times; the response recovered from them linearises the values. `training` "
+      "names reflectances that replace the chart in the fit. Their camera values follow from the curves of "
+      "`camera`, which is given with `measured` only for this purpose. `correction` is \"matrix\", "
+      "\"root-polynomial-2\", \"root-polynomial-3\" or \"auto\". `camera_response` states the quantity that "
+      "the camera's curves multiply, \"energy\" or \"quantum\". Without it, columns named QE are quantum "
+      "efficiencies, and all others are responses to energy.\n\nReturns a dict: CIEDE2000 of each patch, its "
+      "mean and maximum, and its mean over patches left out of the fit; the gains that balance white; for a "
+      "matrix also the matrix from linear camera values to XYZ relative to D65; for each recovered response "
+      "its curve, as from `recover_response`, and, if it was planted, its maximum error as a fraction of "
+      "full scale. Raises InputError for an unknown name and for unusable files, and UsageError for "
+      "arguments that other arguments make ineffective.");
   module.def(
       "recover_response", responses_of, py::arg("series"),
       "Recovers the response of a real camera's channels from photographs at known exposure times, as `abbe "
-      "calibrate --series` does.\n\nReturns a dict by channel of arrays with four columns: code, as a share "
-      "of "
-      "the largest; exposure, 1 at full scale; and the bounds of its 95 % interval. Raises InputError for "
-      "files "
-      "that cannot be read, and for a series that determines no curve.");
+      "calibrate --series` does.\n\nReturns a dict of arrays by channel with four columns: the code as a "
+      "fraction of the largest, the exposure (1 at full scale), and the bounds of its 95 % interval. Raises "
+      "InputError for files that cannot be read, and for a series that determines no curve.");
 }
 
 }  // namespace abbe::python

@@ -30,14 +30,14 @@ Observer observer_of(const std::string& name) {
 }
 
 py::object values_of(const std::string& name, const Curve& curve, const Numbers& wavelengths_nm) {
-  require_between(name, kMinWavelengthNm, kMaxWavelengthNm, all(wavelengths_nm), "wavelengths_nm");
-  return each(wavelengths_nm, [&](double nm) { return curve(nm); });
+  require_between(name, kMinWavelengthNm, kMaxWavelengthNm, span_of(wavelengths_nm), "wavelengths_nm");
+  return map(wavelengths_nm, [&](double nm) { return curve(nm); });
 }
 
-// What a table is asked for, and what it must cover at any rate.
+// The range of wavelengths that a table must cover.
 NeededRange needed_at(const Numbers& wavelengths_nm) {
   NeededRange needed;
-  for (const double nm : all(wavelengths_nm))
+  for (const double nm : span_of(wavelengths_nm))
     needed = {std::min(needed.low_nm, nm), std::max(needed.high_nm, nm)};
   return needed;
 }
@@ -85,24 +85,24 @@ py::dict camera(const std::string& name, const Numbers& wavelengths_nm, const st
   return values;
 }
 
-// A spectrum that a caller has as samples, linear between them.
+// A spectrum given by samples, linear between them.
 Curve sampled(const Numbers& wavelengths_nm, const Numbers& values) {
-  const std::span<const double> nm = all(wavelengths_nm);
-  if (nm.size() != all(values).size() || nm.size() < 2)
+  const std::span<const double> nm = span_of(wavelengths_nm);
+  if (nm.size() != span_of(values).size() || nm.size() < 2)
     throw Error(ErrorCode::usage, "spectrum",
-                fmt::format("got {} wavelengths and {} values, allowed two or more of each, as many of both",
-                            nm.size(), all(values).size()));
+                fmt::format("got {} wavelengths and {} values, allowed equal numbers of two or more",
+                            nm.size(), span_of(values).size()));
   for (std::size_t i = 0; i < nm.size(); ++i)
-    if (!std::isfinite(nm[i]) || !std::isfinite(all(values)[i]) || (i > 0 && !(nm[i] > nm[i - 1])))
+    if (!std::isfinite(nm[i]) || !std::isfinite(span_of(values)[i]) || (i > 0 && !(nm[i] > nm[i - 1])))
       throw Error(ErrorCode::usage, "spectrum",
                   fmt::format("got {} at {} nm, allowed finite values at ascending wavelengths",
-                              all(values)[i], nm[i]));
+                              span_of(values)[i], nm[i]));
   if (const auto fault = range_fault(nm.front(), nm.back()))
     throw Error(ErrorCode::usage, "spectrum", *fault);
-  return table_curve(nm, all(values), Outside::zero);
+  return table_curve(nm, span_of(values), Outside::zero);
 }
 
-// A name, or a pair of wavelengths and values that the use allows.
+// The curve for a name, or for wavelengths and values within the range that `use` allows.
 template <typename Load>
 Curve curve_of(const py::handle& spectrum, const char* name, const CurveUse& use, Load load) {
   if (py::isinstance<py::str>(spectrum)) return load(encoded(spectrum));
@@ -130,12 +130,13 @@ py::dict color(const py::object& illuminant, const py::object& reflectance, cons
   const XYZ xyz = tristimulus(light, surface, eye, range);
   const XYZ white = tristimulus(light, Curve(1.0), eye, range);
   if (!std::isfinite(white[1]))
-    throw Error(ErrorCode::input, "illuminant", "has no light that an observer sees, hence no colour");
-  py::dict told;
-  told["XYZ"] = py::array(py::cast(xyz));
-  told["xy"] = py::array(py::cast(chromaticity(xyz)));
-  told["Lab"] = py::array(py::cast(xyz_to_lab(xyz, white)));
-  return told;
+    throw Error(ErrorCode::input, "illuminant",
+                "has no light that an observer sees, so that it has no colour");
+  py::dict result;
+  result["XYZ"] = py::array(py::cast(xyz));
+  result["xy"] = py::array(py::cast(chromaticity(xyz)));
+  result["Lab"] = py::array(py::cast(xyz_to_lab(xyz, white)));
+  return result;
 }
 
 py::object lab_difference(const Numbers& lab1, const Numbers& lab2, const std::string& formula) {
@@ -180,19 +181,16 @@ std::optional<ResponseKind> response_of(const char* argument, const std::string&
 
 void add_curves(py::module_& module) {
   module.def("names", names, py::arg("kind"),
-             "Returns the names that Abbe knows of a kind: material, glass, illuminant, reflectance, camera, "
-             "filter or "
-             "observer. Raises UsageError for another kind.");
+             "Returns the names of all tables of a kind: material, glass, illuminant, reflectance, camera, "
+             "filter or observer. Raises UsageError for another kind.");
   module.def("illuminant", illuminant, py::arg("name"), py::arg("wavelengths_nm"),
              "Returns the relative power of an illuminant at wavelengths, in the unit of its table. "
-             "\"blackbody:3000\" "
-             "and \"daylight:6500\" are made of their temperature in K. Raises InputError for an unknown "
-             "name, or where a table says nothing of one of them, and UsageError for a wavelength outside "
-             "[300, 1100] nm.");
+             "\"blackbody:3000\" and \"daylight:6500\" are computed for that temperature in K. Raises "
+             "InputError for an unknown name and for a wavelength outside the table, and UsageError for a "
+             "wavelength outside [300, 1100] nm.");
   module.def("curve", curve, py::arg("kind"), py::arg("name"), py::arg("wavelengths_nm"),
-             "Returns a measured curve of one of the kinds of `names` but material and glass, such as a "
-             "reflectance, "
-             "at wavelengths. Raises as `illuminant` does.");
+             "Returns a measured curve, such as a reflectance, at wavelengths. The kinds are those of "
+             "`names` except material and glass. Raises as `illuminant` does.");
   module.def("observer", observer, py::arg("name") = "1931", py::kw_only(), py::arg("wavelengths_nm"),
              "Returns the colour-matching functions of the CIE standard observer of 1931 or 1964 at "
              "wavelengths, as a "
@@ -200,27 +198,23 @@ void add_curves(py::module_& module) {
   module.def("camera", camera, py::arg("name"), py::arg("wavelengths_nm"), py::kw_only(),
              py::arg("response") = "",
              "Returns the responses of a measured camera at wavelengths as a dict by channel: relative to "
-             "energy, or electrons per J for a quantum efficiency. `response` says what the camera's curves "
-             "multiply, \"energy\" or \"quantum\"; without it those of columns named QE are quantum "
-             "efficiencies, and all others responses to energy. Raises as "
-             "`illuminant` does, and InputError for quantum efficiencies in percent.");
+             "energy, or electrons per J for a quantum efficiency. `response` states the quantity that the "
+             "camera's curves multiply, \"energy\" or \"quantum\". Without it, columns named QE are quantum "
+             "efficiencies, and all others are responses to energy. Raises as `illuminant` does, and "
+             "InputError for quantum efficiencies in percent.");
   module.def(
       "color", color, py::arg("illuminant"), py::arg("reflectance") = py::none(),
       py::arg("observer") = "1931", py::kw_only(), py::arg("range") = "360-830",
       "Returns the colour of a reflectance, or of the perfect diffuser, as a dict of XYZ (Y = 100 for the "
-      "perfect diffuser), xy and Lab, summed every nanometre from 360 to 830 nm, or with range=\"380-780\" "
-      "over that range, as other programs do.\n\nIlluminant and "
-      "reflectance "
-      "are names, or pairs of wavelengths in nm and values, taken as linear between them and as 0 beyond. "
-      "Raises "
-      "InputError for an unknown name and for a table of reflectances that are no shares of 1, UsageError "
-      "for a pair with values outside [0, 1], or of an illuminant below 0, or with no wavelengths from 300 "
-      "to 1100 nm.");
+      "perfect diffuser), xy and Lab. The sums run over every nanometre from 360 to 830 nm, or, with "
+      "range=\"380-780\", over that range, as in other programs.\n\nIlluminant and reflectance are names, or "
+      "pairs of wavelengths in nm and values, linear between them and 0 outside. Raises InputError for an "
+      "unknown name and for a table of reflectances outside [0, 1]. Raises UsageError for a pair with "
+      "reflectances outside [0, 1], with a negative illuminant, or without wavelengths from 300 to 1100 nm.");
   module.def("delta_e", lab_difference, py::arg("lab1"), py::arg("lab2"), py::arg("formula") = "2000",
-             "Returns the CIE colour differences of arrays whose last axis is L*, a*, b*, by the formula of "
-             "2000, 94 or "
-             "76, by cam16 (CAM16-UCS) or itp (BT.2124), both beside D65; the first is the standard. Of "
-             "numbers that are not finite it is NaN.");
+             "Returns the CIE colour differences between arrays whose last axis is L*, a*, b*; the first "
+             "array is the standard. The formula is that of 2000, 94 or 76, or cam16 (CAM16-UCS) or itp "
+             "(BT.2124), which both assume D65. Values that are not finite give NaN.");
 }
 
 }  // namespace abbe::python

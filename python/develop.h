@@ -4,13 +4,13 @@
 
 namespace abbe::python {
 
-/// Adds `develop` and what it gives.
+/// Adds `develop` and its result class.
 void add_develop(pybind11::module_& module);
 
-/// Adds `compare`, of films and of charts in them.
+/// Adds `compare` for films and `measure` for charts in them.
 void add_compare(pybind11::module_& module);
 
-/// Adds `calibrate`.
+/// Adds `calibrate` and `recover_response`.
 void add_calibrate(pybind11::module_& module);
 
 }  // namespace abbe::python

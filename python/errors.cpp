@@ -6,7 +6,7 @@
 #include <pybind11/stl.h>
 
 #include "python/arguments.h"
-#include "python/lock.h"
+#include "python/gil.h"
 #include "python/text.h"
 
 namespace abbe::python {
@@ -14,7 +14,7 @@ namespace {
 
 namespace py = pybind11;
 
-constexpr const char* kErrors = "abbe.errors";  // the module of Python that has the classes
+constexpr const char* kErrors = "abbe.errors";  // Python module of the exception classes
 
 const char* class_of(ErrorCode code) {
   switch (code) {
@@ -34,7 +34,8 @@ const char* class_of(ErrorCode code) {
   return "InternalError";
 }
 
-// What rooms call an option of the command is here a keyword: "camera_response", not "--camera-response".
+// Replaces the option that a message names by the keyword of Python: "camera_response" instead of
+// "--camera-response".
 std::string with_keyword(const std::string& text) {
   if (!text.starts_with("--")) return text;
   const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(text.find(':'), text.size()));
@@ -48,7 +49,7 @@ void raise(const Error& error, const std::vector<Diagnostic>& diagnostics) {
   PyErr_SetObject(type.ptr(), type(decoded(with_keyword(error.what())), diagnostics).ptr());
 }
 
-// With the parameter that pybind11 calls it with. NOLINTNEXTLINE(performance-unnecessary-value-param)
+// The parameter's type is that of pybind11's callback. NOLINTNEXTLINE(performance-unnecessary-value-param)
 void translate(std::exception_ptr thrown) {
   if (!thrown) return;
   try {
@@ -65,7 +66,7 @@ std::optional<py::str> file_of(const Diagnostic& diagnostic) {
   return decoded(diagnostic.where.source->file);
 }
 
-// What `diagnostic_from` takes, so that errors reach other processes.
+// State for pickling, which `diagnostic_from` restores.
 py::tuple state_of(const Diagnostic& diagnostic) {
   const auto& [source, offset, pointer] = diagnostic.where;
   const py::object text = source ? py::object(py::bytes(source->text)) : py::object(py::none());
@@ -87,7 +88,7 @@ Diagnostic diagnostic_from(const py::tuple& state) {
 }  // namespace
 
 void warn(const std::string& text) {
-  const Held held;
+  const GilAcquired gil;
   const py::object category = py::module_::import(kErrors).attr("SceneWarning");
   const py::str words = decoded(text);
   int failed = 0;
@@ -96,29 +97,28 @@ void warn(const std::string& text) {
 }
 
 void check(const Diagnostics& diagnostics) {
-  require_sound(diagnostics);
+  require_no_errors(diagnostics);
   for (const Diagnostic& warning : diagnostics.all()) warn(format(warning));
 }
 
 void add_errors(py::module_& module) {
-  py::class_<Diagnostic> diagnostic(module, "Diagnostic",
-                                    "One complaint about an input: what is wrong, and where it stands.");
-  diagnostic
-      .def_property_readonly("file", file_of,
-                             "The name of the text complained about, None where there is none.")
+  py::class_<Diagnostic> diagnostic(
+      module, "Diagnostic",
+      "An error or warning about an input: the message, and the location in the input.");
+  diagnostic.def_property_readonly("file", file_of, "The name of the input, or None if there is none.")
       .def_property_readonly(
           "pointer", [](const Diagnostic& d) { return decoded(d.where.pointer); },
-          "The JSON pointer of the value complained about, such as \"/camera/from\".")
+          "The JSON pointer of the value concerned, such as \"/camera/from\".")
       .def_property_readonly(
           "message", [](const Diagnostic& d) { return decoded(d.message); },
-          "What is wrong, as a sentence without its place.")
+          "The message, without its location.")
       .def_property_readonly(
           "severity",
           [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::error ? "error" : "warning"; },
           "\"error\" or \"warning\".")
       .def(
           "__str__", [](const Diagnostic& d) { return decoded(format(d)); },
-          "Place, pointer and message as the command line prints them, with the line concerned.")
+          "The location, pointer and message as the command line prints them, with the line concerned.")
       .def("__repr__",
            [](const Diagnostic& d) {
              return decoded("<abbe.Diagnostic " + d.where.pointer + ": " + d.message + ">");

@@ -11,21 +11,21 @@
 
 namespace abbe::python {
 
-/// Throws the errors; issues each warning as a `warnings.warn` of Python.
+/// Throws if there are errors; issues each warning by Python's `warnings.warn`.
 void check(const Diagnostics& diagnostics);
 
-/// Issues a `warnings.warn` of Python of the class SceneWarning; throws where the user made it an exception.
+/// Issues a Python warning of the class SceneWarning. Throws if the user made it an exception.
 void warn(const std::string& text);
 
-/// What a loader gave, its complaints treated as by `check`.
+/// The value of a loader, after `check` of its diagnostics.
 template <typename T>
 [[nodiscard]] T accepted(std::optional<T> value, const Diagnostics& diagnostics) {
   check(diagnostics);
-  if (!value) throw Error(ErrorCode::internal, "", "a loader gave nothing and said nothing");
+  if (!value) throw Error(ErrorCode::internal, "", "a loader returned nothing and reported no error");
   return *std::move(value);
 }
 
-/// Adds the class of diagnostics, and makes exceptions of Python of ours.
+/// Adds the class of diagnostics, and translates this program's exceptions to Python's.
 void add_errors(pybind11::module_& module);
 
 }  // namespace abbe::python

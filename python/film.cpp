@@ -7,8 +7,8 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "develop/film_file.h"
+#include "film/film_attributes.h"
 #include "film/rendered_film.h"
-#include "film/sensor_identity.h"
 #include "io/exr.h"
 #include "io/extension.h"
 #include "io/picture.h"
@@ -16,7 +16,7 @@
 #include "python/arguments.h"
 #include "python/arrays.h"
 #include "python/errors.h"
-#include "python/lock.h"
+#include "python/gil.h"
 #include "python/numbers.h"
 #include "python/picture.h"
 #include "python/text.h"
@@ -30,8 +30,8 @@ namespace {
 namespace py = pybind11;
 namespace fs = std::filesystem;
 
-// The middles of the bands of a spectral film, ascending; none of others. Of the image its layout alone is
-// asked, without values.
+// Band centers of a spectral film in ascending order; empty for other films. It reads only the layout of the
+// image, without values.
 std::vector<double> band_centers_nm(const Image& image) {
   std::vector<double> centers_nm;
   if (!is_spectral(image)) return centers_nm;
@@ -54,7 +54,7 @@ py::object spectrum(const FilmHandle& film, Whole<int> column, Whole<int> row) {
   const Image& image = film.image();
   if (!is_spectral(image))
     throw Error(ErrorCode::usage, "spectrum",
-                "the film's sensor is not spectral: it has channels, no wavelengths");
+                "the film's sensor is not spectral: it has channels instead of wavelengths");
   if (x < 0 || y < 0 || x >= image.width || y >= image.height)
     throw Error(ErrorCode::usage, "spectrum",
                 fmt::format("no such pixel (got {}, {}, allowed up to {}, {})", x, y, image.width - 1,
@@ -64,7 +64,7 @@ py::object spectrum(const FilmHandle& film, Whole<int> column, Whole<int> row) {
 }
 
 FilmHandle film_of_file(const fs::path& path) {
-  const Released released;
+  const GilReleased released;
   if (extension_of(path) == kPartExtension) return FilmHandle(read_part(path));
   return FilmHandle(read_film(path));
 }
@@ -77,23 +77,23 @@ void write_film(const FilmHandle& film, const fs::path& path) {
                 "the film was read from an image: only a film with its exact sums can be written as a part");
   if (!is_part && extension_of(path) != ".exr") return write_picture(path, display_picture(film));
   const Image* const image = is_part ? nullptr : &film.image();
-  const Released released;
+  const GilReleased released;
   if (is_part)
     write_part(path, film.part()->identity, film.part()->result, film.part()->areas);
   else
     write_exr(path, *image);
 }
 
-// The exact sums that a film of Python has.
+// Exact sums of a Python film.
 const RenderPart& sums_of(const py::handle& film, const fs::path& name) {
   const auto& part = film.cast<const FilmHandle&>().part();
   if (!part) throw Error(ErrorCode::usage, name, "was read from an image, which has no exact sums to add");
   return *part;
 }
 
-// What `merge` is given: a film of Python, or the path of a part; with a name for messages.
-struct Given {
-  const RenderPart* film;  // nullptr of a path
+// One input of `merge`: a Python film, or the path of a part, with a name for messages.
+struct MergeInput {
+  const RenderPart* film;  // nullptr for a path
   fs::path name;
 
   [[nodiscard]] PartHeader header() const {
@@ -107,33 +107,32 @@ struct Given {
   }
 };
 
-std::vector<Given> given(const py::sequence& films) {
-  if (py::isinstance<py::str>(films))  // a sequence of letters
+std::vector<MergeInput> merge_inputs(const py::sequence& films) {
+  if (py::isinstance<py::str>(films))  // a str is a sequence of characters
     throw py::type_error("films: expected a list of films or paths (got a str)");
-  std::vector<Given> all;
+  std::vector<MergeInput> all;
   for (std::size_t i = 0; i < films.size(); ++i) {
     const fs::path name = fmt::format("films[{}]", i);
-    all.push_back(
-        py::isinstance<FilmHandle>(films[i])
-            ? Given{&sums_of(films[i], name), name}
-            : Given{nullptr, argument<fs::path>(films[i], name.c_str(), "a film or the path of a part")});
+    all.push_back(py::isinstance<FilmHandle>(films[i])
+                      ? MergeInput{&sums_of(films[i], name), name}
+                      : MergeInput{nullptr, argument<fs::path>(films[i], name.c_str(),
+                                                               "a film or the path of a part")});
   }
   return all;
 }
 
 FilmHandle merge_films(const py::sequence& films, bool partial) {
-  const std::vector<Given> all = given(films);
+  const std::vector<MergeInput> all = merge_inputs(films);
   if (all.empty()) throw Error(ErrorCode::usage, "merge", "needs one film or more");
   PartHeader whole = all.front().header();
   for (std::size_t i = 1; i < all.size(); ++i) merge(whole, all[i].header(), all[i].name);
   const SampledAreas absent = missing_samples(whole);
   if (!absent.empty() && !partial)
     throw Error(ErrorCode::input, "merge",
-                fmt::format("{} are missing of those that the render is to have; partial=True gives what the "
-                            "others make",
-                            in_words(absent, whole.shape)));
+                fmt::format("{} of the render are missing; partial=True merges the others",
+                            describe_samples(absent, whole.shape)));
   RenderPart sum = empty_part(whole);
-  for (const Given& one : all) one.add_to(sum);
+  for (const MergeInput& one : all) one.add_to(sum);
   return FilmHandle(std::move(sum));
 }
 
@@ -141,7 +140,7 @@ py::object stats(const FilmHandle& film) {
   if (!film.part()) return py::none();
   const RenderStats& stats = film.part()->result.stats;
   py::dict all;
-  const bool ran_here = stats.wall_s > 0;  // parts and their sums tell no costs
+  const bool ran_here = stats.wall_s > 0;  // parts and merged films record no cost
   for (const char* cost : {"wall_s", "cpu_s", "threads"}) all[cost] = py::none();
   if (ran_here) {
     all["wall_s"] = stats.wall_s;
@@ -152,8 +151,8 @@ py::object stats(const FilmHandle& film) {
   if (film.part()->areas.empty()) all["samples_per_pixel"] = stats.samples_per_pixel;
   all["paths"] = stats.paths;
   all["rays"] = stats.rays;
-  all["relative_error"] = known(stats.error.median);
-  all["frame_mean_error"] = known(stats.error.frame_mean);
+  all["relative_error"] = finite_or_none(stats.error.median);
+  all["frame_mean_error"] = finite_or_none(stats.error.frame_mean);
   all["half_noise_samples"] = py::none();
   if (stats.error.few_samples) all["half_noise_samples"] = *stats.error.few_samples;
   all["nonfinite_samples"] = stats.nonfinite_samples;
@@ -165,7 +164,7 @@ std::string repr_of_film(const FilmHandle& film) {
                      film.channels().size());
 }
 
-// Names in files of others need not be UTF-8.
+// Names in foreign files need not be UTF-8.
 py::list channels_of(const FilmHandle& film) {
   py::list names;
   for (const std::string& name : film.channels()) names.append(decoded(name));
@@ -173,33 +172,29 @@ py::list channels_of(const FilmHandle& film) {
 }
 
 py::dict metadata_of(const FilmHandle& film) {
-  py::dict told;
-  for (const auto& [name, value] : film.metadata()) told[decoded(name)] = decoded(value);
-  return told;
+  py::dict result;
+  for (const auto& [name, value] : film.metadata()) result[decoded(name)] = decoded(value);
+  return result;
 }
 
 void add_values(py::class_<FilmHandle, std::shared_ptr<FilmHandle>>& film) {
-  film.def_property_readonly(
-          "array", &FilmHandle::array,
-          "The film's values as a read-only array of float32: rows, columns, channels. It is made of the "
-          "exact sums "
-          "the first time it is asked for, with the values that a file has; after that nothing is copied.")
-      .def_property_readonly(
-          "variance", &FilmHandle::variance,
-          "The variance of each of these values, of the same shape; None for an image that does "
-          "not tell it, and where samples of some pixels are in fewer than two replicates, so that nothing "
-          "is known of it. It is inf where it is beyond single precision.")
+  film.def_property_readonly("array", &FilmHandle::array,
+                             "The film's values as a read-only float32 array of rows, columns and channels, "
+                             "equal to those in a file. The first access computes it from the exact sums; "
+                             "later ones return the same array without a copy.")
+      .def_property_readonly("variance", &FilmHandle::variance,
+                             "The variance of each value, in the same shape; inf if it exceeds single "
+                             "precision. None if the image does not record it, or if it is unknown because "
+                             "some pixels have samples in fewer than two replicates.")
       .def_property_readonly("channels", channels_of, "The names of the channels, in the order of `array`.")
-      .def_property_readonly(
-          "wavelengths", wavelengths,
-          "The middles of the bands of a spectral film in nm, in the order of `array`; None for "
-          "other films. Raises InputError for a spectral image that is in another unit than W/(m^2 sr) or "
-          "not of bands of radiance.")
+      .def_property_readonly("wavelengths", wavelengths,
+                             "The centers of the bands of a spectral film in nm, in the order of `array`; "
+                             "None for other films. Raises InputError for a spectral image in another unit "
+                             "than W/(m^2 sr), or without bands of radiance.")
       .def("spectrum", spectrum, py::arg("x"), py::arg("y"),
-           "Returns the radiance in each band at the pixel of column x and row y, in W/(m^2 sr), a view of "
-           "`array`. "
-           "Raises UsageError for a film whose sensor is not spectral and for a pixel beyond it, and as "
-           "`wavelengths` does.");
+           "Returns the radiance in each band at the pixel in column x and row y, in W/(m^2 sr), as a view "
+           "of `array`. Raises UsageError for a film whose sensor is not spectral and for a pixel outside "
+           "the film, and InputError as `wavelengths` does.");
 }
 
 }  // namespace
@@ -246,42 +241,36 @@ py::object planes_of(const Image& image, const std::vector<std::string>& names) 
 void add_film(py::module_& module) {
   py::class_<FilmHandle, std::shared_ptr<FilmHandle>> film(
       module, "Film",
-      "The film of a scene's sensor: values per pixel and channel with their variance, before noise.\n\n"
-      "`abbe.render` and `abbe.merge` make films that keep their exact sums, Film.read reads them from "
-      "files. Jupyter "
-      "shows a film as its display picture where it has one.");
+      "The film of a scene's sensor: values per pixel and channel with their variance, before sensor "
+      "noise.\n\n`abbe.render` and `abbe.merge` return films with their exact sums, and Film.read reads them "
+      "from files. Jupyter displays a film as a picture if it has one.");
   forbid_bare_new(film);
   add_values(film);
-  film.def_static(
-          "read", film_of_file, py::arg("path"),
-          "Reads a film: an .abbepart with its exact sums, or an .exr. Raises InputError for a file that is "
-          "missing, damaged or no film.")
+  film.def_static("read", film_of_file, py::arg("path"),
+                  "Reads a film from an .abbepart, with its exact sums, or from an .exr. Raises InputError "
+                  "for a file that is missing, damaged or not a film.")
       .def("write", write_film, py::arg("path"),
-           "Writes the film: to .exr with its variance, to .abbepart with its exact sums, to .png, .jpg or "
-           ".tif its "
-           "display picture. The file is the one that `abbe render` writes, and appears whole or not at all. "
-           "Raises "
-           "OutputError.")
-      .def_property_readonly("metadata", metadata_of, "What the film's file tells of it, as strings by name.")
+           "Writes the film to .exr with its variance, to .abbepart with its exact sums, or its display "
+           "picture to .png, .jpg or .tif. The file equals that of `abbe render` and never appears "
+           "half-written. Raises OutputError.")
+      .def_property_readonly("metadata", metadata_of,
+                             "The attributes of the film's file, as strings by name.")
       .def_property_readonly(
           "stats", stats,
-          "What the render did, as a dict; None for a film read from an image. `wall_s`, `cpu_s` and "
-          "`threads` are None of a film that was merged or read from a part, and its errors unless the "
-          "render was given `error` or `progress`; `samples_per_pixel` is None where pixels have different "
-          "samples "
-          "or none, of which `metadata` then tells the `areas`.")
+          "Statistics of the render as a dict; None for a film that was read from an image. `wall_s`, "
+          "`cpu_s` and `threads` are None for a film that was merged or read from a part. The errors are "
+          "None in that case, and unless the render was given `error` or `progress`. `samples_per_pixel` is "
+          "None if pixels differ in their samples; `metadata` then has the `areas`.")
       .def_property_readonly(
           "width", [](const FilmHandle& f) { return f.image().width; }, "The film's columns of pixels.")
       .def_property_readonly(
           "height", [](const FilmHandle& f) { return f.image().height; }, "The film's rows of pixels.")
       .def("__repr__", repr_of_film);
   add_pictures(film);
-  module.def(
-      "merge", merge_films, py::arg("films"), py::kw_only(), py::arg("partial") = false,
-      "Adds up films of one render, or the .abbepart files of paths, to the film that one render of all "
-      "their "
-      "samples gives, bit for bit. Raises InputError for films of different renders, for samples that two of "
-      "them have, and, unless `partial`, where samples are missing of those the render is to have.");
+  module.def("merge", merge_films, py::arg("films"), py::kw_only(), py::arg("partial") = false,
+             "Merges films of one render, or the .abbepart files at paths, to the film that a single render "
+             "of all their samples would give, bit for bit. Raises InputError for films of different "
+             "renders, for samples that two films share, and, unless `partial`, for missing samples.");
 }
 
 }  // namespace abbe::python

@@ -12,24 +12,25 @@
 
 namespace abbe::python {
 
-/// A film as Python holds it: with its exact sums where it was rendered or read from a part, and as the image
-/// that its file holds.
+/// A film in Python. It has the exact sums if it was rendered or read from a part, and the image that its
+/// file contains.
 class FilmHandle {
  public:
   explicit FilmHandle(RenderPart part);
   explicit FilmHandle(Image image);
 
-  /// What the film's file holds; made once of the exact sums, under Python's lock, which callers hold.
+  /// Content of the film's file. It is computed once from the exact sums; callers hold the GIL.
   [[nodiscard]] const Image& image() const;
-  /// The exact sums; nothing for a film read from an image.
+  /// Exact sums; nothing for a film read from an image.
   [[nodiscard]] const std::optional<RenderPart>& part() const { return part_; }
   [[nodiscard]] const std::map<std::string, std::string>& metadata() const { return image().metadata; }
 
-  /// The channels of its values in the order of the sensor, or of the bands by ascending wavelength.
+  /// Names of the channels in the order of the sensor, or of the bands by ascending wavelength.
   [[nodiscard]] std::vector<std::string> channels() const;
-  /// Rows, columns, channels; made once, read-only.
+  /// Read-only array of rows, columns and channels, made once.
   [[nodiscard]] pybind11::object array() const;
-  /// The same of variances of pixel means; None for a film that does not tell them or does not know.
+  /// Variances of the pixel means in the same layout; None if the film does not record them or they are
+  /// unknown.
   [[nodiscard]] pybind11::object variance() const;
 
  private:
@@ -39,10 +40,11 @@ class FilmHandle {
   mutable pybind11::object variance_;
 };
 
-/// Planes of one size side by side: rows, columns, planes. None when the image lacks one of them.
+/// Array of rows, columns and the named planes, which have the same size. None if the image lacks one of
+/// them.
 [[nodiscard]] pybind11::object planes_of(const Image& image, const std::vector<std::string>& names);
 
-/// Adds the classes of films, and `merge`.
+/// Adds the class of films and `merge`.
 void add_film(pybind11::module_& module);
 
 }  // namespace abbe::python

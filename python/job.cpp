@@ -9,38 +9,38 @@
 #include <thread>
 #include <utility>
 
-#include "python/lock.h"
+#include "python/gil.h"
 
 namespace abbe::python {
 namespace {
 
 namespace py = pybind11;
 
-// How often the caller looks for signals and tells its callback: seldom enough to cost nothing.
+// Interval at which the caller checks for signals and reports progress; long enough to cost nothing.
 constexpr std::chrono::milliseconds kPause{50};
 
-/// A render on a thread of its own, so that the thread that called it can listen to Python.
+/// A render on another thread, so that the calling thread can serve Python.
 class Job {
  public:
-  Job(const abbe::Scene& scene, RenderOptions how, bool tells) : how_(std::move(how)) {
+  Job(const abbe::Scene& scene, RenderOptions how, bool reports_progress) : how_(std::move(how)) {
     how_.stop = &stop_;
-    if (tells) how_.progress = [this](const Progress& progress) { remember(progress); };
+    if (reports_progress) how_.progress = [this](const Progress& progress) { store(progress); };
     thread_ = std::jthread([this, &scene] { run(scene); });
   }
 
-  /// Calls `listen` with what is new every moment until the render ends, and with what stops it; where it
-  /// throws, the render stops after the pass that runs, and that exception is thrown again. To be called
-  /// without Python's lock.
+  /// Calls `listen` periodically with the latest progress and the stop flag until the render ends. If it
+  /// throws, the render stops after the current pass and the exception is rethrown. Requires that the caller
+  /// does not hold the GIL.
   template <typename F>
   RenderResult wait(F listen) {
     std::exception_ptr interruption;
     std::unique_lock lock(mutex_);
     while (!done_) {
       changed_.wait_for(lock, kPause, [this] { return done_; });
-      const std::optional<Progress> news = std::exchange(news_, std::nullopt);
+      const std::optional<Progress> latest = std::exchange(latest_, std::nullopt);
       lock.unlock();
       if (!interruption) try {
-          listen(news, stop_);
+          listen(latest, stop_);
         } catch (...) {
           interruption = std::current_exception();
           stop_ = true;
@@ -64,33 +64,35 @@ class Job {
     changed_.notify_all();
   }
 
-  void remember(const Progress& progress) {
+  void store(const Progress& progress) {
     const std::scoped_lock lock(mutex_);
-    news_ = progress;
+    latest_ = progress;
   }
 
   RenderOptions how_;
   std::atomic<bool> stop_{false};
   std::mutex mutex_;
   std::condition_variable changed_;
-  std::optional<Progress> news_;
+  std::optional<Progress> latest_;
   bool done_ = false;
   std::optional<RenderResult> result_;
   std::exception_ptr failure_;
-  std::jthread thread_;  // last, since it uses all of the others
+  std::jthread thread_;  // last, because it uses all other members
 };
 
-// Lets Python handle its signals, and tells what is new. Where Python ends, the render stops, as nobody will
-// have its film.
-void listen(const py::object& callback, const std::optional<Progress>& news, std::atomic<bool>& stop) {
+// Lets Python handle its signals and reports progress. If the interpreter ends, the render stops, because
+// nobody can receive its film.
+void listen(const py::object& callback, const std::optional<Progress>& latest, std::atomic<bool>& stop) {
   const auto stop_render = [&stop] { stop = true; };
-  const Held held(stop_render);
+  const GilAcquired gil(stop_render);
   if (PyErr_CheckSignals() != 0) throw py::error_already_set();
-  if (!news || callback.is_none()) return;
-  const py::object told = py::cast(*news);
+  if (!latest || callback.is_none()) return;
+  const py::object argument = py::cast(*latest);
   py::object answer;
   unless_python_ends(
-      [&] { answer = py::reinterpret_steal<py::object>(PyObject_CallOneArg(callback.ptr(), told.ptr())); },
+      [&] {
+        answer = py::reinterpret_steal<py::object>(PyObject_CallOneArg(callback.ptr(), argument.ptr()));
+      },
       stop_render);
   if (!answer) throw py::error_already_set();
 }
@@ -99,8 +101,9 @@ void listen(const py::object& callback, const std::optional<Progress>& news, std
 
 RenderResult render_listening(const abbe::Scene& scene, RenderOptions how, const py::object& progress) {
   Job job(scene, std::move(how), !progress.is_none());
-  return job.wait(
-      [&](const std::optional<Progress>& news, std::atomic<bool>& stop) { listen(progress, news, stop); });
+  return job.wait([&](const std::optional<Progress>& latest, std::atomic<bool>& stop) {
+    listen(progress, latest, stop);
+  });
 }
 
 }  // namespace abbe::python

@@ -6,9 +6,9 @@
 
 namespace abbe::python {
 
-/// Renders on a thread of its own while the one that calls lets Python handle its signals, and calls
-/// `progress` with a Progress unless it is None. What either raises ends the render after the pass that runs,
-/// and is thrown. To be called without Python's lock.
+/// Renders on another thread while the calling thread lets Python handle its signals. It calls `progress`
+/// with a Progress unless it is None. An exception from either ends the render after the current pass and is
+/// thrown. Requires that the caller does not hold the GIL.
 [[nodiscard]] RenderResult render_listening(const abbe::Scene& scene, RenderOptions how,
                                             const pybind11::object& progress);
 

@@ -26,7 +26,7 @@ std::string type_name(const py::handle& object) {
   return py::str(py::type::handle_of(object).attr("__name__"));
 }
 
-// A number as messages have it; Python itself refuses to spell ints that are very long.
+// Text of a number in messages. Python itself refuses to convert very long ints.
 std::string text_of(const py::handle& number) {
   if (!PyLong_Check(number.ptr())) return py::str(number);
   const auto bits = number.attr("bit_length")().cast<std::size_t>();
@@ -62,19 +62,20 @@ class Converter {
     refuse_kind(type_name(object));
   }
 
-  // What an object stands for. Of its own kind are the long doubles of numpy, which no type of Python holds.
-  Value converted(const py::handle& object, const py::object& stands_for) {
-    if (!py::type::handle_of(stands_for).is(py::type::handle_of(object))) return value_of(stands_for);
+  // Converts the plain equivalent of an object. A numpy long double remains its own type, because Python has
+  // none for it.
+  Value converted(const py::handle& object, const py::object& replacement) {
+    if (!py::type::handle_of(replacement).is(py::type::handle_of(object))) return value_of(replacement);
     const py::object real = py::module_::import("numbers").attr("Real");
-    if (!py::isinstance(stands_for, real)) refuse_kind(type_name(object));
-    return number_of(stands_for);
+    if (!py::isinstance(replacement, real)) refuse_kind(type_name(object));
+    return number_of(replacement);
   }
 
   [[noreturn]] void refuse_kind(const std::string& kind) const {
-    refuse(pointer_, fmt::format("expected what JSON can hold (got a {})", kind));
+    refuse(pointer_, fmt::format("expected a value that JSON can represent (got a {})", kind));
   }
 
-  // JSON is UTF-8, which texts of Python need not be, as names of files.
+  // UTF-8 of a text for JSON. Python texts, such as file names, need not have one.
   [[nodiscard]] std::string utf8_of(const py::handle& text) const {
     py::ssize_t size = 0;
     const char* const bytes = PyUnicode_AsUTF8AndSize(text.ptr(), &size);
@@ -85,12 +86,13 @@ class Converter {
 
   [[nodiscard]] double number_of(const py::handle& object) const {
     const double number = PyFloat_AsDouble(object.ptr());
-    const bool too_large = PyErr_Occurred() != nullptr;  // an int beyond all doubles
+    const bool too_large = PyErr_Occurred() != nullptr;  // an int larger than every double
     PyErr_Clear();
     if (too_large || !std::isfinite(number))
       refuse(pointer_, fmt::format("expected a finite number (got {})", text_of(object)));
     if (PyLong_Check(object.ptr()) && !py::int_(py::float_(number)).equal(object))
-      refuse(pointer_, fmt::format("expected a number that a double holds (got {})", text_of(object)));
+      refuse(pointer_,
+             fmt::format("expected a number that a double represents exactly (got {})", text_of(object)));
     return number;
   }
 
@@ -121,7 +123,7 @@ class Converter {
   }
 
   std::string pointer_;
-  std::size_t depth_ = 0;  // of the value being read, 0 at the root
+  std::size_t depth_ = 0;  // of the current value, 0 at the root
 };
 
 py::object number(double value) {

@@ -10,13 +10,13 @@
 
 #include "film/measure_meter.h"
 #include "film/rendered_film.h"
-#include "film/shortcomings.h"
+#include "film/scene_warnings.h"
 #include "python/arguments.h"
 #include "python/arrays.h"
 #include "python/errors.h"
+#include "python/gil.h"
 #include "python/job.h"
 #include "python/json.h"
-#include "python/lock.h"
 #include "python/numbers.h"
 #include "python/render.h"
 #include "python/request.h"
@@ -36,16 +36,16 @@ double error_of(const Film::Average& value) {
 }
 
 py::dict figure(const Film::Average& value, const char* unit) {
-  py::dict told;
-  told["value"] = value.mean;
-  told["unit"] = unit;
-  told["standard_error"] = known(error_of(value));
-  told["half_interval_95"] =
-      known(half_interval(value.standard_error, value.degrees_of_freedom, kMeterLevel));
-  return told;
+  py::dict result;
+  result["value"] = value.mean;
+  result["unit"] = unit;
+  result["standard_error"] = finite_or_none(error_of(value));
+  result["half_interval_95"] =
+      finite_or_none(half_interval(value.standard_error, value.degrees_of_freedom, kMeterConfidence));
+  return result;
 }
 
-// `f` of each element, as an array of that shape.
+// Array of that shape with `f` of each element.
 template <typename T, typename F>
 py::array_t<double> array_of(const std::vector<T>& elements, const std::vector<py::ssize_t>& shape, F f) {
   py::array_t<double> array(shape);
@@ -57,17 +57,17 @@ py::array_t<double> array_of(const std::vector<T>& elements, const std::vector<p
 py::dict cells_of(const MeterMeasurement& measured) {
   const auto& [columns, rows] = measured.meter.cells;
   const std::vector<py::ssize_t> shape{rows, columns};
-  py::dict told;
-  const auto tell = [&](const std::string& name, Film::Average LightReading::*which) {
+  py::dict result;
+  const auto add_values = [&](const std::string& name, Film::Average LightReading::*which) {
     const auto& cells = measured.reading.cells;
-    told[py::str(name)] = array_of(cells, shape, [&](const LightReading& c) { return (c.*which).mean; });
-    told[py::str(name + "_standard_error")] =
+    result[py::str(name)] = array_of(cells, shape, [&](const LightReading& c) { return (c.*which).mean; });
+    result[py::str(name + "_standard_error")] =
         array_of(cells, shape, [&](const LightReading& c) { return error_of(c.*which); });
   };
-  tell("radiant", &LightReading::radiant);
-  tell("luminous", &LightReading::luminous);
-  tell("photons", &LightReading::photons);
-  return told;
+  add_values("radiant", &LightReading::radiant);
+  add_values("luminous", &LightReading::luminous);
+  add_values("photons", &LightReading::photons);
+  return result;
 }
 
 py::dict spectrum_of(const MeterMeasurement& measured) {
@@ -76,35 +76,35 @@ py::dict spectrum_of(const MeterMeasurement& measured) {
   for (int bin = 0; bin < bins.count; ++bin) centers_nm.push_back(bins.center_nm(bin));
   const std::vector<py::ssize_t> shape{bins.count};
   const auto& values = measured.reading.spectrum;
-  py::dict told;
-  told["wavelength_nm"] = array_of(centers_nm, shape, [](double nm) { return nm; });
-  told["per_nm"] = array_of(values, shape, [](const Film::Average& value) { return value.mean; });
-  told["standard_error"] = array_of(values, shape, error_of);
-  return told;
+  py::dict result;
+  result["wavelength_nm"] = array_of(centers_nm, shape, [](double nm) { return nm; });
+  result["per_nm"] = array_of(values, shape, [](const Film::Average& value) { return value.mean; });
+  result["standard_error"] = array_of(values, shape, error_of);
+  return result;
 }
 
-py::dict told_of(const MeterMeasurement& measured) {
+py::dict dict_of(const MeterMeasurement& measured) {
   const MeterUnits& units = units_of(measured.meter.quantity);
   const LightReading& whole = measured.reading.whole;
-  py::dict told;
-  told["name"] = measured.meter.name;
-  told["measures"] = kMeterQuantityNames.at(static_cast<std::size_t>(measured.meter.quantity));
-  told["radiant"] = figure(whole.radiant, units.radiant);
-  told["luminous"] = figure(whole.luminous, units.luminous);
-  told["photons"] = figure(whole.photons, units.photons);
-  if (!measured.reading.cells.empty()) told["cells"] = cells_of(measured);
-  if (measured.meter.spectrum) told["spectrum"] = spectrum_of(measured);
-  told["integrator"] = integrator_name(measured.integrator);
-  told["seed"] = measured.seed;
-  told["samples"] = measured.stats.samples_per_pixel;
-  told["half_noise_samples"] = py::none();
-  if (measured.stats.error.few_samples) told["half_noise_samples"] = *measured.stats.error.few_samples;
-  told["hidden_noise"] = py::none();
-  if (measured.stats.error.hidden_noise > 0) told["hidden_noise"] = measured.stats.error.hidden_noise;
-  return told;
+  py::dict result;
+  result["name"] = measured.meter.name;
+  result["measures"] = kMeterQuantityNames.at(static_cast<std::size_t>(measured.meter.quantity));
+  result["radiant"] = figure(whole.radiant, units.radiant);
+  result["luminous"] = figure(whole.luminous, units.luminous);
+  result["photons"] = figure(whole.photons, units.photons);
+  if (!measured.reading.cells.empty()) result["cells"] = cells_of(measured);
+  if (measured.meter.spectrum) result["spectrum"] = spectrum_of(measured);
+  result["integrator"] = integrator_name(measured.integrator);
+  result["seed"] = measured.seed;
+  result["samples"] = measured.stats.samples_per_pixel;
+  result["half_noise_samples"] = py::none();
+  if (measured.stats.error.few_samples) result["half_noise_samples"] = *measured.stats.error.few_samples;
+  result["hidden_noise"] = py::none();
+  if (measured.stats.error.hidden_noise > 0) result["hidden_noise"] = measured.stats.error.hidden_noise;
+  return result;
 }
 
-// What the call says otherwise than the scene, which its loader checks.
+// Settings of the call that replace those of the scene; its loader checks them.
 std::vector<Override> settings_of(const Request& request, const py::object& integrator) {
   std::vector<Override> settings;
   if (request.spp) settings.push_back({"/render/samples", fmt::format("{}", *request.spp), "spp"});
@@ -138,23 +138,23 @@ MeteredScene read_meters(const SceneSource& source, Inputs& inputs) {
                   diagnostics);
 }
 
-// Without Python's lock. What the scene holds besides its films is counted once, and so are its warnings
-// told.
+// Measures the chosen meters. The memory of the scene counts once, and its warnings are issued once. Requires
+// that the caller does not hold the GIL.
 std::vector<MeterMeasurement> measure(const SceneSource& source, const std::vector<std::string>& names,
                                       const RenderOptions& how, const py::object& progress) {
   Inputs inputs;
   const MeteredScene metered = read_meters(source, inputs);
-  const auto render = [&](const abbe::Scene& seen, const RenderOptions& asked) {
-    return render_listening(seen, asked, progress);
+  const auto render = [&](const abbe::Scene& scene, const RenderOptions& options) {
+    return render_listening(scene, options, progress);
   };
-  const MeterCaller caller{render, [](const std::string& text) { warn(text); }, "error"};
+  const MeterCallbacks caller{render, [](const std::string& text) { warn(text); }, "error"};
   std::vector<MeterMeasurement> all;
   for (const Meter* one : chosen_meters(metered, names, "only")) {
     Diagnostics diagnostics;
     std::optional<abbe::Scene> scene = scene_of(metered, *one, diagnostics, all.empty() ? &inputs : nullptr);
     if (all.empty() || !scene) scene = accepted(std::move(scene), diagnostics);
     if (all.empty())
-      for (const auto& hidden : {hidden_sheet(*scene), hidden_lamp(*scene)})
+      for (const auto& hidden : {hidden_sheet_warning(*scene), hidden_light_warning(*scene)})
         if (hidden) warn(*hidden);
     all.push_back(measure_meter(*std::move(scene), *one, how, caller, inputs));
   }
@@ -169,12 +169,12 @@ py::dict meter(const py::object& scene, const py::object& only, const Request& r
   const std::vector<std::string> names = names_of(only);
   std::vector<MeterMeasurement> all;
   {
-    const Released released;
-    all = measure(source, names, how_to_stop(request), progress);
+    const GilReleased released;
+    all = measure(source, names, render_limits(request), progress);
   }
-  py::dict told;
-  for (const MeterMeasurement& measured : all) told[py::str(measured.meter.name)] = told_of(measured);
-  return told;
+  py::dict result;
+  for (const MeterMeasurement& measured : all) result[py::str(measured.meter.name)] = dict_of(measured);
+  return result;
 }
 
 }  // namespace
@@ -190,24 +190,16 @@ void add_meter(py::module_& module) {
       py::arg("scene"), py::kw_only(), py::arg("only") = py::none(), py::arg("spp") = py::none(),
       py::arg("seed") = py::none(), py::arg("threads") = 0, py::arg("error") = py::none(),
       py::arg("time") = py::none(), py::arg("integrator") = py::none(), py::arg("progress") = py::none(),
-      "Reads the meters of a scene, a path, a dict or a Scene, of the numbers that `abbe meter` gives; a "
-      "path or "
-      "dict needs no camera.\n\n"
-      "Returns a dict of dicts by the meters' names, in the scene's order, with the keys of `abbe meter "
-      "--json` but `wall_s`, and `columns` and `rows` of cells: "
+      "Measures the meters of a scene, given as a path, a dict or a Scene, with the results of `abbe meter`. "
+      "A path or dict needs no camera.\n\nReturns a dict of dicts by the meters' names, in the scene's "
+      "order, with the keys of `abbe meter --json` except `wall_s` and the `columns` and `rows` of cells. "
       "`radiant`, `luminous` and `photons` have `value`, `unit`, `standard_error` and `half_interval_95`, "
-      "half the "
-      "width of Student's interval of 95 %, None where nothing is known; `cells` are arrays of rows and "
-      "columns "
-      "of a meter that has some, `spectrum` arrays over `wavelength_nm`, nan where an error is not known. "
-      "`only` "
-      "names a meter, or several. `spp`, `seed` and `integrator` replace what the scene says; `threads`, "
-      "`time` "
-      "and `progress` are those of `render`, for each meter, and `error` ends at the largest relative "
-      "standard "
-      "error of its three figures. Raises UsageError for a name that no meter has and for a list of none, "
-      "SceneError for a scene "
-      "without meters.");
+      "half the width of Student's 95 % interval, or None if that is unknown. `cells` are arrays of rows and "
+      "columns if the meter has cells. `spectrum` has arrays over `wavelength_nm`, with nan for unknown "
+      "errors. `only` names a meter, or several. `spp`, `seed` and `integrator` replace those of the scene. "
+      "`threads`, `time` and `progress` are those of `render`, for each meter. `error` ends a render at that "
+      "largest relative standard error of the three figures. Raises UsageError for a name that no meter has "
+      "and for an empty list, and SceneError for a scene without meters.");
 }
 
 }  // namespace abbe::python

@@ -1,4 +1,4 @@
-// The module `abbe._abbe`: all that the package `abbe` offers.
+// The extension module `abbe._abbe`, which implements the package `abbe`.
 #include <filesystem>
 
 #include <pybind11/pybind11.h>
@@ -24,6 +24,6 @@ PYBIND11_MODULE(_abbe, module) {
   abbe::python::add_develop(module);
   abbe::python::add_compare(module);
   abbe::python::add_calibrate(module);
-  abbe::python::add_matter(module);
+  abbe::python::add_materials(module);
   abbe::python::add_curves(module);
 }

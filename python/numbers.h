@@ -11,12 +11,12 @@
 
 namespace abbe::python {
 
-/// What functions take for numbers: a number, or anything that numpy makes an array of real numbers of, none
-/// of them masked. Throws Error{usage} as an argument for others.
+/// Numeric argument: a number, or anything that numpy converts to an array of real numbers, without masked
+/// elements. Other arguments throw Error{usage}.
 using Numbers = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
 
-/// Throws Error{usage} for elements of a masked array, or of one in a list, that have no value, as numpy
-/// makes numbers of them.
+/// Throws Error{usage} for masked elements of an array, or of arrays in a list, because numpy would convert
+/// them to numbers.
 inline void require_unmasked(const pybind11::handle& object) {
   if (PyFloat_CheckExact(object.ptr()) || PyLong_CheckExact(object.ptr())) return;
   if (PyList_Check(object.ptr()) || PyTuple_Check(object.ptr())) {
@@ -33,17 +33,15 @@ inline void require_unmasked(const pybind11::handle& object) {
                             object.attr("size").cast<std::int64_t>()));
 }
 
-/// What functions take for one real number. Throws Error{usage} as an argument for what is none, as for
-/// Numbers.
+/// Argument for one real number. Other arguments throw Error{usage}, as for Numbers.
 struct Real {
   double value = 0;
 
   operator double() const { return value; }
 };
 
-/// What functions take for a whole number, a T: what Python takes for an index, such as numpy's whole
-/// numbers. Others, of which pybind11 would cut off the fraction unless they are floats of Python, are a
-/// TypeError.
+/// Argument for a whole number of type T: anything that Python accepts as an index, such as numpy's integers.
+/// Other arguments are a TypeError; pybind11 would truncate fractions of objects other than Python floats.
 template <typename T>
 struct Whole {
   T value = 0;
@@ -51,21 +49,21 @@ struct Whole {
   operator T() const { return value; }
 };
 
-/// The letter by which numpy tells the kind of what an object holds, such as 'm' of spans of time; 0 of
-/// objects that are not numpy's.
+/// Code of numpy for the kind of data in an object, such as 'm' for time spans; 0 for objects that are not
+/// numpy's.
 [[nodiscard]] inline char numpy_kind(const pybind11::handle& object) {
   const pybind11::object type = pybind11::getattr(object, "dtype", pybind11::none());
   return pybind11::isinstance<pybind11::dtype>(type) ? type.cast<pybind11::dtype>().kind() : '\0';
 }
 
-/// Whether numpy knows an object as dates or spans of time, which become bare numbers where they are in
-/// nanoseconds.
+/// True if an object holds numpy dates or time spans. With nanoseconds as the unit, numpy would convert them
+/// to plain numbers.
 [[nodiscard]] inline bool is_time(const pybind11::handle& object) {
   const char kind = numpy_kind(object);
   return kind == 'm' || kind == 'M';
 }
 
-/// Throws Error{usage} for what numpy knows as one of `kinds`.
+/// Throws Error{usage} for numpy data of one of the `kinds`.
 inline void refuse_kinds(const pybind11::handle& object, std::string_view kinds) {
   const char kind = numpy_kind(object);
   if (kind != '\0' && kinds.find(kind) != std::string_view::npos)
@@ -74,8 +72,8 @@ inline void refuse_kinds(const pybind11::handle& object, std::string_view kinds)
                             std::string(pybind11::str(object.attr("dtype")))));
 }
 
-/// Throws Error{usage} for complex numbers, dates and spans of time, as numpy makes real numbers of them, in
-/// arrays of objects too, where further arrays of objects are none unless they hold one.
+/// Throws Error{usage} for complex numbers, dates and time spans, which numpy would convert to real numbers.
+/// It also examines arrays of objects. Inside them, arrays of objects must have no axes.
 inline void require_real(const pybind11::array& array) {
   refuse_kinds(array, "cmM");
   if (numpy_kind(array) != 'O') return;
@@ -91,7 +89,7 @@ inline void require_real(const pybind11::array& array) {
 
 namespace pybind11::detail {
 
-/// Takes an argument for Numbers; what numpy makes no array of is a TypeError of pybind11.
+/// Converts an argument to Numbers. pybind11 raises a TypeError if numpy cannot make an array of it.
 template <>
 struct pyobject_caster<abbe::python::Numbers> {
   bool load(const handle& object, bool convert) {
@@ -111,7 +109,7 @@ struct pyobject_caster<abbe::python::Numbers> {
   PYBIND11_TYPE_CASTER(abbe::python::Numbers, handle_type_name<abbe::python::Numbers>::name);
 };
 
-/// Takes an argument for a Whole, by what Python makes an index of it.
+/// Converts an argument to a Whole by Python's index protocol.
 template <typename T>
 struct type_caster<abbe::python::Whole<T>> {
   bool load(const handle& object, bool convert) {
@@ -126,7 +124,7 @@ struct type_caster<abbe::python::Whole<T>> {
   PYBIND11_TYPE_CASTER(abbe::python::Whole<T>, make_caster<T>::name);
 };
 
-/// Takes an argument for a Real, as pybind11 does for a double.
+/// Converts an argument to a Real as pybind11 converts one to a double.
 template <>
 struct type_caster<abbe::python::Real> {
   bool load(const handle& object, bool convert) {

@@ -19,9 +19,10 @@ ExposedFilm exposed(const Image& film) {
   constexpr const char* kWhere = "film";
   if (is_spectral(film)) return observed_film(spectral_image(film, kWhere), kWhere, {}, {});
   Diagnostics diagnostics;
-  std::optional<FilmSensor> sensor = film_sensor(film, kWhere, {}, {}, recorded_white(film), diagnostics);
-  require_sound(diagnostics);
-  sensor->readout.reset();  // the exposure as it is expected, without noise
+  std::optional<FilmSensor> sensor =
+      read_film_sensor(film, kWhere, {}, {}, recorded_white(film), diagnostics);
+  require_no_errors(diagnostics);
+  sensor->readout.reset();  // the expected exposure, without noise
   return {film, *std::move(sensor)};
 }
 
@@ -42,7 +43,7 @@ py::object png(const FilmHandle& film) {
 Image display_picture(const FilmSensor& sensor, const Image& calibrated) {
   require_display(sensor);
   const Image planes = display_planes(sensor, calibrated);
-  return (*sensor.display)(planes, 1 / shown_as_white(sensor, planes)).image;
+  return (*sensor.display)(planes, 1 / display_white(sensor, planes)).image;
 }
 
 Image display_picture(const FilmHandle& film) {
@@ -57,9 +58,8 @@ py::object png_of(const FilmSensor& sensor, const Image& calibrated) {
 
 void add_pictures(py::class_<FilmHandle, std::shared_ptr<FilmHandle>>& film) {
   film.def("picture", picture,
-           "Returns the film as an sRGB display shows it: rows, columns, and R, G, B or grey, code values in "
-           "[0, 1]. "
-           "Raises UsageError for a film that no display can show.")
+           "Returns the picture of the film on an sRGB display: rows, columns, and R, G, B or grey, as code "
+           "values in [0, 1]. Raises UsageError for a film that no display can show.")
       .def("_repr_png_", png);
 }
 

@@ -10,16 +10,16 @@
 
 namespace abbe::python {
 
-/// What a sensor sees as the display of `abbe render` shows it, for sRGB. Throws Error{usage} where none can.
+/// The picture of a sensor's calibrated planes on the sRGB display of `abbe render`. Throws Error{usage} if
+/// no display can show it.
 [[nodiscard]] Image display_picture(const FilmSensor& sensor, const Image& calibrated);
-/// The film as that display shows it, likewise.
+/// The picture of a film on that display. Throws Error{usage} if no display can show it.
 [[nodiscard]] Image display_picture(const FilmHandle& film);
 
-/// The picture as Jupyter asks for it, in a PNG; None where no display can show it, so that text stands for
-/// it.
+/// The picture as a PNG, which Jupyter requests. None if no display can show it; Jupyter then shows text.
 [[nodiscard]] pybind11::object png_of(const FilmSensor& sensor, const Image& calibrated);
 
-/// Adds to films what shows them.
+/// Adds the display functions to the class of films.
 void add_pictures(pybind11::class_<FilmHandle, std::shared_ptr<FilmHandle>>& film);
 
 }  // namespace abbe::python

@@ -9,14 +9,14 @@
 
 namespace abbe::python {
 
-/// What a camera's curves multiply, by the text of an argument of that name, "energy" or "quantum"; nothing
-/// for none. Throws Error{usage} for another.
+/// The quantity that a camera's curves multiply, from the text of an argument: "energy", "quantum" or empty.
+/// Nothing if it is empty. Throws Error{usage} for other texts.
 [[nodiscard]] std::optional<ResponseKind> response_of(const char* argument, const std::string& text);
 
-/// Adds what matter does, over arrays of wavelengths.
-void add_matter(pybind11::module_& module);
+/// Adds the functions for materials over arrays of wavelengths.
+void add_materials(pybind11::module_& module);
 
-/// Adds tables as arrays, and colours.
+/// Adds the functions for tables and colours.
 void add_curves(pybind11::module_& module);
 
 }  // namespace abbe::python

@@ -6,26 +6,26 @@
 #include <pybind11/stl.h>
 
 #include "film/rendered_film.h"
-#include "film/shortcomings.h"
+#include "film/scene_warnings.h"
 #include "python/arguments.h"
 #include "python/errors.h"
 #include "python/film.h"
+#include "python/gil.h"
 #include "python/job.h"
-#include "python/lock.h"
 #include "python/numbers.h"
 #include "python/render.h"
 #include "python/request.h"
 #include "python/sample_range.h"
 #include "python/scene.h"
-#include "transport/render/collect.h"
+#include "transport/render/light_subpaths.h"
 
 namespace abbe::python {
 namespace {
 
 namespace py = pybind11;
 
-RenderOptions how_to_render(const Request& request, int stated) {
-  RenderOptions how = how_to_stop(request);
+RenderOptions render_options(const Request& request, int stated) {
+  RenderOptions how = render_limits(request);
   how.measure_error = false;
   if (!request.samples) return how;
   const auto [first, last] = *request.samples;
@@ -35,8 +35,8 @@ RenderOptions how_to_render(const Request& request, int stated) {
   return how;
 }
 
-// The scene with the settings asked for; a copy only where they are not its own.
-std::optional<abbe::Scene> changed(const abbe::Scene& scene, const Request& request) {
+// A copy of the scene with the requested settings; nothing if they equal those of the scene.
+std::optional<abbe::Scene> with_settings_of(const abbe::Scene& scene, const Request& request) {
   RenderSettings settings = scene.render;
   if (request.spp) settings.samples = static_cast<int>(*request.spp);
   if (request.seed) settings.seed = static_cast<std::uint64_t>(*request.seed);
@@ -48,47 +48,49 @@ std::optional<abbe::Scene> changed(const abbe::Scene& scene, const Request& requ
 
 FilmHandle render_scene(SceneHandle& handle, const Request& request, const py::object& progress) {
   require_valid(request);
-  const Released released;
-  const abbe::Scene& own = handle.with_white(static_cast<int>(request.threads));
-  const std::optional<abbe::Scene> copy = changed(own, request);
-  const abbe::Scene& scene = copy ? *copy : own;
-  RenderOptions how = how_to_render(request, scene.render.samples);
-  how.guides = handle.guides();
+  const GilReleased released;
+  const abbe::Scene& scene_with_white = handle.with_white(static_cast<int>(request.threads));
+  const std::optional<abbe::Scene> copy = with_settings_of(scene_with_white, request);
+  const abbe::Scene& scene = copy ? *copy : scene_with_white;
+  RenderOptions how = render_options(request, scene.render.samples);
+  how.guides = handle.guiding_data();
   Inputs inputs = handle.inputs();
-  inputs.take_memory("the film", film_bytes(scene, how));
-  inputs.take_memory("the paths from lights of a sample", bytes_of_light_paths(scene));
+  inputs.reserve_memory("the film", film_bytes(scene, how));
+  inputs.reserve_memory("the paths from lights of a sample", bytes_of_light_paths(scene));
   FilmIdentity identity = identity_of(scene, handle.name(), how);
-  for (const auto& shortcoming :
-       {unpolarised_measurement(scene), dark_camera(scene), hidden_sheet(scene), hidden_lamp(scene),
-        lost_light(scene), rare_photons(how.guides.get()), unused_settings(scene)})
-    if (shortcoming) warn(*shortcoming);
+  for (const auto& warning :
+       {ignored_polarisation_warning(scene), dark_camera_warning(scene), hidden_sheet_warning(scene),
+        hidden_light_warning(scene), unsampled_light_warning(scene), undertrained_warning(how.guides.get()),
+        unused_settings_warning(scene)})
+    if (warning) warn(*warning);
   RenderResult result = render_listening(scene, how, progress);
   if (how.target_error && !how.time_limit_s && !std::isfinite(result.stats.error.median))
-    warn("a pilot found no light on the film: error had nothing to wait for");
-  for (const std::string& loss : left_out(scene, result)) warn(loss);
+    warn("a pilot found no light on the film, so that error had no effect");
+  for (const std::string& warning : render_warnings(scene, result)) warn(warning);
   return FilmHandle(RenderPart{std::move(identity), std::move(result)});
 }
 
 }  // namespace
 
 void add_render(py::module_& module) {
-  py::class_<Progress> progress(module, "Progress", "How far a render has come.");
+  py::class_<Progress> progress(module, "Progress", "The progress of a render.");
   forbid_bare_new(progress);
   progress
-      .def_readonly("share", &Progress::share,
-                    "The share of the work that is done, in [0, 1]; an estimate where time or error decides.")
-      .def_readonly("samples", &Progress::samples, "How many samples of each pixel are finished.")
+      .def_readonly("share", &Progress::fraction_done,
+                    "The fraction of the work that is done, in [0, 1]; an estimate if a time or error limit "
+                    "ends the render.")
+      .def_readonly("samples", &Progress::samples, "The number of finished samples per pixel.")
       .def_readonly("rate", &Progress::rate,
-                    "How many samples of each pixel this run finishes in a second, without its planning; 0 "
-                    "before its first.")
+                    "The samples per pixel that this run finishes per second, without its planning; 0 before "
+                    "the first one.")
       .def_readonly("elapsed_s", &Progress::elapsed_s, "The time since the render began, in s.")
       .def_readonly("left_s", &Progress::left_s,
-                    "An estimate of the time that is left, in s; NaN before there is one.")
+                    "The estimated remaining time, in s; NaN before there is an estimate.")
       .def_property_readonly(
           "error", [](const Progress& p) { return p.error.median; },
-          "The median relative error of the lit values so far; infinite while it is not known.")
+          "The median relative error of the illuminated values so far; infinite while it is unknown.")
       .def_readonly("error_samples", &Progress::error_samples,
-                    "Of how many samples of each pixel `error` is.");
+                    "The number of samples per pixel from which `error` was estimated.");
   module.def(
       "render",
       [](SceneHandle& scene, std::optional<Whole<std::int64_t>> spp, std::optional<Whole<std::int64_t>> seed,
@@ -99,17 +101,13 @@ void add_render(py::module_& module) {
       py::arg("scene"), py::kw_only(), py::arg("spp") = py::none(), py::arg("seed") = py::none(),
       py::arg("threads") = 0, py::arg("error") = py::none(), py::arg("time") = py::none(),
       py::arg("progress") = py::none(), py::arg("sample_range") = py::none(),
-      "Renders a scene and returns its film, of the bits that `abbe render` gives, whatever the threads.\n\n"
-      "`spp` and `seed` replace what the scene says; `threads` is one per processor unless given. `error` "
-      "ends the "
-      "render at that median relative error (0.01 for a percent), `time` after so many seconds, both at the "
-      "end of "
-      "a pass; neither goes with `spp` or `sample_range`. `progress` is called after passes with a Progress, "
-      "on the calling thread. `sample_range` "
-      "(first, last), or range(first, last), "
-      "renders these samples only, for `merge`. Other threads of Python run meanwhile. Ctrl-C, and what "
-      "`progress` "
-      "raises, end the render after the pass that runs and are raised here.");
+      "Renders a scene and returns its film, with the same bits as `abbe render` for any number of "
+      "threads.\n\n`spp` and `seed` replace those of the scene; `threads` is one per processor by default. "
+      "`error` ends the render at that median relative error (0.01 for one percent), `time` after so many "
+      "seconds, both at the end of a pass; both exclude `spp` and `sample_range`. `progress` is called after "
+      "passes with a Progress, on the calling thread. `sample_range` (first, last), or range(first, last), "
+      "renders only these samples, for `merge`. Other Python threads run meanwhile. Ctrl-C, and exceptions "
+      "from `progress`, end the render after the current pass and are raised here.");
 }
 
 }  // namespace abbe::python

@@ -4,7 +4,7 @@
 
 namespace abbe::python {
 
-/// Adds `render` and what it tells its callback.
+/// Adds `render` and the class Progress.
 void add_render(pybind11::module_& module);
 
 /// Adds `meter`.

@@ -16,15 +16,16 @@ void require_within(const char* argument, std::int64_t value, std::int64_t low, 
                 fmt::format("got {}, allowed whole numbers in [{}, {}]", value, low, high));
 }
 
-// Time and error decide how many samples there are, unless these are given.
+// The number of samples is either given or determined by the limits of time and error.
 void require_compatible(const Request& request) {
   const std::pair<bool, const char*> fixed[]{{request.spp.has_value(), "spp"},
                                              {request.samples.has_value(), "sample_range"}};
   const std::pair<bool, const char*> open[]{{request.error.has_value(), "error"},
                                             {request.time.has_value(), "time"}};
-  for (const auto& [given, argument] : fixed)
-    for (const auto& [also, other] : open)
-      if (given && also) throw Error(ErrorCode::usage, "", fmt::format("{} excludes {}", argument, other));
+  for (const auto& [is_given, argument] : fixed)
+    for (const auto& [is_other_given, other] : open)
+      if (is_given && is_other_given)
+        throw Error(ErrorCode::usage, "", fmt::format("{} excludes {}", argument, other));
 }
 
 }  // namespace
@@ -47,7 +48,7 @@ void require_valid(const Request& request) {
   require_compatible(request);
 }
 
-RenderOptions how_to_stop(const Request& request) {
+RenderOptions render_limits(const Request& request) {
   RenderOptions how;
   how.threads = static_cast<int>(request.threads);
   how.target_error = request.error;

@@ -9,7 +9,7 @@
 
 namespace abbe::python {
 
-/// How a call asks for light to be sampled; what is absent is as the scene says.
+/// Sampling parameters of a call; absent ones are those of the scene.
 struct Request {
   std::optional<std::int64_t> spp;
   std::optional<std::int64_t> seed;
@@ -19,16 +19,16 @@ struct Request {
   std::optional<SampleRange> samples = {};
 };
 
-/// Throws Error{usage} naming the argument that is out of its range, or that another excludes.
+/// Throws Error{usage} with the name of an argument that is out of range, or of two that exclude each other.
 void require_valid(const Request& request);
 
-/// Throws Error{usage} naming the argument `seed` unless it is one that scenes may have, or not given.
+/// Throws Error{usage} with the argument `seed` unless it is absent or a valid seed of a scene.
 void require_seed(const std::optional<std::int64_t>& seed);
 
-/// Throws Error{usage} unless it holds: "`argument`: got `got`, allowed `allowed`".
+/// Throws Error{usage} unless `holds`: "`argument`: got `got`, allowed `allowed`".
 void require(bool holds, const char* argument, const std::string& got, const char* allowed);
 
-/// Its threads, and when to stop.
-[[nodiscard]] RenderOptions how_to_stop(const Request& request);
+/// Render options with the threads and the stopping criteria of a request.
+[[nodiscard]] RenderOptions render_limits(const Request& request);
 
 }  // namespace abbe::python

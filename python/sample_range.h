@@ -12,8 +12,8 @@
 
 namespace pybind11::detail {
 
-/// Takes (first, last) for a range of samples, or a range of Python from first to last, whose elements are
-/// not these two. Another object is a TypeError of Python that says so.
+/// Converts (first, last), or a Python range of step 1, to a range of samples. Its ends are first and last,
+/// not its elements. Throws Python's TypeError for other objects.
 template <>
 struct type_caster<abbe::SampleRange> {
   bool load(const handle& object, bool convert) {

@@ -15,8 +15,8 @@
 #include "io/schema/write.h"
 #include "python/arguments.h"
 #include "python/errors.h"
+#include "python/gil.h"
 #include "python/json.h"
-#include "python/lock.h"
 #include "python/text.h"
 #include "transport/render/choose_integrator.h"
 #include "transport/render/threads.h"
@@ -27,14 +27,14 @@ namespace {
 namespace py = pybind11;
 namespace fs = std::filesystem;
 
-// What messages call a scene that no file holds.
+// Name of a scene without a file in messages.
 constexpr const char* kDict = "dict";
 
 const schema::Fields& scene_fields() {
   return schema::fields_of<spec::Scene>();
 }
 
-// Keywords over a file are what `--set` is to the command, so that films tell the same hash.
+// Keywords over a file act as `--set` does in the command, so that films record the same hash.
 std::vector<Override> overrides_of(const py::dict& keywords) {
   const JsonValue all = to_json(keywords);
   std::vector<Override> overrides;
@@ -43,30 +43,27 @@ std::vector<Override> overrides_of(const py::dict& keywords) {
   return overrides;
 }
 
-// The text of a scene said in Python, so that complaints show the line concerned.
+// The text of a scene given in Python, so that messages can quote lines.
 std::shared_ptr<const SourceText> text_of(const py::object& source, const py::dict& keywords) {
   py::dict all;
-  all["abbe"] = spec::kFormatVersion;  // which only files need to tell
+  all["abbe"] = spec::kFormatVersion;  // only files must state it
   if (!source.is_none())
     for (const auto& [key, value] : py::dict(source)) all[key] = value;
   for (const auto& [key, value] : keywords) all[key] = value;
   return std::make_shared<const SourceText>(SourceText{kDict, to_lines(to_json(all), kJsonWidth)});
 }
 
-// The keywords of the class, from the table of the scene's keys.
+// Help text of the class, with the keywords from the table of the scene's keys.
 std::string class_text() {
   std::string text =
-      "A scene, ready to render.\n\n"
-      "Scene(path) reads a scene file; Scene(dict) takes what such a file would hold, and files it names are "
-      "looked for in `folder`, by default the current one, which only a dict may have. Keywords are keys at "
-      "the top of the scene and "
-      "replace "
-      "those of the file or dict. What is wrong is raised as abbe.SceneError or abbe.InputError, whose "
-      "`diagnostics` tell all of it.\n\nKeywords:\n";
+      "A scene, ready to render.\n\nScene(path) reads a scene file. Scene(dict) takes the content of such a "
+      "file; files that it names are relative to `folder`, by default the current one, which only a dict may "
+      "have. Keywords are keys at the top level of the scene and replace those of the file or dict. Invalid "
+      "input raises abbe.SceneError or abbe.InputError, whose `diagnostics` list all errors.\n\nKeywords:\n";
   const schema::Fields* const root = &scene_fields();
   for (const schema::Key& key : schema::keys_of({&root, 1}))
     text += fmt::format("  {}: {} ({})\n", key.name, key.meaning(), key.allowed());
-  return text + "\nabbe.help(\"camera\") tells what may stand in them.";
+  return text + "\nabbe.help(\"camera\") describes the values of a key.";
 }
 
 py::str repr_of_scene(const SceneHandle& handle) {
@@ -84,7 +81,7 @@ SceneSource source_of(const py::object& source, const py::object& folder, const 
             folder.is_none() ? fs::path() : argument<fs::path>(folder, "folder", "a path")};
   if (!folder.is_none())
     throw Error(ErrorCode::usage, "folder",
-                "is where files that a dict names are looked for; those of a scene file are beside it");
+                "applies only to files that a dict names; those of a scene file are relative to that file");
   std::vector<Override> overrides = overrides_of(keywords);
   return {argument<fs::path>(source, "source", "a path or a dict"), {}, {}, std::move(overrides)};
 }
@@ -95,28 +92,28 @@ SceneHandle::SceneHandle(const py::object& source, const py::object& folder, con
   Diagnostics diagnostics;
   std::optional<abbe::Scene> scene;
   {
-    const Released released;
-    scene = source_.text
-                ? load_scene(source_.text, source_.folder, source_.overrides, diagnostics, &inputs_, &said_)
-                : load_scene(source_.name, source_.overrides, diagnostics, &inputs_, &said_);
+    const GilReleased released;
+    scene = source_.text ? load_scene(source_.text, source_.folder, source_.overrides, diagnostics, &inputs_,
+                                      &scene_spec_)
+                         : load_scene(source_.name, source_.overrides, diagnostics, &inputs_, &scene_spec_);
   }
   scene_ = accepted(std::move(scene), diagnostics);
-  std::error_code gone;
-  fs::path& place = source_.text ? source_.folder : source_.name;
-  place = fs::current_path(gone) / place;
+  std::error_code error;
+  fs::path& path = source_.text ? source_.folder : source_.name;
+  path = fs::current_path(error) / path;
 }
 
 const abbe::Scene& SceneHandle::with_white(int threads) {
   const std::scoped_lock lock(mutex_);
   if (has_white_) return scene_;
-  abbe::Scene settled = scene_;
-  const IntegratorChoice choice = choose_integrator(settled, thread_count(threads));
-  settled.render.integrator = choice.integrator;
-  settle_white(settled, name(), thread_count(threads), choice.guides);
-  const Held held;  // for those who read the scene meanwhile
-  scene_.render.integrator = settled.render.integrator;
-  scene_.output = std::move(settled.output);
-  guides_ = choice.guides;
+  abbe::Scene resolved = scene_;
+  const IntegratorChoice choice = choose_integrator(resolved, thread_count(threads));
+  resolved.render.integrator = choice.integrator;
+  resolve_white(resolved, name(), thread_count(threads), choice.guides);
+  const GilAcquired gil;  // for threads that read the scene meanwhile
+  scene_.render.integrator = resolved.render.integrator;
+  scene_.output = std::move(resolved.output);
+  guiding_data_ = choice.guides;
   has_white_ = true;
   return scene_;
 }
@@ -130,10 +127,11 @@ void add_scene(py::module_& module) {
              return std::make_shared<SceneHandle>(source, folder, keywords);
            }),
            py::arg("source") = py::none(), py::kw_only(), py::arg("folder") = py::none(),
-           "Reads a scene from a path or a dict; keywords replace keys at its top.")
+           "Reads a scene from a path or a dict. Keywords replace keys at the top level.")
       .def(
-          "to_dict", [](const SceneHandle& s) { return to_python(schema::write(s.said())); },
-          "Returns the scene as a dict that makes the same scene, without what is as by default.")
+          "to_dict", [](const SceneHandle& s) { return to_python(schema::write(s.scene_spec())); },
+          "Returns the scene as a dict that describes the same scene, without values that equal their "
+          "defaults.")
       .def_property_readonly(
           "width", [](const SceneHandle& s) { return s.scene().camera.width; },
           "The film's columns of pixels.")
@@ -145,14 +143,14 @@ void add_scene(py::module_& module) {
           "The names of the film's planes.")
       .def_property_readonly(
           "samples", [](const SceneHandle& s) { return s.scene().render.samples; },
-          "How many samples a pixel gets unless `render` is told otherwise.")
+          "The samples per pixel, unless the arguments of `render` replace them.")
       .def_property_readonly(
           "seed", [](const SceneHandle& s) { return s.scene().render.seed; },
-          "The seed of the random numbers unless `render` is told otherwise.")
+          "The seed of the random numbers, unless the arguments of `render` replace it.")
       .def("__repr__", repr_of_scene);
   module.def(
       "help", [](const std::string& key) { return schema::help(scene_fields(), key); }, py::arg("key") = "",
-      "Returns what a key of scenes means, its range and its default, as `abbe help scene KEY` prints it.");
+      "Returns the meaning, range and default of a key of scenes, as `abbe help scene KEY` prints them.");
 }
 
 }  // namespace abbe::python

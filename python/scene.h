@@ -15,48 +15,49 @@
 
 namespace abbe::python {
 
-/// Where a scene that Python says stands.
+/// Where a scene is read from.
 struct SceneSource {
-  std::filesystem::path name;                   ///< What films call their scene after: the file, or "dict".
-  std::shared_ptr<const SourceText> text = {};  ///< Of a dict.
-  std::filesystem::path folder = {};            ///< Where the files that a dict names are looked for.
-  std::vector<Override> overrides = {};         ///< Of a file.
+  std::filesystem::path name;                   ///< The file, or "dict"; recorded in films.
+  std::shared_ptr<const SourceText> text = {};  ///< Text of a dict.
+  std::filesystem::path folder = {};            ///< Folder of the files that a dict names.
+  std::vector<Override> overrides = {};         ///< Keywords over a file.
 };
-/// That of a path, a dict or None, with keywords that replace keys at the top.
+/// The source for a path, a dict or None. Keywords replace keys at the top level.
 [[nodiscard]] SceneSource source_of(const pybind11::object& source, const pybind11::object& folder,
                                     const pybind11::dict& keywords);
 
-/// A scene as Python holds it: built, and as it was described. It never changes once its white is settled, so
-/// threads may render one scene at once.
+/// A scene in Python: built, and as described. It does not change once its white is resolved, so that threads
+/// may render it at once.
 class SceneHandle {
  public:
-  /// What `pybind11` is asked for: a path, a dict or nothing, and keywords that replace keys at the top.
+  /// Arguments of the class in Python: a path, a dict or nothing, and keywords that replace keys at the top
+  /// level.
   SceneHandle(const pybind11::object& source, const pybind11::object& folder, const pybind11::dict& keywords);
 
-  /// The scene without what pictures need, to be read under Python's lock; with it, once some call has
-  /// settled white and integrator on that many threads, for callers without that lock.
+  /// `scene` lacks the data for pictures; callers hold the GIL. `with_white` returns the scene after a call
+  /// has resolved the white and the integrator, on that many threads; callers need not hold the GIL.
   [[nodiscard]] const abbe::Scene& scene() const { return scene_; }
   [[nodiscard]] const abbe::Scene& with_white(int threads);
-  /// What pilots have taught of it then.
-  [[nodiscard]] const std::shared_ptr<const Guides>& guides() const { return guides_; }
+  /// Guiding data that pilots have trained by then.
+  [[nodiscard]] const std::shared_ptr<const GuidingData>& guiding_data() const { return guiding_data_; }
 
-  [[nodiscard]] const spec::Scene& said() const { return said_; }
-  /// What films call their scene after, and messages its text.
+  [[nodiscard]] const spec::Scene& scene_spec() const { return scene_spec_; }
+  /// Name recorded in films and used in messages.
   [[nodiscard]] const std::filesystem::path& name() const { return name_; }
-  /// From where it can be read once more, whatever directory has become the current one.
+  /// Source from which the scene can be read again after a change of the current directory.
   [[nodiscard]] const SceneSource& source() const { return source_; }
-  /// What was read, with the memory it took.
+  /// The files that were read, and the memory that the scene takes.
   [[nodiscard]] const Inputs& inputs() const { return inputs_; }
 
  private:
   std::filesystem::path name_;
   SceneSource source_;
   Inputs inputs_;
-  spec::Scene said_;
+  spec::Scene scene_spec_;
   abbe::Scene scene_;
   std::mutex mutex_;
   bool has_white_ = false;
-  std::shared_ptr<const Guides> guides_;
+  std::shared_ptr<const GuidingData> guiding_data_;
 };
 
 /// Adds the class `Scene`, and `help`.

@@ -10,7 +10,7 @@
 
 namespace abbe::python {
 
-/// Text that may hold names of files, which need not be UTF-8: as Python itself reads those.
+/// Decodes text that may contain file names, which need not be UTF-8, as Python itself does.
 [[nodiscard]] inline pybind11::str decoded(std::string_view text) {
   PyObject* const object =
       PyUnicode_DecodeUTF8(text.data(), static_cast<pybind11::ssize_t>(text.size()), "surrogateescape");
@@ -18,12 +18,12 @@ namespace abbe::python {
   return pybind11::reinterpret_steal<pybind11::str>(object);
 }
 
-/// What messages say of a text that has halves of surrogate pairs.
+/// Message for a text with unpaired surrogates.
 [[nodiscard]] inline std::string no_utf8(const pybind11::handle& text) {
-  return fmt::format("expected text that UTF-8 can hold (got {})", std::string(pybind11::repr(text)));
+  return fmt::format("expected text that UTF-8 can represent (got {})", std::string(pybind11::repr(text)));
 }
 
-/// The bytes of a text that `decoded` may have made. Throws Error{usage} for other halves of surrogate pairs.
+/// Encodes a text that `decoded` may have made. Throws Error{usage} for other unpaired surrogates.
 [[nodiscard]] inline std::string encoded(const pybind11::handle& text) {
   const auto bytes = pybind11::reinterpret_steal<pybind11::bytes>(
       PyUnicode_AsEncodedString(text.ptr(), "utf-8", "surrogateescape"));

@@ -1,6 +1,6 @@
-"""Builds the package as a wheel, by CMake and without any other tool: what pip calls [PEP 517].
+"""Build backend [PEP 517] by which pip builds the package as a wheel, with CMake and no other tool.
 
-`pip install . --config-settings build-dir=build/release` takes a folder that CMake has configured already; otherwise build/wheel is made.
+`pip install . --config-settings build-dir=build/release` uses a folder that CMake has configured; otherwise it creates build/wheel.
 """
 import base64
 import hashlib
@@ -31,7 +31,7 @@ def cmake_build(settings):
 
 
 def metadata():
-    """What the wheel says of itself; names and versions are those of pyproject.toml and CITATION.cff."""
+    """Name and METADATA of the wheel, from pyproject.toml and CITATION.cff."""
     project = (SOURCE / "pyproject.toml").read_text()
     field = {key: re.search(rf'^{key} = "(.*)"$', project, re.M).group(1) for key in ("name", "description", "requires-python")}
     version = re.search(r"^version: (.*)$", (SOURCE / "CITATION.cff").read_text(), re.M).group(1)
@@ -41,13 +41,13 @@ def metadata():
 
 
 def tag():
-    """For this Python and this kind of machine."""
+    """The compatibility tag for this Python and platform."""
     python = f"cp{sys.version_info.major}{sys.version_info.minor}"
     return f"{python}-{python}-{sysconfig.get_platform().replace('-', '_').replace('.', '_')}"
 
 
 def write_wheel(path, name, files):
-    """An archive of the files by name, with their hashes as RECORD [PEP 427]."""
+    """Writes an archive of named files with their hashes as RECORD [PEP 427]."""
     record = []
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
         for file, content in files:
@@ -58,13 +58,13 @@ def write_wheel(path, name, files):
 
 
 def build_wheel(wheel_directory, config_settings=None, metadata_directory=None):
-    name, told = metadata()
+    name, text = metadata()
     folder = cmake_build(config_settings)
     with tempfile.TemporaryDirectory() as staging:
         run("cmake", "--install", folder, "--component", "wheel", "--prefix", staging, "--strip")
         root = pathlib.Path(staging)
         files = [(str(file.relative_to(root)), file.read_bytes()) for file in sorted(root.rglob("*")) if file.is_file()]
-    files += [(f"{name}.dist-info/METADATA", told.encode()),
+    files += [(f"{name}.dist-info/METADATA", text.encode()),
               (f"{name}.dist-info/WHEEL", f"Wheel-Version: 1.0\nGenerator: abbe\nRoot-Is-Purelib: false\nTag: {tag()}\n".encode())]
     wheel = f"{name}-{tag()}.whl"
     write_wheel(os.path.join(wheel_directory, wheel), name, files)

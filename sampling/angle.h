@@ -4,7 +4,7 @@
 
 namespace abbe {
 
-/// A degree in radians.
+/// One degree in radians.
 inline constexpr double kDegree = std::numbers::pi / 180;
 
 }  // namespace abbe

@@ -6,15 +6,16 @@
 
 namespace abbe {
 
-/// The step of a cumulative distribution that a number falls into.
+/// Result of inverting a cumulative distribution: the step, and the position inside it.
 template <typename Number>
 struct CdfStep {
   std::size_t index;
-  Number within;  ///< How far into the step, in [0, 1]: uniform again, or a place in a constant density.
+  Number within;  ///< Position inside the step in [0, 1]: a new uniform random number, or an offset for a
+                  ///< constant density.
 };
 
-/// Divides running sums of weights by the last, so that they are a cumulative distribution; sums of nothing
-/// are left as they are.
+/// Divides running sums of weights by their last element, which makes them a cumulative distribution. Leaves
+/// `sums` unchanged if the last element is not positive.
 template <typename T>
 void normalise_cdf(std::span<T> sums) {
   const T total = sums.back();
@@ -22,9 +23,9 @@ void normalise_cdf(std::span<T> sums) {
   for (T& sum : sums) sum /= total;
 }
 
-/// Inverts the cumulative distribution `cdf` at `u` in [0, 1): step i has the probability cdf[i] - cdf[i -
-/// 1]. Steps of no probability are never found, not even by a `u` beyond a last value that was rounded
-/// below 1. `cdf` ends above 0. Computed in the precision of `u`.
+/// Inverts the cumulative distribution `cdf` at `u` in [0, 1). Step i has the probability cdf[i] - cdf[i -
+/// 1]. Never returns a step of probability 0, not even if rounding left the last value below 1 and `u` above
+/// it. Requires a last value above 0. Computes in the precision of `u`.
 template <typename T, typename Number>
 [[nodiscard]] CdfStep<Number> invert_cdf(std::span<const T> cdf, Number u) {
   const auto at = [&cdf](std::size_t i) { return static_cast<Number>(cdf[i]); };
@@ -36,7 +37,7 @@ template <typename T, typename Number>
   return {index, std::clamp((u - low(index)) / (at(index) - low(index)), Number(0), Number(1))};
 }
 
-/// The probability of a step.
+/// Probability of step `index`.
 template <typename T>
 [[nodiscard]] T cdf_step(std::span<const T> cdf, std::size_t index) {
   return cdf[index] - (index > 0 ? cdf[index - 1] : T(0));

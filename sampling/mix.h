@@ -4,7 +4,7 @@
 
 namespace abbe {
 
-/// A bijection of 32-bit numbers with full avalanche [Wellons2018]; T may be a vector of them.
+/// Bijection of 32-bit integers with full avalanche [Wellons2018]. T may be a vector of integers.
 template <typename T>
 constexpr T mix(T x) {
   x ^= x >> 16;
@@ -15,7 +15,7 @@ constexpr T mix(T x) {
   return x;
 }
 
-/// A hash of both numbers.
+/// Hash of two integers.
 template <typename T>
 constexpr T combine(T a, T b) {
   return mix(a ^ (mix(b) + 0x9e3779b9U));

@@ -12,7 +12,8 @@ namespace {
 
 using Point = std::array<std::uint32_t, 4>;
 
-// One 32-bit number for each dimension of a group, or of two, held as one vector of the machine.
+// One 32-bit integer for each dimension of one group (`Quad`) or of two groups (`Lanes`), in one SIMD
+// register.
 using Quad [[gnu::vector_size(16)]] = std::uint32_t;
 using Lanes [[gnu::vector_size(32)]] = std::uint32_t;
 
@@ -27,7 +28,7 @@ constexpr std::uint32_t reverse_bits(std::uint32_t x) {
   return __builtin_bswap32(x);
 }
 
-// Bytes change places, then the halves of each, which a table reverses.
+// Reverses the order of the bytes, then the bits of each byte by a table for each half of it.
 Lanes reverse_bits(Lanes x) {
   using Bytes [[gnu::vector_size(32)]] = std::uint8_t;
   const auto look_up = [](Bytes table, Bytes at) {
@@ -44,10 +45,11 @@ Lanes reverse_bits(Lanes x) {
 
 constexpr std::size_t kDimensions = 4;
 
-// Generator matrices of the first five Sobol dimensions, of which the last parts replicates: bit b of the
-// index flips column b. The recurrence and, but for the last, the initial numbers are those of [Joe2008]
-// (primitive polynomials 1, x+1, x^2+x+1, x^3+x+1, x^3+x^2+1). By 1, 1, 5 for the last the fewest points of a
-// replicate of 2, 4 or 8 share boxes of one or of two dimensions (a search by ranks of the matrices).
+// Generator matrices of five Sobol dimensions; the last one selects the replicate. Bit b of the index adds
+// column b. The recurrence is that of [Joe2008], with the primitive polynomials 1, x+1, x^2+x+1, x^3+x+1 and
+// x^3+x^2+1. The initial direction numbers are those of [Joe2008] too, except for the last dimension: 1, 1,
+// 5. A search over the ranks of the matrices chose these. With them, the fewest points of a replicate of 2, 4
+// or 8 fall into the same one- or two-dimensional box.
 constexpr std::array<std::array<std::uint32_t, kDimensions + 1>, 32> sobol_columns() {
   constexpr std::array<std::uint32_t, kDimensions + 1> kDegree{0, 1, 2, 3, 3};
   constexpr std::array<std::uint32_t, kDimensions + 1> kCoefficients{0, 0, 1, 1, 2};
@@ -71,7 +73,8 @@ constexpr std::array<std::array<std::uint32_t, kDimensions + 1>, 32> sobol_colum
   return columns;
 }
 
-// The same with bits of numbers reversed: of the last dimension the lowest are then the replicate.
+// A point of all five dimensions with its bits reversed. The lowest bits of the last dimension are then the
+// number of the replicate.
 struct IndexedPoint {
   Point numbers;
   std::uint32_t replicate;
@@ -93,29 +96,30 @@ constexpr std::array<IndexedPoint, 32> kColumns = [] {
   return columns;
 }();
 
-constexpr std::size_t kMostDigits = 3;
+constexpr std::size_t kMaxDigits = 3;
 
-// The first point of each replicate of eight, and so of fewer: one of the first eight of the sequence.
-alignas(Quad) constexpr std::array<Point, 1 << kMostDigits> kFirstPoints = [] {
-  std::array<Point, 1 << kMostDigits> points{};
+// First point of each of eight replicates: one of the first eight points of the sequence. It is also the
+// first point for fewer replicates.
+alignas(Quad) constexpr std::array<Point, 1 << kMaxDigits> kFirstPoints = [] {
+  std::array<Point, 1 << kMaxDigits> points{};
   for (std::uint32_t i = 0; i < points.size(); ++i) {
     IndexedPoint point{};
-    for (std::size_t b = 0; b < kMostDigits; ++b)
+    for (std::size_t b = 0; b < kMaxDigits; ++b)
       if ((i >> b) & 1U) point = point ^ kColumns[b];
     points[point.replicate % points.size()] = point.numbers;
   }
   return points;
 }();
 
-// What bit b of an index within one of 2^digits replicates flips: a later bit of the whole sequence's, and
-// those first ones that keep the point in its replicate.
+// Change of the point if bit b of the index within one of 2^digits replicates flips. It combines a later bit
+// of the whole sequence with those first bits that leave the point in its replicate.
 constexpr Point column_within(std::size_t digits, std::size_t b) {
   if (b + digits >= 32) return {};
   const IndexedPoint& column = kColumns[b + digits];
   return (column ^ IndexedPoint{kFirstPoints[column.replicate % (1U << digits)], 0}).numbers;
 }
 
-// The same by bytes of the index, whose bits are reversed too: four look-ups make a point.
+// Columns tabulated for each byte of the bit-reversed index: four look-ups make a point.
 using SobolBytes = std::array<std::array<Point, 256>, 4>;
 constexpr SobolBytes sobol_bytes(std::size_t digits) {
   SobolBytes table{};
@@ -129,12 +133,12 @@ constexpr SobolBytes sobol_bytes(std::size_t digits) {
   return table;
 }
 
-// By the digits that number a replicate.
-alignas(Quad) constexpr std::array<SobolBytes, kMostDigits + 1> kSobol{sobol_bytes(0), sobol_bytes(1),
-                                                                       sobol_bytes(2), sobol_bytes(3)};
+// Indexed by the number of binary digits that number a replicate.
+alignas(Quad) constexpr std::array<SobolBytes, kMaxDigits + 1> kSobol{sobol_bytes(0), sobol_bytes(1),
+                                                                      sobol_bytes(2), sobol_bytes(3)};
 
-// A permutation in which each bit depends only on itself and lower bits [Laine2011]: between two bit
-// reversals it is an Owen scrambling of a point.
+// Permutation in which each bit depends only on itself and on lower bits [Laine2011]. Applied between two bit
+// reversals, it is an Owen scrambling.
 template <typename T>
 constexpr T owen_scramble(T reversed, T seed) {
   T x = reversed + seed;
@@ -145,10 +149,10 @@ constexpr T owen_scramble(T reversed, T seed) {
   return x;
 }
 
-// A shuffle of an index, its bits reversed, in which each depends only on itself and lower ones too; but
-// products by even numbers leave zeros at the low end as they are, and the first one after them. So the first
-// eight indices stay the first, and the first 2^k for any more: replicates that are shuffled each by itself
-// fill the same blocks of the sequence.
+// Shuffles a bit-reversed index; here, too, each bit depends only on itself and on lower bits. A product with
+// an even number leaves trailing zeros and the first bit after them unchanged. The first eight indices
+// therefore stay the first eight, and the first 2^k stay the first for any larger k. Replicates that are
+// shuffled independently then fill the same blocks of the sequence.
 constexpr std::uint32_t shuffle(std::uint32_t x, std::uint32_t seed) {
   x ^= x * (seed & ~1U);
   x ^= x * 0x6c50b47cU;
@@ -160,23 +164,24 @@ constexpr std::uint32_t shuffle(std::uint32_t x, std::uint32_t seed) {
   return x ^ (seed & kBelowEight);
 }
 
-// A point of a replicate, the bits of its numbers and of its index there reversed.
+// Point of a replicate with bit-reversed coordinates. `reversed` is the bit-reversed index within the
+// replicate.
 Quad sobol_point(std::uint32_t reversed, Replicate replicate) {
-  const SobolBytes& table = kSobol[static_cast<std::size_t>(std::countr_zero(replicate.of))];
+  const SobolBytes& table = kSobol[static_cast<std::size_t>(std::countr_zero(replicate.count))];
   const auto part = [&table, reversed](std::size_t byte) {
     return std::bit_cast<Quad>(table[byte][(reversed >> (8 * byte)) & 255U]);
   };
   return part(0) ^ part(1) ^ part(2) ^ part(3) ^ std::bit_cast<Quad>(kFirstPoints[replicate.number]);
 }
 
-// What the numbers of a group are made of: a point of the sequence, its bits reversed, and what scrambles it.
-// Which replicate of the sampler's is which of the group's is chance, and in what order it has its points.
+// A Sobol point with bit-reversed coordinates, and the key that scrambles it. The key also permutes the
+// replicates of the group at random, and the order of the points in each.
 struct GroupPoint {
   GroupPoint(std::uint32_t sampler_key, std::uint32_t reversed_index, Replicate replicate,
              std::uint32_t group)
       : key(combine(sampler_key, group)),
         point(sobol_point(shuffle(reversed_index, mix(key + replicate.number + 1)),
-                          {replicate.number ^ (key & (replicate.of - 1)), replicate.of})) {}
+                          {replicate.number ^ (key & (replicate.count - 1)), replicate.count})) {}
   std::uint32_t key;
   Quad point;
 };
@@ -186,7 +191,7 @@ std::array<std::array<float, 4>, 2> numbers(const GroupPoint& a, const GroupPoin
   const Lanes keys = join(Quad{a.key, a.key, a.key, a.key}, Quad{b.key, b.key, b.key, b.key});
   const Lanes x = reverse_bits(owen_scramble(join(a.point, b.point), combine(keys, kNumbers)));
   using Floats [[gnu::vector_size(32)]] = float;
-  using Signed [[gnu::vector_size(32)]] = std::int32_t;  // there is an instruction for these
+  using Signed [[gnu::vector_size(32)]] = std::int32_t;  // conversion from signed integers is one instruction
   const Floats unit = __builtin_convertvector(std::bit_cast<Signed>(x >> 8), Floats) * 0x1p-24F;
   return std::bit_cast<std::array<std::array<float, 4>, 2>>(unit);
 }
@@ -208,15 +213,15 @@ std::array<std::array<float, 4>, 2> Sampler::two_groups(std::uint32_t first) con
 }
 
 Sampler Sampler::branch(std::uint32_t number) const {
-  Sampler part = *this;
-  part.key_ = combine(key_, ~number);  // groups are counted from 0 on
-  return part;
+  Sampler child = *this;
+  child.key_ = combine(key_, ~number);  // groups count up from 0, so branches count down
+  return child;
 }
 
-Sampler Sampler::part(std::uint32_t number, int bits) const {
-  Sampler part = *this;
-  part.reversed_index_ = (reversed_index_ >> bits) | reverse_bits(number);
-  return part;
+Sampler Sampler::split_child(std::uint32_t number, int bits) const {
+  Sampler child = *this;
+  child.reversed_index_ = (reversed_index_ >> bits) | reverse_bits(number);
+  return child;
 }
 
 std::array<float, 4> Sampler::group(std::uint32_t group) const {

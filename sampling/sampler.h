@@ -5,43 +5,44 @@
 
 namespace abbe {
 
-/// What a sequence of random numbers is for; sequences of different purposes are independent.
-/// Those of `sample` are for what all paths of a sample have in common.
+/// Purpose of a sequence of random numbers. Sequences of different purposes are independent. `sample` is for
+/// quantities that all paths of one sample have in common.
 enum class Purpose : std::uint32_t { camera = 1, light = 2, pilot = 3, sample = 4 };
 
-/// Which of `of` replicates, 1, 2, 4 or 8, that a sequence is parted into.
+/// One of `count` replicates of a sequence; `count` is 1, 2, 4 or 8.
 struct Replicate {
   std::uint32_t number = 0;
-  std::uint32_t of = 1;
+  std::uint32_t count = 1;
 };
 
-/// Owen-scrambled Sobol points in groups of four dimensions, a pure function of seed, purpose, sequence,
-/// stream (a pixel, say), sample index, replicate and group: nothing is consumed, so no path depends on what
-/// another asked for. Within one group the points of a stream are a (0, 2)-like low-discrepancy sequence;
-/// groups are padded by independent shuffles. [Burley2020]
+/// Owen-scrambled Sobol points in groups of four dimensions [Burley2020]. A point is a pure function of seed,
+/// purpose, sequence, stream (such as a pixel), sample index, replicate and group. Nothing is consumed, so no
+/// path depends on the random numbers of another. The points of one stream in one group are a (0, 2)-like
+/// low-discrepancy sequence. Independent shuffles pad the groups.
 ///
-/// The R replicates of a stream are the slices of each group along one more dimension of Sobol's, from r/R up
-/// to (r + 1)/R. So the points of each are a low-discrepancy sequence, and the first n of all, n being 8 or a
-/// higher power of two, are the Rn points of one. What all R find together has thus less variance than R
-/// independent sequences leave, and as the slices repel each other, the spread of their means tells more than
-/// it has, rather than less.
+/// The R replicates of a stream slice each group along one more Sobol dimension, from r/R to (r + 1)/R. The
+/// points of each replicate are a low-discrepancy sequence. If n is 8 or a larger power of two, the first n
+/// points of all R replicates are the first Rn points of one sequence. Their joint mean therefore has less
+/// variance than that of R independent sequences. The slices are negatively correlated, so the spread of
+/// their means overestimates this variance rather than underestimates it.
 class Sampler {
  public:
-  /// Indices below 2^kIndexBits have points of their own in any replicate, those of parts counted.
+  /// Indices below 2^kIndexBits have distinct points in every replicate, including the indices of split
+  /// children.
   static constexpr int kIndexBits = 29;
 
   Sampler(std::uint64_t seed, Purpose purpose, std::uint32_t sequence, std::uint32_t stream,
           std::uint32_t index, Replicate replicate = {});
 
-  /// Four numbers in [0, 1).
+  /// Four random numbers in [0, 1) of a group.
   [[nodiscard]] std::array<float, 4> group(std::uint32_t group) const;
-  /// The numbers of two groups that follow each other, at the cost of one.
+  /// Random numbers of the groups `first` and `first + 1`, at the cost of one group.
   [[nodiscard]] std::array<std::array<float, 4>, 2> two_groups(std::uint32_t first) const;
-  /// Numbers of its own, of the same index, for a part of a path that goes on apart from the others.
+  /// Sampler with independent random numbers and the same index, for one of several continuations of a path.
   [[nodiscard]] Sampler branch(std::uint32_t number) const;
-  /// The numbers of one of the 2^bits parts, below 2^bits, that a path goes on in, from where it does: those
-  /// of all parts of all paths follow each other in the same sequence.
-  [[nodiscard]] Sampler part(std::uint32_t number, int bits) const;
+  /// Sampler for child `number` < 2^bits of a path that splits into 2^bits children. The children of all
+  /// paths have consecutive points of the same sequence.
+  [[nodiscard]] Sampler split_child(std::uint32_t number, int bits) const;
 
  private:
   std::uint32_t key_;

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "scene/extent.h"
 #include "scene/scene.h"
+#include "scene/working_range.h"
 
 namespace abbe {
 namespace {
@@ -19,25 +19,25 @@ using Imath::Box3d;
 using Imath::M44d;
 using Imath::V3d;
 
-// A sphere placed by a matrix.
+// A sphere transformed by a matrix.
 struct Ellipsoid {
   V3d center;
   double radius;  // in its own coordinates
   M44d to_world;
 
-  // From the middle to where the outward normal is that.
-  [[nodiscard]] V3d to_side(const V3d& normal) const {
+  // Vector from the center to the surface point with that outward normal.
+  [[nodiscard]] V3d surface_offset(const V3d& normal) const {
     V3d own;
     to_world.transposed().multDirMatrix(normal, own);
     V3d side;
     to_world.multDirMatrix(own.normalized() * radius, side);
     return side;
   }
-  // Its radius where it is a ball but for so much.
-  [[nodiscard]] std::optional<double> radius_of_ball(double reach) const {
-    const double across = to_side(V3d(1, 0, 0)).length();
+  // Radius if the ellipsoid is a sphere to within `tolerance`.
+  [[nodiscard]] std::optional<double> radius_of_ball(double tolerance) const {
+    const double across = surface_offset(V3d(1, 0, 0)).length();
     for (const V3d& axis : {V3d(1, 0, 0), V3d(0, 1, 0), V3d(0, 0, 1)})
-      if (!to_side(axis).equalWithAbsError(axis * across, reach)) return std::nullopt;
+      if (!surface_offset(axis).equalWithAbsError(axis * across, tolerance)) return std::nullopt;
     return across;
   }
 };
@@ -52,16 +52,15 @@ std::optional<Ellipsoid> ellipsoid_of(const Shape& shape) {
   return Ellipsoid{sphere->center * to_world, sphere->radius, to_world};
 }
 
-bool has_corner_in_plane(const Face& of, const Face& plane, double reach) {
+bool has_corner_in_plane(const Face& of, const Face& plane, double tolerance) {
   return std::any_of(of.corners.begin(), of.corners.end(), [&](const V3d& corner) {
-    return std::abs((corner - plane.corners[0]).dot(plane.normal)) <= reach;
+    return std::abs((corner - plane.corners[0]).dot(plane.normal)) <= tolerance;
   });
 }
 
-// Whether two faces that are parallel reach over each other by more than that, as which no line between them
-// parts them.
-bool overlap(const Face& a, const Face& b, double by) {
-  const auto extent = [](const Face& face, const V3d& along) {
+// True if two parallel faces overlap by more than `min_overlap`: no line in their plane separates them.
+bool overlap(const Face& a, const Face& b, double min_overlap) {
+  const auto projection = [](const Face& face, const V3d& along) {
     std::pair<double, double> range(face.corners[0].dot(along), face.corners[0].dot(along));
     for (const V3d& corner : face.corners) {
       range.first = std::min(range.first, corner.dot(along));
@@ -70,68 +69,72 @@ bool overlap(const Face& a, const Face& b, double by) {
     return range;
   };
   for (const Face* face : {&a, &b})
-    for (const auto& [from, to] : {std::pair(0U, 1U), std::pair(0U, 2U), std::pair(1U, 2U)}) {
-      const V3d across = a.normal.cross(face->corners.at(to) - face->corners.at(from)).normalized();
-      const auto [least_a, most_a] = extent(a, across);
-      const auto [least_b, most_b] = extent(b, across);
-      if (!(std::min(most_a, most_b) - std::max(least_a, least_b) > by)) return false;
+    for (const auto& [first, to] : {std::pair(0U, 1U), std::pair(0U, 2U), std::pair(1U, 2U)}) {
+      const V3d across = a.normal.cross(face->corners.at(to) - face->corners.at(first)).normalized();
+      const auto [min_a, max_a] = projection(a, across);
+      const auto [min_b, max_b] = projection(b, across);
+      if (!(std::min(max_a, max_b) - std::max(min_a, min_b) > min_overlap)) return false;
     }
   return true;
 }
 
-bool coincide(const Face& a, const Face& b, double reach, double by) {
-  return grown(a.box, reach).intersects(b.box) &&
-         std::abs(a.normal.dot(b.normal)) > TouchingSurfaces::kParallel &&
-         (has_corner_in_plane(a, b, reach) || has_corner_in_plane(b, a, reach)) && overlap(a, b, by);
+bool coincide(const Face& a, const Face& b, double tolerance, double min_overlap) {
+  return grown(a.box, tolerance).intersects(b.box) &&
+         std::abs(a.normal.dot(b.normal)) > CoincidentHits::kParallel &&
+         (has_corner_in_plane(a, b, tolerance) || has_corner_in_plane(b, a, tolerance)) &&
+         overlap(a, b, min_overlap);
 }
 
-// A triangle has all of its corners there, and a parallelogram where it has three.
-bool is_in_plane(const Face& face, const Face& plane, double reach) {
+// A triangle lies in the plane if all its corners do, a parallelogram if three corners do.
+bool is_in_plane(const Face& face, const Face& plane, double tolerance) {
   return std::all_of(face.corners.begin(), face.corners.begin() + 3, [&](const V3d& corner) {
-    return std::abs((corner - plane.corners[0]).dot(plane.normal)) <= reach;
+    return std::abs((corner - plane.corners[0]).dot(plane.normal)) <= tolerance;
   });
 }
 
-bool lies_in(const Face& a, const Face& b, double reach) {
-  return coincide(a, b, reach, reach) && (is_in_plane(a, b, reach) || is_in_plane(b, a, reach));
+bool lies_in(const Face& a, const Face& b, double tolerance) {
+  return coincide(a, b, tolerance, tolerance) &&
+         (is_in_plane(a, b, tolerance) || is_in_plane(b, a, tolerance));
 }
 
-bool are_one_ball(const Ellipsoid& a, const Ellipsoid& b, double reach) {
-  const std::optional<double> radius_a = a.radius_of_ball(reach);
-  const std::optional<double> radius_b = b.radius_of_ball(reach);
-  return radius_a && radius_b && std::abs(*radius_a - *radius_b) <= reach &&
-         (a.center - b.center).length() <= reach;
+bool are_same_ball(const Ellipsoid& a, const Ellipsoid& b, double tolerance) {
+  const std::optional<double> radius_a = a.radius_of_ball(tolerance);
+  const std::optional<double> radius_b = b.radius_of_ball(tolerance);
+  return radius_a && radius_b && std::abs(*radius_a - *radius_b) <= tolerance &&
+         (a.center - b.center).length() <= tolerance;
 }
 
-bool touch(const Ellipsoid& a, const Ellipsoid& b, double reach) {
-  const std::optional<double> radius_a = a.radius_of_ball(reach);
-  const std::optional<double> radius_b = b.radius_of_ball(reach);
+bool tangent(const Ellipsoid& a, const Ellipsoid& b, double tolerance) {
+  const std::optional<double> radius_a = a.radius_of_ball(tolerance);
+  const std::optional<double> radius_b = b.radius_of_ball(tolerance);
   if (!radius_a || !radius_b) return true;
-  const double apart = (a.center - b.center).length();
-  return std::abs(apart - (*radius_a + *radius_b)) <= reach ||
-         std::abs(apart - std::abs(*radius_a - *radius_b)) <= reach;
+  const double distance = (a.center - b.center).length();
+  return std::abs(distance - (*radius_a + *radius_b)) <= tolerance ||
+         std::abs(distance - std::abs(*radius_a - *radius_b)) <= tolerance;
 }
 
-// Where a ball and a plane that touch are `reach` apart, at most the root of 2 radius reach from there.
-bool touch(const Ellipsoid& ball, const Face& face, double reach) {
-  const V3d side = ball.to_side(face.normal);
-  const Box3d near = grown(face.box, std::sqrt(2 * side.length() * reach));
+// A sphere and its tangent plane are `tolerance` apart at most sqrt(2 radius tolerance) from the point of
+// contact.
+bool tangent(const Ellipsoid& ball, const Face& face, double tolerance) {
+  const V3d side = ball.surface_offset(face.normal);
+  const Box3d near = grown(face.box, std::sqrt(2 * side.length() * tolerance));
   return std::ranges::any_of(std::array{ball.center + side, ball.center - side}, [&](const V3d& point) {
-    return std::abs((point - face.corners[0]).dot(face.normal)) <= reach && near.intersects(point);
+    return std::abs((point - face.corners[0]).dot(face.normal)) <= tolerance && near.intersects(point);
   });
 }
 
-// Of a shape that is one, with what the other is made of.
-bool ellipsoid_touches(const Shape& shape, const Shape& other, double reach, FaceFinder& faces) {
+// True if `shape` is an ellipsoid that is tangent to a part of `other`.
+bool ellipsoid_is_tangent(const Shape& shape, const Shape& other, double tolerance, FaceFinder& faces) {
   const std::optional<Ellipsoid> ball = ellipsoid_of(shape);
   if (!ball) return false;
-  if (const std::optional<Ellipsoid> another = ellipsoid_of(other)) return touch(*ball, *another, reach);
-  return std::ranges::any_of(faces.near(other, grown(bounds(shape), reach)),
-                             [&](const Face& face) { return touch(*ball, face, reach); });
+  if (const std::optional<Ellipsoid> another = ellipsoid_of(other))
+    return tangent(*ball, *another, tolerance);
+  return std::ranges::any_of(faces.near(other, grown(bounds(shape), tolerance)),
+                             [&](const Face& face) { return tangent(*ball, face, tolerance); });
 }
 
-// Of a disc the square within it, which is beyond doubt its own.
-std::vector<Face> sure_faces(const Shape& shape, const Box3d& near, FaceFinder& faces) {
+// Faces that certainly belong to the shape: for a disc the inscribed square.
+std::vector<Face> certain_faces(const Shape& shape, const Box3d& near, FaceFinder& faces) {
   std::vector<Face> found = faces.near(shape, near);
   if (plain<Disc>(shape) == nullptr) return found;
   for (Face& face : found) {
@@ -145,7 +148,7 @@ std::vector<Face> sure_faces(const Shape& shape, const Box3d& near, FaceFinder& 
   return found;
 }
 
-// How far rounding may take something in a face off its plane, as far as floats of that size go.
+// Maximum distance by which float rounding moves a point of a face off its plane.
 double rounding_across(const Face& face) {
   double sum = 0;
   for (int axis = 0; axis < 3; ++axis)
@@ -154,54 +157,55 @@ double rounding_across(const Face& face) {
   return sum;
 }
 
-bool stands_on_ball(const V3d& point, const Ellipsoid& ball, const Box3d& box) {
+bool is_on_ball(const V3d& point, const Ellipsoid& ball, const Box3d& box) {
   const V3d out = point - ball.center;
   const double rounding = rounding_across({{point, point, point, point}, box, out.normalized()});
   const std::optional<double> radius = ball.radius_of_ball(rounding);
   return radius && std::abs(out.length() - *radius) <= rounding;
 }
 
-// Whether a pair of faces fits that are near each other along x, from low x to high. Nothing where too many
-// are to be compared.
-template <typename Fits>
-std::optional<bool> any_pair(const std::vector<Face>& of_a, const std::vector<Face>& of_b, double reach,
-                             const Fits& fits) {
-  std::size_t left = kMostPairs;
-  return any_near_pair(of_a, of_b, reach, left, fits);
+// True if `matches` accepts a pair of faces that are near each other along x. Nothing if there are too many
+// pairs.
+template <typename Matches>
+std::optional<bool> any_pair(const std::vector<Face>& faces_a, const std::vector<Face>& faces_b,
+                             double tolerance, const Matches& matches) {
+  std::size_t budget = kMaxPairs;
+  return any_near_pair(faces_a, faces_b, tolerance, budget, matches);
 }
 
 }  // namespace
 
-bool may_coincide(const Shape& a, const Shape& b, double reach, FaceFinder& faces) {
-  const Box3d near_a = grown(faces.box_of(a), reach);
+bool may_coincide(const Shape& a, const Shape& b, double tolerance, FaceFinder& faces) {
+  const Box3d near_a = grown(faces.box_of(a), tolerance);
   const Box3d box_b = faces.box_of(b);
   if (!near_a.intersects(box_b)) return false;
   if (motion_of(a) != nullptr || motion_of(b) != nullptr) return true;
   if (ellipsoid_of(a) || ellipsoid_of(b))
-    return ellipsoid_touches(a, b, reach, faces) || ellipsoid_touches(b, a, reach, faces);
-  return any_pair(faces.near(a, grown(box_b, reach)), faces.near(b, near_a), reach,
-                  [&](const Face& one, const Face& other) { return coincide(one, other, reach, -reach); })
+    return ellipsoid_is_tangent(a, b, tolerance, faces) || ellipsoid_is_tangent(b, a, tolerance, faces);
+  return any_pair(
+             faces.near(a, grown(box_b, tolerance)), faces.near(b, near_a), tolerance,
+             [&](const Face& one, const Face& other) { return coincide(one, other, tolerance, -tolerance); })
       .value_or(true);
 }
 
-bool lies_on(const Shape& a, const Shape& b, double reach, FaceFinder& faces, Facing facing) {
+bool overlaps(const Shape& a, const Shape& b, double tolerance, FaceFinder& faces, Facing facing) {
   if (motion_of(a) != nullptr || motion_of(b) != nullptr) return false;
   const std::optional<Ellipsoid> ball_a = ellipsoid_of(a);
   const std::optional<Ellipsoid> ball_b = ellipsoid_of(b);
-  if (ball_a && ball_b) return are_one_ball(*ball_a, *ball_b, reach);
-  const std::vector<Face> of_a = sure_faces(a, grown(faces.box_of(b), reach), faces);
-  const std::vector<Face> of_b = sure_faces(b, grown(faces.box_of(a), reach), faces);
-  const auto fits = [&](const Face& one, const Face& other) {
-    return (facing == Facing::any || one.normal.dot(other.normal) > 0) && lies_in(one, other, reach);
+  if (ball_a && ball_b) return are_same_ball(*ball_a, *ball_b, tolerance);
+  const std::vector<Face> faces_a = certain_faces(a, grown(faces.box_of(b), tolerance), faces);
+  const std::vector<Face> faces_b = certain_faces(b, grown(faces.box_of(a), tolerance), faces);
+  const auto matches = [&](const Face& one, const Face& other) {
+    return (facing == Facing::any || one.normal.dot(other.normal) > 0) && lies_in(one, other, tolerance);
   };
-  return any_pair(of_a, of_b, reach, fits).value_or(false);
+  return any_pair(faces_a, faces_b, tolerance, matches).value_or(false);
 }
 
 bool coats(const Shape& coat, const Shape& body, double tolerance, FaceFinder& faces) {
-  if (ellipsoid_of(coat) || ellipsoid_of(body)) return lies_on(coat, body, tolerance, faces);
+  if (ellipsoid_of(coat) || ellipsoid_of(body)) return overlaps(coat, body, tolerance, faces);
   if (motion_of(coat) != nullptr || motion_of(body) != nullptr) return false;
-  const std::vector<Face> of_coat = sure_faces(coat, faces.box_of(coat), faces);
-  const std::vector<Face> of_body = sure_faces(body, faces.box_of(body), faces);
+  const std::vector<Face> of_coat = certain_faces(coat, faces.box_of(coat), faces);
+  const std::vector<Face> of_body = certain_faces(body, faces.box_of(body), faces);
   std::vector<bool> covered(of_coat.size(), false);
   const auto cover = [&](const Face& one, const Face& other) {
     if (one.normal.dot(other.normal) > 0 && lies_in(one, other, tolerance))
@@ -211,23 +215,23 @@ bool coats(const Shape& coat, const Shape& body, double tolerance, FaceFinder& f
   return any_pair(of_coat, of_body, tolerance, cover) && std::ranges::all_of(covered, std::identity());
 }
 
-bool lies_on_itself(const Shape& shape, double reach, FaceFinder& faces) {
-  const std::vector<Face> all = faces.near(shape, grown(faces.box_of(shape), reach));
-  const auto fits = [&](const Face& one, const Face& other) {
-    return &one < &other && lies_in(one, other, reach);
+bool overlaps_itself(const Shape& shape, double tolerance, FaceFinder& faces) {
+  const std::vector<Face> all = faces.near(shape, grown(faces.box_of(shape), tolerance));
+  const auto matches = [&](const Face& one, const Face& other) {
+    return &one < &other && lies_in(one, other, tolerance);
   };
-  return any_pair(all, all, reach, fits).value_or(false);
+  return any_pair(all, all, tolerance, matches).value_or(false);
 }
 
-bool stands_on(const V3d& point, const Shape& shape, FaceFinder& faces) {
+bool is_on_surface(const V3d& point, const Shape& shape, FaceFinder& faces) {
   if (motion_of(shape) != nullptr) return false;
   if (const std::optional<Ellipsoid> ball = ellipsoid_of(shape))
-    return stands_on_ball(point, *ball, bounds(shape));
-  const double most = 2 * float_step(largest_coordinate(faces.box_of(shape)));  // of all its faces
-  const std::vector<Face> near = sure_faces(shape, grown(Box3d(point), most), faces);
+    return is_on_ball(point, *ball, bounds(shape));
+  const double max_step = 2 * float_step(largest_coordinate(faces.box_of(shape)));  // of all faces
+  const std::vector<Face> near = certain_faces(shape, grown(Box3d(point), max_step), faces);
   return std::ranges::any_of(near, [&](const Face& face) {
     const Face at{{point, point, point, point}, Box3d(point), face.normal};
-    return coincide(at, face, rounding_across(face), -most);
+    return coincide(at, face, rounding_across(face), -max_step);
   });
 }
 

@@ -4,12 +4,12 @@
 
 namespace abbe {
 
-/// Whether a film of the scene has colours, and so a white: three channels that count light, or a
-/// spectrum.
+/// True if a film of the scene has colours and therefore a white: it has three channels that measure
+/// intensity, or a spectrum.
 [[nodiscard]] bool has_colors(const Scene& scene);
 
-/// Who sees those colours: the observer that the sensor is, else that of 1931; of spectral films, and through
-/// a sensor that looks at one, by bands.
+/// The observer of those colours: the observer that the sensor implements, otherwise CIE 1931. A spectral
+/// film, or a sensor that views a spectral image, also gives the band edges.
 [[nodiscard]] FilmObserver film_observer_of(const Scene& scene);
 
 }  // namespace abbe

@@ -7,11 +7,11 @@
 
 namespace abbe {
 
-/// The closed, opaque shape around the camera, or around all of some points of a meter, that no light stands
-/// in, so that the camera sees nothing but its dark inside; nothing where there is none. A shape is closed
-/// around a point when it has no open edges and a ray from there and its opposite both leave it more often
-/// than they enter it, by the shape's own code in double precision. One that emits inward is lit. A shape or
-/// a camera that moves is not asked about, and a light that moves may light any.
+/// Finds the closed, opaque shape around the camera that is dark inside, so that the camera sees nothing
+/// else. For a probe the shape must enclose all representative points. A shape without open edges encloses a
+/// point if a ray from there and the opposite ray both leave the shape more often than they enter. The test
+/// is in double precision. It is dark if no light lies in it and it does not emit inward. Moving shapes and
+/// cameras are not examined; a moving light counts as illuminating every shape.
 [[nodiscard]] std::optional<std::uint32_t> dark_enclosure(const Scene& scene);
 
 }  // namespace abbe

@@ -6,7 +6,7 @@
 
 namespace abbe {
 
-/// A ray as Embree takes it, which may meet everything.
+/// Converts a ray to Embree's format, with a mask that accepts all geometry.
 [[nodiscard]] inline RTCRay embree_ray(const BasicRay<double>& ray) {
   RTCRay r{};
   r.org_x = static_cast<float>(ray.origin.x);
@@ -21,7 +21,7 @@ namespace abbe {
   return r;
 }
 
-/// One that has met nothing yet.
+/// An Embree query for a ray, without a hit yet.
 [[nodiscard]] inline RTCRayHit embree_query(const BasicRay<double>& ray) {
   RTCRayHit query{embree_ray(ray), {}};
   query.hit.geomID = RTC_INVALID_GEOMETRY_ID;

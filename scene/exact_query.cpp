@@ -17,26 +17,26 @@
 namespace abbe {
 namespace {
 
-// Where the instance stands that a ray is within, of one that moves at time 0; nullptr in the world.
+// Placement, at time 0 if it moves, of the instance that is being traversed; nullptr in the world.
 const Placement* placement_of(const RTCIntersectContext* context) {
   const std::uint32_t instance = context->instID[0];
   if (instance == RTC_INVALID_GEOMETRY_ID) return nullptr;
   return std::get<SceneInstance>(static_cast<const ExactContext*>(context)->attached[instance]).at.get();
 }
 
-// Where it stands at the ray's time.
+// The placement at the ray's time.
 [[gnu::noinline]] Placement placement_now(const Placement& at, const BasicRay<double>& ray) {
   return placement_at(at, static_cast<double>(ray.time));
 }
 
-// What moves is kept out of line, here and below, so that what stands still does not pay for it.
+// Code for moving shapes is out of line, here and below, so that static shapes do not pay for it.
 template <typename S>
 [[gnu::noinline]] std::optional<ShapeHit<double>> moving_intersection(const S& shape, const Placement& at,
                                                                       const BasicRay<double>& ray) {
   return intersect_placed(shape, placement_now(at, ray), ray, 0.0);
 }
 
-// Where a ray meets a primitive at t in (0, ray.t_max): a shape, or a triangle of a set, which has t alone.
+// Intersection of a ray with a primitive at t in (0, ray.t_max). For a triangle of a set only t is computed.
 template <typename S>
 std::optional<ShapeHit<double>> intersection(const S& shape, std::uint32_t /*the one*/, const Placement* at,
                                              const BasicRay<double>& ray) {
@@ -76,26 +76,26 @@ void user_bounds(const RTCBoundsFunctionArguments* args) {
   set_bounds(args, primitive_bounds(*static_cast<const S*>(args->geometryUserPtr), args->primID));
 }
 
-// What one ray of a packet meets becomes its hit, or goes to `all`. Of a triangle `decide` has the last word,
-// which rounds otherwise: what it would not have must not be found, as it would be again.
+// Stores a hit of one ray of a packet, or appends it to `all`. For triangles `resolve_hit` decides, because
+// it rounds differently. A hit that it rejects must not be stored, since the query would find it again.
 template <typename S>
 void take_hit(const RTCIntersectFunctionNArguments* args, unsigned i, std::size_t id,
               const ShapeHit<double>& found) {
   RTCRayN* ray = RTCRayHitN_RayN(args->rayhit, args->N);
   RTCHitN* hit = RTCRayHitN_HitN(args->rayhit, args->N);
   auto& context = *static_cast<ExactContext*>(args->context);
-  if constexpr (!std::is_same_v<S, TriangleSet>) context.nearest[id] = found;
-  RTCHit met{};
-  met.geomID = args->geomID;
-  met.primID = args->primID;
-  met.instID[0] = args->context->instID[0];
+  if constexpr (!std::is_same_v<S, TriangleSet>) context.curved_hit[id] = found;
+  RTCHit candidate{};
+  candidate.geomID = args->geomID;
+  candidate.primID = args->primID;
+  candidate.instID[0] = args->context->instID[0];
   if (context.all != nullptr || std::is_same_v<S, TriangleSet>) {
-    const auto decided = decide(met, context, id);
+    const auto decided = resolve_hit(candidate, context, id);
     if (decided && context.all != nullptr) context.all->push_back(*decided);
     if (!decided || context.all != nullptr) return;
   }
   RTCRayN_tfar(ray, args->N, i) = static_cast<float>(found.t);
-  rtcCopyHitToHitN(hit, &met, args->N, i);
+  rtcCopyHitToHitN(hit, &candidate, args->N, i);
 }
 
 template <typename S>
@@ -132,7 +132,7 @@ void set_user_callbacks(RTCGeometryTy* geometry) {
   rtcSetGeometryOccludedFunction(geometry, user_occluded<S>);
 }
 
-// The box of a slice of time.
+// Bounding box of one slice of time.
 void moving_bounds(const RTCBoundsFunctionArguments* args) {
   const auto& moving = *static_cast<const SceneInstance*>(args->geometryUserPtr);
   set_bounds(args, moving.at->motion->sweep(corners(*moving.of->prototype, *moving.at),
@@ -144,25 +144,25 @@ unsigned slice_of(float time) {
   return std::min(static_cast<unsigned>(time * static_cast<float>(kTimeSlices)), kTimeSlices - 1);
 }
 
-// The ray as the scene of a prototype takes it, where the instance stands at the ray's time.
+// The ray in the prototype's scene, for the placement at the ray's time.
 RTCRay ray_within(const SceneInstance& moving, const BasicRay<double>& ray, float t_max, unsigned mask,
                   std::size_t id) {
-  RTCRay within = embree_ray(to_prototype(placement_now(*moving.at, ray), ray));
-  within.tfar = t_max;
-  within.mask = mask;
-  within.id = static_cast<unsigned>(id);
-  return within;
+  RTCRay local = embree_ray(to_prototype(placement_now(*moving.at, ray), ray));
+  local.tfar = t_max;
+  local.mask = mask;
+  local.id = static_cast<unsigned>(id);
+  return local;
 }
 
-// Makes what is met within an instance known as such, for as long as it lives.
-class WithinInstance {
+// Marks hits as belonging to an instance during its lifetime.
+class InstanceScope {
  public:
-  WithinInstance(RTCIntersectContext* context, unsigned instance) : context_(context) {
+  InstanceScope(RTCIntersectContext* context, unsigned instance) : context_(context) {
     context_->instID[0] = instance;
   }
-  ~WithinInstance() { context_->instID[0] = RTC_INVALID_GEOMETRY_ID; }
-  WithinInstance(const WithinInstance&) = delete;
-  WithinInstance& operator=(const WithinInstance&) = delete;
+  ~InstanceScope() { context_->instID[0] = RTC_INVALID_GEOMETRY_ID; }
+  InstanceScope(const InstanceScope&) = delete;
+  InstanceScope& operator=(const InstanceScope&) = delete;
 
  private:
   RTCIntersectContext* context_;
@@ -173,7 +173,7 @@ void moving_intersect(const RTCIntersectFunctionNArguments* args) {
   const auto& moving = *static_cast<const SceneInstance*>(args->geometryUserPtr);
   RTCRayN* rays = RTCRayHitN_RayN(args->rayhit, args->N);
   RTCHitN* hits = RTCRayHitN_HitN(args->rayhit, args->N);
-  const WithinInstance within(args->context, args->geomID);
+  const InstanceScope scope(args->context, args->geomID);
   for (unsigned i = 0; i < args->N; ++i) {
     const std::size_t id = RTCRayN_id(rays, args->N, i);
     if (args->valid[i] == 0 || slice_of(context.rays[id].time) != args->primID) continue;
@@ -192,7 +192,7 @@ void moving_intersect(const RTCIntersectFunctionNArguments* args) {
 void moving_occluded(const RTCOccludedFunctionNArguments* args) {
   const auto& context = *static_cast<const ExactContext*>(args->context);
   const auto& moving = *static_cast<const SceneInstance*>(args->geometryUserPtr);
-  const WithinInstance within(args->context, args->geomID);
+  const InstanceScope scope(args->context, args->geomID);
   for (unsigned i = 0; i < args->N; ++i) {
     const std::size_t id = RTCRayN_id(args->ray, args->N, i);
     if (args->valid[i] == 0 || slice_of(context.rays[id].time) != args->primID) continue;
@@ -209,19 +209,19 @@ SurfaceHit surface_hit(const ShapeHit<double>& hit, const BasicRay<double>& ray,
           primitive};
 }
 
-// Where the ray crosses the plane of a triangle, of an instance that stands `at`, in its lengths. Out of
-// line, as is where an instance stands, so that it is rounded alike for the filter of hits and for what is
-// decided of them: a hit that the one passes and the other drops would be asked for without end.
+// Distance along the ray, in its units, to the plane of a triangle, of an instance placed `at`. Out of line,
+// as is the placement, so that the filter and `resolve_hit` round identically. Otherwise a hit that one
+// accepts and the other rejects would be queried forever.
 [[gnu::noinline]] double crossing(const TriangleSet& set, std::uint32_t triangle, const Placement* at,
                                   const BasicRay<double>& ray) {
   return plane_crossing(set, triangle, at == nullptr ? ray : to_prototype(*at, ray));
 }
 
-// Of barycentric coordinates: well beyond what points keep off edges, in all but the smallest triangles.
+// Barycentric coordinate below which a point may need a shift off the edge; generous in all but the smallest
+// triangles.
 constexpr float kNearEdge = 0.01F;
 
-// How the point at t is to be moved to be as far from the edges of its triangle as rays start from the
-// surface.
+// Displacement of the point at t that brings it as far from its triangle's edges as rays start from surfaces.
 Imath::V3d shift_in_world(const TriangleSet& set, const RTCHit& hit, const Placement* instance,
                           const BasicRay<double>& local, double t, const Imath::V3f& point) {
   const Imath::V3f axis(1, 0, 0);
@@ -232,7 +232,7 @@ Imath::V3d shift_in_world(const TriangleSet& set, const RTCHit& hit, const Place
   return shift;
 }
 
-// Where the ray meets that triangle, of an instance that stands `at`; nothing where it does not.
+// The hit of the ray with a triangle, of an instance placed `at`; nothing if the ray misses.
 std::optional<SurfaceHit> triangle_hit(const TriangleSet& set, const RTCHit& hit,
                                        const SceneInstance* instance, const Placement* at,
                                        const BasicRay<double>& ray) {
@@ -277,12 +277,12 @@ void reject_behind(const RTCFilterFunctionNArguments* args) {
   }
 }
 
-void collect(const RTCFilterFunctionNArguments* args) {
+void collect_hits(const RTCFilterFunctionNArguments* args) {
   const auto& context = *static_cast<const ExactContext*>(args->context);
   for (unsigned i = 0; i < args->N; ++i) {
     if (args->valid[i] == 0) continue;
     const RTCHit hit = rtcGetHitFromHitN(args->hit, args->N, i);
-    if (const auto found = decide(hit, context, RTCRayN_id(args->ray, args->N, i)))
+    if (const auto found = resolve_hit(hit, context, RTCRayN_id(args->ray, args->N, i)))
       context.all->push_back(*found);
     args->valid[i] = 0;
   }
@@ -304,7 +304,7 @@ void set_callbacks(RTCGeometryTy* geometry, const SceneInstance& /*moving*/) {
   rtcSetGeometryOccludedFunction(geometry, moving_occluded);
 }
 
-std::optional<SurfaceHit> decide(const RTCHit& hit, const ExactContext& context, std::size_t number) {
+std::optional<SurfaceHit> resolve_hit(const RTCHit& hit, const ExactContext& context, std::size_t number) {
   const bool placed = hit.instID[0] != RTC_INVALID_GEOMETRY_ID;
   const std::uint32_t shape = placed ? hit.instID[0] : hit.geomID;
   const AttachedGeometry& attached = context.attached[shape];
@@ -312,18 +312,20 @@ std::optional<SurfaceHit> decide(const RTCHit& hit, const ExactContext& context,
   const auto* set = instance == nullptr ? std::get_if<TriangleSet>(&attached)
                                         : std::get_if<TriangleSet>(&instance->of->geometry);
   const BasicRay<double>& ray = context.rays[number];
-  if (set == nullptr) return surface_hit(context.nearest[number], ray, shape, 0);
+  if (set == nullptr) return surface_hit(context.curved_hit[number], ray, shape, 0);
   const Placement* at = instance == nullptr ? nullptr : instance->at.get();
   return at != nullptr && at->motion ? moving_triangle_hit(*set, hit, *instance, ray)
                                      : triangle_hit(*set, hit, instance, at, ray);
 }
 
-std::optional<SurfaceHit> nearest(const RTCHit& hit, float t, const ExactContext& context, std::size_t ray) {
-  std::optional<SurfaceHit> met = decide(hit, context, ray);
-  if (!met) return met;
-  const float sooner = std::min(t, met->t);
-  met->back = met->t - sooner + std::min(2 * kOffsetSteps * largest_coordinate(met->point), 0.5F * sooner);
-  return met;
+std::optional<SurfaceHit> resolve_nearest(const RTCHit& hit, float t, const ExactContext& context,
+                                          std::size_t ray) {
+  std::optional<SurfaceHit> candidate = resolve_hit(hit, context, ray);
+  if (!candidate) return candidate;
+  const float earliest_t = std::min(t, candidate->t);
+  candidate->retreat_m = candidate->t - earliest_t +
+                         std::min(2 * kOffsetSteps * largest_coordinate(candidate->point), 0.5F * earliest_t);
+  return candidate;
 }
 
 }  // namespace abbe

@@ -14,51 +14,53 @@
 
 namespace abbe {
 
-/// A triangle or a parallelogram; of a disc the square around it.
+/// A triangle or a parallelogram, or the square around a disc.
 struct Face {
-  std::array<Imath::V3d, 4> corners;  ///< Of a triangle the last one twice.
+  std::array<Imath::V3d, 4> corners;  ///< A triangle repeats its last corner.
   Imath::Box3d box;
-  Imath::V3d normal;  ///< Unit, to where the shape faces.
+  Imath::V3d normal;  ///< Unit normal to the shape's outer side.
 };
 
-/// Whether a shape is made of flat faces.
+/// True if a shape consists of flat faces.
 [[nodiscard]] bool has_faces(const Shape& shape);
 
-/// Finds the flat faces of shapes by where they are. Of each mesh it keeps the boxes around all of it and
-/// around runs of triangles, so that not all of them are looked at each time; meshes must live as long as it
-/// does.
+/// Finds the flat faces of shapes near a box. It caches the bounding boxes of each mesh and of runs of its
+/// triangles, so that a query skips most triangles. Meshes must outlive it.
 class FaceFinder {
  public:
-  /// The faces of a shape the boxes of which meet a box, from low x to high. Of what moves, those when the
-  /// shutter opens.
+  /// Faces of a shape whose boxes intersect `box`, in order of increasing x. A moving shape is taken at the
+  /// opening of the shutter.
   [[nodiscard]] std::vector<Face> near(const Shape& shape, const Imath::Box3d& box);
-  /// The box around a shape, as `bounds` tells it; of a mesh around its triangles.
+  /// Bounding box of a shape as by `bounds`; of a mesh that of its triangles.
   [[nodiscard]] Imath::Box3d box_of(const Shape& shape);
 
-  /// The boxes of a mesh.
+  /// Cached boxes of a mesh.
   struct MeshBoxes {
     Imath::Box3d around;
     std::vector<Imath::Box3d> runs;
   };
 
  private:
-  std::map<const Mesh*, MeshBoxes> known_;
+  std::map<const Mesh*, MeshBoxes> boxes_of_meshes_;
 };
 
-/// Whether a pair of faces fits that are no further from each other along x than `reach`; both are in order
-/// of x, as `FaceFinder::near` has them. Nothing where there are more pairs than `left`, which counts down.
-template <typename Fits>
-[[nodiscard]] std::optional<bool> any_near_pair(const std::vector<Face>& of_a, const std::vector<Face>& of_b,
-                                                double reach, std::size_t& left, const Fits& fits) {
-  auto first = of_b.begin();
-  double widest = 0;  // of the faces of b along x
-  for (const Face& face : of_b) widest = std::max(widest, face.box.size().x);
-  for (const Face& face : of_a) {
-    while (first != of_b.end() && first->box.min.x + widest < face.box.min.x - reach) ++first;
-    for (auto other = first; other != of_b.end() && other->box.min.x <= face.box.max.x + reach; ++other) {
-      if (left == 0) return std::nullopt;
-      --left;
-      if (fits(face, *other)) return true;
+/// True if `matches` accepts a pair of faces whose boxes are at most `tolerance` apart along x. Both lists
+/// are in order of x, as `FaceFinder::near` returns them. Each comparison takes one from `budget`; nothing if
+/// the budget is exhausted.
+template <typename Matches>
+[[nodiscard]] std::optional<bool> any_near_pair(const std::vector<Face>& faces_a,
+                                                const std::vector<Face>& faces_b, double tolerance,
+                                                std::size_t& budget, const Matches& matches) {
+  auto first = faces_b.begin();
+  double widest = 0;  // extent along x of the widest face in faces_b
+  for (const Face& face : faces_b) widest = std::max(widest, face.box.size().x);
+  for (const Face& face : faces_a) {
+    while (first != faces_b.end() && first->box.min.x + widest < face.box.min.x - tolerance) ++first;
+    for (auto other = first; other != faces_b.end() && other->box.min.x <= face.box.max.x + tolerance;
+         ++other) {
+      if (budget == 0) return std::nullopt;
+      --budget;
+      if (matches(face, *other)) return true;
     }
   }
   return false;

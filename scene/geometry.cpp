@@ -25,7 +25,7 @@
 namespace abbe {
 namespace {
 
-// One instruction set everywhere, so that a CPU with wider vectors gives the same bits.
+// One instruction set on all CPUs, so that wider vectors do not change bits.
 constexpr const char* kDeviceConfig = "isa=avx2";
 
 template <typename S>
@@ -70,7 +70,7 @@ RTCGeometry geometry_of(RTCDevice device, Disc& disc) {
 RTCGeometry moving_geometry(RTCDevice device, const SceneInstance& moving) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, kTimeSlices);
-  rtcSetGeometryUserData(geometry, const_cast<SceneInstance*>(&moving));  // NOLINT: Embree only hands it back
+  rtcSetGeometryUserData(geometry, const_cast<SceneInstance*>(&moving));  // NOLINT: Embree only returns it
   set_callbacks(geometry, moving);
   return geometry;
 }
@@ -78,7 +78,7 @@ RTCGeometry geometry_of(RTCDevice device, const SceneInstance& placed) {
   if (placed.at->motion) return moving_geometry(device, placed);
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(geometry, placed.of->scene.get());
-  const Imath::M44d& m = placed.at->to_world;  // its rows are the columns Embree asks for
+  const Imath::M44d& m = placed.at->to_world;  // its rows are Embree's columns
   std::array<float, 12> columns{};
   for (int row = 0; row < 4; ++row)
     for (int i = 0; i < 3; ++i)
@@ -111,7 +111,7 @@ Geometry::Geometry(const std::vector<ShapeInstance>& shapes, const std::vector<M
   for (std::size_t i = 0; i < attached_.size(); ++i) {
     auto* set = std::get_if<TriangleSet>(&attached_[i]);
     RTCGeometryTy* geometry =
-        set != nullptr && outgrows_floats(*set, i, shapes, faces)
+        set != nullptr && needs_double_precision(*set, i, shapes, faces)
             ? user_geometry(device_.get(), *set, set->triangles.size())
             : std::visit([this](auto& attached) { return geometry_of(device_.get(), attached); },
                          attached_[i]);
@@ -179,8 +179,8 @@ const InstancedScene* Geometry::build_prototype(const std::shared_ptr<const Prot
   return built.get();
 }
 
-// What Embree calls unknown is an exception of its own within, such as a thread that could not be started;
-// what it calls invalid is a fault of ours.
+// Embree reports its own internal exceptions, such as a thread that cannot be started, as unknown errors.
+// Invalid arguments are our bugs.
 void Geometry::check() const {
   if (failure_.code == RTC_ERROR_NONE) return;
   const bool memory = failure_.code == RTC_ERROR_OUT_OF_MEMORY;
@@ -196,9 +196,9 @@ std::optional<SurfaceHit> Geometry::intersect(const Ray& ray) const {
     RTCRayHit query = embree_query(context.rays[0]);
     rtcIntersect1(scene_.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    if (auto hit = nearest(query.hit, query.ray.tfar, context, 0)) return hit;
-    // The plane the ray has just left, mistaken by rounding: rare enough to ask again with every candidate
-    // looked at in double.
+    if (auto hit = resolve_nearest(query.hit, query.ray.tfar, context, 0)) return hit;
+    // The hit is the plane that the ray has just left, by rounding. This is rare, so the query repeats with a
+    // test of every candidate in double.
     context.filter = reject_behind;
   }
 }
@@ -214,42 +214,41 @@ void Geometry::intersect(std::span<const Ray> rays, std::span<std::optional<Surf
       std::optional<SurfaceHit>& hit = hits[first + i];
       hit.reset();
       if (packet.query.hit.geomID[i] == RTC_INVALID_GEOMETRY_ID) continue;
-      hit = nearest(packet.hit(i), packet.t(i), context, i);
+      hit = resolve_nearest(packet.hit(i), packet.t(i), context, i);
       if (!hit) hit = intersect(rays[first + i]);
     }
   }
 }
 
-// In no order.
-std::vector<SurfaceHit> Geometry::all_met(const BasicRay<double>& ray, unsigned mask) const {
+std::vector<SurfaceHit> Geometry::all_hits(const BasicRay<double>& ray, unsigned mask) const {
   std::vector<SurfaceHit> all;
   ExactContext context(attached_);
   context.rays[0] = ray;
   context.all = &all;
-  context.filter = collect;
+  context.filter = collect_hits;
   RTCRayHit query = embree_query(ray);
   query.ray.mask = mask;
   rtcIntersect1(scene_.get(), &context, &query);
   return all;
 }
 
-// Where anything may touch, Embree is asked for all it meets on a stretch of the ray around the hit, on which
-// it need not be exact. As it begins there, its lengths tell how far apart surfaces are, where their points
-// are rounded by as much.
-TouchingSurfaces Geometry::touching(const Scene& scene, const Ray& ray, const SurfaceHit& hit) const {
-  TouchingSurfaces found;
-  found.at[found.count++] = hit;
-  const std::optional<Imath::Box3f>& at = scene.shapes[hit.shape].at_touching;
-  if (at && !at->intersects(hit.point)) return found;
+// If surfaces may coincide here, Embree returns all hits on a short segment of the ray around the hit,
+// without exactness. The segment starts there, so that its lengths give the separation of surfaces whose
+// points have the same rounding.
+CoincidentHits Geometry::coincident(const Scene& scene, const Ray& ray, const SurfaceHit& hit) const {
+  CoincidentHits result;
+  result.at[result.count++] = hit;
+  const std::optional<Imath::Box3f>& at = scene.shapes[hit.shape].coincidence_bounds;
+  if (at && !at->intersects(hit.point)) return result;
   const Imath::V3d normal(hit.normal);
   const Imath::V3d point(hit.point);
   const Imath::V3d direction(ray.direction);
   const double cosine = std::abs(normal.dot(direction));
-  const double reach = 2 * scene.touch_distance(point, hit.shape) / cosine;
-  const double start = std::max(0.0, static_cast<double>(hit.t) - reach);
+  const double search_distance = 2 * scene.coincidence_tolerance(point, hit.shape) / cosine;
+  const double start = std::max(0.0, static_cast<double>(hit.t) - search_distance);
   const Imath::V3d origin = Imath::V3d(ray.origin) + direction * start;
   std::vector<SurfaceHit> all =
-      all_met({origin, direction, static_cast<double>(hit.t) + reach - start, ray.time}, ~0U);
+      all_hits({origin, direction, static_cast<double>(hit.t) + search_distance - start, ray.time}, ~0U);
   const auto sooner = [](const SurfaceHit& a, const SurfaceHit& b) {
     return std::tie(a.t, a.shape) < std::tie(b.t, b.shape);
   };
@@ -257,52 +256,58 @@ TouchingSurfaces Geometry::touching(const Scene& scene, const Ray& ray, const Su
   const auto one_side = [](const SurfaceHit& a, const SurfaceHit& b) {
     return a.shape == b.shape && a.normal.dot(b.normal) > 0;
   };
-  const auto itself = std::ranges::find_if(all, [&](const SurfaceHit& met) { return one_side(met, hit); });
+  const auto itself =
+      std::ranges::find_if(all, [&](const SurfaceHit& surface) { return one_side(surface, hit); });
   const double at_hit =
       itself != all.end() ? static_cast<double>(itself->t) : static_cast<double>(hit.t) - start;
   for (SurfaceHit& other : all) {
-    const double apart = std::abs(static_cast<double>(other.t) - at_hit) * cosine;
+    const double separation = std::abs(static_cast<double>(other.t) - at_hit) * cosine;
     other.t += static_cast<float>(start);
-    other.back = hit.back;
-    const bool parallel = std::abs(normal.dot(Imath::V3d(other.normal))) > TouchingSurfaces::kParallel;
-    if (found.count < TouchingSurfaces::kMost && parallel &&
-        apart <= scene.touch_distance(point, hit.shape, other.shape) &&
-        std::none_of(found.at.begin(), found.at.begin() + static_cast<std::ptrdiff_t>(found.count),
-                     [&](const SurfaceHit& met) { return one_side(met, other); }))
-      found.at[found.count++] = other;
+    other.retreat_m = hit.retreat_m;
+    const bool parallel = std::abs(normal.dot(Imath::V3d(other.normal))) > CoincidentHits::kParallel;
+    if (result.count < CoincidentHits::kMaxHits && parallel &&
+        separation <= scene.coincidence_tolerance(point, hit.shape, other.shape) &&
+        std::none_of(result.at.begin(), result.at.begin() + static_cast<std::ptrdiff_t>(result.count),
+                     [&](const SurfaceHit& surface) { return one_side(surface, other); }))
+      result.at[result.count++] = other;
   }
-  return found;
+  return result;
 }
 
-// Asked on the way to the hit, as Embree may have taken the wall for what lies behind it, and through the hit
-// along three axes, one of which meets any wall that is near. Parallel ones touch, or rays start before them.
+// Queries along the ray up to the hit, because Embree may have exchanged the wall and the surface in front of
+// it. Also queries through the hit along three axes, one of which hits any near wall. Parallel walls coincide
+// with the surface, or rays start in front of them.
 bool Geometry::wall_within_rounding(const Scene& scene, const SurfaceHit& hit, const Imath::V3f& direction,
                                     float time) const {
   const Imath::V3d along(direction);
   const Imath::V3d normal(hit.normal);
   const Imath::V3d point(hit.point);
-  const auto start = static_cast<double>(hit.spread + 1.25F * offset_length(hit.point));  // rounding too
-  const auto near = static_cast<double>(hit.spread + 2 * offset_length(hit.point));
-  const double reach = 32 * near;
-  const auto wall = [&](const SurfaceHit& met) { return opaque(material_of(scene, met.shape)); };
-  const auto near_wall = [&](const SurfaceHit& met) {
-    const Imath::V3d facing(met.normal);
-    const bool parallel = std::abs(facing.dot(normal)) > TouchingSurfaces::kParallel;
-    return wall(met) && std::abs((Imath::V3d(met.point) - point).dot(facing)) <= (parallel ? start : near);
+  const auto start =
+      static_cast<double>(hit.coincidence_radius + 1.25F * offset_length(hit.point));  // with rounding
+  const auto near = static_cast<double>(hit.coincidence_radius + 2 * offset_length(hit.point));
+  const double search_distance = 32 * near;
+  const auto wall = [&](const SurfaceHit& surface) { return opaque(material_of(scene, surface.shape)); };
+  const auto near_wall = [&](const SurfaceHit& surface) {
+    const Imath::V3d facing(surface.normal);
+    const bool parallel = std::abs(facing.dot(normal)) > CoincidentHits::kParallel;
+    return wall(surface) &&
+           std::abs((Imath::V3d(surface.point) - point).dot(facing)) <= (parallel ? start : near);
   };
-  const double back = std::min(reach / std::abs(normal.dot(along)), static_cast<double>(hit.t) / 2);
-  const double vague = near + scene.touch_distance(point, hit.shape);  // as corners are kept in float
+  const double back = std::min(search_distance / std::abs(normal.dot(along)), static_cast<double>(hit.t) / 2);
+  const double plane_tolerance =
+      near + scene.coincidence_tolerance(point, hit.shape);  // corners are stored as floats
   const auto plane_comes_near = [&](const Imath::Plane3d& plane) {
     const double at_hit = plane.distanceTo(point);
     const double before = plane.distanceTo(point - along * back);
-    return std::abs(at_hit) <= vague || at_hit * before <= 0;
+    return std::abs(at_hit) <= plane_tolerance || at_hit * before <= 0;
   };
   const std::vector<Imath::Plane3d>& planes = walls_[hit.shape].planes;
   if (!planes.empty() && std::ranges::none_of(planes, plane_comes_near)) return false;
-  if (std::ranges::any_of(all_met({point - along * back, along, back, time}, kOpaque), wall)) return true;
+  if (std::ranges::any_of(all_hits({point - along * back, along, back, time}, kOpaque), wall)) return true;
   const Basis<double> frame(normal);
   return std::ranges::any_of(std::array{frame.x, frame.y, normal}, [&](const Imath::V3d& axis) {
-    return std::ranges::any_of(all_met({point - axis * reach, axis, 2 * reach, time}, kOpaque), near_wall);
+    return std::ranges::any_of(
+        all_hits({point - axis * search_distance, axis, 2 * search_distance, time}, kOpaque), near_wall);
   });
 }
 
@@ -315,8 +320,8 @@ bool Geometry::occluded(const BasicRay<double>& ray) const {
   return query.tfar < 0;
 }
 
-// Embree 3.13 calls each ray of a packet blocked at an instance once another one is, so that rays among
-// instances go alone.
+// Embree 3.13 reports every ray of a packet as occluded at an instance once one of them is. Therefore rays in
+// scenes with instances are traced singly.
 void Geometry::occluded(std::span<const BasicRay<double>> rays, std::span<std::uint8_t> blocked) const {
   if (!prototypes_.empty()) {
     for (std::size_t i = 0; i < rays.size(); ++i) blocked[i] = occluded(rays[i]) ? 1 : 0;

@@ -10,7 +10,7 @@
 #include <variant>
 #include <vector>
 
-#include "scene/contact.h"
+#include "scene/coincident_shapes.h"
 #include "scene/scene.h"
 #include "scene/shapes/triangles.h"
 
@@ -20,9 +20,9 @@ struct RTCSceneTy;
 
 namespace abbe {
 
-/// What Embree holds of a shape that stands by itself.
+/// Embree's representation of a shape that is not an instance.
 using PlainGeometry = std::variant<TriangleSet, Sphere, Disc>;
-/// A prototype in Embree's hands: a scene of one geometry, which its instances refer to.
+/// Embree scene with the one geometry of a prototype; its instances refer to it.
 struct InstancedScene {
   std::shared_ptr<const Prototype> prototype;
   PlainGeometry geometry;
@@ -32,20 +32,21 @@ struct SceneInstance {
   const InstancedScene* of;
   std::shared_ptr<const Placement> at;
 };
-/// How many boxes one that moves is in Embree's hands, each around all of a slice of time: Embree's own
-/// motion blur misses hits of packets whose rays have different times.
+/// Number of boxes, each around one slice of time, by which Embree represents a moving instance. Embree's own
+/// motion blur misses hits in packets whose rays have different times.
 inline constexpr unsigned kTimeSlices = 16;
 using AttachedGeometry = std::variant<TriangleSet, Sphere, Disc, SceneInstance>;
 
-/// The shapes in Embree's hands. Embree finds the primitive in float; where it is met, and whether it is met
-/// at all rather than left, is then decided in double by the shape's own formula, for instances in the
-/// coordinates of their prototype. Curved shapes, and triangles so large that floats do not tell from which
-/// side a ray starts, are found in double as well. A ray that starts on the right side of a surface never
-/// meets that surface again at once. What moves is asked where it stands at the ray's time, in double.
+/// The shapes as Embree geometry.
+/// Embree finds the primitive in float. The shape's own formula then decides in double whether and where the
+/// ray hits it, for instances in the coordinates of their prototype. Curved shapes, and triangles so large
+/// that floats do not resolve the side at which a ray starts, are intersected in double throughout. Therefore
+/// a ray that starts on the correct side of a surface never hits that surface again at its origin. Moving
+/// shapes are placed in double at the ray's time.
 class Geometry {
  public:
-  /// Takes the walls near each shape. Throws Error{resource} when there is no memory, Error{internal} when
-  /// Embree refuses.
+  /// Builds Embree's scene; `walls` are those near each shape. Throws Error{resource} if memory is exhausted
+  /// and Error{internal} if Embree fails.
   Geometry(const std::vector<ShapeInstance>& shapes, const std::vector<Material>& materials,
            std::vector<NearWalls> walls);
   ~Geometry();
@@ -53,23 +54,23 @@ class Geometry {
   Geometry& operator=(const Geometry&) = delete;
 
   [[nodiscard]] std::optional<SurfaceHit> intersect(const Ray& ray) const;
-  /// Finds the nearest hit of each of the rays, as many as `hits`, as if each were alone.
+  /// Finds the nearest hit of each ray as if it were traced alone. `hits` has as many elements as `rays`.
   void intersect(std::span<const Ray> rays, std::span<std::optional<SurfaceHit>> hits) const;
-  /// What `Scene::touching` tells, of the scene whose shapes these are.
-  [[nodiscard]] TouchingSurfaces touching(const Scene& scene, const Ray& ray, const SurfaceHit& hit) const;
-  /// What `Scene::hides_beyond` tells, of the scene whose shapes these are.
+  /// Implements `Scene::coincident` for the scene of these shapes.
+  [[nodiscard]] CoincidentHits coincident(const Scene& scene, const Ray& ray, const SurfaceHit& hit) const;
+  /// Implements `Scene::transmission_may_leak` for the scene of these shapes.
   [[nodiscard]] bool wall_within_rounding(const Scene& scene, const SurfaceHit& hit,
                                           const Imath::V3f& direction, float time) const;
-  /// Whether anything but a boundary of matter is met at t in (0, ray.t_max).
+  /// True if the ray hits anything except boundaries of media at t in (0, ray.t_max).
   [[nodiscard]] bool occluded(const BasicRay<double>& ray) const;
-  /// Tells of each of the rays, as many as `blocked`, whether something is met: 1 or 0.
+  /// Sets `blocked` to 1 for each ray that is occluded, otherwise to 0. It has as many elements as `rays`.
   void occluded(std::span<const BasicRay<double>> rays, std::span<std::uint8_t> blocked) const;
-  /// Every ray through Embree, the answers dropped.
+  /// Traces every ray through Embree and discards the results.
   void replay(std::span<const LoggedRay> rays) const;
 
-  /// Number of triangles, those of every instance counted.
+  /// Number of triangles, with those of every instance.
   [[nodiscard]] std::size_t triangle_count() const;
-  /// Bytes held, of a prototype once, however many instances it has.
+  /// Memory in bytes; each prototype counts once.
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:
@@ -80,8 +81,8 @@ class Geometry {
 
   using ScenePointer = std::unique_ptr<RTCSceneTy, void (*)(RTCSceneTy*)>;
 
-  /// All that is met at t in (0, ray.t_max) of those geometries.
-  [[nodiscard]] std::vector<SurfaceHit> all_met(const BasicRay<double>& ray, unsigned mask) const;
+  /// All hits at t in (0, ray.t_max) with geometry that the mask accepts, in no particular order.
+  [[nodiscard]] std::vector<SurfaceHit> all_hits(const BasicRay<double>& ray, unsigned mask) const;
   void open_device();
   [[nodiscard]] ScenePointer new_scene();
   void commit(RTCSceneTy* scene);
@@ -90,7 +91,7 @@ class Geometry {
   void check() const;
 
   std::vector<AttachedGeometry> attached_;  // by index of the shape
-  std::vector<NearWalls> walls_;            // likewise
+  std::vector<NearWalls> walls_;            // by index of the shape
   std::atomic<std::ptrdiff_t> embree_bytes_{0};
   Failure failure_;
   std::unique_ptr<RTCDeviceTy, void (*)(RTCDeviceTy*)> device_;

@@ -9,12 +9,12 @@
 
 namespace abbe {
 
-/// Whether Embree may miss triangles of a shape, of that number and made of that set, from just in front
-/// where another shape comes near: its floats tell where a ray starts by some share of a triangle's size,
-/// unless that lies along two axes, and near the origin rays start off surfaces by less. Of sets of more than
-/// 64 it is never said: most of such triangles are so small that it matters on a spot around the origin
-/// alone.
-[[nodiscard]] bool outgrows_floats(const TriangleSet& set, std::size_t shape,
-                                   const std::vector<ShapeInstance>& shapes, FaceFinder& faces);
+/// True if Embree may miss triangles of shape number `shape` from just in front of them, where another shape
+/// comes near. Embree's floats resolve the origin of a ray to a fraction of a triangle's size, unless the
+/// triangle is parallel to two axes. Near the scene's origin, rays start closer to surfaces than that. False
+/// for sets of more than 64 triangles. Most of them are so small that only a spot around the origin is
+/// affected.
+[[nodiscard]] bool needs_double_precision(const TriangleSet& set, std::size_t shape,
+                                          const std::vector<ShapeInstance>& shapes, FaceFinder& faces);
 
 }  // namespace abbe

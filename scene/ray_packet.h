@@ -11,7 +11,7 @@
 
 namespace abbe {
 
-/// The rays of a context as a packet; places beyond `count` are left idle by `valid`.
+/// The rays of a context as an Embree packet. `valid` disables the entries from `count` on.
 struct alignas(32) Packet {
   std::array<int, kPacket> valid;
   RTCRayHit8 query;

@@ -6,25 +6,25 @@
 #include <map>
 #include <set>
 
-#include "scene/contact.h"
-#include "scene/extent.h"
+#include "scene/coincidence_regions.h"
+#include "scene/coincident_shapes.h"
 #include "scene/geometry.h"
 #include "scene/shapes/mesh.h"
 #include "scene/shapes/solid.h"
-#include "scene/touching.h"
+#include "scene/working_range.h"
 
 namespace abbe {
 namespace {
 
-// A point on a surface is up to a float step along each axis off it, the start of a ray four further and half
-// a step along each axis off that, seven together: what is nearer is met together, what is further by the ray
-// that leaves.
-double touching_at(double size) {
+// A point on a surface is off it by up to one float step per axis. The origin of a ray is offset by four
+// more, and by up to half a step per axis from rounding: seven together. Nearer surfaces are hit together,
+// farther ones by the ray that leaves.
+double tolerance_at(double size) {
   return 8 * float_step(size);
 }
 
-// The volumes of shapes, of a prototype worked out once.
-struct VolumeMeter {
+// Computes the volumes of shapes; that of a prototype once.
+struct VolumeVisitor {
   std::map<const Prototype*, double> prototypes = {};
 
   template <typename S>
@@ -32,10 +32,10 @@ struct VolumeMeter {
     return enclosed_volume(shape);
   }
   double operator()(const PlacedShape& placed) {
-    const auto [known, added] = prototypes.emplace(placed.of.get(), 0);
+    const auto [volume, added] = prototypes.emplace(placed.of.get(), 0);
     if (added)
-      known->second = std::visit([](const auto& shape) { return enclosed_volume(shape); }, placed.of->shape);
-    return known->second * std::abs(placed.at->to_world.determinant());
+      volume->second = std::visit([](const auto& shape) { return enclosed_volume(shape); }, placed.of->shape);
+    return volume->second * std::abs(placed.at->to_world.determinant());
   }
 };
 
@@ -56,10 +56,10 @@ void tabulate_in_media(Scene& scene) {
     if (boxes.empty()) boxes = boxes_of_materials(scene);
     Imath::Box3d box = boxes[i];
     if (box.isEmpty()) continue;
-    const Imath::V3d margin(scene.touch_distance());
+    const Imath::V3d margin(scene.coincidence_tolerance());
     box = {box.min - margin, box.max + margin};
     for (std::size_t j = 0; j < scene.materials.size(); ++j) {
-      const RefractiveIndex* medium = interior(scene.materials[j]);
+      const RefractiveIndex* medium = interior_index(scene.materials[j]);
       if (j != i && medium != nullptr && box.intersects(boxes[j])) rough->tabulate_in(*medium);
     }
   }
@@ -81,24 +81,24 @@ std::optional<SurfaceHit> Scene::intersect(const Ray& ray) const {
   return geometry_->intersect(ray);
 }
 
-TouchingSurfaces Scene::touching(const Ray& ray, const SurfaceHit& hit) const {
-  return geometry_->touching(*this, ray, hit);
+CoincidentHits Scene::coincident(const Ray& ray, const SurfaceHit& hit) const {
+  return geometry_->coincident(*this, ray, hit);
 }
 
 bool Scene::wall_within_rounding(const SurfaceHit& hit, const Imath::V3f& direction, float time) const {
   return geometry_->wall_within_rounding(*this, hit, direction, time);
 }
 
-double Scene::touch_distance(const Imath::V3d& point, std::uint32_t shape, std::uint32_t other) const {
-  return touching_at(std::max({largest_coordinate(point), shapes[shape].rounding, shapes[other].rounding}));
+double Scene::coincidence_tolerance(const Imath::V3d& point, std::uint32_t shape, std::uint32_t other) const {
+  return tolerance_at(std::max({largest_coordinate(point), shapes[shape].rounding, shapes[other].rounding}));
 }
 
-double Scene::touch_distance(const Imath::V3d& point, std::uint32_t shape) const {
-  return touching_at(std::max({largest_coordinate(point), shapes[shape].rounding, coarsest_}));
+double Scene::coincidence_tolerance(const Imath::V3d& point, std::uint32_t shape) const {
+  return tolerance_at(std::max({largest_coordinate(point), shapes[shape].rounding, max_rounding_}));
 }
 
-double Scene::touch_distance() const {
-  return touching_at(largest_coordinate(bounds));
+double Scene::coincidence_tolerance() const {
+  return tolerance_at(largest_coordinate(bounds));
 }
 
 bool Scene::occluded(const Imath::V3f& from, const Imath::V3f& to) const {
@@ -115,48 +115,48 @@ void Scene::intersect(std::span<const Ray> rays, std::span<std::optional<Surface
   geometry_->intersect(rays, hits);
 }
 
-void Scene::occluded(std::span<const BasicRay<double>> ways, std::span<std::uint8_t> blocked) const {
-  geometry_->occluded(ways, blocked);
+void Scene::occluded(std::span<const BasicRay<double>> rays, std::span<std::uint8_t> blocked) const {
+  geometry_->occluded(rays, blocked);
 }
 
 void Scene::replay(std::span<const LoggedRay> rays) const {
   geometry_->replay(rays);
 }
 
-void Scene::measure_extent() {
-  far_from_m = extent_of(camera, shapes).far_from;
+void Scene::measure_working_range() {
+  far_threshold_m = working_range_of(camera, shapes).far_threshold;
   bounds.makeEmpty();
-  coarsest_ = 0;
+  max_rounding_ = 0;
   for (ShapeInstance& instance : shapes) {
     const Imath::Box3d box = abbe::bounds(instance.shape);
     const bool vertices = plain<Mesh>(instance.shape) != nullptr || plain<Quad>(instance.shape) != nullptr;
     instance.rounding = vertices ? largest_coordinate(box) : 0;
-    instance.far = distance_to(box, position(camera)) > far_from_m;
-    if (instance.far) continue;
+    instance.distant = distance_to(box, position(camera)) > far_threshold_m;
+    if (instance.distant) continue;
     bounds.extendBy(box);
-    coarsest_ = std::max(coarsest_, instance.rounding);
+    max_rounding_ = std::max(max_rounding_, instance.rounding);
   }
-  if (is_meter(camera) && traits(camera).opening) bounds.extendBy(abbe::bounds(camera));
+  if (is_probe(camera) && traits(camera).opening) bounds.extendBy(abbe::bounds(camera));
 }
 
-void Scene::measure_matter() {
+void Scene::measure_media() {
   std::vector<ShapeInstance*> filled;
   for (ShapeInstance& instance : shapes)
     if (encloses_medium(materials[instance.material])) filled.push_back(&instance);
   if (filled.size() < 2) return;
-  VolumeMeter meter;
-  for (ShapeInstance* instance : filled) instance->volume = std::visit(meter, instance->shape);
+  VolumeVisitor volume_of;
+  for (ShapeInstance* instance : filled) instance->volume = std::visit(volume_of, instance->shape);
 }
 
-bool Scene::is_far(const Light& light) const {
-  if (const auto* emitter = std::get_if<AreaLight>(&light.kind)) return shapes[emitter->shape].far;
-  const Imath::V3f* at = place(light);
-  return at != nullptr && (Imath::V3d(*at) - position(camera)).length() > far_from_m;
+bool Scene::is_distant(const Light& light) const {
+  if (const auto* emitter = std::get_if<AreaLight>(&light.kind)) return shapes[emitter->shape].distant;
+  const Imath::V3f* at = light_position(light);
+  return at != nullptr && (Imath::V3d(*at) - position(camera)).length() > far_threshold_m;
 }
 
 void Scene::commit() {
-  measure_extent();
-  measure_matter();
+  measure_working_range();
+  measure_media();
   tabulate_in_media(*this);
   background_.clear();
   for (std::size_t i = 0; i < lights.size(); ++i) {
@@ -170,16 +170,16 @@ void Scene::commit() {
   }
   std::vector<NearWalls> walls = walls_near_shapes(*this);
   for (std::size_t i = 0; i < shapes.size(); ++i) {
-    shapes[i].at_walls = walls[i].box;
-    shapes[i].at_touching.reset();
+    shapes[i].near_wall_bounds = walls[i].box;
+    shapes[i].coincidence_bounds.reset();
   }
   geometry_ = std::make_shared<const Geometry>(shapes, materials, std::move(walls));
-  needs = analyse(*this);
-  if (needs.nesting || needs.boundaries) {
-    const std::vector<Imath::Box3f> touching = touching_regions(*this);
-    for (std::size_t i = 0; i < shapes.size(); ++i) shapes[i].at_touching = touching[i];
+  features = analyse(*this);
+  if (features.nesting || features.boundaries) {
+    const std::vector<Imath::Box3f> regions = coincidence_regions(*this);
+    for (std::size_t i = 0; i < shapes.size(); ++i) shapes[i].coincidence_bounds = regions[i];
   }
-  if (!needs.motion) shutter = shutter.where_nothing_moves();
+  if (!features.motion) shutter = shutter.static_equivalent();
 }
 
 std::size_t Scene::triangle_count() const {
@@ -194,12 +194,13 @@ std::size_t Scene::memory_bytes() const {
     if (spectra.insert(&light.emission.base()).second) bytes += light.emission.base().memory_bytes();
   }
   for (const Material& material : materials) bytes += texture_bytes(material);
-  const Placement* last = nullptr;  // the shapes of one instance stand side by side and share theirs
+  // shapes of one instance are adjacent and share their placement
+  const Placement* last_placement = nullptr;
   for (const ShapeInstance& instance : shapes) {
     if (const auto* mesh = std::get_if<Mesh>(&instance.shape)) bytes += abbe::memory_bytes(*mesh);
     const auto* placed = std::get_if<PlacedShape>(&instance.shape);
-    if (placed == nullptr || placed->at.get() == last) continue;
-    last = placed->at.get();
+    if (placed == nullptr || placed->at.get() == last_placement) continue;
+    last_placement = placed->at.get();
     bytes += sizeof(Placement);
   }
   return bytes;

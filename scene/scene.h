@@ -17,7 +17,7 @@
 #include "materials/material.h"
 #include "scene/camera/camera.h"
 #include "scene/lights/light.h"
-#include "scene/needs.h"
+#include "scene/scene_features.h"
 #include "scene/shapes/ray.h"
 #include "scene/shapes/shape.h"
 #include "scene/shapes/shape_instance.h"
@@ -30,14 +30,14 @@
 
 namespace abbe {
 
-/// A colour chart of the scene: its patches are the quads `shapes[first]` and those that follow.
+/// A colour chart of the scene. Its patches are `patches` quads, from `shapes[first]` on.
 struct ChartInstance {
   std::string name;
   std::uint32_t first;
   std::uint32_t patches;
 };
 
-/// Which techniques render the scene.
+/// The integrator that renders the scene.
 enum class Integrator {
   automatic,
   path,
@@ -50,37 +50,38 @@ enum class Integrator {
   photon_brute,
   adjoint_brute
 };
-/// Their words in scenes, commands and films, in that order.
+/// Names of the integrators in scenes, commands and films, in the order of the enumeration.
 inline constexpr std::array kIntegratorNames{"auto", "path", "light", "bdpt",         "photon-map",
                                              "ppm",  "sppm", "vcm",   "photon-brute", "adjoint-brute"};
-/// The word of one.
+/// Name of an integrator.
 [[nodiscard]] constexpr const char* integrator_name(Integrator integrator) {
   return kIntegratorNames.at(static_cast<std::size_t>(integrator));
 }
 
-/// How techniques gather photons.
+/// Settings of the integrators that use photons.
 struct PhotonSettings {
-  std::optional<std::uint64_t> per_sample = {};  ///< Photons of a sample; as many as pixels when absent.
-  std::optional<double> radius_m = {};           ///< Of the first gathering; by the scene's size when absent.
-  int nearest = 50;                              ///< That a photon map's estimate is made of.
-  bool final_gather = false;                     ///< Whether a photon map is looked at one event later.
+  std::optional<std::uint64_t> per_sample = {};  ///< Photons per sample; absent: as many as pixels.
+  std::optional<double> radius_m = {};  ///< Initial gathering radius [m]; absent: from the scene's size.
+  int nearest = 50;                     ///< Number of nearest photons in a photon map's estimate.
+  bool final_gather = false;            ///< True if the photon map is evaluated one bounce later.
 };
 
-/// By what Integrator::path draws directions after an event at a surface, a meter's among them, that is not
-/// of a single direction: by the surface's own scattering; with the density cos/pi; or evenly. Both of the
-/// latter are over the side that the path came from, or over both sides, at half the density, where light may
-/// come through.
+/// The density with which Integrator::path samples directions after a non-specular event at a surface or
+/// probe: that of the BSDF, cos/pi, or uniform. The latter two cover the side of the incoming path. They
+/// cover both sides, with half the density, if light may be transmitted.
 enum class DirectionSampling { bsdf, cosine, uniform };
 
-/// By which of both ways Integrator::path finds light after such an event, or one within matter: by all, each
-/// weighed; by following scattering alone; or by connecting alone wherever a connection may be drawn.
+/// The sampling techniques by which Integrator::path finds light after such an event or one in a medium: BSDF
+/// sampling and light sampling combined by MIS, BSDF sampling alone, or light sampling alone wherever it is
+/// possible.
 enum class LightStrategy { mis, bsdf, light };
 
-/// How both ways are weighed [Veach1997, sec. 9.2]: by their densities, or by the squares of these.
+/// Heuristic that combines both techniques [Veach1997, sec. 9.2]: weights in proportion to the densities, or
+/// to their squares.
 enum class MisHeuristic { balance, power };
 
-/// How Integrator::path draws its paths. It changes the noise, and nothing of what is found but what
-/// `unreached` tells.
+/// Sampling of paths by Integrator::path. It changes the noise. It changes the expected value only by the
+/// paths that `unsampled_paths` reports.
 struct PathSampling {
   DirectionSampling directions = DirectionSampling::bsdf;
   LightStrategy lights = LightStrategy::mis;
@@ -89,76 +90,76 @@ struct PathSampling {
   friend bool operator==(const PathSampling&, const PathSampling&) = default;
 };
 
-/// How to render, as the scene file asks.
+/// Settings of the render in the scene file.
 struct RenderSettings {
   Integrator integrator = Integrator::automatic;
-  int samples = 64;  ///< Per pixel.
-  /// Events a path may have between its ends, at surfaces and within matter: 1 is light that is scattered
-  /// once. Absent, chance alone ends paths.
+  int samples = 64;  ///< Samples per pixel.
+  /// Maximum number of scattering events of a path, at surfaces and in media; 1 is single scattering. Absent:
+  /// Russian roulette alone ends paths.
   std::optional<int> max_depth = {};
-  int roulette_depth = 4;  ///< Events before Russian roulette; a negative value never plays it.
+  int roulette_depth = 4;  ///< Scattering events before Russian roulette; negative: no Russian roulette.
   std::uint64_t seed = 0;
   PhotonSettings photons = {};
-  bool consistent = false;  ///< Whether Integrator::automatic may also choose what blurs, ever less.
-  /// Whether paths carry it where it matters; else all light counts as unpolarised at every event.
+  bool consistent = false;  ///< Integrator::automatic may choose biased but consistent integrators.
+  /// Paths carry polarisation if it is relevant; otherwise light counts as unpolarised at every event.
   bool polarisation = true;
-  PathSampling sampling = {};  ///< Of Integrator::path; by default of every other.
+  PathSampling sampling = {};  ///< For Integrator::path; others require the default.
 };
 
-/// Where to write, as the scene file asks; empty when it does not.
+/// Output files that the scene file requests; empty if it requests none.
 struct OutputSettings {
   std::filesystem::path image;
   std::filesystem::path display;
-  std::optional<double>
-      display_exposure;             ///< Film value shown as diffuse white; chosen from the image when absent.
-  std::optional<White> white = {};  ///< Chosen among the lights when absent.
+  /// Film value displayed as diffuse white. Absent: chosen from the image.
+  std::optional<double> display_exposure;
+  std::optional<White> white = {};  ///< Absent: chosen from the lights.
 };
 
-/// Embree's view of the shapes.
+/// The shapes as Embree geometry.
 class Geometry;
 
-/// Where a ray meets the scene, in the float coordinates of the render.
+/// The intersection of a ray with the scene, in the float coordinates of the render.
 struct SurfaceHit {
   Imath::V3f point;
-  Imath::V3f normal;  ///< Geometric, unit, outward.
+  Imath::V3f normal;  ///< Geometric normal: unit, outward.
   float t;
   std::uint32_t shape;
-  std::uint32_t primitive = 0;  ///< Which triangle of a mesh, in its own order.
-  float spread = 0;             ///< How far to both sides [m] are surfaces that count as one with this.
-  float back = 0;  ///< How far back on its way [m] a ray that leaves to the side it came from starts.
+  std::uint32_t primitive = 0;   ///< Index of the triangle in its mesh.
+  float coincidence_radius = 0;  ///< Surfaces within this distance [m] on both sides coincide.
+  float retreat_m = 0;  ///< Distance [m] by which a ray that leaves to its incident side starts farther back.
 };
 
-/// A ray that leaves the surface into `direction`, clear of those that count as one with it.
+/// A ray that leaves the surface in `direction` and starts outside all coincident surfaces.
 [[nodiscard]] inline Ray spawn(const SurfaceHit& hit, const Imath::V3f& direction, float time) {
-  const float clear = std::copysign(hit.spread, hit.normal.dot(direction));
+  const float clear = std::copysign(hit.coincidence_radius, hit.normal.dot(direction));
   return spawn(hit.point + hit.normal * clear, hit.normal, direction, time);
 }
 
-/// The same of a ray that came there from the unit direction `from`. One that leaves to the side it came from
-/// starts `back` on its way as well: where surfaces meet, rounding may have taken the further one for the
-/// nearer, and the ray beyond that.
+/// The overload for a path that arrived along the unit direction `from`. A ray that leaves to the side of
+/// arrival also starts `retreat_m` farther back. Where surfaces meet, rounding may have exchanged the farther
+/// hit and the nearer one, which would put the ray behind the nearer one.
 [[nodiscard]] inline Ray spawn(const SurfaceHit& hit, const Imath::V3f& from, const Imath::V3f& direction,
                                float time) {
   Ray ray = spawn(hit, direction, time);
   if (!(hit.normal.dot(from) * hit.normal.dot(direction) > 0)) return ray;
-  ray.origin = rounded_back(Imath::V3d(ray.origin) + Imath::V3d(from) * static_cast<double>(hit.back),
+  ray.origin = rounded_back(Imath::V3d(ray.origin) + Imath::V3d(from) * static_cast<double>(hit.retreat_m),
                             -Imath::V3d(from));
   return ray;
 }
 
-/// Surfaces met together.
-struct TouchingSurfaces {
-  static constexpr std::size_t kMost = 16;
-  static constexpr double kParallel = 0.999;  ///< Least cosine between their normals.
-  std::array<SurfaceHit, kMost> at;
+/// The hits of a ray with coincident surfaces.
+struct CoincidentHits {
+  static constexpr std::size_t kMaxHits = 16;
+  static constexpr double kParallel = 0.999;  ///< Minimum cosine between their normals.
+  std::array<SurfaceHit, kMaxHits> at;
   std::size_t count = 0;
 
   [[nodiscard]] std::span<const SurfaceHit> all() const& { return {at.data(), count}; }
-  void all() const&& = delete;  // what it looks at would be gone
+  void all() const&& = delete;  // the span would dangle
 };
 
-/// Everything a render needs, in metres, recentred so that coordinates are small: `origin_m` is the
-/// scene-file point at (0,0,0).
+/// All input of a render. Lengths are in metres and coordinates are recentred to be small: `origin_m` is the
+/// position in the scene file that becomes (0, 0, 0).
 class Scene {
  public:
   std::vector<ShapeInstance> shapes;
@@ -167,91 +168,95 @@ class Scene {
   std::vector<Light> lights;
   Camera camera;
   std::vector<Channel> channels;
-  std::optional<Mosaic> mosaic;  ///< Which channel each pixel has; without one every pixel has them all.
+  std::optional<Mosaic>
+      mosaic;  ///< The channel of each pixel; without a mosaic every pixel has all channels.
   double exposure_s = 1;
-  Shutter shutter;         ///< Which `commit` makes plain where nothing moves.
-  double fill_factor = 1;  ///< Share of a pixel that takes light: a pixel counts its film value times
-                           ///< pixel pitch^2 times this.
-  /// What makes digital numbers of the film, if the scene says.
+  Shutter shutter;  ///< `commit` simplifies it if nothing moves.
+  /// Fraction of a pixel's area that is sensitive. The signal of a pixel is its film value times the squared
+  /// pixel pitch times this.
+  double fill_factor = 1;
+  /// Conversion of the film to digital numbers, if the scene has a readout.
   std::optional<Readout> readout;
-  /// Whose channels are the channels, if the film is of radiance.
+  /// The bins whose channels `channels` are, if the film records spectral radiance.
   std::optional<SpectralBins> spectral;
-  /// Ends of the bands of the spectral image that the sensor looks at, if it looks at one [nm].
+  /// Band edges [nm] of the spectral image that the sensor views, if it views one.
   std::vector<double> image_band_edges_nm;
   std::string sensor_text;  ///< The sensor's description, as one line of JSON.
   RenderSettings render;
   OutputSettings output;
-  Needs needs;
+  SceneFeatures features;
   Imath::V3d origin_m{0, 0, 0};
-  double unit_m = 1;      ///< Metres per scene-file unit.
-  Imath::Box3d bounds;    ///< Of the shapes, but for those that are far, and of a meter that is no point.
-  double far_from_m = 0;  ///< What lies wholly beyond this distance from the camera is far; see Extent.
-  std::string sha256;     ///< Of the scene file after overrides, and of every file it names.
+  double unit_m = 1;           ///< Metres per scene-file unit.
+  Imath::Box3d bounds;         ///< Of all shapes except distant ones, and of a probe with an area.
+  double far_threshold_m = 0;  ///< Shapes entirely farther from the camera are distant; see `WorkingRange`.
+  std::string sha256;          ///< Hash of the scene file after overrides and of all files that it names.
 
   [[nodiscard]] std::vector<std::string> channel_names() const;
-  /// Names of the film's planes: the channels, or the one plane of a mosaic.
+  /// Names of the film's planes: the channels, or the single plane of a mosaic.
   [[nodiscard]] std::vector<std::string> film_planes() const;
 
-  /// Nearest hit at t in (0, ray.t_max). Rays start where `spawn` put them, so no epsilon is needed.
+  /// Nearest hit at t in (0, ray.t_max). Rays start where `spawn` puts them, so that no epsilon is needed.
   [[nodiscard]] std::optional<SurfaceHit> intersect(const Ray& ray) const;
-  /// The surfaces that touch, at the ray's time, where `ray` meets the scene at `hit`, which is the first of
-  /// them: parallel to it and within `touch_distance`. Of a shape, each side once.
-  [[nodiscard]] TouchingSurfaces touching(const Ray& ray, const SurfaceHit& hit) const;
-  /// Whether a ray of that direction that meets the scene at `hit` may start behind something opaque if it is
-  /// let through there: floats do not tell the surface from a wall that crosses it or ends at it. Surfaces
-  /// that `hit` spreads over are its own.
-  [[nodiscard]] bool hides_beyond(const SurfaceHit& hit, const Imath::V3f& direction, float time) const {
-    return shapes[hit.shape].at_walls.intersects(hit.point) && wall_within_rounding(hit, direction, time);
+  /// The surfaces that coincide at the ray's time with `hit`, the hit of `ray`, which is the first of them.
+  /// They are parallel and within `coincidence_tolerance`. Each side of a shape counts once.
+  [[nodiscard]] CoincidentHits coincident(const Ray& ray, const SurfaceHit& hit) const;
+  /// True if a ray that is transmitted at `hit` in `direction` may start behind an opaque surface.
+  /// Floats do not separate the surface from a wall that crosses it or ends at it. Surfaces within
+  /// `hit.coincidence_radius` do not count.
+  [[nodiscard]] bool transmission_may_leak(const SurfaceHit& hit, const Imath::V3f& direction,
+                                           float time) const {
+    return shapes[hit.shape].near_wall_bounds.intersects(hit.point) &&
+           wall_within_rounding(hit, direction, time);
   }
-  /// Around `point`, surfaces of the two shapes that are closer than this [m] count as one: floats of the
-  /// size of the point, and of the vertices, hardly tell them apart.
-  [[nodiscard]] double touch_distance(const Imath::V3d& point, std::uint32_t shape,
-                                      std::uint32_t other) const;
-  /// The most that is, for a shape and any other one.
-  [[nodiscard]] double touch_distance(const Imath::V3d& point, std::uint32_t shape) const;
-  /// The most it is anywhere but among what is far.
-  [[nodiscard]] double touch_distance() const;
-  /// Whether anything but boundaries of matter stands between two points that `offset_point` put beside their
-  /// surfaces. Exact at both ends, at any angle and distance.
+  /// Distance [m] below which surfaces of the two shapes coincide near `point`. Floats of the size of the
+  /// point and of the vertices do not separate them.
+  [[nodiscard]] double coincidence_tolerance(const Imath::V3d& point, std::uint32_t shape,
+                                             std::uint32_t other) const;
+  /// The maximum of this distance over all other shapes.
+  [[nodiscard]] double coincidence_tolerance(const Imath::V3d& point, std::uint32_t shape) const;
+  /// The maximum of this distance everywhere except at distant shapes.
+  [[nodiscard]] double coincidence_tolerance() const;
+  /// True if anything except boundaries of media lies between two points that `offset_point` moved off their
+  /// surfaces. Exact at both ends, at every angle and distance.
   [[nodiscard]] bool occluded(const Imath::V3f& from, const Imath::V3f& to) const;
   [[nodiscard]] bool occluded(const Ray& ray) const;
 
-  /// Answers many rays at once, as many as answers, each as if it were alone: nearest hits, and whether (1 or
-  /// 0) anything but boundaries of matter stands on each of the ways.
+  /// Traces many rays, each as if it were alone: the nearest hits, and for shadow rays 1 if anything except
+  /// boundaries of media blocks them, otherwise 0.
   void intersect(std::span<const Ray> rays, std::span<std::optional<SurfaceHit>> hits) const;
-  void occluded(std::span<const BasicRay<double>> ways, std::span<std::uint8_t> blocked) const;
+  void occluded(std::span<const BasicRay<double>> rays, std::span<std::uint8_t> blocked) const;
 
-  /// Asks Embree alone for all of the rays again and drops the answers: what a render would cost if it did
-  /// nothing else.
+  /// Traces all the rays again through Embree alone and discards the results, to measure the cost of ray
+  /// tracing by itself.
   void replay(std::span<const LoggedRay> rays) const;
 
-  /// The lights that a ray which leaves the scene may see: the environment and the suns.
+  /// Indices of the lights that a ray which leaves the scene may hit: environment lights and suns.
   [[nodiscard]] std::span<const std::uint32_t> background() const { return background_; }
 
-  /// Whether the light has a place that is far, from where its rays are as good as parallel.
-  [[nodiscard]] bool is_far(const Light& light) const;
+  /// True if the light has a position so distant that its rays are practically parallel.
+  [[nodiscard]] bool is_distant(const Light& light) const;
 
-  /// Builds the acceleration structure, `bounds`, what is far, the volumes of media, the tables of rough
-  /// dielectrics in media, the lights' areas and `needs`; call once, after filling the lists. Throws
-  /// Error{resource} when there is no memory.
+  /// Prepares the scene; call once, after all lists are filled. Builds the acceleration structure, `bounds`,
+  /// the working range, the volumes of media, the tables of rough dielectrics in media, the areas of lights,
+  /// and `features`. Throws Error{resource} if memory is exhausted.
   void commit();
 
-  [[nodiscard]] std::size_t triangle_count() const;  ///< As rendered: a quad is two.
-  [[nodiscard]] std::size_t memory_bytes() const;    ///< Of geometry, as Embree and the lists report it.
+  [[nodiscard]] std::size_t triangle_count() const;  ///< As rendered: a quad counts as two.
+  [[nodiscard]] std::size_t memory_bytes() const;    ///< Memory of the geometry, from Embree and the lists.
 
  private:
-  void measure_extent();
-  void measure_matter();
+  void measure_working_range();
+  void measure_media();
   [[nodiscard]] bool wall_within_rounding(const SurfaceHit& hit, const Imath::V3f& direction,
                                           float time) const;
 
   std::shared_ptr<const Geometry> geometry_;
   std::vector<std::uint32_t> background_;
-  double coarsest_ = 0;  // rounding of those that are not far
+  double max_rounding_ = 0;  // largest rounding of the shapes that are not distant
 };
 
-/// Nearest hit at t in (t_min, ray.t_max) in double precision by each shape's own code, without Embree: for
-/// `abbe trace`.
+/// The nearest hit at t in (t_min, ray.t_max), computed in double precision by each shape's own formula
+/// without Embree. Used by `abbe trace`.
 struct ExactHit {
   ShapeHit<double> hit;
   std::uint32_t shape;
@@ -259,7 +264,7 @@ struct ExactHit {
 [[nodiscard]] std::optional<ExactHit> intersect_exact(const Scene& scene, const BasicRay<double>& ray,
                                                       double t_min);
 
-/// The material of a shape of the scene, by its number.
+/// The material of the shape with that index.
 [[nodiscard]] inline const Material& material_of(const Scene& scene, std::uint32_t shape) {
   return scene.materials[scene.shapes[shape].material];
 }

@@ -4,52 +4,51 @@
 
 namespace abbe {
 
-/// When the rows of a film are open to light, and how far. Each row is open for the exposure time T, the
-/// first from time 0 and every other one a delay later than that above it, so that the whole film is exposed
-/// over the span T + (rows - 1) delay, of which times are shares. A row that has been open for the share s of
-/// T passes the share S(s) of the light, and what it collects of an irradiance E is the integral of S E over
-/// time.
+/// The times at which the rows of a film are exposed, and the transmittance of the shutter.
+/// Each row is exposed for the exposure time T. The first row starts at time 0, each further one `delay` T
+/// later. The whole film is exposed over the span T (1 + (rows - 1) delay); ray times are fractions of it.
+/// After the fraction s of its exposure, a row has the transmittance S(s). It records the integral of S E
+/// over time for an irradiance E.
 class Shutter {
  public:
-  /// The share that passes when the share `at` of the exposure has gone by; straight lines lead from one to
-  /// the next.
+  /// The transmittance after the fraction `time` of a row's exposure; linear between knots.
   struct Knot {
-    double at = 0;
-    double passes = 1;
+    double time = 0;
+    double transmittance = 1;
   };
 
-  /// All rows at once, wide open for all of the exposure.
+  /// A global shutter, fully open for the whole exposure.
   Shutter() = default;
-  /// Knots from 0 to 1 in order, of which some pass light; `delay` is that of a row, as a share of the
-  /// exposure.
+  /// Builds a shutter from knots in order from 0 to 1, at least one of which transmits light. `delay` is that
+  /// between rows, as a fraction of the exposure time.
   Shutter(std::vector<Knot> knots, double delay, int rows);
 
-  /// The mean of S: what the exposure time is multiplied by where nothing changes while it lasts.
+  /// Mean of S: the factor on the exposure time if nothing changes during the exposure.
   [[nodiscard]] double mean() const { return mean_; }
-  /// The span over the exposure time.
+  /// The span divided by the exposure time.
   [[nodiscard]] double span() const { return span_; }
-  /// A time at which light comes to the row, drawn with the density of what passes: what is found then counts
-  /// `mean`, whenever that is. `u` in [0, 1).
-  [[nodiscard]] float draw(int row, float u) const { return plain_ ? u : draw_in(row, u); }
-  /// What light that comes to the row at that time counts, the time being one of all those of the span, each
-  /// as likely as any other: S over the share of the span that a row is open.
+  /// Samples a time at which the row is exposed, in proportion to S, by `u` in [0, 1). Light at that time has
+  /// the weight `mean`.
+  [[nodiscard]] float sample(int row, float u) const { return plain_ ? u : sample_row(row, u); }
+  /// Weight of light that arrives at the row at a time that is uniform over the span: S, divided by the
+  /// fraction of the span for which a row is open.
   [[nodiscard]] float weight(int row, float time) const {
-    return plain_ ? static_cast<float>(mean_) : weight_in(row, time);
+    return plain_ ? static_cast<float>(mean_) : row_weight(row, time);
   }
 
-  /// The shutter of a scene in which nothing moves: it only passes the mean of what it does.
-  [[nodiscard]] Shutter where_nothing_moves() const;
+  /// The equivalent shutter for a static scene, with constant transmittance `mean`.
+  [[nodiscard]] Shutter static_equivalent() const;
 
  private:
-  [[nodiscard]] float draw_in(int row, float u) const;
-  [[nodiscard]] float weight_in(int row, float time) const;
+  [[nodiscard]] float sample_row(int row, float u) const;
+  [[nodiscard]] float row_weight(int row, float time) const;
 
   std::vector<Knot> knots_ = {{0, 1}, {1, 1}};
-  std::vector<double> passed_ = {0, 1};  // by each knot, of all that passes
+  std::vector<double> cdf_ = {0, 1};  // per knot: cumulative fraction of the transmitted light
   double mean_ = 1;
   double delay_ = 0;
   double span_ = 1;
-  bool plain_ = true;  // wide open, or as good as that, for all rows at once
+  bool plain_ = true;  // constant transmittance, and all rows at once
 };
 
 }  // namespace abbe

@@ -13,7 +13,7 @@
 namespace abbe {
 namespace {
 
-// Around the shape, of one that moves where it is at time 0.
+// Bounding box; for a moving shape at time 0.
 Imath::Box3d box_at_opening(const Shape& shape) {
   if (motion_of(shape) == nullptr) return bounds(shape);
   const auto& placed = std::get<PlacedShape>(shape);
@@ -22,32 +22,32 @@ Imath::Box3d box_at_opening(const Shape& shape) {
   return box;
 }
 
-// How far away the shape is that stands around a place at time 0 [m]: the nearest of what rays meet there
-// whose opposites meet it too; 0 where none do.
-double distance_around(const Shape& shape, const Imath::V3d& place) {
-  if (!box_at_opening(shape).intersects(place)) return 0;
+// Distance [m] at time 0 of a shape that encloses the point: the nearest hit of a ray whose opposite ray hits
+// the shape too. 0 if there is none.
+double enclosing_distance(const Shape& shape, const Imath::V3d& viewpoint) {
+  if (!box_at_opening(shape).intersects(viewpoint)) return 0;
   const Basis<double> axes(askew_direction<double>());
   double nearest = std::numeric_limits<double>::infinity();
   for (const Imath::V3d& axis : {axes.x, axes.y, axes.z}) {
-    const auto ahead = intersect(shape, BasicRay<double>{place, axis}, 0.0);
-    const auto behind = intersect(shape, BasicRay<double>{place, -axis}, 0.0);
+    const auto ahead = intersect(shape, BasicRay<double>{viewpoint, axis}, 0.0);
+    const auto behind = intersect(shape, BasicRay<double>{viewpoint, -axis}, 0.0);
     if (ahead && behind) nearest = std::min({nearest, ahead->t, behind->t});
   }
   return std::isinf(nearest) ? 0 : nearest;
 }
 
-void sort_by_x(std::vector<Viewpoint>& places) {
-  std::ranges::sort(places, {}, [](const Viewpoint& place) { return place.at.x; });
+void sort_by_x(std::vector<Viewpoint>& points) {
+  std::ranges::sort(points, {}, [](const Viewpoint& viewpoint) { return viewpoint.at.x; });
 }
 
-// Whether that holds of one of the places whose x is no further than `reach` from this one.
-template <typename Holds>
-bool any_near(const std::vector<Viewpoint>& places, double x, double reach, Holds holds) {
+// True if `predicate` holds for a viewpoint at most `max_distance` away along x.
+template <typename Predicate>
+bool any_near(const std::vector<Viewpoint>& points, double x, double max_distance, Predicate predicate) {
   const auto first =
-      std::ranges::lower_bound(places, x - reach, {}, [](const Viewpoint& p) { return p.at.x; });
+      std::ranges::lower_bound(points, x - max_distance, {}, [](const Viewpoint& p) { return p.at.x; });
   const auto last =
-      std::ranges::upper_bound(places, x + reach, {}, [](const Viewpoint& p) { return p.at.x; });
-  return std::any_of(first, last, holds);
+      std::ranges::upper_bound(points, x + max_distance, {}, [](const Viewpoint& p) { return p.at.x; });
+  return std::any_of(first, last, predicate);
 }
 
 }  // namespace
@@ -60,26 +60,27 @@ Viewpoints specular_centers(const Scene& scene) {
   Viewpoints centers;
   for (std::size_t i = 0; i < scene.shapes.size(); ++i) {
     const Material& material = scene.materials[scene.shapes[i].material];
-    const Lobes sent = lobes(material);
-    const Medium* filling = medium(material);
+    const Lobes material_lobes = lobes(material);
+    const Medium* contents = medium(material);
     const Viewpoint center{bounds(scene.shapes[i].shape).center(), i};
-    if (sent.delta) centers.places.push_back(center);
-    if (sent.spread || (filling != nullptr && filling->scatters())) centers.scattering.push_back(center);
+    if (material_lobes.delta) centers.points.push_back(center);
+    if (material_lobes.spread || (contents != nullptr && contents->scatters()))
+      centers.scattering.push_back(center);
   }
-  sort_by_x(centers.places);
+  sort_by_x(centers.points);
   sort_by_x(centers.scattering);
   return centers;
 }
 
-Viewpoints places_of_meter(const Scene& scene) {
-  std::vector<Viewpoint> places;
-  for (const std::array<float, 2>& u : kSpreadOverLight)
-    places.push_back({Imath::V3d(meter_point(scene.camera, {u[0], u[1]})), std::nullopt});
-  sort_by_x(places);
-  return {places, {}};
+Viewpoints probe_viewpoints(const Scene& scene) {
+  std::vector<Viewpoint> points;
+  for (const std::array<float, 2>& u : kRepresentativePoints)
+    points.push_back({Imath::V3d(probe_point(scene.camera, {u[0], u[1]})), std::nullopt});
+  sort_by_x(points);
+  return {points, {}};
 }
 
-bool looks_smaller(const Scene& scene, const Light& light, const Viewpoints& from, double limit_sr) {
+bool subtends_less(const Scene& scene, const Light& light, const Viewpoints& from, double limit_sr) {
   if (const auto* sun = std::get_if<SunLight>(&light.kind))
     return 2 * std::numbers::pi * static_cast<double>(sun->cap) < limit_sr;
   const auto* emitter = std::get_if<AreaLight>(&light.kind);
@@ -89,19 +90,22 @@ bool looks_smaller(const Scene& scene, const Light& light, const Viewpoints& fro
   const Imath::Box3d box = box_at_opening(shape);
   const double half_size = box.size().length() / 2;
   const double cosine = 1 - limit_sr / (2 * std::numbers::pi);
-  const double far_enough = half_size / std::sqrt((1 - cosine) * (1 + cosine));
-  const double reach = far_enough + bounds(shape).size().length() / 2 - half_size;
-  const auto elsewhere = [&](const Viewpoint& place) { return place.shape != emitter->shape; };
-  const auto around = [&](const Viewpoint& place) {
-    return place.shape ? distance_around(scene.shapes[*place.shape].shape, box.center()) : 0;
+  const double min_distance = half_size / std::sqrt((1 - cosine) * (1 + cosine));
+  const double max_distance = min_distance + bounds(shape).size().length() / 2 - half_size;
+  const auto is_other_shape = [&](const Viewpoint& viewpoint) { return viewpoint.shape != emitter->shape; };
+  const auto distance_to_enclosing = [&](const Viewpoint& viewpoint) {
+    return viewpoint.shape ? enclosing_distance(scene.shapes[*viewpoint.shape].shape, box.center()) : 0;
   };
-  const auto close = [&](const Viewpoint& place) {
-    return elsewhere(place) && (place.at - center).length() <= reach && around(place) <= far_enough;
+  const auto is_close = [&](const Viewpoint& viewpoint) {
+    return is_other_shape(viewpoint) && (viewpoint.at - center).length() <= max_distance &&
+           distance_to_enclosing(viewpoint) <= min_distance;
   };
-  const auto lights_what_is_close = [&] { return any_near(from.scattering, center.x, reach, close); };
-  if (std::ranges::none_of(from.places, elsewhere)) return !lights_what_is_close();
-  return !any_near(from.places, center.x, reach, [&](const Viewpoint& place) {
-    return close(place) && (around(place) == 0 || lights_what_is_close());
+  const auto has_close_scatterer = [&] {
+    return any_near(from.scattering, center.x, max_distance, is_close);
+  };
+  if (std::ranges::none_of(from.points, is_other_shape)) return !has_close_scatterer();
+  return !any_near(from.points, center.x, max_distance, [&](const Viewpoint& viewpoint) {
+    return is_close(viewpoint) && (distance_to_enclosing(viewpoint) == 0 || has_close_scatterer());
   });
 }
 

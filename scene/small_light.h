@@ -8,31 +8,31 @@
 
 namespace abbe {
 
-/// Whether a light emits anything.
+/// True if a light emits anything.
 [[nodiscard]] bool emits(const Light& light);
 
-/// Where lights are looked at from: a shape, or none.
+/// A point from which lights are viewed, and the shape that it belongs to, if any.
 struct Viewpoint {
   Imath::V3d at;
   std::optional<std::size_t> shape;
 };
 struct Viewpoints {
-  std::vector<Viewpoint> places;  ///< In order of x, so that those near a light are found without asking all.
-  /// In the same order, the middles of shapes that scatter: they are what a lamp lights through its own shape
-  /// and through those around it.
+  std::vector<Viewpoint> points;  ///< In order of x, so that those near a light are found quickly.
+  /// Centers of the scattering shapes, in order of x. A light illuminates them through its own shape and
+  /// through shapes around it.
   std::vector<Viewpoint> scattering;
 };
-/// The middles of a scene's specular shapes.
+/// Centers of the scene's specular shapes.
 [[nodiscard]] Viewpoints specular_centers(const Scene& scene);
-/// Here and there on the scene's meter.
-[[nodiscard]] Viewpoints places_of_meter(const Scene& scene);
+/// Representative points of the scene's probe.
+[[nodiscard]] Viewpoints probe_viewpoints(const Scene& scene);
 
-/// Whether the light looks smaller than `limit_sr` [sr] from all of the places but its own shape, or, if
-/// there is no other, from what scatters; delta lights do from anywhere. A ball of radius r looks larger than
-/// the limit from nearer than r/sin, the sine being that of half the limit's cone. A shape that stands around
-/// the lamp is as far as its surface, which passes the light on: from there the lamp looks large only if it
-/// does from what scatters too.
-[[nodiscard]] bool looks_smaller(const Scene& scene, const Light& light, const Viewpoints& from,
+/// True if the light subtends less than `limit_sr` [sr] from all viewpoints except its own shape. If there is
+/// no other viewpoint, those that scatter count. Delta lights always subtend less. A sphere of radius r
+/// subtends more than the limit within the distance r/sin of the half angle of a cone of `limit_sr`. A shape
+/// that encloses the light is as far as its surface, which transmits the light. It counts only if the light
+/// also subtends more than the limit from something that scatters.
+[[nodiscard]] bool subtends_less(const Scene& scene, const Light& light, const Viewpoints& from,
                                  double limit_sr);
 
 }  // namespace abbe

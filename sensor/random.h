@@ -6,18 +6,18 @@
 
 namespace abbe {
 
-/// What the random numbers of a read-out are for; those of different purposes are independent.
+/// Purpose of random numbers in a readout. Different purposes are independent.
 enum class ReadoutPurpose : std::uint64_t { fixed_pattern = 1, noise = 2, row_noise = 3 };
 
-/// A generator for the distributions of Boost or the standard library: SplitMix64 [Steele2014], which walks
-/// through the 64-bit numbers in steps of the golden ratio and mixes each.
+/// Random number generator for the distributions of Boost or the standard library: SplitMix64 [Steele2014].
+/// It advances a 64-bit state in steps of the golden ratio and mixes each state.
 class SplitMix64 {
  public:
   using result_type = std::uint64_t;
 
   constexpr explicit SplitMix64(std::uint64_t state) : state_(state) {}
-  /// A sequence of its own for each purpose, key and pixel: nothing is consumed, so no pixel depends on
-  /// another, on the order in which they are read or on who reads them.
+  /// Independent sequence for each purpose, key and pixel. No pixel depends on another or on the order of
+  /// processing.
   constexpr SplitMix64(ReadoutPurpose purpose, std::uint64_t key, std::size_t pixel)
       : state_(mixed(mixed(mixed(static_cast<std::uint64_t>(purpose)) + key) + pixel)) {}
 

@@ -3,8 +3,8 @@
 namespace abbe {
 namespace {
 
-// n as a function of the vacuum wavenumber sigma [1/um]: n - 1 = a/(b - sigma^2) + c/(d - sigma^2)
-// [Ciddor1996, eq. 1 and table 1], whose coefficients give 1e8 (n - 1).
+// Index as a function of the vacuum wavenumber sigma [1/um]: n - 1 = a/(b - sigma^2) + c/(d - sigma^2)
+// [Ciddor1996, eq. 1 and table 1]. The coefficients give 1e8 (n - 1).
 double index_of_vacuum_wavelength(double vacuum_nm) {
   const double sigma = 1e3 / vacuum_nm;
   const double s2 = sigma * sigma;
@@ -14,7 +14,7 @@ double index_of_vacuum_wavelength(double vacuum_nm) {
 }  // namespace
 
 double air_to_vacuum(double wavelength_nm) {
-  // A contraction by about 1e-5 per step: two steps reach the last bits.
+  // The fixed-point iteration contracts by about 1e-5 per step, so two steps are exact to the last bits.
   double vacuum_nm = wavelength_nm * index_of_vacuum_wavelength(wavelength_nm);
   for (int step = 0; step < 2; ++step) vacuum_nm = wavelength_nm * index_of_vacuum_wavelength(vacuum_nm);
   return vacuum_nm;

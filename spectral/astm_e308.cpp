@@ -10,7 +10,7 @@
 namespace abbe {
 namespace {
 
-/// The first sample that E308's weights have no place for.
+/// The first sample that does not fit the wavelengths of the ASTM E308 weights, or nothing.
 std::optional<SampleFault> astm_fault(const std::vector<double>& wavelengths_nm) {
   constexpr double kTolerance_nm = 1e-3;
   const double first = wavelengths_nm[0];
@@ -36,12 +36,12 @@ TristimulusWeights astm_weights(const Curve& illuminant, Observer observer, int 
     const auto interval = std::min(static_cast<std::size_t>((nm - range.low_nm) / step_nm), last);
     const bool at_an_end = interval == 0 || interval == last;
     const std::size_t first = interval == 0 ? 0 : interval - 1;
-    const std::vector<double> shares = lagrange_weights(std::span(nodes).subspan(first, at_an_end ? 3 : 4),
-                                                        std::min<double>(nm, nodes.back()));
+    const std::vector<double> lagrange = lagrange_weights(std::span(nodes).subspan(first, at_an_end ? 3 : 4),
+                                                          std::min<double>(nm, nodes.back()));
     const XYZ& xyz = fine[static_cast<std::size_t>(nm - range.low_nm)];
     sum_y += xyz[1];
-    for (std::size_t i = 0; i < shares.size(); ++i)
-      for (std::size_t c = 0; c < 3; ++c) table.weights[first + i][c] += shares[i] * xyz[c];
+    for (std::size_t i = 0; i < lagrange.size(); ++i)
+      for (std::size_t c = 0; c < 3; ++c) table.weights[first + i][c] += lagrange[i] * xyz[c];
   }
   for (XYZ& weight : table.weights)
     for (double& value : weight) value *= 100 / sum_y;

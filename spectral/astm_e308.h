@@ -9,35 +9,38 @@
 
 namespace abbe {
 
-/// The wavelengths of ASTM E308's sums, both ends included.
+/// Wavelengths of the sums of ASTM E308 [nm], both ends included.
 inline constexpr SumRange kAstmRange{360, 780};
 
-/// What the X, Y and Z of each wavelength of a measurement count in the sum.
+/// Weights of X, Y and Z at each wavelength of a measurement.
 struct TristimulusWeights {
   int low_nm;
   int step_nm;
   std::vector<XYZ> weights;
 };
 
-/// Tristimulus weights for reflectances measured every `step_nm`, free of the instrument's bandpass: 1 nm
-/// `tristimulus_weights`, in which the reflectance between the measured wavelengths is Lagrange's
-/// polynomial through the four around, in the first and last interval through the nearest three [ASTM2022].
-/// The weights of Y add up to 100, all to the illuminant's white. What the range has beyond its last whole
-/// step counts for that one. The range must hold three steps or more.
+/// Tristimulus weights for reflectances measured every `step_nm` without the bandpass of an instrument
+/// [ASTM2022]. They combine the 1 nm `tristimulus_weights` with Lagrange interpolation of the reflectance.
+/// The polynomial passes through the four samples around a wavelength, or through the nearest three in the
+/// first and last interval. The weights of Y add up to 100, and all weights to the white of the illuminant.
+/// Wavelengths after the last whole step count for that step. The range must contain at least three steps.
 [[nodiscard]] TristimulusWeights astm_weights(const Curve& illuminant, Observer observer, int step_nm,
                                               SumRange range = kAstmRange);
 
-/// The sum of the weights.
+/// Sum of the weights: the tristimulus values of the perfect diffuser.
 [[nodiscard]] XYZ astm_white(const TristimulusWeights& weights);
 
-/// Tristimulus values of a measured reflectance. Weights of wavelengths before the first or after the last
-/// that was measured count for that one [ASTM308]. The samples are what `load_astm_samples`
-/// accepts, at the weights' step.
+/// Tristimulus values of a measured reflectance. Weights of wavelengths outside the measurement count for its
+/// first or last sample [ASTM308]. The samples must be those of `load_astm_samples`, at the step of the
+/// weights.
 [[nodiscard]] XYZ astm_tristimulus(const TristimulusWeights& weights, const Samples& samples);
 
-/// Reads the samples of a reflectance for `astm_tristimulus`, rounded to whole nanometres: those in [360,
-/// 780] nm. Reports a table that was not measured every 10 or 20 nm, beginning at 360 nm or whole steps from
-/// there, or in that range at fewer than two wavelengths, and one that is no share of 1.
+/// Reads the samples of a reflectance within [360, 780] nm for `astm_tristimulus`, with wavelengths rounded
+/// to whole nanometres. Reports a table
+/// - whose step is neither 10 nor 20 nm;
+/// - that does not begin a whole number of steps from 360 nm;
+/// - with fewer than two samples in the range;
+/// - whose unit is not a fraction of 1.
 [[nodiscard]] std::optional<Samples> load_astm_samples(const std::string& name, const SourcePosition& where,
                                                        Diagnostics& diagnostics);
 

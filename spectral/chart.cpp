@@ -25,10 +25,10 @@ bool check_values(const Patch& patch, const Range& allowed, const SourcePosition
 
 std::optional<Table> read_chart_table(const std::string& name, const SourcePosition& where,
                                       Diagnostics& diagnostics) {
-  const std::optional<TableColumn> found = find_table("reflectance", name, where, diagnostics);
-  if (!found) return std::nullopt;
+  const std::optional<TableColumn> location = find_table("reflectance", name, where, diagnostics);
+  if (!location) return std::nullopt;
   const TableOrigin origin = user_table_end(name) == name.size() ? TableOrigin::user : TableOrigin::shipped;
-  return read_table(found->path, origin, diagnostics);
+  return read_table(location->path, origin, diagnostics);
 }
 
 bool is_spectral(const Table& table) {
@@ -40,10 +40,9 @@ std::optional<Chart> load_chart(const std::string& name, const SourcePosition& w
   const std::optional<Table> table = read_chart_table(name, where, diagnostics);
   if (!table) return std::nullopt;
   if (!is_spectral(*table)) {
-    diagnostics.error(
-        table->where,
-        "states colours and not reflectances, from which alone a camera's values can be computed",
-        ErrorCode::input);
+    diagnostics.error(table->where,
+                      "contains colours, but camera values can be computed only from reflectances",
+                      ErrorCode::input);
     return std::nullopt;
   }
   if (auto fault = unit_fault(name, table->provenance.unit, use.unit)) {

@@ -17,26 +17,26 @@ struct Patch {
   Curve reflectance;
 };
 
-/// A chart: named patches in the order of its table.
+/// A colour chart: named patches in the order of its table.
 struct Chart {
   std::string name;
   std::vector<Patch> patches;
 };
 
-/// The table of a chart: one of `data/reflectance` or a user's file.
+/// Reads the table of a chart: one of `data/reflectance` or a user's file.
 [[nodiscard]] std::optional<Table> read_chart_table(const std::string& name, const SourcePosition& where,
                                                     Diagnostics& diagnostics);
-/// Whether a table is one of reflectances over wavelength; other editions of charts state colours.
+/// True if the table contains reflectances over wavelength. Other editions of charts contain colours.
 [[nodiscard]] bool is_spectral(const Table& table);
 
-/// The chart of a table of reflectances, one patch per column, e.g. "colorchecker24_babelcolor_average".
-/// Reports a table of colours, one whose unit is not that of the use, one that says nothing of wavelengths
-/// that are needed, and a patch with values beyond the use.
+/// Reads the chart of a table of reflectances, one patch per column, such as
+/// "colorchecker24_babelcolor_average". Reports a table of colours, a unit or values that `use` does not
+/// allow, and a table that does not cover `needed`.
 [[nodiscard]] std::optional<Chart> load_chart(const std::string& name, const SourcePosition& where,
                                               Diagnostics& diagnostics,
                                               const CurveUse& use = kReflectanceFactorUse,
                                               NeededRange needed = {});
-/// The same of a shipped table; what is wrong with it is thrown as Error.
+/// Reads the chart of a shipped table. Throws Error if the table is faulty.
 [[nodiscard]] Chart shipped_chart(const std::string& name);
 
 }  // namespace abbe

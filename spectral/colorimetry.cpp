@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "io/error.h"
+#include "spectral/curve_cursor.h"
 #include "spectral/library.h"
-#include "spectral/straight_piece.h"
 
 namespace abbe {
 namespace {
@@ -26,11 +26,12 @@ ColorMatching load_color_matching(const std::string& table, const std::string& s
   return {load("xbar" + suffix), load("ybar" + suffix), load("zbar" + suffix)};
 }
 
-// How far a bend at a nanometre may be from it, and both ends of a jump from each other.
+// Tolerance [nm] for a knot at a whole nanometre, and for two knots that form a jump.
 constexpr double kRoundingNm = 1e-9;
 
-// The largest jump of a curve between the ends of a sum, as it counts by another; ends of tables are jumps.
-double largest_jump(const Curve& curve, const Curve& by, SumRange range) {
+// Largest jump of a curve inside the range of a sum, times the magnitude of `weight` there. The ends of a
+// table are jumps.
+double largest_jump(const Curve& curve, const Curve& weight, SumRange range) {
   double largest = 0;
   const std::span<const Knot> knots = curve.knots();
   for (std::size_t i = 1; i < knots.size(); ++i) {
@@ -38,59 +39,60 @@ double largest_jump(const Curve& curve, const Curve& by, SumRange range) {
     if (nm - knots[i - 1].wavelength_nm > kRoundingNm || nm < range.low_nm + kRoundingNm ||
         nm > range.high_nm - kRoundingNm)
       continue;
-    const double seen = std::max(std::abs(by(nm - kRoundingNm)), std::abs(by(nm + kRoundingNm)));
-    largest = std::max(largest, std::abs(knots[i].value - knots[i - 1].value) * seen);
+    const double largest_weight =
+        std::max(std::abs(weight(nm - kRoundingNm)), std::abs(weight(nm + kRoundingNm)));
+    largest = std::max(largest, std::abs(knots[i].value - knots[i - 1].value) * largest_weight);
   }
   return largest;
 }
 
-// Whether its values at the whole nanometres of a sum tell a curve, as it counts by another: narrow lines lie
-// between them, or on one, and a sum would miss them or count them several times; of a jump, as of a band, it
-// would take one side alone, which is enough of jumps of a thousandth.
-bool is_told_by_nanometres(const Curve& curve, const Curve& by, SumRange range) {
+// True if the values of a curve at whole nanometres determine its weighted sum. Narrow lines can lie between
+// or on the nanometres, so that a sum would miss them or count them several times. A sum takes only one side
+// of a jump, such as the edge of a band, which is accurate enough for jumps below a thousandth.
+bool is_resolved_at_1_nm(const Curve& curve, const Curve& weight, SumRange range) {
   constexpr double kSmall = 1e-3;
   if (!std::ranges::all_of(curve.knots(), [](const Knot& knot) {
         return std::abs(knot.wavelength_nm - std::round(knot.wavelength_nm)) < kRoundingNm;
       }))
     return false;
-  const double jump = largest_jump(curve, by, range);
+  const double jump = largest_jump(curve, weight, range);
   if (jump == 0) return true;
   for (int nm = range.low_nm; nm <= range.high_nm; ++nm)
-    if (std::abs(curve(nm) * by(nm)) >= jump / kSmall) return true;
+    if (std::abs(curve(nm) * weight(nm)) >= jump / kSmall) return true;
   return false;
 }
 
-bool are_told_by_nanometres(const Curve& a, const Curve& b, SumRange range) {
-  return is_told_by_nanometres(a, b, range) && is_told_by_nanometres(b, a, range);
+bool are_resolved_at_1_nm(const Curve& a, const Curve& b, SumRange range) {
+  return is_resolved_at_1_nm(a, b, range) && is_resolved_at_1_nm(b, a, range);
 }
 
-// What the three functions of an observer see of a light together.
-const Curve& whole_of(Observer observer) {
+// Sum of the three colour-matching functions of an observer.
+const Curve& summed_color_matching(Observer observer) {
   static const auto add = [](const ColorMatching& cmf) { return sum(cmf.x, sum(cmf.y, cmf.z)); };
   static const std::array<Curve, 2> both{add(color_matching(Observer::cie1931)),
                                          add(color_matching(Observer::cie1964))};
   return both[observer == Observer::cie1931 ? 0 : 1];
 }
 
-const Curve& even_light() {
+const Curve& equal_energy() {
   static const Curve even(1.0);
   return even;
 }
 
-// Half of its first and last nanometre lies beyond the ends of a sum.
-constexpr double kBeyondNm = 0.5;
+// The first and last nanometre of a sum extend half a step outside its range.
+constexpr double kHalfStepNm = 0.5;
 
-// The integral of the product of two lines over a width, by what each is at both ends.
+// Integral over a width of the product of two lines, given by their values at both ends.
 double integral_of_lines(double width_nm, double a0, double a1, double b0, double b1) {
   return width_nm / 6 * (a0 * (2 * b0 + b1) + a1 * (b0 + 2 * b1));
 }
 
-// The means of a curve under the triangles from the nanometre before to the one after: each straight piece
-// within a nanometre lies under the falling side of one triangle and the rising side of the next.
-std::vector<Knot> means_by_nanometres(const Curve& curve) {
+// Means of a curve under the triangles that span the nanometres before and after each whole one. Each linear
+// segment within a nanometre lies under the falling side of one triangle and the rising side of the next.
+std::vector<Knot> triangle_means(const Curve& curve) {
   std::vector<Knot> means;
   for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm) means.push_back({static_cast<double>(nm), 0});
-  StraightPiece piece(curve, kMinWavelengthNm);
+  CurveCursor piece(curve, kMinWavelengthNm);
   for (double from = kMinWavelengthNm; from < kMaxWavelengthNm;) {
     const double nm = std::floor(from);
     const double to = std::min(piece.end_nm(), nm + 1);
@@ -100,30 +102,30 @@ std::vector<Knot> means_by_nanometres(const Curve& curve) {
     const auto at = static_cast<std::size_t>(nm) - kMinWavelengthNm;
     means[at].value += under(nm + 1 - from, nm + 1 - to);
     means[at + 1].value += under(from - nm, to - nm);
-    piece.go_to(to);
+    piece.advance_to(to);
     from = to;
   }
-  // Curves end in the middle of these two triangles, so that half of their area is left.
+  // Curves end at the peak of these two triangles, so only half of their area remains.
   means.front().value *= 2;
   means.back().value *= 2;
   return means;
 }
 
-// A curve as its values at whole nanometres tell it, as it counts by another, or its means around them.
-Curve by_nanometres(const Curve& curve, const Curve& by, SumRange range) {
-  return is_told_by_nanometres(curve, by, range) ? curve : Curve(means_by_nanometres(curve));
+// The curve itself if whole nanometres resolve it, otherwise its means around them.
+Curve resampled_at_1_nm(const Curve& curve, const Curve& weight, SumRange range) {
+  return is_resolved_at_1_nm(curve, weight, range) ? curve : Curve(triangle_means(curve));
 }
 
-// X = k times the integral of S R xbar, and so on, k being 100 over that of S ybar [CIE15, sec. 7.1].
+// X = k integral(S R xbar) and Y and Z in the same way, with k = 100 / integral(S ybar) [CIE15, sec. 7.1].
 XYZ integrated_tristimulus(const Curve& illuminant, const Curve& reflectance, const ColorMatching& cmf,
                            SumRange range) {
-  const double low_nm = range.low_nm - kBeyondNm;
-  const double high_nm = range.high_nm + kBeyondNm;
+  const double low_nm = range.low_nm - kHalfStepNm;
+  const double high_nm = range.high_nm + kHalfStepNm;
   const double k = 100 / integral_of_product(illuminant, cmf.y, low_nm, high_nm);
-  const auto seen = [&](const Curve& by) {
-    return k * integral_of_product(illuminant, reflectance, by, low_nm, high_nm);
+  const auto component = [&](const Curve& weight) {
+    return k * integral_of_product(illuminant, reflectance, weight, low_nm, high_nm);
   };
-  return {seen(cmf.x), seen(cmf.y), seen(cmf.z)};
+  return {component(cmf.x), component(cmf.y), component(cmf.z)};
 }
 
 }  // namespace
@@ -138,43 +140,43 @@ const ColorMatching& color_matching(Observer observer) {
 }
 
 double sum_product(const Curve& a, const Curve& b, SumRange range) {
-  if (!are_told_by_nanometres(a, b, range))
-    return integral_of_product(a, b, range.low_nm - kBeyondNm, range.high_nm + kBeyondNm);
+  if (!are_resolved_at_1_nm(a, b, range))
+    return integral_of_product(a, b, range.low_nm - kHalfStepNm, range.high_nm + kHalfStepNm);
   double total = 0;
   for (int nm = range.low_nm; nm <= range.high_nm; ++nm) total += a(nm) * b(nm);
   return total;
 }
 
 double sum_product(const Curve& a, const Curve& b, const Curve& c, SumRange range) {
-  if (!are_told_by_nanometres(a, b, range))
-    return integral_of_product(a, b, c, range.low_nm - kBeyondNm, range.high_nm + kBeyondNm);
-  const Curve told = by_nanometres(c, even_light(), range);
+  if (!are_resolved_at_1_nm(a, b, range))
+    return integral_of_product(a, b, c, range.low_nm - kHalfStepNm, range.high_nm + kHalfStepNm);
+  const Curve resampled = resampled_at_1_nm(c, equal_energy(), range);
   double total = 0;
-  for (int nm = range.low_nm; nm <= range.high_nm; ++nm) total += a(nm) * b(nm) * told(nm);
+  for (int nm = range.low_nm; nm <= range.high_nm; ++nm) total += a(nm) * b(nm) * resampled(nm);
   return total;
 }
 
 std::vector<XYZ> tristimulus_weights(const Curve& illuminant, Observer observer, SumRange range) {
   const ColorMatching& cmf = color_matching(observer);
-  const Curve told = by_nanometres(illuminant, whole_of(observer), range);
-  const double k = 100 / sum_product(told, cmf.y, range);
+  const Curve resampled = resampled_at_1_nm(illuminant, summed_color_matching(observer), range);
+  const double k = 100 / sum_product(resampled, cmf.y, range);
   std::vector<XYZ> weights;
   for (int nm = range.low_nm; nm <= range.high_nm; ++nm) {
-    const double power = k * told(nm);
+    const double power = k * resampled(nm);
     weights.push_back({power * cmf.x(nm), power * cmf.y(nm), power * cmf.z(nm)});
   }
   return weights;
 }
 
 XYZ tristimulus(const Curve& illuminant, const Curve& reflectance, Observer observer, SumRange range) {
-  if (!is_told_by_nanometres(illuminant, whole_of(observer), range))
+  if (!is_resolved_at_1_nm(illuminant, summed_color_matching(observer), range))
     return integrated_tristimulus(illuminant, reflectance, color_matching(observer), range);
-  const Curve told = by_nanometres(reflectance, even_light(), range);
+  const Curve resampled = resampled_at_1_nm(reflectance, equal_energy(), range);
   XYZ sum{};
   int nm = range.low_nm;
   for (const XYZ& weight : tristimulus_weights(illuminant, observer, range)) {
-    const double share = told(nm++);
-    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight[k] * share;
+    const double reflected = resampled(nm++);
+    for (std::size_t k = 0; k < sum.size(); ++k) sum[k] += weight[k] * reflected;
   }
   return sum;
 }

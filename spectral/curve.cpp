@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "io/error.h"
-#include "spectral/straight_piece.h"
+#include "spectral/curve_cursor.h"
 
 namespace abbe {
 namespace {
@@ -48,7 +48,7 @@ void append(std::vector<Knot>& knots, double wavelength_nm, double left, double 
   if (right != left) knots.push_back({wavelength_nm, right});
 }
 
-/// The function on exactly [300, 1100] nm.
+/// Restricts the function to exactly [300, 1100] nm.
 std::vector<Knot> cut_to_range(std::span<const Knot> knots) {
   std::vector<Knot> cut;
   cut.reserve(knots.size() + 2);
@@ -71,13 +71,13 @@ void require_valid(std::span<const Knot> knots) {
   }
 }
 
-/// How far the lanes are from the lower end of the range, those beyond its ends being taken there.
+/// Distance of the wavelengths from the lower end of the range; wavelengths outside it are clamped.
 SampledSpectrum offsets(const SampledSpectrum& wavelengths_nm) {
   const auto below = SampledSpectrum::map(wavelengths_nm, [](float nm) { return std::min(kHigh, nm); });
   return SampledSpectrum::map(below, [](float nm) { return std::max(kLow, nm); }) - SampledSpectrum(kLow);
 }
 
-/// Wavelengths where either curve bends or jumps, ascending.
+/// Wavelengths of the knots of either curve, ascending.
 std::vector<double> breakpoints(const Curve& a, const Curve& b) {
   std::vector<double> all;
   all.reserve(a.knots().size() + b.knots().size());
@@ -88,46 +88,45 @@ std::vector<double> breakpoints(const Curve& a, const Curve& b) {
   return all;
 }
 
-/// How far a product may leave the chord between two knots, as a share of its greatest magnitude. Of smooth
-/// curves every nanometre it hardly does, so that their cells need not be searched.
+/// Largest allowed deviation of a product from the chord between two knots, relative to its largest
+/// magnitude. Smooth curves with knots at every nanometre rarely exceed it, so their cells need no search.
 constexpr double kLargestBend = 1e-4;
 
-/// The product of two lines from one wavelength to another, by its values at both and in the middle.
+/// Product of two lines between two wavelengths, given by its values at both and at the midpoint.
 struct Parabola {
   double from_nm;
   double to_nm;
   double first;
-  double middle;
+  double midpoint;
   double last;
 };
 
-/// The product of two curves between their knots and whole nanometres, ascending.
+/// Product of two curves between their knots and whole nanometres, ascending.
 std::vector<Parabola> parabolas_of(const Curve& a, const Curve& b) {
-  StraightPiece piece_a(a, kMinWavelengthNm);
-  StraightPiece piece_b(b, kMinWavelengthNm);
+  CurveCursor piece_a(a, kMinWavelengthNm);
+  CurveCursor piece_b(b, kMinWavelengthNm);
   const auto value = [&](double nm) { return piece_a(nm) * piece_b(nm); };
   std::vector<Parabola> parabolas;
   parabolas.reserve(kCells + a.knots().size() + b.knots().size());
   for (double from = kMinWavelengthNm; from < kMaxWavelengthNm;) {
     const double to = std::min({piece_a.end_nm(), piece_b.end_nm(), std::floor(from) + 1});
     parabolas.push_back({from, to, value(from), value((from + to) / 2), value(to)});
-    piece_a.go_to(to);
-    piece_b.go_to(to);
+    piece_a.advance_to(to);
+    piece_b.advance_to(to);
     from = to;
   }
   return parabolas;
 }
 
-/// Adds knots within a parabola, evenly spaced, where it leaves its chord too far for that greatest
-/// magnitude.
+/// Adds evenly spaced knots inside a parabola that deviates too far from its chord, relative to `greatest`.
 void append_between(std::vector<Knot>& knots, const Parabola& p, double greatest) {
-  // At a share t of its width it lies q t (1 - t) below the chord, q / 4 in the middle.
-  const double q = 2 * (p.first - 2 * p.middle + p.last);
-  if (q == 0) return;               // as where there is nothing at all
-  constexpr double kJumpNm = 1e-9;  // a table that is 0 outside falls so just beyond its last row
+  // The parabola lies q t (1 - t) below the chord at the fraction t of its width, q/4 at the midpoint.
+  const double q = 2 * (p.first - 2 * p.midpoint + p.last);
+  if (q == 0) return;               // common where both factors are 0
+  constexpr double kJumpNm = 1e-9;  // a table that is 0 outside falls within this width after its last row
   const double parts = std::ceil(std::sqrt(std::abs(q / greatest) / (4 * kLargestBend)));
   if (!(parts > 1) || p.to_nm - p.from_nm < kJumpNm) return;
-  // The chords of n parts have q / (6 n^2) too much area, which n - 1 knots make up for.
+  // n chords have an excess area of q / (6 n^2), which lowering the n - 1 inner knots removes.
   const double lower = q / (6 * parts * (parts - 1));
   for (int i = 1; i < static_cast<int>(parts); ++i) {
     const double t = i / parts;
@@ -151,7 +150,7 @@ Curve::Curve(std::vector<Knot> knots) {
   max_ = high->value;
   cells_.reserve(kCells + 1);
   packet_cells_.reserve(kCells + 1);
-  std::size_t next = 0;  // first knot beyond the left end of the cell
+  std::size_t next = 0;  // first knot to the right of the left end of the cell
   for (int i = 0; i <= kCells; ++i) {
     const double left = kMinWavelengthNm + i;
     while (next < knots_.size() && knots_[next].wavelength_nm <= left) ++next;
@@ -166,7 +165,7 @@ Curve::Curve(std::vector<Knot> knots) {
 }
 
 double Curve::operator()(double wavelength_nm) const {
-  // Written so that a NaN takes the lower end instead of indexing out of the table.
+  // The comparison sends a NaN to the lower end, so that it cannot index outside the table.
   const double clamped =
       wavelength_nm > kMinWavelengthNm ? std::min<double>(wavelength_nm, kMaxWavelengthNm) : kMinWavelengthNm;
   const double offset = clamped - kMinWavelengthNm;
@@ -180,7 +179,7 @@ double Curve::operator()(double wavelength_nm) const {
 
 SampledSpectrum Curve::operator()(const SampledSpectrum& wavelengths_nm) const {
   if (is_constant()) return SampledSpectrum(static_cast<float>(knots_.front().value));
-  // All but the look-up itself is done on whole vectors.
+  // All but the look-up operates on whole vectors.
   const SampledSpectrum::Values offset = offsets(wavelengths_nm).values();
   std::array<std::int32_t, kLanes> index;
   SampledSpectrum::Values value;
@@ -197,7 +196,7 @@ SampledSpectrum Curve::operator()(const SampledSpectrum& wavelengths_nm) const {
   return values.has_nan() ? searched(values, wavelengths_nm) : values;
 }
 
-// Few cells have inner knots; out of the others' way.
+// Not inlined: few cells have inner knots.
 [[gnu::noinline]] SampledSpectrum Curve::searched(const SampledSpectrum& values,
                                                   const SampledSpectrum& wavelengths_nm) const {
   return SampledSpectrum::map(values, wavelengths_nm, [this](float value, float nm) {
@@ -225,14 +224,14 @@ double integral_of_product(const Curve& a, const Curve& b, double low_nm, double
 double integral_of_product(const Curve& a, const Curve& b, const Curve& c, double low_nm, double high_nm) {
   const double low = std::max<double>(low_nm, kMinWavelengthNm);
   const double high = std::min<double>(high_nm, kMaxWavelengthNm);
-  std::array<StraightPiece, 3> pieces{{{a, low}, {b, low}, {c, low}}};
+  std::array<CurveCursor, 3> pieces{{{a, low}, {b, low}, {c, low}}};
   const auto value = [&](double nm) { return pieces[0](nm) * pieces[1](nm) * pieces[2](nm); };
   double total = 0;
   for (double from = low; from < high;) {
     const double to = std::min({pieces[0].end_nm(), pieces[1].end_nm(), pieces[2].end_nm(), high});
-    // Simpson's rule, exact for the product of three lines.
+    // Simpson's rule is exact for the product of three lines.
     total += (to - from) / 6 * (value(from) + 4 * value((from + to) / 2) + value(to));
-    for (StraightPiece& piece : pieces) piece.go_to(to);
+    for (CurveCursor& piece : pieces) piece.advance_to(to);
     from = to;
   }
   return total;
@@ -244,7 +243,7 @@ Curve product(const Curve& a, const Curve& b) {
   const std::vector<Parabola> parabolas = parabolas_of(a, b);
   double greatest = 0;
   for (const Parabola& p : parabolas)
-    greatest = std::max({greatest, std::abs(p.first), std::abs(p.middle), std::abs(p.last)});
+    greatest = std::max({greatest, std::abs(p.first), std::abs(p.midpoint), std::abs(p.last)});
   std::vector<Knot> knots;
   knots.reserve(parabolas.size() + 2);
   for (const Parabola& p : parabolas) {
@@ -282,8 +281,7 @@ Curve table_curve(std::span<const double> wavelengths_nm, std::span<const double
   if (outside == Outside::zero) knots.push_back({wavelengths_nm.front(), 0});
   for (std::size_t i = 0; i < values.size(); ++i) knots.push_back({wavelengths_nm[i], values[i]});
   if (outside == Outside::zero) {
-    // The last row still holds at its own wavelength, so the fall to zero comes at the next representable
-    // number.
+    // The last row applies at its own wavelength, so the fall to zero comes at the next representable number.
     knots.push_back({std::nextafter(wavelengths_nm.back(), std::numeric_limits<double>::max()), 0});
   }
   return Curve(std::move(knots));

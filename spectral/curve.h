@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "io/table.h"
-#include "spectral/packet.h"
+#include "spectral/sampled_spectrum.h"
 
 namespace abbe {
 
-/// The wavelengths Abbe carries [nm]. Every curve is defined on all of them.
+/// Range of wavelengths [nm] of a render. Every curve is defined on all of it.
 inline constexpr int kMinWavelengthNm = 300;
 inline constexpr int kMaxWavelengthNm = 1100;
 
@@ -20,8 +20,8 @@ struct Knot {
   double value;
 };
 
-/// A function of wavelength on [300, 1100] nm: piecewise linear between knots, with jumps where two knots
-/// share a wavelength (the value at a jump is that on its right). Tables and bands are represented exactly;
+/// A function of wavelength on [300, 1100] nm, piecewise linear between knots. Two knots at the same
+/// wavelength are a jump, where the value is that on its right. Tables and bands are represented exactly,
 /// smooth formulas are sampled every 1 nm. Cells of 1 nm make evaluation O(1).
 class Curve {
  public:
@@ -29,17 +29,18 @@ class Curve {
   Curve();
   /// The constant `value`.
   explicit Curve(double value);
-  /// Through `knots`, sorted by wavelength; held constant before the first and after the last. Knots outside
-  /// the range are cut there. Throws Error{internal} unless sorted, finite and non-empty.
+  /// Interpolates `knots`, which are sorted by wavelength; constant before the first and after the last.
+  /// Knots outside the range are cut. Throws Error{internal} unless the knots are sorted, finite and
+  /// non-empty.
   explicit Curve(std::vector<Knot> knots);
 
   /// Value at a wavelength [nm]; a wavelength outside [300, 1100] takes the value at the nearer end.
   [[nodiscard]] double operator()(double wavelength_nm) const;
-  /// Values at the lanes of a packet [nm], to a few float steps of the larger end of a cell.
+  /// Values at several wavelengths [nm], accurate to a few float ulps of the larger end of a cell.
   [[nodiscard]] SampledSpectrum operator()(const SampledSpectrum& wavelengths_nm) const;
 
   [[nodiscard]] std::span<const Knot> knots() const { return knots_; }
-  /// Exact integral over [low_nm, high_nm] (cut to the range).
+  /// Exact integral over [low_nm, high_nm], which is cut to the range.
   [[nodiscard]] double integral(double low_nm = kMinWavelengthNm, double high_nm = kMaxWavelengthNm) const;
   [[nodiscard]] double max() const { return max_; }
   [[nodiscard]] double min() const { return min_; }
@@ -50,20 +51,20 @@ class Curve {
   }
 
  private:
-  // A cell [i, i+1) nm without an inner knot is value + slope (lambda - i); one with inner knots is searched
-  // from `first`.
+  // A cell [i, i+1) nm without an inner knot is value + slope (lambda - i). A cell with inner knots is
+  // searched from `first`.
   struct Cell {
     double value;
     double slope;
     std::uint32_t first;
     bool searched;
   };
-  // The same for packets, in float; NaN for a cell that is searched.
+  // Float copy of a cell for packets; NaN for a cell that is searched.
   struct PacketCell {
     float value;
     float slope;
   };
-  // The values found so far, those of cells that are searched being NaN; these as well.
+  // Completes `values`, in which wavelengths of searched cells are NaN, by searching those cells.
   [[nodiscard]] SampledSpectrum searched(const SampledSpectrum& values,
                                          const SampledSpectrum& wavelengths_nm) const;
 
@@ -74,23 +75,23 @@ class Curve {
   double max_;
 };
 
-/// Exact integral of the product of two or three curves over [low_nm, high_nm] (cut to the range).
+/// Exact integral of the product of two or three curves over [low_nm, high_nm], which is cut to the range.
 [[nodiscard]] double integral_of_product(const Curve& a, const Curve& b, double low_nm = kMinWavelengthNm,
                                          double high_nm = kMaxWavelengthNm);
 [[nodiscard]] double integral_of_product(const Curve& a, const Curve& b, const Curve& c,
                                          double low_nm = kMinWavelengthNm, double high_nm = kMaxWavelengthNm);
 
-/// The pointwise product, exact at the union of the knots and at every nanometre. Where it bends away from
-/// the chord between two of these by more than 1e-4 of its greatest magnitude, as where two edges of filters
-/// meet, further knots keep it within 2e-4 of that and make its area there exact.
+/// Pointwise product, exact at all knots of both curves and at every nanometre. If it deviates from the chord
+/// between two of these by more than 1e-4 of its largest magnitude, further knots are added. They limit the
+/// deviation to 2e-4 and make the area exact. This happens where the edges of two filters overlap.
 [[nodiscard]] Curve product(const Curve& a, const Curve& b);
-/// Pointwise combinations, exact everywhere.
+/// Pointwise sum or multiple, exact everywhere.
 [[nodiscard]] Curve sum(const Curve& a, const Curve& b);
 [[nodiscard]] Curve scaled(const Curve& curve, double factor);
 
-/// A table of samples, linear between them; beyond them clamped or zero (its last row still holds at its own
-/// wavelength). Throws Error{internal} unless strictly ascending. Outside::error is the caller's to check:
-/// the loader reports it.
+/// Curve through a table of samples, linear between them and, outside them, clamped or zero. The last row
+/// still applies at its own wavelength. Throws Error{internal} unless wavelengths ascend strictly. The caller
+/// must check Outside::error; the loader reports it.
 [[nodiscard]] Curve table_curve(std::span<const double> wavelengths_nm, std::span<const double> values,
                                 Outside outside);
 

@@ -11,75 +11,74 @@
 
 namespace abbe {
 
-/// What the values of a curve stand for, where a table may say that its own stand for something else. A
-/// response is `unsaid` while nobody has said whether it multiplies energy, as it is taken to, or photons. A
-/// `power` is one per nm in any unit, read or unread, as of lamps that are scaled; radiance, intensity,
-/// irradiance and flux are in W/(m^2 sr nm), W/(sr nm), W/(m^2 nm) and W/nm.
+/// Quantity that a curve must have; a table can declare another one.
+/// - `unknown_response`: nothing declares if the response multiplies energy, which is assumed, or photons.
+/// - `power`: power per nm in any unit, even one that cannot be parsed, for lights that are scaled.
+/// - radiance, intensity, irradiance and flux: W/(m^2 sr nm), W/(sr nm), W/(m^2 nm) and W/nm.
 enum class CurveUnit {
   any,
-  share,
+  fraction,
   per_metre,
   power,
   spectral_radiance,
   spectral_intensity,
   spectral_irradiance,
   spectral_flux,
-  unsaid_response
+  unknown_response
 };
 
-/// Where a curve is used: the data folder its names are looked for in, the values it may take, and their
-/// unit.
+/// Requirements on a curve: the data folder of its names, the values that it may have, and its unit.
 struct CurveUse {
   std::string_view folder;
   Range allowed;
   CurveUnit unit = CurveUnit::any;
-  /// Whether it goes on where a table of it ends and says 0, as light and what filters pass do. A response
-  /// is what its table says.
-  bool goes_on = false;
+  /// True if the curve extrapolates as a constant where its table ends and declares 0, as for light and
+  /// transmittances. A response follows its table.
+  bool extrapolates_constant = false;
 };
 inline constexpr CurveUse kIlluminantUse{"illuminant", {0, 1e30}, CurveUnit::power, true};
-inline constexpr CurveUse kReflectanceUse{"reflectance", Range::unit(), CurveUnit::share};
-/// Of the patches of charts, which may shine or fluoresce into the instrument; per cent are more.
-inline constexpr CurveUse kReflectanceFactorUse{"reflectance", {0, 2}, CurveUnit::share};
-/// Of a filter before a sensor: above 1 by what a measurement may err, far below a percentage.
-inline constexpr CurveUse kTransmittanceUse{"filter", {0, 1.05}, CurveUnit::share, true};
-/// Electrons per photon, above 1 for energetic photons; per cent are more.
-inline constexpr CurveUse kQuantumEfficiencyUse{"camera", {0, 10}, CurveUnit::share};
-/// The same of a channel, which may have a negative response.
-inline constexpr CurveUse kQuantumResponseUse{"camera", {-10, 10}, CurveUnit::share};
+inline constexpr CurveUse kReflectanceUse{"reflectance", Range::unit(), CurveUnit::fraction};
+/// Reflectance factors of chart patches, which can be glossy or fluoresce into the instrument. Per cent
+/// exceed the range.
+inline constexpr CurveUse kReflectanceFactorUse{"reflectance", {0, 2}, CurveUnit::fraction};
+/// Transmittance of a filter in front of a sensor: above 1 only by measurement errors, far below a
+/// percentage.
+inline constexpr CurveUse kTransmittanceUse{"filter", {0, 1.05}, CurveUnit::fraction, true};
+/// Quantum efficiency in electrons per photon, above 1 for energetic photons. Per cent exceed the range.
+inline constexpr CurveUse kQuantumEfficiencyUse{"camera", {0, 10}, CurveUnit::fraction};
+/// Quantum efficiency of a channel, which may be negative.
+inline constexpr CurveUse kQuantumResponseUse{"camera", {-10, 10}, CurveUnit::fraction};
 
-/// Why a table called `name` whose line `# unit:` says `told` is not in the unit that is needed, as one in
-/// percent or of densities is not in shares, one in 1/cm not in 1/m, and one of photons or per Hz no power
-/// per nm. `remedy` ends what is said to be allowed, where a factor makes the one of the other. Nothing when
-/// it is in that unit, or in prose that may mean it, such as "reflectance (0-1); wavelength in nm"; for a
-/// coefficient prose does not do.
-[[nodiscard]] std::optional<std::string> unit_fault(std::string_view name, std::string_view told,
+/// Explains why the table `name` with the line `# unit: <unit>` does not have the needed unit. Examples are
+/// percent or densities for fractions, 1/cm for 1/m, and photons or power per Hz for power per nm. `remedy`
+/// is appended to the allowed unit if a factor converts to it. Nothing if the unit is right. Prose that can
+/// mean it, such as "reflectance (0-1); wavelength in nm", is accepted, except for coefficients.
+[[nodiscard]] std::optional<std::string> unit_fault(std::string_view name, std::string_view unit,
                                                     CurveUnit needed, std::string_view remedy = {});
 
-/// The same of a table that is one factor of a product: what the others cannot make the unit that is needed,
-/// as shares in percent, coefficients in 1/cm and parts or multiples of a power. Another quantity than the
-/// one needed is none of these.
-[[nodiscard]] std::optional<std::string> factor_unit_fault(std::string_view name, std::string_view told,
+/// Explains why a table cannot be one factor of a product with the needed unit. The other factors cannot
+/// correct percentages, coefficients in 1/cm, and multiples of a power. Another quantity than the needed one
+/// is accepted.
+[[nodiscard]] std::optional<std::string> factor_unit_fault(std::string_view name, std::string_view unit,
                                                            CurveUnit needed, std::string_view remedy = {});
 
-/// What is to be said of a table called `name` whose unit says that it is relative, in counts or in percent,
-/// where a radiance, an intensity, an irradiance or a flux is needed.
+/// Warning for the table `name` if a radiance, intensity, irradiance or flux is needed but its unit is
+/// relative, counts or percent; otherwise nothing.
 [[nodiscard]] std::optional<std::string> relative_power(std::string_view name, std::string_view unit,
                                                         CurveUnit needed);
 
-/// Whether the unit of a table is one of watts, as W/nm and erg/s are.
-[[nodiscard]] bool tells_power(std::string_view unit);
+/// True if the unit of a table contains watts, such as W/nm and erg/s.
+[[nodiscard]] bool declares_power(std::string_view unit);
 
-/// What is to be said of a table called `name` that is taken as a response to energy for lack of a word about
-/// it, when its unit states quantum efficiencies or a response per photon, and no energy.
-[[nodiscard]] std::optional<std::string> unsaid_response(std::string_view name, std::string_view unit);
+/// Warning for the table `name` that is read as a response to energy by default, if its unit declares quantum
+/// efficiencies or a response per photon; otherwise nothing.
+[[nodiscard]] std::optional<std::string> unknown_response(std::string_view name, std::string_view unit);
 
-/// Whether the unit and the values of a table called `name` are those of the use; reports both when not.
+/// True if the unit and the values of the table `name` satisfy `use`. Reports both if they do not.
 bool check_use(const std::string& name, const std::string& unit, const Curve& curve, const CurveUse& use,
                const SourcePosition& where, Diagnostics& diagnostics);
 
-/// Reads a curve as `load_curve` of a folder does, and reports one whose unit or values are not those of the
-/// use.
+/// Reads a curve from the folder of `use`. Reports a unit or values that `use` does not allow.
 [[nodiscard]] std::optional<NamedCurve> load_curve(const CurveUse& use, const std::string& name,
                                                    const SourcePosition& where, Diagnostics& diagnostics,
                                                    NeededRange needed = {});

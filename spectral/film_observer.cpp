@@ -21,11 +21,11 @@ Curve in_bands(const Curve& light, std::span<const double> edges_nm) {
 Chromaticity chromaticity(const Curve& light, const FilmObserver& film_observer) {
   const Chromaticity own = chromaticity(light, film_observer.observer);
   if (film_observer.band_edges_nm.empty()) return own;
-  // The observer tables end at 830 nm. Beyond visible light they give near infrared the colour of deep red,
-  // at a millionth of its luminance: no colour to show a picture in.
-  const Curve shown = in_bands(light, film_observer.band_edges_nm);
-  const bool is_visible = shown.integral(kVisibleRange.low_nm, kVisibleRange.high_nm) > 0;
-  return is_visible ? chromaticity(shown, film_observer.observer) : own;
+  // The observer tables end at 830 nm. In near infrared they give the colour of deep red at a millionth of
+  // its luminance, which is unusable for display.
+  const Curve banded = in_bands(light, film_observer.band_edges_nm);
+  const bool is_visible = banded.integral(kVisibleRange.low_nm, kVisibleRange.high_nm) > 0;
+  return is_visible ? chromaticity(banded, film_observer.observer) : own;
 }
 
 }  // namespace abbe

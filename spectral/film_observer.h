@@ -7,18 +7,19 @@
 
 namespace abbe {
 
-/// Who sees the colours of a film.
+/// Observer for the colours of a film.
 struct FilmObserver {
   Observer observer = Observer::cie1931;
-  /// Ends of the bands that a spectral image has of light, ascending [nm]; without any, light itself is seen.
+  /// Edges of the bands of a spectral image, ascending [nm]. If empty, the observer receives the light
+  /// itself.
   std::vector<double> band_edges_nm = {};
 };
 
-/// A light of which an image has bands alone: its mean over each, and nothing beyond.
+/// Light as the bands of an image represent it: its mean over each band, and 0 outside them.
 [[nodiscard]] Curve in_bands(const Curve& light, std::span<const double> edges_nm);
 
-/// Chromaticity of a light in the bands of the image, or of the light itself if the bands hold none of it
-/// within `kVisibleRange`; not finite for a light that the observer does not see.
+/// Chromaticity of a light in the bands of the image. It is that of the light itself if the bands contain
+/// none of it within `kVisibleRange`. Not finite if the observer's response to the light is zero.
 [[nodiscard]] Chromaticity chromaticity(const Curve& light, const FilmObserver& film_observer);
 
 }  // namespace abbe

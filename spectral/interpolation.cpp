@@ -15,21 +15,22 @@ namespace {
 constexpr std::size_t kCubicNodes = 4;
 constexpr std::size_t kSpragueNodes = 6;
 
-/// Value k of those that `sprague` interpolates, of which -2, -1, n and n + 1 lie beyond the ends.
+/// Value k of the sequence that `sprague` interpolates. Values -2, -1, n and n + 1 extrapolate it past the
+/// ends.
 double extended(std::span<const double> values, std::ptrdiff_t k) {
   constexpr double kDivisor = 209;
-  constexpr std::array<std::array<double, kSpragueNodes>, 2> kBeyond{
+  constexpr std::array<std::array<double, kSpragueNodes>, 2> kExtrapolation{
       {{508, -540, 488, -367, 144, -24}, {884, -1960, 3033, -2648, 1080, -180}}};
   const std::ptrdiff_t last = std::ssize(values) - 1;
   if (k >= 0 && k <= last) return values[static_cast<std::size_t>(k)];
-  const auto& weights = kBeyond.at(static_cast<std::size_t>(k < 0 ? -k - 1 : k - last - 1));
+  const auto& weights = kExtrapolation.at(static_cast<std::size_t>(k < 0 ? -k - 1 : k - last - 1));
   double value = 0;
   for (std::size_t i = 0; i < kSpragueNodes; ++i)
     value += weights[i] * (k < 0 ? values[i] : values[values.size() - 1 - i]);
   return value / kDivisor;
 }
 
-/// Value, slope and curvature at the middle of five evenly spaced values of the quartic through them
+/// Value, slope and curvature at the central one of five evenly spaced values, of the quartic through them
 /// [Abramowitz1964, table 25.2].
 struct Osculation {
   double value;
@@ -70,8 +71,8 @@ double sprague(std::span<const double> values, double position) {
   const double t = position - static_cast<double>(k);
   const Osculation a = osculation(values, k);
   const Osculation b = osculation(values, k + 1);
-  // p(t) = y0 + y0' t + y0''/2 t^2 + c3 t^3 + c4 t^4 + c5 t^5, where c3 to c5 make up at t = 1 for what the
-  // quadratic lacks in value, slope and curvature.
+  // p(t) = y0 + y0' t + y0''/2 t^2 + c3 t^3 + c4 t^4 + c5 t^5, where c3 to c5 correct value, slope and
+  // curvature of the quadratic at t = 1.
   const double value = b.value - (a.value + a.slope + a.curvature / 2);
   const double slope = b.slope - (a.slope + a.curvature);
   const double curvature = b.curvature - a.curvature;

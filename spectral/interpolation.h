@@ -8,7 +8,7 @@
 
 namespace abbe {
 
-/// How a table is read between its samples: by straight lines, by `sprague`, by `cubic`.
+/// Interpolation between the samples of a table: piecewise linear, `sprague` or `cubic`.
 enum class Interpolation { linear, sprague, cubic };
 
 /// A function known at some wavelengths.
@@ -17,39 +17,39 @@ struct Samples {
   std::vector<double> values;          ///< One for each wavelength.
 };
 
-/// The weights w_i with which the values at `nodes` give that at x of the polynomial through them,
-/// w_i = prod_{j != i} (x - x_j)/(x_i - x_j) [Abramowitz1964, eq. 25.2.2]. The nodes differ from each other.
+/// Weights w_i of the values at `nodes` for the value of their interpolating polynomial at x: w_i = prod_{j
+/// != i} (x - x_j)/(x_i - x_j) [Abramowitz1964, eq. 25.2.2]. The nodes must be distinct.
 [[nodiscard]] std::vector<double> lagrange_weights(std::span<const double> nodes, double x);
 
-/// Lagrange's interpolation by the cubic through the four samples around a wavelength, the nearest four in
-/// the first and last interval: exact for polynomials of degree 3, on any wavelengths [Abramowitz1964,
-/// sec. 25.2]. Needs four samples or more, and a wavelength within theirs.
+/// Lagrange interpolation by the cubic through the four samples around a wavelength [Abramowitz1964, sec.
+/// 25.2]. The first and last interval use the nearest four. Exact for polynomials of degree 3 on any
+/// wavelengths. Requires at least four samples, and a wavelength within their range.
 [[nodiscard]] double cubic(const Samples& samples, double wavelength_nm);
 
-/// Sprague's interpolation of six evenly spaced values or more, `position` counting steps from the first: in
-/// each interval the polynomial of degree 5 that at both ends has the value, slope and curvature of the
-/// quartic through the five values around, hence smooth to the second derivative and exact for polynomials of
-/// degree 4. Two values are added beyond each end [CIE167, sec. 9.2.4, table V]; these are exact
-/// for straight lines alone, so the two intervals at each end are too.
+/// Sprague interpolation of at least six evenly spaced values [CIE167, sec. 9.2.4, table V]. `position`
+/// counts steps from the first value. In each interval, a polynomial of degree 5 matches the value, slope and
+/// curvature at both ends of the quartic through the five values around. The result is smooth to the second
+/// derivative and exact for polynomials of degree 4. Two values are extrapolated past each end. They are
+/// exact only for straight lines, and so are the two intervals at each end.
 [[nodiscard]] double sprague(std::span<const double> values, double position);
 
-/// A sample that a rule of interpolation cannot take, and why.
+/// A sample that an interpolation rule does not accept, and the reason.
 struct SampleFault {
   std::size_t row;
   std::string text;
 };
 
-/// The first sample that is not as far from the one before as that is from its own predecessor, to 1e-6 of a
-/// step.
+/// The first sample whose step differs from the step before it by more than 1e-6 of a step, or nothing.
 [[nodiscard]] std::optional<SampleFault> step_fault(std::span<const double> wavelengths_nm);
 
-/// Why wavelengths cannot be interpolated that way: too few of them, or steps that are not even.
+/// Explains why a rule cannot interpolate at these wavelengths: too few samples or uneven steps. Nothing if
+/// it can.
 [[nodiscard]] std::optional<SampleFault> interpolation_fault(std::span<const double> wavelengths_nm,
                                                              Interpolation rule);
 
-/// The function through the samples, sampled so finely that straight lines represent it: at the samples and
-/// at each whole nanometre of [300, 1100] between them. What overshoots [low, high] is cut there. Linear
-/// samples are left as they are.
+/// Function through the samples, resampled so that linear interpolation represents it: at the samples and at
+/// every whole nanometre of [300, 1100] between them. Overshoot is clamped to [low, high]. Linear samples are
+/// returned unchanged.
 [[nodiscard]] Samples every_nanometre(Samples samples, Interpolation rule, double low, double high);
 
 }  // namespace abbe

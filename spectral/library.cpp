@@ -27,7 +27,7 @@ TableOrigin origin(const std::filesystem::path& path) {
   return inside ? TableOrigin::shipped : TableOrigin::user;
 }
 
-/// The wavelengths of a table [nm], strictly ascending.
+/// Wavelengths of a table [nm], strictly ascending.
 std::optional<std::vector<double>> wavelengths(const Table& table, Diagnostics& diagnostics) {
   const auto nm = table.column("wavelength_nm");
   const auto um = table.column("wavelength_um");
@@ -92,24 +92,24 @@ std::optional<Samples> samples_of(const Table& table, const std::string& column,
   return Samples{*std::move(nm), *std::move(values)};
 }
 
-/// A line `# key: value` of a table, with its place.
+/// A line `# key: value` of a table, with its position in the file.
 struct KeyLine {
   std::string value;
   SourcePosition where;
 };
 std::optional<KeyLine> key_line(const Table& table, const std::string& key) {
-  const auto found = table.keys.find(key);
-  if (found == table.keys.end()) return std::nullopt;
+  const auto entry = table.keys.find(key);
+  if (entry == table.keys.end()) return std::nullopt;
   std::size_t offset = 0;
   for (const std::string& line : split(table.where.source->text, '\n')) {
     if (line.starts_with('#') && line.find(':') < line.npos && split(line.substr(1), ':').front() == key)
       break;
     offset = table.where.source->text.find('\n', offset) + 1;
   }
-  return KeyLine{found->second, {table.where.source, offset, ""}};
+  return KeyLine{entry->second, {table.where.source, offset, ""}};
 }
 
-// A key that is nearly one that says how the table is read would be taken for a remark.
+// Reports a misspelt governing key, which would otherwise be ignored like a remark.
 bool check_keys(const Table& table, Diagnostics& diagnostics) {
   const std::vector<std::string>& known = governing_keys();
   for (const auto& [key, value] : table.keys) {
@@ -144,7 +144,7 @@ std::optional<Interpolation> interpolation_of(const Table& table, std::span<cons
   return std::nullopt;
 }
 
-/// The values that a table's quantity can have, which are those of all its samples.
+/// Range of the quantity of a table. All samples must lie in it.
 std::optional<Range> value_range(const Table& table, std::span<const double> values,
                                  Diagnostics& diagnostics) {
   const auto line = key_line(table, "value_range");
@@ -160,12 +160,12 @@ std::optional<Range> value_range(const Table& table, std::span<const double> val
     return std::nullopt;
   }
   const Range range{*ends[0], *ends[1]};
-  const auto beyond =
+  const auto out_of_range =
       std::find_if(values.begin(), values.end(), [&](double v) { return !range.contains(v); });
-  if (beyond == values.end()) return range;
+  if (out_of_range == values.end()) return range;
   diagnostics.error(
-      table.position(static_cast<std::size_t>(beyond - values.begin())),
-      fmt::format("value outside the declared range (got {}, allowed {})", *beyond, range.text()),
+      table.position(static_cast<std::size_t>(out_of_range - values.begin())),
+      fmt::format("value outside the declared range (got {}, allowed {})", *out_of_range, range.text()),
       ErrorCode::input);
   return std::nullopt;
 }
@@ -174,18 +174,18 @@ bool covers(const NamedCurve& curve, const NeededRange& needed) {
   return curve.low_nm <= needed.low_nm && curve.high_nm >= needed.high_nm;
 }
 
-/// A table of a folder with the name of one of its columns.
+/// A table of a folder, and the name of one of its columns.
 struct NamedColumn {
   Table table;
   std::string column;
 };
 std::optional<NamedColumn> read_named(std::string_view folder, const std::string& name,
                                       const SourcePosition& where, Diagnostics& diagnostics) {
-  const auto found = find_table(folder, name, where, diagnostics);
-  if (!found) return std::nullopt;
-  auto table = read_table(found->path, origin(found->path), diagnostics);
+  const auto location = find_table(folder, name, where, diagnostics);
+  if (!location) return std::nullopt;
+  auto table = read_table(location->path, origin(location->path), diagnostics);
   if (!table) return std::nullopt;
-  return NamedColumn{*std::move(table), found->column};
+  return NamedColumn{*std::move(table), location->column};
 }
 
 /// S = 100 (560/l)^5 (exp(c2/560) - 1)/(exp(c2/l) - 1), c2 = 1.435e7/2848 nm [CIE15, sec. 3.1].
@@ -207,9 +207,9 @@ void extend_a(NamedCurve& a) {
   a.high_nm = kMaxWavelengthNm;
 }
 
-// Illuminant E is of even power at all wavelengths.
+// Illuminant E has equal power at all wavelengths.
 void extend_e(NamedCurve& e) {
-  e.curve = held_beyond(e);
+  e.curve = extrapolated(e);
   e.low_nm = kMinWavelengthNm;
   e.high_nm = kMaxWavelengthNm;
 }
@@ -219,8 +219,8 @@ void extend_by_definition(std::string_view name, NamedCurve& illuminant) {
   if (name == "E" || name == "cie_E" || name == "cie_E:E") extend_e(illuminant);
 }
 
-/// The temperature of "family:<K>" if `name` is of that family; reports one that is not in [low, high] and
-/// gives 0.
+/// Temperature of "family:<K>" if `name` is of that family. Reports a temperature outside [low, high] and
+/// returns 0.
 std::optional<double> temperature(std::string_view name, std::string_view family, double low, double high,
                                   const SourcePosition& where, Diagnostics& diagnostics) {
   if (!name.starts_with(family) || name.substr(family.size(), 1) != ":") return std::nullopt;
@@ -281,8 +281,8 @@ std::optional<NamedCurve> curve_of(const Table& table, const std::string& column
   if (table.outside == Outside::error && !covers(result, needed)) {
     diagnostics.error(
         table.where,
-        fmt::format("covers {} to {} nm, but {} to {} nm are needed (a line \"# outside: clamp\" or "
-                    "\"# outside: zero\" says what holds there)",
+        fmt::format("covers {} to {} nm, but {} to {} nm are needed (add a line \"# outside: clamp\" or "
+                    "\"# outside: zero\" to extrapolate)",
                     result.low_nm, result.high_nm, needed.low_nm, needed.high_nm),
         ErrorCode::input);
     return std::nullopt;

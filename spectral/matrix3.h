@@ -12,7 +12,7 @@ namespace abbe {
 /// A 3x3 colour matrix acting on column vectors: y_i = sum_j m[i][j] x_j. Products and inverses are Imath's.
 using Matrix3 = Imath::M33d;
 
-/// The product of a colour matrix and a column vector.
+/// Product of a colour matrix and a column vector.
 [[nodiscard]] inline std::array<double, 3> multiply(const Matrix3& m, const std::array<double, 3>& x) {
   std::array<double, 3> y{};
   for (int i = 0; i < 3; ++i)
@@ -20,15 +20,15 @@ using Matrix3 = Imath::M33d;
   return y;
 }
 
-/// The elements of the matrix row by row, as the attributes of films hold them.
+/// Elements of the matrix row by row, in the format of film attributes.
 [[nodiscard]] std::string to_text(const Matrix3& m);
-/// Reads that; nothing unless `text` is nine numbers with a blank between them.
+/// Parses the text of `to_text`. Nothing unless `text` is nine numbers separated by single blanks.
 [[nodiscard]] std::optional<Matrix3> parse_matrix3(std::string_view text);
 
-/// Whether the matrix has an inverse whose elements are finite.
+/// True if the matrix has an inverse with finite elements.
 [[nodiscard]] bool is_invertible(const Matrix3& m);
 
-/// The matrix with `d` on its diagonal.
+/// Diagonal matrix with the elements `d`.
 [[nodiscard]] inline Matrix3 diagonal(const std::array<double, 3>& d) {
   return {d[0], 0, 0, 0, d[1], 0, 0, 0, d[2]};
 }

@@ -24,28 +24,28 @@ namespace abbe {
 namespace {
 
 constexpr SumRange kSums;
-constexpr SumRange kVaries = kVisibleRange;  // constant beyond
+constexpr SumRange kVaries = kVisibleRange;  // constant outside
 constexpr std::size_t kCount = static_cast<std::size_t>(kSums.high_nm - kSums.low_nm) + 1;
 constexpr Eigen::Index kUnknowns = 6;
 
-// The share of each primary in a unit of power per nanometre, reflected by the perfect diffuser under D65.
+// Rec.709 components of each unit of power per nanometre that the perfect diffuser reflects under D65.
 std::array<LinearRgb, kCount> make_weights() {
   Diagnostics diagnostics;
   const auto d65 = load_illuminant("D65", {}, diagnostics);
   if (!d65) throw Error(ErrorCode::input, "illuminant D65", diagnostics.text());
   const ColorMatching& match = color_matching(Observer::cie1931);
-  Eigen::Matrix3d primaries;  // a column each
+  Eigen::Matrix3d primaries;  // one column each
   for (std::size_t c = 0; c < 3; ++c) {
     const auto& [x, y] = kRec709Primaries.at(c);
     primaries.col(static_cast<Eigen::Index>(c)) << x, y, 1 - x - y;
   }
-  const Eigen::PartialPivLU<Eigen::Matrix3d> shares(primaries);
+  const Eigen::PartialPivLU<Eigen::Matrix3d> lu(primaries);
   std::array<LinearRgb, kCount> weights{};
   LinearRgb white{};
   for (std::size_t i = 0; i < kCount; ++i) {
     const double nm = kSums.low_nm + static_cast<double>(i);
     const double power = d65->curve(nm);
-    const Eigen::Vector3d at = shares.solve(power * Eigen::Vector3d(match.x(nm), match.y(nm), match.z(nm)));
+    const Eigen::Vector3d at = lu.solve(power * Eigen::Vector3d(match.x(nm), match.y(nm), match.z(nm)));
     weights[i] = {at[0], at[1], at[2]};
     for (std::size_t c = 0; c < 3; ++c) white[c] += weights[i][c];
   }
@@ -59,21 +59,22 @@ const std::array<LinearRgb, kCount>& weights() {
   return kWeights;
 }
 
-// Red, green and blue at a wavelength: exp(p), 1 and exp(q) over their sum, p and q quadratics in wavelength.
+// Red, green and blue basis at a wavelength: exp(p), 1 and exp(q) over their sum, with p and q quadratic in
+// wavelength.
 LinearRgb basis_at(const Eigen::VectorXd& u, int nm) {
   const double x = 2.0 * (std::clamp(nm, kVaries.low_nm, kVaries.high_nm) - kVaries.low_nm) /
                        (kVaries.high_nm - kVaries.low_nm) -
                    1;
   const double p = u[0] + x * (u[1] + x * u[2]);
   const double q = u[3] + x * (u[4] + x * u[5]);
-  const double most = std::max({p, q, 0.0});
-  const LinearRgb e{std::exp(p - most), std::exp(-most), std::exp(q - most)};
+  const double largest = std::max({p, q, 0.0});
+  const LinearRgb e{std::exp(p - largest), std::exp(-largest), std::exp(q - largest)};
   const double total = e[0] + e[1] + e[2];
   return {e[0] / total, e[1] / total, e[2] / total};
 }
 
-// The conditions on the coefficients u: the colours of red and blue less what they should be; green follows,
-// since all three add up to white.
+// Residuals of the coefficients u: the colours of the red and blue basis minus their targets. Green needs no
+// condition, since all three add up to white.
 struct Conditions {
   using Scalar = double;
   using InputType = Eigen::VectorXd;
@@ -96,7 +97,7 @@ struct Conditions {
   }
 };
 
-// Six conditions on six unknowns, met as closely as doubles can.
+// Solves six conditions for six unknowns to double precision.
 Eigen::VectorXd fit() {
   constexpr double kDone = 1e-12;
   Eigen::VectorXd u(kUnknowns);
@@ -119,20 +120,20 @@ RgbBasis make_basis() {
   return {Curve(std::move(knots[0])), Curve(std::move(knots[1])), Curve(std::move(knots[2]))};
 }
 
-// The primaries of Rec.709 as ICC profiles of sRGB have them, adapted by Bradford's transform to the white
-// D50 to which profiles relate all colours [ICC].
+// Primaries of Rec.709 in ICC profiles of sRGB, adapted by Bradford's transform to D50, the white of all
+// profiles [ICC].
 constexpr RgbSpace kRec709InProfiles{{0.6484, 0.3309}, {0.3212, 0.5979}, {0.1559, 0.0660}, {0.3457, 0.3585}};
 
-// Whether an image tells the primaries of a space, to two digits, or none.
-bool is_of(const RgbSpace& space, const Image& image) {
+// True if an image records the primaries of `space` to two digits, or records none.
+bool records_primaries_of(const RgbSpace& space, const Image& image) {
   constexpr double kRounding = 5e-3;
   const auto near = [](const Chromaticity& a, const Chromaticity& b) {
     return std::abs(a[0] - b[0]) < kRounding && std::abs(a[1] - b[1]) < kRounding;
   };
   if (!image.metadata.contains(kPrimariesKey)) return true;
-  const auto told = recorded_primaries(image);
-  return told && near(told->red, space.red) && near(told->green, space.green) &&
-         near(told->blue, space.blue) && near(told->white, space.white);
+  const auto recorded = recorded_primaries(image);
+  return recorded && near(recorded->red, space.red) && near(recorded->green, space.green) &&
+         near(recorded->blue, space.blue) && near(recorded->white, space.white);
 }
 
 }  // namespace
@@ -142,10 +143,10 @@ XYZ unit_xyz(const Chromaticity& xy) {
 }
 
 std::optional<RgbSpace> recorded_primaries(const Image& image) {
-  const auto told = image.metadata.find(kPrimariesKey);
-  if (told == image.metadata.end()) return std::nullopt;
+  const auto recorded = image.metadata.find(kPrimariesKey);
+  if (recorded == image.metadata.end()) return std::nullopt;
   std::array<Chromaticity, 4> xy{};
-  const std::vector<std::string> words = split(told->second, ' ');
+  const std::vector<std::string> words = split(recorded->second, ' ');
   if (words.size() != 2 * xy.size()) return std::nullopt;
   for (std::size_t i = 0; i < words.size(); ++i) {
     const auto number = parse_number(words[i]);
@@ -165,7 +166,8 @@ std::optional<std::string> rec709_fault(const Image& image) {
   const auto profile = image.metadata.find(kProfileKey);
   const bool is_profiled = profile != image.metadata.end();
   const bool is_encoded = recorded_encoding(image).has_value();
-  if (is_encoded && is_of(is_profiled ? kRec709InProfiles : kRec709, image)) return std::nullopt;
+  if (is_encoded && records_primaries_of(is_profiled ? kRec709InProfiles : kRec709, image))
+    return std::nullopt;
   if (is_profiled)
     return "its colours are those of the profile \"" + profile->second + "\" (" +
            (is_encoded ? "" : "got " + image.metadata.at(kColorSpace) + ", ") +
@@ -178,7 +180,7 @@ std::optional<std::string> rec709_fault(const Image& image) {
 }
 
 Matrix3 rgb_to_xyz(const RgbSpace& space) {
-  // Columns proportional to the primaries, scaled so that they add up to the white.
+  // The columns are proportional to the primaries, scaled so that they add up to the white.
   const auto z = [](const Chromaticity& c) { return 1 - c[0] - c[1]; };
   const auto& [r, g, b, white] = space;
   const Matrix3 primaries(r[0], g[0], b[0], r[1], g[1], b[1], z(r), z(g), z(b));
@@ -204,11 +206,11 @@ double Encoding::decoded(double value) const {
 }
 
 std::optional<Encoding> recorded_encoding(const Image& image) {
-  const auto told = image.metadata.find(kColorSpace);
-  if (told == image.metadata.end() || told->second == "sRGB") return Encoding{};
-  if (told->second == kLinear) return kLinearEncoding;
-  if (!told->second.starts_with(kGamma)) return std::nullopt;
-  const auto gamma = parse_number(told->second.substr(std::string_view(kGamma).size()));
+  const auto recorded = image.metadata.find(kColorSpace);
+  if (recorded == image.metadata.end() || recorded->second == "sRGB") return Encoding{};
+  if (recorded->second == kLinear) return kLinearEncoding;
+  if (!recorded->second.starts_with(kGamma)) return std::nullopt;
+  const auto gamma = parse_number(recorded->second.substr(std::string_view(kGamma).size()));
   if (!gamma || !(*gamma > 0)) return std::nullopt;
   return Encoding{gamma};
 }
@@ -225,7 +227,7 @@ Curve rgb_spectrum(const LinearRgb& rgb) {
   const Curve mixture =
       sum(sum(scaled(basis.red, rgb[0]), scaled(basis.green, rgb[1])), scaled(basis.blue, rgb[2]));
   std::vector<Knot> knots(mixture.knots().begin(), mixture.knots().end());
-  for (Knot& knot : knots) knot.value = std::clamp(knot.value, *low, *high);  // rounding
+  for (Knot& knot : knots) knot.value = std::clamp(knot.value, *low, *high);  // removes rounding errors
   return Curve(std::move(knots));
 }
 

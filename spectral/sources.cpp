@@ -57,7 +57,7 @@ Curve daylight(double cct_K) {
                                  : ((-2.0064 * t + 1.9018) * t + 0.24748) * t + 0.237040;
   const double y = (-3.000 * x + 2.870) * x - 0.275;
   const double m = 0.0241 + 0.2562 * x - 0.7341 * y;
-  // The CIE rounds both factors to three decimals, and so do its tables.
+  // The CIE rounds both factors to three decimals, and its tables are computed that way.
   const double m1 = rounded((-1.3515 - 1.7703 * x + 5.9114 * y) / m, 1e3);
   const double m2 = rounded((0.0300 - 31.4424 * x + 30.0717 * y) / m, 1e3);
   const DaylightComponents& s = daylight_components();
@@ -71,14 +71,14 @@ Curve band(double low_nm, double high_nm, double value) {
 
 Curve gaussian(double center_nm, double fwhm_nm, double peak) {
   if (!(fwhm_nm > 0)) throw Error(ErrorCode::internal, "gaussian", "needs a positive width");
-  // 64 steps per width keep the interpolation within 2e-4 of the peak; beyond 3.5 widths it is below 1e-14 of
-  // it.
+  // 64 steps per width limit the interpolation error to 2e-4 of the peak. At 3.5 widths the value is below
+  // 1e-14 of it.
   constexpr int kStepsPerWidth = 64;
-  constexpr int kReach = kStepsPerWidth * 7 / 2;
+  constexpr int kHalfSteps = kStepsPerWidth * 7 / 2;
   std::vector<Knot> knots;
-  for (int i = -kReach; i <= kReach; ++i) {
+  for (int i = -kHalfSteps; i <= kHalfSteps; ++i) {
     const double x = static_cast<double>(i) / kStepsPerWidth;
-    const bool end = std::abs(i) == kReach;
+    const bool end = std::abs(i) == kHalfSteps;
     knots.push_back({center_nm + x * fwhm_nm, end ? 0 : peak * std::exp(-4 * std::log(2.0) * x * x)});
   }
   return Curve(std::move(knots));

@@ -1,11 +1,11 @@
 #pragma once
 
-#include "spectral/packet.h"
+#include "spectral/sampled_spectrum.h"
 
 namespace abbe {
 
-/// A Stokes vector (I, Q, U, V) at each lane, or the row of weights with which something measures one. It is
-/// told in a frame across the light's way: `docs/physics/conventions.md` says what the signs mean.
+/// Stokes vector (I, Q, U, V) of each wavelength, or the row of weights of an analyser. Its reference frame
+/// lies across the direction of the light. `docs/physics/conventions.md` defines the signs.
 struct StokesSpectrum {
   SampledSpectrum i{};
   SampledSpectrum q{};
@@ -29,13 +29,13 @@ struct StokesSpectrum {
   friend StokesSpectrum operator*(StokesSpectrum a, const SampledSpectrum& s) { return a *= s; }
 };
 
-/// What a row measures of a vector, both told in one frame.
+/// Product of an analyser's row and a Stokes vector in the same frame.
 [[nodiscard]] inline SampledSpectrum measured(const StokesSpectrum& row, const StokesSpectrum& vector) {
   return row.i * vector.i + row.q * vector.q + row.u * vector.u + row.v * vector.v;
 }
 
-/// The same vector, or row, told in a frame turned by an angle about the light's direction, right-handed; of
-/// twice that angle the cosine and the sine. [Born1999, sec. 10.9]
+/// Stokes vector or row in a frame turned by an angle about the direction of the light, right-handed
+/// [Born1999, sec. 10.9]. The arguments are cosine and sine of twice that angle.
 [[nodiscard]] inline StokesSpectrum turned(const StokesSpectrum& s, float cos_twice, float sin_twice) {
   return {s.i, s.q * cos_twice + s.u * sin_twice, s.u * cos_twice - s.q * sin_twice, s.v};
 }

@@ -15,8 +15,8 @@
 namespace abbe {
 namespace {
 
-constexpr int kMaxExponent = 99;  // of what is a unit at all
-constexpr int kMaxDepth = 8;      // of parentheses
+constexpr int kMaxExponent = 99;  // largest exponent of a unit
+constexpr int kMaxDepth = 8;      // of nested parentheses
 
 struct Symbol {
   std::string_view name;
@@ -31,7 +31,7 @@ constexpr Unit::Exponents power(Unit::Base base, int exponent = 1) {
 constexpr Unit::Exponents kJoule{1, 1};
 constexpr Unit::Exponents kJansky{1, 0, -1, -2};
 
-// Of moles no rule asks how many photons they are.
+// No rule depends on the number of photons in a mole.
 constexpr std::array<Symbol, 20> kSymbols{{{"W", power(Unit::watt)},
                                            {"J", kJoule},
                                            {"s", power(Unit::second)},
@@ -52,7 +52,7 @@ constexpr std::array<Symbol, 20> kSymbols{{{"W", power(Unit::watt)},
                                            {"lm", power(Unit::lumen)},
                                            {"lx", power(Unit::lumen)},
                                            {"cd", power(Unit::lumen)}}};
-// Of any letters' case, and with an s behind them.
+// Names in upper or lower case, with an optional plural s.
 constexpr std::array<Symbol, 21> kNames{{{"watt", power(Unit::watt)},
                                          {"joule", kJoule},
                                          {"erg", kJoule, -7},
@@ -91,9 +91,9 @@ bool is_letter(char c) {
 }
 
 std::optional<Symbol> listed(std::span<const Symbol> symbols, std::string_view name) {
-  const auto found = std::find_if(symbols.begin(), symbols.end(),
+  const auto entry = std::find_if(symbols.begin(), symbols.end(),
                                   [name](const Symbol& symbol) { return symbol.name == name; });
-  return found == symbols.end() ? std::nullopt : std::optional(*found);
+  return entry == symbols.end() ? std::nullopt : std::optional(*entry);
 }
 std::optional<Symbol> prefixed(std::span<const Prefix> prefixes, std::span<const Symbol> symbols,
                                std::string_view name) {
@@ -118,12 +118,12 @@ std::optional<Symbol> symbol_of(std::string_view word) {
   return std::nullopt;
 }
 
-/// A symbol and how much of a word it is.
+/// A symbol, and the number of letters that it takes of a word.
 struct FirstSymbol {
   Symbol symbol;
   std::size_t length;
 };
-// "Wm-2" has two of them in a word.
+// "Wm-2" contains two symbols in one word.
 std::optional<FirstSymbol> first_symbol(std::string_view word) {
   if (const auto all = symbol_of(word)) return FirstSymbol{*all, word.size()};
   const std::size_t watts = word.find('W') + 1;
@@ -132,28 +132,29 @@ std::optional<FirstSymbol> first_symbol(std::string_view word) {
   return FirstSymbol{*first, watts};
 }
 
-/// A symbol or a number of a product, with the exponent that it was written with and the one that it has.
+/// A symbol or a number of a product, with the exponent as written and the signed exponent that applies.
 struct Factor {
   Symbol symbol;
   int written = 1;
   int exponent = 1;
 };
 
-/// Passes over a product from its beginning to where it is none any more.
-class UnitReader {
+/// Recursive-descent parser of a product of units at the beginning of a text.
+class UnitParser {
  public:
-  explicit UnitReader(std::string_view text) : text_(text) {}
+  explicit UnitParser(std::string_view text) : text_(text) {}
 
   [[nodiscard]] std::optional<Unit> read() {
     if (!product(0)) return std::nullopt;
     Unit unit = multiplied();
-    unit.unread = is_of_light(unit) && goes_on();
-    return says_something(unit) && (unit.unread || ends(unit)) ? std::optional(unit) : std::nullopt;
+    unit.has_unknown_factor = is_of_light(unit) && continues();
+    return is_meaningful(unit) && (unit.has_unknown_factor || is_at_end(unit)) ? std::optional(unit)
+                                                                               : std::nullopt;
   }
 
  private:
   [[nodiscard]] std::string_view rest() const { return text_.substr(at_); }
-  bool passes(std::string_view sign) {
+  bool accept(std::string_view sign) {
     const bool is_there = rest().starts_with(sign);
     if (is_there) at_ += sign.size();
     return is_there;
@@ -163,30 +164,30 @@ class UnitReader {
     return all.substr(
         0, static_cast<std::size_t>(std::find_if_not(all.begin(), all.end(), is_letter) - all.begin()));
   }
-  bool passes_word(std::string_view expected) { return word() == expected && passes(expected); }
-  bool passes_hyphen() { return rest().size() > 1 && is_letter(rest()[1]) && passes("-"); }
+  bool accept_word(std::string_view expected) { return word() == expected && accept(expected); }
+  bool accept_hyphen() { return rest().size() > 1 && is_letter(rest()[1]) && accept("-"); }
 
-  // Passes what stands between factors, and tells whether it divides.
-  bool passes_join() {
+  // Accepts the separators between factors. Returns true if they divide.
+  bool accept_separators() {
     bool divides = false;
     for (bool more = true; more;) {
-      const bool over = passes("/") || passes_word("per");
+      const bool over = accept("/") || accept_word("per");
       divides = divides || over;
-      more = over || passes(" ") || passes("*") || passes(".") || passes(",") || passes_hyphen() ||
-             passes_word("and");
+      more = over || accept(" ") || accept("*") || accept(".") || accept(",") || accept_hyphen() ||
+             accept_word("and");
     }
     return divides;
   }
 
   std::optional<int> written_exponent() {
     const std::size_t before = at_;
-    const bool marked = passes("**") || passes("^");
-    const bool enclosed = passes("{") || (marked && passes("("));
+    const bool marked = accept("**") || accept("^");
+    const bool enclosed = accept("{") || (marked && accept("("));
     int exponent = 0;
     const auto [end, fault] = std::from_chars(rest().data(), text_.data() + text_.size(), exponent);
     if (fault == std::errc() && std::abs(exponent) <= kMaxExponent) {
       at_ = static_cast<std::size_t>(end - text_.data());
-      if (!enclosed || passes("}") || passes(")")) return exponent;
+      if (!enclosed || accept("}") || accept(")")) return exponent;
     }
     at_ = before;
     return std::nullopt;
@@ -204,45 +205,46 @@ class UnitReader {
     return true;
   }
 
-  // Behind a sign of division all is divided by, but for what has a negative exponent and is not next to it.
+  // A division sign applies to all that follows, except for factors with a negative exponent that are not
+  // next to it.
   [[nodiscard]] static int signed_exponent(int written, bool divides, bool divided) {
     return divides || (divided && written > 0) ? -written : written;
   }
 
   bool symbol(bool divides, bool divided) {
-    const bool squared = passes_word("square") || passes_word("sq");
-    while (squared && (passes(" ") || passes("."))) continue;
-    const auto found = first_symbol(word());
-    if (!found) return false;
-    at_ += found->length;
+    const bool squared = accept_word("square") || accept_word("sq");
+    while (squared && (accept(" ") || accept("."))) continue;
+    const auto symbol_found = first_symbol(word());
+    if (!symbol_found) return false;
+    at_ += symbol_found->length;
     const int written = written_exponent().value_or(1) * (squared ? 2 : 1);
-    factors_.push_back({found->symbol, written, signed_exponent(written, divides, divided)});
+    factors_.push_back({symbol_found->symbol, written, signed_exponent(written, divides, divided)});
     return true;
   }
 
   bool group(bool divides, bool divided, int depth) {
     const std::size_t first = factors_.size();
-    if (depth == kMaxDepth || !passes("(") || !product(depth + 1) || !passes(")")) return false;
+    if (depth == kMaxDepth || !accept("(") || !product(depth + 1) || !accept(")")) return false;
     const int exponent = signed_exponent(written_exponent().value_or(1), divides, divided);
     for (std::size_t i = first; i < factors_.size(); ++i)
       factors_[i].exponent = std::clamp(factors_[i].exponent * exponent, -kMaxExponent, kMaxExponent);
     return true;
   }
 
-  // A product of one factor or more, up to what is none.
+  // Parses a product of at least one factor, up to the first text that is no factor.
   bool product(int depth) {
     bool divided = false;
     for (bool first = true;; first = false) {
       const std::size_t before = at_;
-      const std::size_t found = factors_.size();
-      const bool divides = passes_join();
+      const std::size_t count = factors_.size();
+      const bool divides = accept_separators();
       if (((first || divides || rest().starts_with("1/")) && number(divides)) || symbol(divides, divided) ||
           group(divides, divided, depth)) {
         divided = divided || divides;
         continue;
       }
       at_ = before;
-      factors_.resize(found);
+      factors_.resize(count);
       return !first;
     }
   }
@@ -260,33 +262,33 @@ class UnitReader {
     return unit;
   }
 
-  // Symbols that are names where they stand alone say nothing: of an illuminant, of a band.
-  [[nodiscard]] static bool says_something(const Unit& unit) {
+  // True unless the unit has only symbols that are also names, such as those of illuminants and bands.
+  [[nodiscard]] static bool is_meaningful(const Unit& unit) {
     Unit::Exponents others = unit.exponents;
     others.at(Unit::ampere) = others.at(Unit::volt) = 0;
     return others != Unit::Exponents{};
   }
 
-  // What no prose begins with, which has "s/p" and "per photon/electron".
+  // True for units that no prose begins with, unlike "s/p" and "per photon/electron".
   [[nodiscard]] static bool is_of_light(const Unit& unit) {
     return unit.of(Unit::watt) != 0 || (unit.of(Unit::photon) > 0 && unit.is_compound());
   }
 
-  // Whether a sign follows that joins a factor, which is none that has been read.
-  [[nodiscard]] bool goes_on() const {
-    const std::string_view behind = rest().substr(std::min(rest().find_first_not_of(' '), rest().size()));
-    if (behind.size() < 2) return false;
-    const bool dotted = behind.front() == '.' && is_letter(behind[1]);
-    return dotted || std::string_view("/*^").find(behind.front()) != behind.npos ||
-           behind.starts_with("per ");
+  // True if a sign that joins factors follows, so that the next factor could not be parsed.
+  [[nodiscard]] bool continues() const {
+    const std::string_view following = rest().substr(std::min(rest().find_first_not_of(' '), rest().size()));
+    if (following.size() < 2) return false;
+    const bool dotted = following.front() == '.' && is_letter(following[1]);
+    return dotted || std::string_view("/*^").find(following.front()) != following.npos ||
+           following.starts_with("per ");
   }
 
-  // Whether nothing follows, or words of another kind.
-  [[nodiscard]] bool ends(const Unit& unit) const {
-    const std::string_view behind = rest();
-    if (behind.find_first_not_of(' ') == behind.npos) return true;
-    return unit.is_compound() && behind.front() == ' ' && behind.size() > 1 && is_letter(behind[1]) &&
-           !behind.starts_with(" per ");
+  // True if nothing follows, or only words.
+  [[nodiscard]] bool is_at_end(const Unit& unit) const {
+    const std::string_view following = rest();
+    if (following.find_first_not_of(' ') == following.npos) return true;
+    return unit.is_compound() && following.front() == ' ' && following.size() > 1 &&
+           is_letter(following[1]) && !following.starts_with(" per ");
   }
 
   std::string_view text_;
@@ -309,12 +311,12 @@ bool Unit::is_extent() const {
 
 bool Unit::equals(const Unit& other) const {
   constexpr double kRounding = 1e-6;
-  return !unread && !other.unread && exponents == other.exponents &&
+  return !has_unknown_factor && !other.has_unknown_factor && exponents == other.exponents &&
          std::abs(log10_factor - other.log10_factor) < kRounding;
 }
 
 std::optional<Unit> leading_unit(std::string_view text) {
-  return UnitReader(text).read();
+  return UnitParser(text).read();
 }
 
 }  // namespace abbe

@@ -7,10 +7,9 @@
 
 namespace abbe {
 
-/// A product of powers of units that spectra are told in, as mW/(m^2 sr nm) is: `10^log10_factor` times
-/// these. J, Jy and lengths of any kind are made of them. Quanta and moles, of any number, are photons, and
-/// candela, lux and nits lumens. "A" is an ampere: who writes it for an angstrom means a unit that is none of
-/// those wanted either.
+/// Product of powers of units times `10^log10_factor`, such as mW/(m^2 sr nm). J, Jy and all lengths reduce
+/// to the bases. Quanta and moles are photons, whatever their number. Candela, lux and nits are lumens. "A"
+/// is an ampere, even if the author meant an angstrom: neither is an allowed unit.
 struct Unit {
   enum Base : std::size_t {
     watt,
@@ -29,26 +28,26 @@ struct Unit {
 
   Exponents exponents{};
   double log10_factor = 0;
-  /// Whether it divides by a wavenumber, as W/(m2 cm-1) and W cm/m2 do.
+  /// True if it divides by a wavenumber, as W/(m2 cm-1) and W cm/m2 do.
   bool per_wavenumber = false;
-  /// Whether a factor follows that cannot be read, as in W/(m2 furlong): all else is of what stands before.
-  bool unread = false;
+  /// True if an unknown factor follows, as in W/(m2 furlong). All else describes the factors before it.
+  bool has_unknown_factor = false;
 
   [[nodiscard]] int of(Base base) const { return exponents[base]; }
-  /// Whether it is no symbol alone, but divides by something or has more than one base.
+  /// True if it divides or has more than one base, so that it is not a single symbol.
   [[nodiscard]] bool is_compound() const;
-  /// Whether it is a length, an area or a volume.
+  /// True if it is a length, an area or a volume.
   [[nodiscard]] bool is_extent() const;
-  /// Whether both are equal, but for roundings.
+  /// True if both are equal, except for rounding.
   [[nodiscard]] bool equals(const Unit& other) const;
 };
 
-/// The unit that a text is, or that it begins with before words of another kind where that is compound, as
-/// "mW/nm at 25 C". Symbols may be written out and have prefixes of SI, exponents stand behind "^", "**" or
-/// nothing, in braces too, and all that follows a "/" or "per" is divided by, but for what has a negative
-/// exponent of its own. One of power or photons that goes on with a sign and what is no unit is `unread`.
-/// Nothing where a text is no unit, as A and V alone are none but names. It is to be in ASCII, with "u" for
-/// micro and "^2" for a raised 2.
+/// Parses the unit that a text consists of, or a compound unit before words, as in "mW/nm at 25 C". Symbols
+/// may be names and may have SI prefixes. Exponents follow "^", "**" or nothing, optionally in braces. A "/"
+/// or "per" divides by all that follows, except for factors with a negative exponent of their own. A unit of
+/// power or photons that continues with a sign and an unknown word has `has_unknown_factor`. Nothing if the
+/// text is no unit; "A" and "V" alone are names. Requires ASCII, with "u" for micro and "^2" for a
+/// superscript 2.
 [[nodiscard]] std::optional<Unit> leading_unit(std::string_view text);
 
 }  // namespace abbe

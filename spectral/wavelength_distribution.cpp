@@ -9,18 +9,19 @@
 namespace abbe {
 namespace {
 
-/// Share spread evenly over the support: it bounds every weight where the curves given here are not all there
-/// is.
-constexpr double kUniformShare = 0.05;
+/// Fraction of the density that is uniform over the support. It bounds every weight if the given curves are
+/// incomplete.
+constexpr double kUniformFraction = 0.05;
 
-/// Places closer than this [nm] are one edge: far below the spacing of float wavelengths, far above that of
-/// doubles.
+/// Edges closer than this [nm] are merged. It is far below the spacing of float wavelengths and far above
+/// that of doubles.
 constexpr double kEdgeResolutionNm = 1e-9;
 
-/// Entries of the guide per cell: with more of them fewer cells are walked over.
+/// Entries of the guide table per cell; more entries shorten the search.
 constexpr std::size_t kGuideFineness = 4;
 
-/// Two interior points per cell; their mean integrates a product of two lines exactly (Gauss and Legendre).
+/// Cells with two interior points each, whose mean integrates a product of two lines exactly
+/// (Gauss-Legendre).
 struct Cells {
   std::vector<double> edges;
 
@@ -52,7 +53,7 @@ Cells cells_of(std::span<const Curve> emissions, std::span<const Curve> response
   return {std::move(edges)};
 }
 
-/// Scales `density` to integrate to 1 over the cells; false when it is zero everywhere.
+/// Normalises `density` to an integral of 1 over the cells. Returns false if it is zero everywhere.
 bool normalize(const Cells& cells, std::vector<double>& density) {
   double total = 0;
   for (std::size_t i = 0; i < density.size(); ++i) total += density[i] * cells.width(i);
@@ -67,8 +68,8 @@ bool same_shape(const std::vector<double>& a, const std::vector<double>& b) {
                     [](double x, double y) { return std::abs(x - y) <= kTolerance * std::max(x, y); });
 }
 
-/// The normalised densities |emission x response| of every (light, channel) pair, equal ones once: a hundred
-/// lamps of one kind must not outvote the single one of another.
+/// Normalised densities |emission x response| of all (light, channel) pairs, without duplicates. A hundred
+/// equal lights must not outweigh the single one of another kind.
 std::vector<std::vector<double>> pair_densities(const Cells& cells, std::span<const Curve> emissions,
                                                 const std::vector<std::vector<double>>& responses) {
   std::vector<std::vector<double>> pairs;
@@ -87,7 +88,7 @@ std::vector<std::vector<double>> pair_densities(const Cells& cells, std::span<co
   return pairs;
 }
 
-/// 1 where some channel responds; everywhere when none does.
+/// 1 in cells where some channel responds, or everywhere if none does.
 std::vector<double> support_of(const Cells& cells, const std::vector<std::vector<double>>& responses) {
   std::vector<double> support(cells.count());
   for (const std::vector<double>& channel : responses) {
@@ -100,7 +101,7 @@ std::vector<double> support_of(const Cells& cells, const std::vector<std::vector
   return support;
 }
 
-/// The least float that is not below `wavelength_nm`.
+/// Smallest float that is not below `wavelength_nm`.
 float float_from(double wavelength_nm) {
   const auto value = static_cast<float>(wavelength_nm);
   const bool below = static_cast<double>(value) < wavelength_nm;
@@ -134,10 +135,10 @@ WavelengthDistribution::WavelengthDistribution(std::span<const Curve> emissions,
       std::find_if(support.begin(), support.end(), [](double s) { return s > 0; }) - support.begin());
   std::size_t last = support.size();
   while (!(support[last - 1] > 0)) --last;
-  const double share = overlap ? kUniformShare : 1;
+  const double uniform_fraction = overlap ? kUniformFraction : 1;
   double cdf = 0;
   for (std::size_t i = first; i < last; ++i) {
-    const double density = (1 - share) * mixture[i] + share * support[i];
+    const double density = (1 - uniform_fraction) * mixture[i] + uniform_fraction * support[i];
     cells_.push_back({cells.edges[i], cdf, density, density > 0 ? 1 / density : 0});
     cdf += density * cells.width(i);
   }
@@ -158,7 +159,7 @@ void WavelengthDistribution::prepare_to_sample() {
   }
 }
 
-WavelengthDistribution WavelengthDistribution::weighed(std::span<const double> importance) const {
+WavelengthDistribution WavelengthDistribution::weighted(std::span<const double> importance) const {
   const auto parts = static_cast<double>(importance.size());
   std::vector<double> sums{0};
   for (const double part : importance) sums.push_back(sums.back() + part);
@@ -166,20 +167,20 @@ WavelengthDistribution WavelengthDistribution::weighed(std::span<const double> i
     const auto part = std::min(static_cast<std::size_t>(cdf * parts), importance.size() - 1);
     return (sums[part] + (cdf * parts - static_cast<double>(part)) * importance[part]) / sums.back();
   };
-  WavelengthDistribution weighed;
+  WavelengthDistribution weighted;
   for (std::size_t i = 0; i + 1 < cells_.size(); ++i) {
     const double cdf = cdf_at(cells_[i].cdf);
     const double density = (cdf_at(cells_[i + 1].cdf) - cdf) / (cells_[i + 1].low_nm - cells_[i].low_nm);
-    weighed.cells_.push_back({cells_[i].low_nm, cdf, density, density > 0 ? 1 / density : 0});
+    weighted.cells_.push_back({cells_[i].low_nm, cdf, density, density > 0 ? 1 / density : 0});
   }
-  weighed.cells_.push_back({cells_.back().low_nm, 1, 0, 0});
-  weighed.prepare_to_sample();
-  return weighed;
+  weighted.cells_.push_back({cells_.back().low_nm, 1, 0, 0});
+  weighted.prepare_to_sample();
+  return weighted;
 }
 
-// In loops of which all but the look-up itself is done on whole vectors.
+// Separate loops, so that all but the look-ups operate on whole vectors.
 SampledWavelengths WavelengthDistribution::sample(float u) const {
-  LaneNumbers v;
+  LaneValues v;
   for (std::size_t lane = 0; lane < kLanes; ++lane)
     v[lane] = static_cast<double>(u) + static_cast<double>(lane) / kLanes;
   for (double& x : v) x = x >= 1 ? x - 1 : x;
@@ -189,22 +190,22 @@ SampledWavelengths WavelengthDistribution::sample(float u) const {
     const Cell& in = cells_[cell[lane]];
     lambda_nm[lane] = static_cast<float>(in.low_nm + (v[lane] - in.cdf) * in.nm_per_cdf);
   }
-  SampledSpectrum::Values least;
-  SampledSpectrum::Values most;
+  SampledSpectrum::Values lowest;
+  SampledSpectrum::Values highest;
   SampledSpectrum::Values pdf;
   for (std::size_t lane = 0; lane < kLanes; ++lane) {
     const FloatCell& in = float_cells_[cell[lane]];
-    least[lane] = in.least_nm;
-    most[lane] = in.most_nm;
+    lowest[lane] = in.min_nm;
+    highest[lane] = in.max_nm;
     pdf[lane] = in.density;
   }
-  const SampledSpectrum from = larger(SampledSpectrum(lambda_nm), SampledSpectrum(least));
-  return {smaller(from, SampledSpectrum(most)), SampledSpectrum(pdf)};
+  const SampledSpectrum from = larger(SampledSpectrum(lambda_nm), SampledSpectrum(lowest));
+  return {smaller(from, SampledSpectrum(highest)), SampledSpectrum(pdf)};
 }
 
-// The guide leads to the cell or to one soon before it; the first step from there is a matter of chance, and
-// so taken without a branch.
-std::array<std::uint32_t, kLanes> WavelengthDistribution::cells_at(const LaneNumbers& cdf) const {
+// The guide table gives the cell or one shortly before it. The first step from there is unpredictable, so it
+// is taken without a branch.
+std::array<std::uint32_t, kLanes> WavelengthDistribution::cells_at(const LaneValues& cdf) const {
   const auto size = static_cast<double>(guide_.size());
   std::array<std::int32_t, kLanes> entry;
   for (std::size_t lane = 0; lane < kLanes; ++lane) entry[lane] = static_cast<std::int32_t>(cdf[lane] * size);

@@ -7,7 +7,7 @@
 namespace abbe {
 namespace {
 
-constexpr double kMiddle = 0.6;  // of a cell's edge: 0.7 of a patch that takes 0.86 of its cell
+constexpr double kOutlineFraction = 0.6;  // of a cell's edge: 0.7 of a patch that takes 0.86 of its cell
 
 using Corners = std::array<Imath::V2d, 4>;
 
@@ -22,11 +22,11 @@ void require_convex(const Corners& corners) {
   }
   if (right == 4)
     throw Error(ErrorCode::usage, "--corners",
-                "these show the chart mirrored: expected the corners from the first patch's along its row, "
-                "clockwise in the picture");
+                "these corners show the chart mirrored: give them clockwise in the picture, from the first "
+                "patch along its row");
   if (left != 4)
     throw Error(ErrorCode::usage, "--corners",
-                "expected the corners of a convex quadrilateral in the order of going around it");
+                "expected the corners of a convex quadrilateral, in order around it");
 }
 
 /// The projective map from the unit square to a quadrilateral.
@@ -66,7 +66,7 @@ std::vector<PatchOutline> outlines_between(const Corners& corners, std::span<con
   for (std::size_t i = 0; i < names.size(); ++i) {
     const double u = static_cast<double>(i % columns) + 0.5;
     const double v = static_cast<double>(i / columns) + 0.5;
-    const double half = kMiddle / 2;
+    const double half = kOutlineFraction / 2;
     const auto corner = [&](double du, double dv) { return at((u + du) / across, (v + dv) / rows); };
     outlines.push_back(
         {names[i], {corner(-half, -half), corner(half, -half), corner(half, half), corner(-half, half)}});

@@ -10,10 +10,12 @@
 
 namespace abbe {
 
-/// Where the middles of a chart's patches lie between its outer corners in an image [pixels]: those of its
-/// top left, top right, bottom right and bottom left patch, as the chart is read. Patches fill even cells row
-/// by row, `columns` to a row; their outlines are the middle 0.6 of each cell, seen in perspective
-/// [Heckbert1989]. Throws Error{usage} unless the corners are those of a convex quadrilateral.
+/// Outlines of a chart's patches in an image, from the positions [pixels] of the centers of its four corner
+/// patches. These are the top left, top right, bottom right and bottom left patch, as the chart is read.
+/// Patches fill an even grid row by row, with `columns` patches per row. Each outline is the central 0.6 of
+/// its cell in width and height, projected in perspective [Heckbert1989]. Throws Error{usage} unless the
+/// positions form a convex quadrilateral in that order, and if `columns` does not divide the number of
+/// patches.
 [[nodiscard]] std::vector<PatchOutline> outlines_between(const std::array<Imath::V2d, 4>& corners,
                                                          std::span<const std::string> names,
                                                          std::size_t columns);

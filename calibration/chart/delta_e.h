@@ -6,13 +6,14 @@
 
 namespace abbe {
 
-/// Colour differences, as templates on the scalar so that a fit differentiates the formula that reports.
-/// Arguments are CIE 1976 L*, a*, b*; derivatives with respect to dual numbers are finite everywhere, at zero
-/// difference and on the neutral axis too.
+/// Colour differences as templates on the scalar type, so that a fit differentiates the reported formula.
+/// Arguments are CIE 1976 L*, a*, b*. Derivatives with respect to dual numbers are finite everywhere, also at
+/// zero difference and on the neutral axis.
 
 namespace delta_e_detail {
 
-// Square root whose derivative at zero is zero instead of infinite. Rounding may have made less of a zero.
+// Square root whose derivative at zero is zero instead of infinite. Slightly negative arguments are rounded
+// zeros.
 template <typename T>
 [[nodiscard]] T root(const T& x) {
   using std::sqrt;
@@ -51,12 +52,11 @@ template <typename T>
   return h < T(0.0) ? T(h + 360.0) : h;
 }
 
-// Exactly opposite hues are one colour pair of the published tests; rounding must not push them over the
-// discontinuity.
+// The published tests include exactly opposite hues; rounding must not move them across the discontinuity.
 inline constexpr double kOppositeHues = 180.0 + 1e-9;
 
-// Mean hue in degrees, eq. 14: over the shorter arc, and plainly (h1 + h2)/2 for opposite hues. The case of a
-// grey colour needs no branch, since its hue difference is zero and with it everything the mean hue bears on.
+// Mean hue in degrees, eq. 14: over the shorter arc, and (h1 + h2)/2 for opposite hues. A grey colour needs
+// no special case. Its hue difference is zero, and so are all terms in which the mean hue appears.
 template <typename T>
 [[nodiscard]] T mean_hue(const T& h1, const T& h2) {
   using std::abs;
@@ -65,8 +65,8 @@ template <typename T>
   return total < T(360.0) ? T((total + 360.0) / 2.0) : T((total - 360.0) / 2.0);
 }
 
-// Hue difference 2 sqrt(C1 C2) sin(dh/2), eq. 11, from the vectors themselves: smooth where the hues agree
-// (cross product form), and signed like h2 - h1 where they are opposite.
+// Hue difference 2 sqrt(C1 C2) sin(dh/2), eq. 11, from the vectors. The cross-product form is smooth for
+// equal hues; for opposite hues the sign is that of h2 - h1.
 template <typename T>
 [[nodiscard]] T hue_difference(const T& a1, const T& b1, const T& a2, const T& b2, const T& c1c2, const T& h1,
                                const T& h2) {
@@ -83,10 +83,9 @@ template <typename T>
 
 }  // namespace delta_e_detail
 
-/// CIEDE2000 (k_L = k_C = k_H = 1) as a vector of three components whose length is the difference
-/// [Sharma2005, eqs. 2-22]. The rotation term is folded in by completing the square, C'^2 + H'^2 + R_T C' H'
-/// = (C' + R_T H'/2)^2 + (1 - R_T^2/4) H'^2, so the vector is smooth at zero difference, where the length is
-/// not.
+/// CIEDE2000 (k_L = k_C = k_H = 1) as a vector whose length is the difference [Sharma2005, eqs. 2-22]. The
+/// rotation term is included by completing the square, C'^2 + H'^2 + R_T C' H' = (C' + R_T H'/2)^2 + (1 -
+/// R_T^2/4) H'^2. The vector is therefore smooth at zero difference, where its length is not.
 template <typename T>
 [[nodiscard]] std::array<T, 3> delta_e_2000_vector(const std::array<T, 3>& lab1,
                                                    const std::array<T, 3>& lab2) {
@@ -95,9 +94,9 @@ template <typename T>
   using std::exp;
   using std::sin;
   const T c_mean = (length(lab1[1], lab1[2]) + length(lab2[1], lab2[2])) / 2.0;
-  const T stretch = 1.5 - 0.5 * chroma_sigmoid(c_mean);
-  const T a1 = stretch * lab1[1];
-  const T a2 = stretch * lab2[1];
+  const T a_factor = 1.5 - 0.5 * chroma_sigmoid(c_mean);
+  const T a1 = a_factor * lab1[1];
+  const T a2 = a_factor * lab2[1];
   const T c1 = length(a1, lab1[2]);
   const T c2 = length(a2, lab2[2]);
   const T h1 = hue_degrees(a1, lab1[2]);
@@ -130,8 +129,8 @@ template <typename T>
   return root(T(square(d[0]) + square(d[1]) + square(d[2])));
 }
 
-/// CIE 1994 colour difference with the weights of the graphic arts; `lab1` is the standard, so it is not
-/// symmetric [CIE116].
+/// CIE 1994 colour difference with the weights of the graphic arts [CIE116]. It is not symmetric: `lab1` is
+/// the standard.
 template <typename T>
 [[nodiscard]] T delta_e_94(const std::array<T, 3>& lab1, const std::array<T, 3>& lab2) {
   using namespace delta_e_detail;

@@ -7,13 +7,13 @@
 
 namespace abbe {
 
-/// A known non-linear response, planted so that its recovery can be judged: code value in [0, 1] of a linear
-/// exposure, where exposure 1 and above give full scale.
+/// A known non-linear camera response for tests of its recovery. It maps linear exposure to a code value in
+/// [0, 1]; exposures of 1 and above give full scale.
 class PlantedResponse {
  public:
-  /// "linear"; "gamma:G" (code = x^(1/G), G in [0.2, 5]); or "s-curve", a film-like characteristic with toe
-  /// and shoulder, code = x^p (1 + s)/(x^p + s) with p = 1.4, s = 0.18^p. Throws Error{usage} for anything
-  /// else.
+  /// Parses "linear", "gamma:G" (code = x^(1/G), G in [0.2, 5]) or "s-curve". The latter is a film-like
+  /// characteristic with toe and shoulder, code = x^p (1 + s)/(x^p + s) with p = 1.4, s = 0.18^p. Throws
+  /// Error{usage} for anything else.
   explicit PlantedResponse(const std::string& description);
 
   [[nodiscard]] double code(double exposure) const;
@@ -25,12 +25,12 @@ class PlantedResponse {
   double shoulder_ = 0;  // s; 0 for a pure power
 };
 
-/// How code values scatter, full scale being 1: independent Gaussian noise of variance `read`^2 + `shot` z
-/// about the code z, then rounding to `bits` bits, which adds a twelfth of a step squared.
+/// Noise of code values, with full scale 1. A code z has independent Gaussian noise of variance `read`^2 +
+/// `shot` z. Rounding to `bits` bits then adds a twelfth of a squared step.
 struct CodeNoise {
-  int bits = 0;     ///< 0: not rounded.
-  double read = 0;  ///< Standard deviation in the dark.
-  double shot = 0;  ///< Variance for each unit of code.
+  int bits = 0;     ///< Bits of the codes; 0 for no rounding.
+  double read = 0;  ///< Standard deviation of dark codes.
+  double shot = 0;  ///< Variance per unit of code.
 
   /// Standard deviation of a code whose noiseless value is `code`.
   [[nodiscard]] double deviation(double code) const;
@@ -40,12 +40,12 @@ struct CodeNoise {
 struct ExposureSeries {
   std::vector<double> times_s;
   std::vector<std::vector<double>> codes;  ///< codes[patch][time], each in [0, 1].
-  /// Standard deviations of the codes; empty when nothing is known but that they are alike.
+  /// Standard deviations of the codes; empty if they are unknown but equal.
   std::vector<std::vector<double>> deviations;
 };
 
-/// Photographs `values` (linear, 1 = full scale in one second) for `times_s` through a response. The noise is
-/// a function of `seed`.
+/// Simulates photographs of `values` (linear; 1 gives full scale in one second) with the exposure times
+/// `times_s` through a response. The noise is a function of `seed`.
 [[nodiscard]] ExposureSeries expose(std::span<const double> values, std::span<const double> times_s,
                                     const PlantedResponse& response, const CodeNoise& noise,
                                     std::uint64_t seed = 1);

@@ -18,7 +18,7 @@
 namespace abbe {
 namespace {
 
-// Cells of the named columns of every row; nothing when one is missing or no number.
+// Numbers in the named columns of every row; empty if a column is missing or a cell is not a number.
 std::optional<std::vector<std::array<double, 3>>> triples(const Table& table,
                                                           const std::array<const char*, 3>& columns,
                                                           Diagnostics& diagnostics) {
@@ -47,25 +47,25 @@ std::optional<std::vector<std::string>> patch_names(const Table& table, Diagnost
   return names;
 }
 
-// Whether no patch was measured twice, which of the values would count being anyone's guess.
-bool each_once(const std::vector<std::string>& names, const Table& table, Diagnostics& diagnostics) {
-  std::set<std::string_view> seen;
+// True if no patch is named twice. It would be arbitrary which of the values counts, so that is an error.
+bool are_unique(const std::vector<std::string>& names, const Table& table, Diagnostics& diagnostics) {
+  std::set<std::string_view> unique;
   for (std::size_t i = 0; i < names.size(); ++i)
-    if (!seen.insert(names[i]).second)
+    if (!unique.insert(names[i]).second)
       diagnostics.error(table.position(i), fmt::format("patch \"{}\" is named twice", names[i]),
                         ErrorCode::input);
-  return seen.size() == names.size();
+  return unique.size() == names.size();
 }
 
 constexpr std::array kDeviations{"R_deviation", "G_deviation", "B_deviation"};
 constexpr std::array kPixels{"R_pixels", "G_pixels", "B_pixels"};
 
-// An empty cell, or the 0 of one pixel, which has no spread and would pass for certain.
+// True for an empty cell, and for the 0 of one pixel, which has no scatter and must not count as exact.
 bool is_unknown(const std::string& deviation, double pixels) {
   return deviation.empty() || (pixels == 1 && parse_number(deviation) == 0.0);
 }
 
-// Whether a patch that counts tells nothing of its noise, of which a warning then names the first.
+// True if the noise of a patch in use is unknown. A warning names the first such patch.
 bool is_noise_unknown(const Table& table, const MeasuredPatches& patches, const std::vector<Raw>& pixels,
                       Diagnostics& diagnostics) {
   for (std::size_t i = 0; i < table.rows.size(); ++i)
@@ -74,15 +74,15 @@ bool is_noise_unknown(const Table& table, const MeasuredPatches& patches, const 
       if (patches.saturated.contains(patches.names[i]) || !is_unknown(table.rows[i][column], pixels[i][k]))
         continue;
       diagnostics.warning(table.position(i),
-                          fmt::format("patch \"{}\" has no {}, as one pixel has none: all patches count "
-                                      "alike; show the chart on more pixels",
+                          fmt::format("patch \"{}\" has no {}, as one pixel gives none: all patches get "
+                                      "equal weights; show the chart on more pixels",
                                       patches.names[i], kDeviations[k]));
       return true;
     }
   return false;
 }
 
-// Of single pixels, 0 where a cell is empty.
+// Deviations of single pixels; 0 for an empty cell.
 std::optional<std::vector<Raw>> pixel_deviations(Table table, Diagnostics& diagnostics) {
   for (const char* name : kDeviations)
     if (const auto column = table.column(name))
@@ -91,7 +91,7 @@ std::optional<std::vector<Raw>> pixel_deviations(Table table, Diagnostics& diagn
   return triples(table, kDeviations, diagnostics);
 }
 
-// Of the means over so many pixels; none where the table does not tell of noise.
+// Deviations of the means over the pixels of each patch; an empty list if the table has no noise.
 std::optional<std::vector<Raw>> deviations_of(const Table& table, const MeasuredPatches& patches,
                                               Diagnostics& diagnostics) {
   if (!table.column(kDeviations[0])) return std::vector<Raw>{};
@@ -102,7 +102,7 @@ std::optional<std::vector<Raw>> deviations_of(const Table& table, const Measured
     for (std::size_t k = 0; k < 3; ++k) {
       double& deviation = (*deviations)[i][k];
       if (!(deviation >= 0 && (*pixels)[i][k] >= 1))
-        diagnostics.error(table.position(i), "expected deviations of 0 or more, of 1 pixel or more",
+        diagnostics.error(table.position(i), "expected deviations of 0 or more and 1 pixel or more",
                           ErrorCode::input);
       deviation /= std::sqrt((*pixels)[i][k]);
     }
@@ -110,22 +110,22 @@ std::optional<std::vector<Raw>> deviations_of(const Table& table, const Measured
   return is_noise_unknown(table, patches, *pixels, diagnostics) ? std::vector<Raw>{} : deviations;
 }
 
-// Whether so many of the pixels are saturated by the light; less than one is no number of them but a share,
-// of which any counts.
+// True if more pixels are saturated than may be defective. A value below 1 is a fraction of the pixels, which
+// counts if it is above 0.
 bool is_too_bright(double saturated, double pixels) {
   return saturated >= 1 ? exceeds_defects(saturated, pixels) : saturated > 0;
 }
 
-// Patches at the highest value of a channel without deviation, where all others have one. The camera clips
-// them, though a table without columns of saturated pixels does not say so.
-std::set<std::string> even_at_the_top(const Table& table, const std::vector<std::string>& names,
-                                      const std::vector<Raw>& values, Diagnostics& diagnostics) {
-  constexpr double kMinPixels = 16;  // fewer are even by chance
-  std::set<std::string> even;
-  if (!table.column(kDeviations[0]) || !table.column(kPixels[0])) return even;
+// Patches at the highest value of a channel without deviation, if all others have a deviation. The camera
+// clips them, although a table without columns of saturated pixels does not record it.
+std::set<std::string> noiseless_maxima(const Table& table, const std::vector<std::string>& names,
+                                       const std::vector<Raw>& values, Diagnostics& diagnostics) {
+  constexpr double kMinPixels = 16;  // fewer pixels may be equal by chance
+  std::set<std::string> noiseless;
+  if (!table.column(kDeviations[0]) || !table.column(kPixels[0])) return noiseless;
   const auto deviations = pixel_deviations(table, diagnostics);
   const auto pixels = triples(table, kPixels, diagnostics);
-  if (!deviations || !pixels) return even;
+  if (!deviations || !pixels) return noiseless;
   for (std::size_t k = 0; k < 3; ++k) {
     double top = 0;
     for (const Raw& value : values) top = std::max(top, value[k]);
@@ -138,21 +138,21 @@ std::set<std::string> even_at_the_top(const Table& table, const std::vector<std:
         clipped.push_back(i);
     if (noisy == 0 || noisy + clipped.size() < names.size()) continue;
     for (const std::size_t i : clipped)
-      if (even.insert(names[i]).second)
+      if (noiseless.insert(names[i]).second)
         diagnostics.warning(table.position(i),
                             fmt::format("patch \"{}\" has the highest value of {} in all its pixels, without "
-                                        "the noise of others: it is taken for clipped and left out",
+                                        "the noise of others: it counts as clipped and is excluded",
                                         names[i], std::array{"R", "G", "B"}.at(k)));
   }
-  return even;
+  return noiseless;
 }
 
-// Patches with more saturated pixels than may be defective, each of which is warned of; without columns of
-// pixels, with any.
+// Patches with more saturated pixels than may be defective, with a warning for each. Without columns of
+// pixels, any saturated pixel counts.
 std::set<std::string> saturated_in(const Table& table, const std::vector<std::string>& names,
                                    const std::vector<Raw>& values, Diagnostics& diagnostics) {
   std::set<std::string> saturated;
-  if (!table.column("R_saturated")) return even_at_the_top(table, names, values, diagnostics);
+  if (!table.column("R_saturated")) return noiseless_maxima(table, names, values, diagnostics);
   const auto counts = triples(table, {"R_saturated", "G_saturated", "B_saturated"}, diagnostics);
   const auto pixels =
       table.column(kPixels[0]) ? triples(table, kPixels, diagnostics) : std::vector<Raw>(names.size());
@@ -165,21 +165,20 @@ std::set<std::string> saturated_in(const Table& table, const std::vector<std::st
     saturated.insert(names[i]);
     diagnostics.warning(
         table.position(i),
-        fmt::format("patch \"{}\" has saturated pixels, so that its values are too low: it is "
-                    "left out; expose less, or show it on more pixels where defective ones "
-                    "exceed {:g} % of it",
-                    names[i], 100 * kMostDefective));
+        fmt::format("patch \"{}\" has saturated pixels, so its values are too low: it is excluded; expose "
+                    "less, or show it on more pixels if defective ones exceed {:g} % of it",
+                    names[i], 100 * kMaxDefectiveFraction));
   }
   return saturated;
 }
 
-// Black whatever its chromaticity is.
+// XYZ of x, y, Y; black for Y = 0, whatever x and y are.
 XYZ from_xyy(const std::array<double, 3>& c) {
   if (c[2] == 0) return {};
   return {c[0] / c[1] * c[2], c[2], (1 - c[0] - c[1]) / c[1] * c[2]};
 }
 
-// Why what a row states is no colour of a patch; nothing where it is one.
+// Reason why a row does not state a valid colour; empty if it does.
 std::optional<std::string> color_fault(const std::array<double, 3>& c, bool is_lab, const XYZ& xyz) {
   const bool is_finite = std::isfinite(xyz[0]) && std::isfinite(xyz[1]) && std::isfinite(xyz[2]);
   if (!is_finite || !(is_lab || c[1] > 0 || c[2] == 0))
@@ -192,7 +191,7 @@ std::optional<std::string> color_fault(const std::array<double, 3>& c, bool is_l
       highest);
 }
 
-// The colours of a table's rows, by L, a, b or by x, y, Y; nothing where one states none.
+// Colours of a table's rows, from L, a, b or from x, y, Y; empty if a row is invalid.
 std::optional<std::vector<XYZ>> stated_rows(const Table& table, const XYZ& white, Diagnostics& diagnostics) {
   const bool is_lab = table.column("L").has_value();
   const auto values =
@@ -226,7 +225,7 @@ std::optional<ChartTargets> stated_colors(const Table& table, Diagnostics& diagn
   return ChartTargets{*std::move(names), *std::move(xyz), white};
 }
 
-// Of values of that unit; 1 of those that are shares of it.
+// Full scale of values in a unit; 1 for fractions of it.
 double full_scale_of(const std::string& unit, const FullScale& full_scale) {
   if (unit == kNumbersAboveBlack) return full_scale.dn.value();
   return unit == kCodeValues || unit == kFilmValues ? full_scale.value : 1;
@@ -252,15 +251,16 @@ std::optional<ChartTargets> load_chart_targets(const std::string& name, const Cu
 void warn_of_codes(const std::filesystem::path& file, const std::string& instead, Diagnostics& diagnostics) {
   const auto source = std::make_shared<const SourceText>(SourceText{file.string(), ""});
   diagnostics.warning({source, SourcePosition::kWholeFile, ""},
-                      "its values, the code values of a picture, are taken for linear, which those for "
-                      "displays are not: " +
+                      "its values are code values of a picture and count as linear, but code values for "
+                      "displays are not linear: " +
                           instead);
 }
 
 void warn_unless_linear(const Image& picture, const std::filesystem::path& file, const std::string& instead,
                         Diagnostics& diagnostics) {
-  const auto told = picture.metadata.find(kColorSpace);
-  if (told == picture.metadata.end() || told->second != kLinear) warn_of_codes(file, instead, diagnostics);
+  const auto attribute = picture.metadata.find(kColorSpace);
+  if (attribute == picture.metadata.end() || attribute->second != kLinear)
+    warn_of_codes(file, instead, diagnostics);
 }
 
 std::optional<MeasuredPatches> load_measured_patches(const std::filesystem::path& path,
@@ -269,7 +269,7 @@ std::optional<MeasuredPatches> load_measured_patches(const std::filesystem::path
   if (!table) return std::nullopt;
   auto names = patch_names(*table, diagnostics);
   auto values = triples(*table, {"R", "G", "B"}, diagnostics);
-  if (!names || !values || !each_once(*names, *table, diagnostics)) return std::nullopt;
+  if (!names || !values || !are_unique(*names, *table, diagnostics)) return std::nullopt;
   const auto unit = table->keys.find("unit");
   MeasuredPatches patches{*std::move(names), *std::move(values)};
   patches.unit = unit == table->keys.end() ? "" : unit->second;
@@ -283,21 +283,21 @@ std::optional<MeasuredPatches> load_measured_patches(const std::filesystem::path
 void scale_to_codes(MeasuredPatches& patches, const FullScale& full_scale,
                     const std::filesystem::path& file) {
   if (patches.unit == kNumbersAboveBlack && !full_scale.dn)
-    throw Error(
-        ErrorCode::input, file.string(),
-        fmt::format("its values are {}, of which the series tells no full scale: values from 0 to 1 at "
-                    "full scale are needed",
-                    kNumbersAboveBlack));
+    throw Error(ErrorCode::input, file.string(),
+                fmt::format("its values are {}, for which the series records no full scale: give values from "
+                            "0 to 1 at full scale",
+                            kNumbersAboveBlack));
   const double full = full_scale_of(patches.unit, full_scale);
   for (std::size_t i = 0; i < patches.values.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
       patches.values[i][k] /= full;
       if (!patches.deviations.empty()) patches.deviations[i][k] /= full;
       if (patches.values[i][k] > 1 && !patches.saturated.contains(patches.names[i]))
-        throw Error(ErrorCode::input, file.string(),
-                    fmt::format("patch \"{}\" has a value of {} (allowed 0 to 1 at full scale, of which the "
-                                "response is)",
-                                patches.names[i], patches.values[i][k]));
+        throw Error(
+            ErrorCode::input, file.string(),
+            fmt::format(
+                "patch \"{}\" has a value of {} (allowed 0 to 1 at full scale, the range of the response)",
+                patches.names[i], patches.values[i][k]));
     }
 }
 

@@ -12,62 +12,69 @@
 
 namespace abbe {
 
-/// What an observer sees of a chart's patches under one light.
+/// Colours of a chart's patches under one light, for a standard observer.
 struct ChartTargets {
   std::vector<std::string> names;
   std::vector<XYZ> xyz;  ///< Y = 1 for the perfect diffuser.
   XYZ white;             ///< The perfect diffuser.
 };
 
-/// The colours of a chart: of a table of reflectances under `illuminant` for the CIE 1931 observer, or as an
-/// edition's table states them (columns `patch` and `x`, `y`, `Y` or `L`, `a`, `b`, and a line `# white_xy:
-/// x, y`) under its own light, whatever `illuminant` is. Y is 1 and L 100 of the perfect diffuser; a row with
-/// a Y above 2, as in percent, is reported, as is one that states no colour.
+/// Colours of a chart for the CIE 1931 observer.
+/// - A table of reflectances is integrated under `illuminant`.
+/// - An edition's table states colours under its own light, and `illuminant` is not used. It has the columns
+///   `patch` and `x`, `y`, `Y` or `L`, `a`, `b`, and a line `# white_xy: x, y`. The perfect diffuser has Y =
+///   1 or L = 100.
+///
+/// Reports a row that states no colour, or whose Y exceeds 2, as a percentage does.
 [[nodiscard]] std::optional<ChartTargets> load_chart_targets(const std::string& name, const Curve& illuminant,
                                                              const SourcePosition& where,
                                                              Diagnostics& diagnostics);
 
-/// The units of what `abbe measure` reads out of raw files, out of other pictures, and out of EXR files.
+/// Units of the values that `abbe measure` reads from raw files, from other pictures and from EXR files.
 inline constexpr const char* kNumbersAboveBlack = "digital numbers above black";
 inline constexpr const char* kCodeValues = "code values in [0, 1], as the file has them";
 inline constexpr const char* kFilmValues = "film values";
 
-/// Warns that the code values of a picture, out of which `file` is or was measured, are taken for linear, and
-/// tells what to do instead.
+/// Warns that values measured in a picture, `file`, are code values and are taken to be linear. `instead`
+/// says what to do.
 void warn_of_codes(const std::filesystem::path& file, const std::string& instead, Diagnostics& diagnostics);
-/// Warns so of a picture, unless its attribute `kColorSpace` says that its values are linear.
+/// Warns as `warn_of_codes` unless the attribute `kColorSpace` of the picture declares linear values.
 void warn_unless_linear(const Image& picture, const std::filesystem::path& file, const std::string& instead,
                         Diagnostics& diagnostics);
 
-/// A camera's values of named patches, each named once, from a table with the columns `patch`, `R`, `G`, `B`;
-/// with `R_deviation` (of a pixel), `R_pixels` and those of G and B, as `abbe measure` writes them, it tells
-/// their noise too, unless that of a patch that is not left out is unknown: of an empty cell, or a
-/// deviation of 0 of one pixel, a warning tells that all count alike. Deviations below 0 and fewer pixels
-/// than 1 are errors at any rate. Where `R_saturated`, `G_saturated` or `B_saturated` is more than may be
-/// defective of `R_pixels`, `G_pixels` or `B_pixels` (`exceeds_defects`), or above 0 without these columns, a
-/// warning names the patch as left out. A table without such columns but with deviations leaves out patches
-/// at the highest value of a channel that have no deviation, if all others have one.
+/// Values that a camera recorded of named patches, with their noise.
 struct MeasuredPatches {
   std::vector<std::string> names;
   std::vector<Raw> values;
   std::vector<Raw> deviations = {};  ///< Standard deviations of the values; empty: unknown.
-  std::string unit = {};             ///< As the table has it.
-  std::set<std::string> saturated =
-      {};  ///< Names of patches that the light saturates, whose values are too low.
+  std::string unit = {};             ///< As written in the table.
+  /// Names of patches with saturated pixels, whose values are too low.
+  std::set<std::string> saturated = {};
 };
+/// Loads measured patches from a table with the columns `patch`, `R`, `G`, `B`, which names each patch once.
+///
+/// Noise: the columns `R_deviation` (of one pixel), `R_pixels` and those of G and B, as `abbe measure` writes
+/// them, give the standard deviations. A deviation is unknown if its cell is empty, or if it is 0 for one
+/// pixel. If that of a patch in use is unknown, a warning says that all patches have equal weight. Deviations
+/// below 0 and fewer than 1 pixel are errors.
+///
+/// Saturation: patches are excluded, with a warning, if `R_saturated`, `G_saturated` or `B_saturated` exceeds
+/// the pixels that may be defective (`exceeds_defects`). Without columns of pixels, any number above 0
+/// excludes a patch. A table may have deviations but not these columns. Then patches at the highest value of
+/// a channel are excluded if they alone have no deviation.
 [[nodiscard]] std::optional<MeasuredPatches> load_measured_patches(const std::filesystem::path& path,
                                                                    Diagnostics& diagnostics);
 
-/// What code 1 of a series of photographs stands for.
+/// Value to which code 1 of a series of photographs corresponds.
 struct FullScale {
-  std::optional<double> dn = {};  ///< Digital numbers above black, where they are raw files.
-  double value = 1;               ///< Of other pictures, as their files have it.
+  std::optional<double> dn = {};  ///< Digital numbers above black; set for raw files.
+  double value = 1;               ///< Value of other pictures, as their files have it.
 };
 
-/// Makes values those of the codes that a recovered response is of, 0 to 1: numbers above black, and values
-/// of other pictures, are divided by the full scale of the series; of any other unit they are such codes.
-/// Throws Error{input} naming `file` for numbers above black where the series is of no raw files, and for a
-/// patch with a value beyond 1 that is not left out as saturated.
+/// Converts values to codes from 0 to 1, to which a recovered response applies. Numbers above black and
+/// values of other pictures are divided by the full scale of the series. Values of any other unit are such
+/// codes already. Throws Error{input} naming `file` for numbers above black if the series is not of raw
+/// files. Throws it also for a patch above 1 that is not excluded as saturated.
 void scale_to_codes(MeasuredPatches& patches, const FullScale& full_scale, const std::filesystem::path& file);
 
 }  // namespace abbe

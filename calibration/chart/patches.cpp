@@ -12,12 +12,12 @@ namespace {
 
 void require_visible(const Channel& channel, double diffuser) {
   if (std::isfinite(diffuser) && diffuser > 0) return;
-  throw Error(ErrorCode::input, "channel " + channel.name,
-              fmt::format("the light gives it nothing that it sees (sum {}), so no colour can be calibrated",
-                          diffuser));
+  throw Error(
+      ErrorCode::input, "channel " + channel.name,
+      fmt::format("it receives nothing from the light (sum {}), so colours cannot be calibrated", diffuser));
 }
 
-// The channel whose diffuser value is the unit of raw values.
+// Channel whose diffuser value is the unit of raw values.
 const Channel& reference_channel(std::span<const Channel> channels) {
   for (const char* name : {"G", "Y"}) {
     const auto found =

@@ -20,7 +20,7 @@ namespace {
 
 constexpr int kGridColumns = 16;
 constexpr int kGridRows = 12;
-// Relative error of pixels in single precision; codes of 16 bits are 15 times as far apart.
+// Relative error of pixels in single precision; neighbouring codes of 16 bits differ by 15 times as much.
 constexpr double kRounding = 1e-6;
 
 // Pixels of one patch, the last column and row excluded.
@@ -29,7 +29,7 @@ struct Region {
 };
 
 struct Photograph {
-  std::string file;  // relative to the listing until that has been read
+  std::string file;  // relative to the listing while that is being read
   std::optional<double> exposure_s;
   SourcePosition where;
 };
@@ -39,16 +39,16 @@ using Edges = std::array<int, 4>;
 struct Listing {
   std::vector<Photograph> photographs;
   std::vector<schema::Located<Edges>> edges;
-  std::vector<Region> regions;  // of these edges
+  std::vector<Region> regions;  // built from `edges`
   std::optional<double> full_scale;
   std::optional<int> bits;
 };
 
-// What values are divided into codes by: the file's own scale, but for what the listing says of it.
+// Scale from values to codes: the file's own, unless the listing overrides it.
 struct Scale {
   double black = 0;
   double full = 1;
-  double rounding = 0;  ///< Standard deviation of codes by their steps, over the range.
+  double rounding = 0;  ///< Standard deviation of codes due to rounding, as a fraction of the range.
 };
 
 schema::Fields fields(schema::Tag<Photograph>) {
@@ -56,7 +56,7 @@ schema::Fields fields(schema::Tag<Photograph>) {
   return describe("photograph", "One photograph of a series.",
                   {field("file", &Photograph::file, "A picture, relative to the listing."),
                    field("exposure_s", &Photograph::exposure_s, Range::positive(),
-                         "Its exposure time; that of the file when absent.")});
+                         "Exposure time [s]; by default the one that the file records.")});
 }
 
 schema::Fields fields(schema::Tag<Listing>) {
@@ -68,18 +68,19 @@ schema::Fields fields(schema::Tag<Listing>) {
                  list<Located<Edges>>(vector<Edges>({0, kMaxImageEdge}), "regions", 0),
                  "Patches, each as its pixels [x0, y0, x1, y1], the last ones excluded."),
        field("full_scale", &Listing::full_scale, Range::positive(),
-             "The value at which the camera clips; what the file tells, or 1, when absent."),
-       field("bits", &Listing::bits, {0, 16},
-             "Bits that codes were rounded to, 0 if unknown; what the file tells when absent.")});
+             "Value at which the camera clips; by default the level that the file records, else 1."),
+       field(
+           "bits", &Listing::bits, {0, 16},
+           "Bits to which codes were rounded, 0 if unknown; by default the number that the file records.")});
 }
 
 std::vector<Region> build_regions(const Listing& listing, Diagnostics& diagnostics) {
   std::vector<Region> regions;
-  for (const auto& said : listing.edges) {
-    const auto& [x0, y0, x1, y1] = said.value;
+  for (const auto& spec : listing.edges) {
+    const auto& [x0, y0, x1, y1] = spec.value;
     regions.push_back({x0, y0, x1, y1});
     if (x0 >= x1 || y0 >= y1)
-      diagnostics.error(said.where, "expected pixels x0, y0, x1, y1 with x0 < x1 and y0 < y1");
+      diagnostics.error(spec.where, "expected pixels x0, y0, x1, y1 with x0 < x1 and y0 < y1");
   }
   return regions;
 }
@@ -92,7 +93,7 @@ std::optional<Listing> parse_listing(const std::shared_ptr<const SourceText>& so
   return diagnostics.has_errors() ? std::nullopt : listing;
 }
 
-// Its faults are those of an input, not of a scene.
+// Reads the listing. Its errors are reported as errors of an input, not of a scene.
 std::optional<Listing> read_listing(const std::filesystem::path& path, Diagnostics& diagnostics) {
   const auto source = read_text(path, diagnostics);
   if (!source) return std::nullopt;
@@ -106,12 +107,12 @@ std::optional<Listing> read_listing(const std::filesystem::path& path, Diagnosti
   return listing;
 }
 
-// The names of channels that are responses: the planes of the sensor that the file tells of, of any other
-// file all but alpha and variances.
+// Names of the channels that are responses: the sensor planes that the file records, otherwise all but alpha
+// and variances.
 std::vector<std::string> responses_of(const Image& image) {
   std::vector<std::string> names = plane_names(image);
-  const bool are_told = image.metadata.contains("sensor_channels");
-  if (!are_told ||
+  const bool are_recorded = image.metadata.contains("sensor_channels");
+  if (!are_recorded ||
       std::any_of(names.begin(), names.end(), [&](const std::string& n) { return !image.find(n); })) {
     names.clear();
     for (const ImageChannel& channel : image.channels)
@@ -121,41 +122,41 @@ std::vector<std::string> responses_of(const Image& image) {
   return names;
 }
 
-// These channels: R, G, B, then others in the file's order.
+// Channels that are responses: R, G, B, then others in the file's order.
 std::vector<const ImageChannel*> planes_of(const Image& image) {
   const std::vector<std::string> names = responses_of(image);
   const auto is_response = [&](const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
-  std::vector<const ImageChannel*> found;
+  std::vector<const ImageChannel*> planes;
   for (const char* name : {"R", "G", "B"})
-    if (is_response(name)) found.push_back(image.find(name));
+    if (is_response(name)) planes.push_back(image.find(name));
   for (const ImageChannel& channel : image.channels)
-    if (std::find(found.begin(), found.end(), &channel) == found.end() && is_response(channel.name))
-      found.push_back(&channel);
-  return found;
+    if (std::find(planes.begin(), planes.end(), &channel) == planes.end() && is_response(channel.name))
+      planes.push_back(&channel);
+  return planes;
 }
 
-// The mosaic of a photograph of one plane; nothing for others.
-std::optional<Mosaic> mosaic_of(const Image& image, const std::optional<RawScale>& told) {
-  return told && planes_of(image).size() == 1 ? told->mosaic : std::nullopt;
+// Mosaic of a photograph of one plane; empty for others.
+std::optional<Mosaic> mosaic_of(const Image& image, const std::optional<RawScale>& recorded) {
+  return recorded && planes_of(image).size() == 1 ? recorded->mosaic : std::nullopt;
 }
 
-std::vector<std::string> channels_of(const Image& image, const std::optional<RawScale>& told) {
-  if (mosaic_of(image, told)) return told->channels;
+std::vector<std::string> channels_of(const Image& image, const std::optional<RawScale>& recorded) {
+  if (mosaic_of(image, recorded)) return recorded->channels;
   std::vector<std::string> names;
   for (const ImageChannel* plane : planes_of(image)) names.push_back(plane->name);
   return names;
 }
 
-// The code of a raw file that counts as clipped, on the straight line that is made of its codes. What the
-// listing says is a code of the file, of other programs' DNGs one that their table makes.
+// Code of a raw file that counts as clipped, on the straight line that is made of its codes. The listing
+// gives a code of the file, or, for DNGs of other programs, one that their table yields.
 double full_dn(const Image& image, const Listing& listing, const RawScale& codes) {
   if (!listing.full_scale) return white_dn(image, codes);
   return codes.linear(code_of(static_cast<float>(*listing.full_scale)));
 }
 
-// `codes`: of a raw file, of which the image holds the codes.
+// Scale of a photograph. `codes` is set if the image holds the codes of a raw file.
 Scale scale_of(const Image& image, const Listing& listing, const std::optional<RawScale>& codes) {
   constexpr double kSixteenBits = 65535;
   Scale scale{0, listing.full_scale.value_or(1)};
@@ -167,7 +168,7 @@ Scale scale_of(const Image& image, const Listing& listing, const std::optional<R
   return scale;
 }
 
-// One pixel each, or one pattern of a mosaic.
+// Regular grid of regions, each one pixel, or one pattern of a mosaic.
 std::vector<Region> grid(int width, int height, const Mosaic& cell) {
   std::vector<Region> pixels;
   for (int row = 0; row < std::min(kGridRows, height); ++row)
@@ -186,15 +187,17 @@ struct Code {
   double deviation = 0;
 };
 
-// The standard error of the median of normal noise, in deviations of a pixel: of two it is their mean.
+// Standard error of the median of Gaussian noise, in units of a pixel's deviation. The median of two values
+// is their mean.
 double error_of_median(std::size_t pixels) {
-  const double times_that_of_mean = pixels > 2 ? std::sqrt(std::numbers::pi / 2) : 1;
-  return times_that_of_mean / std::sqrt(static_cast<double>(pixels));
+  const double ratio_to_mean = pixels > 2 ? std::sqrt(std::numbers::pi / 2) : 1;
+  return ratio_to_mean / std::sqrt(static_cast<double>(pixels));
 }
 
-// The median of a patch and its standard error, 0 where one pixel tells none; an end of the scale where more
-// pixels than defective ones have reached it. Noise arises before the response, as that of photons and
-// read-out, or behind it: a curve takes the median of light to that of the codes, but its mean to another.
+// Median code of a patch and its standard error, which is 0 if it has one pixel. The code is at an end of the
+// scale if more pixels than may be defective are there. Noise arises before the response, as that of photons
+// and read-out, or after it. A response curve maps the median of the light to the median of the codes, but
+// not the mean to the mean.
 Code patch_code(const PatchChannel& patch, const Scale& scale) {
   const double range = scale.full - scale.black;
   if (patch.is_black()) return {0, 0};
@@ -213,7 +216,7 @@ bool is_finite(const ImageChannel& channel) {
   return std::all_of(channel.values.begin(), channel.values.end(), [](float v) { return std::isfinite(v); });
 }
 
-// What is wrong with one photograph beside the first; empty when nothing is.
+// Error of a photograph in comparison with the first; empty if there is none.
 std::string objection(const Image& image, const Image& first, const Listing& listing) {
   if (image.width != first.width || image.height != first.height)
     return fmt::format("has {} x {} pixels, the first {} x {}", image.width, image.height, first.width,
@@ -227,29 +230,31 @@ std::string objection(const Image& image, const Image& first, const Listing& lis
     return "has values that are not finite";
   for (const Region& r : listing.regions)
     if (r.x1 > image.width || r.y1 > image.height)
-      return fmt::format("region [{}, {}, {}, {}] lies beyond its {} x {} pixels", r.x0, r.y0, r.x1, r.y1,
+      return fmt::format("region [{}, {}, {}, {}] exceeds its {} x {} pixels", r.x0, r.y0, r.x1, r.y1,
                          image.width, image.height);
   return "";
 }
 
-// Why a raw file cannot clip where the listing says; empty where it can.
+// Reason why a raw file cannot clip at the full scale of the listing; empty if it can.
 std::string full_scale_objection(const Image& image, const Listing& listing, const RawScale& codes) {
   constexpr double kSixteenBits = 65535;
   if (!listing.full_scale) return "";
   const double code = code_of(static_cast<float>(*listing.full_scale));
-  const bool is_own = raw_scale(image).has_value();  // others tell where codes clip, but not where they end
+  // other programs record where codes clip, but not where they end
+  const bool is_own = raw_scale(image).has_value();
   const double highest = is_own ? std::exp2(codes.bits) - 1 : kSixteenBits;
   if (code <= highest && codes.linear(code) > codes.offset_dn) return "";
   return fmt::format(
-      "has codes from {}, its black, to {}, of which \"full_scale\" is none (got {}, which is code {}, "
-      "allowed above {:.6g} to {:.6g}, as 65535 is 1)",
+      "has codes from {}, its black, to {}, and \"full_scale\" is outside (got {}, which is code {}, allowed "
+      "above {:.6g} to {:.6g}, as 65535 is 1)",
       codes.offset_dn, highest, *listing.full_scale, code, codes.offset_dn / kSixteenBits,
       highest / kSixteenBits);
 }
 
-void add(const Image& image, const std::optional<RawScale>& told, const std::vector<Region>& regions,
+void add(const Image& image, const std::optional<RawScale>& recorded, const std::vector<Region>& regions,
          const Scale& scale, PhotographedSeries& all, std::vector<std::vector<PatchChannel>>& measured) {
-  MeasuredPlanes planes{planes_of(image), all.channels, mosaic_of(image, told), scale.full * (1 - kRounding)};
+  MeasuredPlanes planes{planes_of(image), all.channels, mosaic_of(image, recorded),
+                        scale.full * (1 - kRounding)};
   planes.black = scale.black * (1 + kRounding);
   std::vector<PatchOutline> outlines;
   std::transform(regions.begin(), regions.end(), std::back_inserter(outlines), outline_of);
@@ -272,7 +277,7 @@ void start_series(const std::vector<std::string>& channels, std::size_t regions,
   }
 }
 
-// Warns of regions that show that the camera clips below the full scale of the series.
+// Warns if regions show that the camera clips below the full scale of the series.
 void warn_of_clipping(const std::vector<std::vector<PatchChannel>>& measured, double full,
                       const PhotographedSeries& all, const SourcePosition& where, Diagnostics& diagnostics) {
   const std::vector<std::optional<double>> levels = clipping_levels(measured, full * (1 - kRounding));
@@ -285,8 +290,8 @@ void warn_of_clipping(const std::vector<std::vector<PatchChannel>>& measured, do
                       all.channels[k], *level, full, *level));
 }
 
-// Deviations of zero would be certainty: where one is found, nothing is known.
-void forget_certainty(ExposureSeries& series) {
+// A deviation of zero would mean certainty. If a channel has one, its noise counts as unknown.
+void drop_zero_deviations(ExposureSeries& series) {
   for (std::size_t i = 0; i < series.codes.size(); ++i)
     for (std::size_t j = 0; j < series.codes[i].size(); ++j)
       if (series.codes[i][j] > 0 && series.codes[i][j] < 1 && !(series.deviations[i][j] > 0)) {
@@ -299,9 +304,9 @@ void forget_certainty(ExposureSeries& series) {
 
 std::optional<PhotographedSeries> read_series(const std::filesystem::path& path, Diagnostics& diagnostics,
                                               Inputs* inputs) {
-  const std::optional<Listing> said = read_listing(path, diagnostics);
-  if (!said) return std::nullopt;
-  const Listing& listing = *said;
+  const std::optional<Listing> parsed = read_listing(path, diagnostics);
+  if (!parsed) return std::nullopt;
+  const Listing& listing = *parsed;
   if (inputs) {
     inputs->add_file(path);
     for (const Photograph& photograph : listing.photographs) inputs->add_file(photograph.file);
@@ -313,45 +318,45 @@ std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
   double full = 1;
   for (const Photograph& photograph : listing.photographs) {
     const RawImage read = read_raw_image(photograph.file, inputs);
-    const auto& [image, told, warnings] = read;
+    const auto& [image, recorded, warnings] = read;
     for (const std::string& warning : warnings) diagnostics.warning(photograph.where, warning);
-    const std::optional<RawScale> codes = holds_codes_told_of(read) ? told : std::nullopt;
-    std::string wrong = objection(image, first ? *first : image, listing);
-    if (wrong.empty() && first && codes.has_value() != all.full_scale.dn.has_value())
-      wrong = codes ? "has codes of the sensor that it tells of, the first other values: was one converted?"
-                    : "has no codes of a sensor, as the first has: was it converted?";
-    if (wrong.empty() && codes) wrong = full_scale_objection(image, listing, *codes);
-    if (!wrong.empty()) {
-      diagnostics.error(photograph.where, photograph.file + " " + wrong, ErrorCode::input);
+    const std::optional<RawScale> codes = holds_sensor_codes(read) ? recorded : std::nullopt;
+    std::string fault = objection(image, first ? *first : image, listing);
+    if (fault.empty() && first && codes.has_value() != all.full_scale.dn.has_value())
+      fault = codes ? "has codes of its sensor, but the first has other values: was one converted?"
+                    : "has no codes of a sensor, but the first has: was it converted?";
+    if (fault.empty() && codes) fault = full_scale_objection(image, listing, *codes);
+    if (!fault.empty()) {
+      diagnostics.error(photograph.where, photograph.file + " " + fault, ErrorCode::input);
       return std::nullopt;
     }
-    if (!photograph.exposure_s && !(told && told->exposure_s)) {
+    if (!photograph.exposure_s && !(recorded && recorded->exposure_s)) {
       diagnostics.error(photograph.where,
-                        photograph.file + " tells no exposure time: \"exposure_s\" is needed here",
+                        photograph.file + " records no exposure time: \"exposure_s\" is needed here",
                         ErrorCode::input);
       return std::nullopt;
     }
     if (!first) {
       if (regions.empty())
-        regions = grid(image.width, image.height, told ? told->mosaic.value_or(Mosaic{}) : Mosaic{});
-      start_series(channels_of(image, told), regions.size(), all);
+        regions = grid(image.width, image.height, recorded ? recorded->mosaic.value_or(Mosaic{}) : Mosaic{});
+      start_series(channels_of(image, recorded), regions.size(), all);
       measured.resize(all.channels.size());
       full = scale_of(image, listing, codes).full;
       if (codes) all.full_scale.dn = full_dn(image, listing, *codes) - codes->offset_dn;
       if (!codes) all.full_scale.value = listing.full_scale.value_or(1);
       first = image;
     }
-    add(image, told, regions, scale_of(image, listing, codes), all, measured);
-    if (inputs) inputs->give_back_memory(image.memory_bytes());
+    add(image, recorded, regions, scale_of(image, listing, codes), all, measured);
+    if (inputs) inputs->release_memory(image.memory_bytes());
     for (std::size_t k = 0; k < all.series.size(); ++k)
       all.series[k].times_s.push_back(photograph.exposure_s ? *photograph.exposure_s
-                                                            : told->exposure_of(all.channels[k]).value());
+                                                            : recorded->exposure_of(all.channels[k]).value());
   }
   warn_of_clipping(measured, full, all, listing.photographs.front().where, diagnostics);
   if (listing.regions.empty())
     for (ExposureSeries& series : all.series) series.deviations.clear();
   for (ExposureSeries& series : all.series)
-    if (!series.deviations.empty()) forget_certainty(series);
+    if (!series.deviations.empty()) drop_zero_deviations(series);
   return all;
 }
 

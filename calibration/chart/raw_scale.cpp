@@ -23,77 +23,78 @@ namespace {
 constexpr double kSixteenBits = 65535;
 using Attributes = std::map<std::string, std::string>;
 
-// The lines "key: value" of a TIFF's description.
-Attributes lines_of(const Image& image) {
-  Attributes told;
+// Lines "key: value" of a TIFF's description, as attributes.
+Attributes description_lines(const Image& image) {
+  Attributes attributes;
   const auto found = image.metadata.find("ImageDescription");
-  if (found == image.metadata.end()) return told;
+  if (found == image.metadata.end()) return attributes;
   for (const std::string& line : split(found->second, '\n'))
     if (const std::size_t colon = line.find(": "); colon != std::string::npos)
-      told.emplace(line.substr(0, colon), line.substr(colon + 2));
-  return told;
+      attributes.emplace(line.substr(0, colon), line.substr(colon + 2));
+  return attributes;
 }
 
-Attributes all_told(const Image& image) {
-  Attributes told = image.metadata;
-  told.merge(lines_of(image));
-  return told;
+Attributes all_attributes(const Image& image) {
+  Attributes attributes = image.metadata;
+  attributes.merge(description_lines(image));
+  return attributes;
 }
 
-std::optional<std::string> attribute(const Attributes& told, const std::string& key) {
-  const auto found = told.find(key);
-  return found == told.end() ? std::nullopt : std::optional(found->second);
+std::optional<std::string> attribute(const Attributes& attributes, const std::string& key) {
+  const auto found = attributes.find(key);
+  return found == attributes.end() ? std::nullopt : std::optional(found->second);
 }
 
-std::optional<double> number(const Attributes& told, const std::string& key) {
-  const auto text = attribute(told, key);
+std::optional<double> number(const Attributes& attributes, const std::string& key) {
+  const auto text = attribute(attributes, key);
   return text ? parse_number(*text) : std::nullopt;
 }
 
-std::map<std::string, double> own_exposures(const Attributes& told) {
+std::map<std::string, double> own_exposures(const Attributes& attributes) {
   const std::string prefix = "exposure_s.";
   std::map<std::string, double> own;
-  for (auto it = told.lower_bound(prefix); it != told.end() && it->first.starts_with(prefix); ++it)
+  for (auto it = attributes.lower_bound(prefix); it != attributes.end() && it->first.starts_with(prefix);
+       ++it)
     if (const auto seconds = parse_number(it->second)) own.emplace(it->first.substr(prefix.size()), *seconds);
   return own;
 }
 
-// Pictures for displays tell of the sensor too, those of its codes of their levels.
-bool holds_codes(const Attributes& told) {
-  return told.contains("white_level_dn");
+// True if the image holds codes. Pictures for displays record the sensor too, but only codes have levels.
+bool holds_codes(const Attributes& attributes) {
+  return attributes.contains("white_level_dn");
 }
 
-// The read-out that the description of a sensor has.
+// Read-out from the JSON description of a sensor.
 Readout readout_of(const std::string& sensor, std::optional<double> sensitivity) {
   Diagnostics diagnostics;
   const auto json = parse_json(std::make_shared<const SourceText>(SourceText{"sensor", sensor}), diagnostics);
-  const JsonValue* said = json ? json->find("readout") : nullptr;
-  auto readout = said != nullptr ? read_readout(*said, sensitivity, diagnostics) : std::nullopt;
+  const JsonValue* spec = json ? json->find("readout") : nullptr;
+  auto readout = spec != nullptr ? read_readout(*spec, sensitivity, diagnostics) : std::nullopt;
   if (!readout) throw Error(ErrorCode::input, "attribute \"sensor\"", diagnostics.text());
   return *std::move(readout);
 }
 
 void straighten(Image& image, const RawScale& scale) {
-  const auto share = static_cast<float>(1 / kSixteenBits);  // with which OpenImageIO rounds alike
+  const auto step = static_cast<float>(1 / kSixteenBits);  // with which OpenImageIO rounds alike
   for (ImageChannel& plane : image.channels)
-    for (float& value : plane.values) value = static_cast<float>(scale.linear(code_of(value))) * share;
+    for (float& value : plane.values) value = static_cast<float>(scale.linear(code_of(value))) * step;
 }
 
-// The sensor's own codes are needed where its response, noise or sharpness is measured.
+// Restores the sensor's own codes, which measurements of response, noise and sharpness need.
 void leave_uncorrected(RawPicture& raw, const std::string& file) {
   for (DngOpcode& opcode : raw.opcodes) {
     if (opcode.list == 1) continue;
     if (!opcode.is_optional)
       throw Error(ErrorCode::input, file,
-                  fmt::format("it requires corrections of the sensor's codes, which are needed as they are "
-                              "(got the mandatory opcode {}, allowed none behind linearisation)",
+                  fmt::format("it requires corrections of the sensor's codes, but uncorrected codes are "
+                              "needed (got the mandatory opcode {}, allowed none after linearisation)",
                               opcode.text()));
     opcode.is_applied = false;
   }
   raw.corrected.clear();
 }
 
-// By the tags or keywords that every program writes.
+// Scale from the tags or keywords that every program writes.
 RawScale scale_of(const RawPicture& raw) {
   RawScale scale;
   scale.bits = std::bit_width(static_cast<unsigned>(raw.white_level_dn));
@@ -133,8 +134,8 @@ std::optional<Mosaic> mosaic_of(const RawPicture& raw) {
   return Mosaic{width, static_cast<int>(raw.mosaic.size()) / width, {raw.mosaic.begin(), raw.mosaic.end()}};
 }
 
-void tell_lines(Image& image) {
-  image.metadata.merge(lines_of(image));
+void add_description_attributes(Image& image) {
+  image.metadata.merge(description_lines(image));
 }
 
 void drop_alpha(Image& image) {
@@ -142,16 +143,16 @@ void drop_alpha(Image& image) {
 }
 
 void name_planes(Image& image) {
-  const auto told = attribute(all_told(image), "sensor_channels");
-  const std::vector<std::string> names = told ? split(*told, ',') : std::vector<std::string>{};
+  const auto attributes = attribute(all_attributes(image), "sensor_channels");
+  const std::vector<std::string> names = attributes ? split(*attributes, ',') : std::vector<std::string>{};
   if (names.size() != image.channels.size()) drop_alpha(image);
   for (std::size_t k = 0; k < image.channels.size() && names.size() == image.channels.size(); ++k)
     image.channels[k].name = names[k];
 }
 
 std::optional<RawScale> raw_scale(const Image& image) {
-  const Attributes told = all_told(image);
-  const auto sensor = nlohmann::json::parse(attribute(told, "sensor").value_or(""), nullptr, false);
+  const Attributes attributes = all_attributes(image);
+  const auto sensor = nlohmann::json::parse(attribute(attributes, "sensor").value_or(""), nullptr, false);
   if (!sensor.is_object() || !sensor.contains("readout") || !sensor["readout"].is_object())
     return std::nullopt;
   const auto& readout = sensor["readout"];
@@ -161,15 +162,15 @@ std::optional<RawScale> raw_scale(const Image& image) {
     scale.offset_dn = readout["offset_dn"];
   if (readout.contains("saturation_dn") && readout["saturation_dn"].is_number())
     scale.saturation_dn = readout["saturation_dn"];
-  scale.exposure_s = number(told, "exposure_s");
-  scale.own_exposure_s = own_exposures(told);
-  scale.gain_e_per_dn = number(told, "gain_e_per_dn");
-  scale.electrons_per_lx_s = number(told, "electrons_per_lx_s");
-  if (readout.contains("response_curve") && holds_codes(told)) {
-    scale.curved = readout_of(told.at("sensor"), scale.electrons_per_lx_s);
+  scale.exposure_s = number(attributes, "exposure_s");
+  scale.own_exposure_s = own_exposures(attributes);
+  scale.gain_e_per_dn = number(attributes, "gain_e_per_dn");
+  scale.electrons_per_lx_s = number(attributes, "electrons_per_lx_s");
+  if (readout.contains("response_curve") && holds_codes(attributes)) {
+    scale.curved = readout_of(attributes.at("sensor"), scale.electrons_per_lx_s);
     scale.linear_codes = linear_codes(*scale.curved);
   }
-  if (auto mosaic = recorded_mosaic(told)) {
+  if (auto mosaic = recorded_mosaic(attributes)) {
     scale.channels = std::move(mosaic->channels);
     scale.mosaic = std::move(mosaic->pattern);
   }
@@ -180,8 +181,8 @@ RawImage read_raw_image(const std::filesystem::path& path, Inputs* inputs) {
   if (!is_raw_picture(path)) {
     Image image = read_image(path, inputs);
     auto scale = raw_scale(image);
-    if (scale && holds_codes(all_told(image))) {
-      tell_lines(image);
+    if (scale && holds_codes(all_attributes(image))) {
+      add_description_attributes(image);
       name_planes(image);
       image.metadata[kColorSpace] = kLinear;
     }
@@ -190,13 +191,13 @@ RawImage read_raw_image(const std::filesystem::path& path, Inputs* inputs) {
   }
   RawPicture raw = read_raw_picture(path);
   leave_uncorrected(raw, path.string());
-  if (inputs != nullptr) inputs->take_memory(path.string(), raw.codes.size() * sizeof(float));
+  if (inputs != nullptr) inputs->reserve_memory(path.string(), raw.codes.size() * sizeof(float));
   RawImage read{code_planes(raw), {}, ignored_opcodes(raw, path.string())};
-  tell_lines(read.image);
+  add_description_attributes(read.image);
   read.image.metadata[kColorSpace] = kLinear;
-  const auto share = static_cast<float>(1 / kSixteenBits);  // with which OpenImageIO rounds alike
+  const auto step = static_cast<float>(1 / kSixteenBits);  // with which OpenImageIO rounds alike
   for (ImageChannel& plane : read.image.channels)
-    for (float& code : plane.values) code *= share;
+    for (float& code : plane.values) code *= step;
   read.scale = raw_scale(read.image);
   if (!read.scale) read.scale = scale_of(raw);
   if (!read.scale->linear_codes.empty() && !raw.is_linearised) straighten(read.image, *read.scale);

@@ -11,28 +11,36 @@
 
 namespace abbe {
 
-/// What flat and dark frames say of one channel of a sensor.
+/// Photon transfer of one channel of a sensor, from flat and dark frames.
 struct ChannelTransfer {
   std::string channel;
   PhotonTransfer transfer;
-  /// What saturates over read noise [dB]: 20 log10 of it [EMVA1288]. Nothing where no lit pair saturates.
+  /// Dynamic range [dB] [EMVA1288]: 20 log10 of saturation over read noise. Empty if no bright pair
+  /// saturates.
   std::optional<double> dynamic_range_db;
   /// Electrons at which the signal is ten times its noise: e/sqrt(e + read noise^2) = 10.
   double snr10_e;
-  std::optional<double>
-      snr10_lx_s;  ///< The same as an exposure of the most sensitive channel, where it is told.
+  /// `snr10_e` as an exposure of the most sensitive channel; empty if the files do not record the
+  /// sensitivity.
+  std::optional<double> snr10_lx_s;
 };
 
-/// The photon transfer of raw files that Abbe wrote, of any kind: two frames of each exposure, one after the
-/// other, dark ones of two exposure times or more. Exposure times, bits, mosaic and the pixels that were
-/// rendered, which alone count, are read of the files. `warnings`, if any, receives those about files.
-/// Throws Error{input} naming a file that tells of no read-out or differs from the first in size, rendered
-/// pixels, channels, bits, gain or response curve, one of which more than 0.5 % of a channel's codes, but not
-/// all, are the lowest, where noise is cut off [EMVA1288], and one without a second of its exposure that saw
-/// the same light, as far as row noise lets that be known, and is another frame; otherwise as
-/// `photon_transfer`.
+/// Photon transfer of raw files that Abbe wrote, of any format. `dark` and `bright` hold two consecutive
+/// frames of each exposure; dark frames need two exposure times or more. Exposure times, bits, mosaic and the
+/// rendered pixels, which alone count, are read from the files. Adds warnings about files to `warnings`,
+/// unless null.
+///
+/// Throws Error{input} naming a file that
+/// - records no read-out;
+/// - differs from the first in size, rendered pixels, channels, bits, gain or response curve;
+/// - has more than 0.5 % of a channel's codes, but not all, at the lowest code, where noise is cut off
+///   [EMVA1288];
+/// - has no second frame of its exposure, or a copy of it, or one that saw other light, as far as row noise
+///   allows that test.
+///
+/// Otherwise throws as `photon_transfer`.
 [[nodiscard]] std::vector<ChannelTransfer> measure_transfer(std::span<const std::filesystem::path> dark,
-                                                            std::span<const std::filesystem::path> lit,
+                                                            std::span<const std::filesystem::path> bright,
                                                             Inputs& inputs,
                                                             std::vector<std::string>* warnings = nullptr);
 

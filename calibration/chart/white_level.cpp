@@ -10,14 +10,14 @@ namespace {
 
 constexpr double kHighestCode = 65535;
 
-std::optional<double> told_white_dn(const Image& image) {
+std::optional<double> recorded_white_dn(const Image& image) {
   const auto found = image.metadata.find("white_level_dn");
   return found == image.metadata.end() ? std::nullopt : parse_number(found->second);
 }
 
-// The highest code of all planes; nothing where a value is none.
+// Highest code of all planes; empty if a value is not a code.
 std::optional<double> highest_code(const Image& image) {
-  constexpr double kRounding = 0.01;  // of floats, 8 bits as well as 16 being shares of 65535
+  constexpr double kRounding = 0.01;  // of floats; codes of 8 and of 16 bits are fractions of 65535
   double highest = 0;
   for (const ImageChannel& channel : image.channels)
     for (const float value : channel.values) {
@@ -28,31 +28,32 @@ std::optional<double> highest_code(const Image& image) {
   return highest;
 }
 
-// Converters keep what a raw file tells beside planes and codes of their own.
+// True if the image holds the sensor's codes. Converters copy the attributes of a raw file but write planes
+// and codes of their own.
 bool holds_codes_up_to(const RawImage& read, double highest) {
   if (!read.scale) return false;
-  if (!raw_scale(read.image)) return true;  // by tags
-  return told_white_dn(read.image) && highest <= read.scale->highest() &&
+  if (!raw_scale(read.image)) return true;  // known from tags
+  return recorded_white_dn(read.image) && highest <= read.scale->highest() &&
          !(read.scale->mosaic && read.image.channels.size() != 1);
 }
 
 }  // namespace
 
-bool holds_codes_told_of(const RawImage& read) {
+bool holds_sensor_codes(const RawImage& read) {
   const std::optional<double> highest = highest_code(read.image);
   return highest && holds_codes_up_to(read, *highest);
 }
 
 double white_dn(const Image& image, const RawScale& scale) {
-  return scale.linear(told_white_dn(image).value_or(scale.highest()));
+  return scale.linear(recorded_white_dn(image).value_or(scale.highest()));
 }
 
-std::optional<EndOfCodes> end_of_codes(const RawImage& read) {
+std::optional<ClippingLevel> clipping_level(const RawImage& read) {
   const std::optional<double> highest = highest_code(read.image);
   if (!highest) return std::nullopt;
-  if (holds_codes_up_to(read, *highest)) return EndOfCodes{white_dn(read.image, *read.scale), true};
+  if (holds_codes_up_to(read, *highest)) return ClippingLevel{white_dn(read.image, *read.scale), true};
   if (*highest != kHighestCode) return std::nullopt;
-  return EndOfCodes{kHighestCode, false};
+  return ClippingLevel{kHighestCode, false};
 }
 
 }  // namespace abbe

@@ -6,24 +6,25 @@
 
 namespace abbe {
 
-/// Whether an image holds the codes that its `scale` tells of. Films, and pictures that are developed or
-/// converted of a raw file, tell of its sensor too, but have values of their own.
-[[nodiscard]] bool holds_codes_told_of(const RawImage& read);
+/// True if an image holds the codes that its `scale` describes. Films and pictures developed or converted
+/// from a raw file also record its sensor, but have values of their own.
+[[nodiscard]] bool holds_sensor_codes(const RawImage& read);
 
-/// The code from which pixels of a raw file count as saturated, on the straight line that `read_raw_image`
-/// makes of its codes: the `white_level_dn` that the files of Abbe tell, or the highest code, which those of
-/// other programs tell as their white level.
+/// Code from which pixels of a raw file count as saturated, on the straight line that `read_raw_image` makes
+/// of its codes. It is `white_level_dn` of Abbe's files, or the highest code, which files of other programs
+/// record as their white level.
 [[nodiscard]] double white_dn(const Image& image, const RawScale& scale);
 
-/// The code from which nothing more is told of the light.
-struct EndOfCodes {
+/// Code at which a picture clips.
+struct ClippingLevel {
   double dn;
-  bool is_told;  ///< As the white level of the sensor; else it is the highest code of the file's format.
+  /// True if the file records it as white level; false if it is the highest code of the format.
+  bool is_declared;
 };
 
-/// Where the codes of a picture that is no film end: at the white level that it tells, or at 65535 of 65535
-/// where a pixel has that. Nothing of one with values that are no codes of 16 bits, or in which no code is
-/// that high. What a raw file told is of no account in a picture that a converter made of it.
-[[nodiscard]] std::optional<EndOfCodes> end_of_codes(const RawImage& read);
+/// Clipping level of a picture that is not a film: the white level that it records, or 65535 if a pixel has
+/// that code. Empty if some values are not codes of 16 bits, or if no pixel is at 65535. A picture that a
+/// converter made of a raw file does not inherit that file's white level.
+[[nodiscard]] std::optional<ClippingLevel> clipping_level(const RawImage& read);
 
 }  // namespace abbe

@@ -24,7 +24,8 @@ std::optional<std::size_t> find(const MeasuredPatches& measured, const std::stri
   return static_cast<std::size_t>(found - measured.names.begin());
 }
 
-// A patch that the chart has not, as of a misspelt name, would count for nothing.
+// Throws Error{input} for a patch that the chart does not have. With a misspelt name it would count for
+// nothing.
 void require_known(const ChartTargets& chart, const MeasuredPatches& measured) {
   std::vector<std::string> known = chart.names;
   known.emplace_back(kDiffuser);
@@ -33,7 +34,7 @@ void require_known(const ChartTargets& chart, const MeasuredPatches& measured) {
       throw Error(ErrorCode::input, "measured patches", unknown_name("patch", name, known));
 }
 
-// The measured patches in the order of the chart, without those that are saturated.
+// Measured patches in the order of the chart, without saturated ones.
 BalancedPatches in_order(const ChartTargets& chart, const MeasuredPatches& measured) {
   BalancedPatches patches{{{}, {}, {}, chart.white}, {}};
   std::vector<std::string> missing;
@@ -49,17 +50,17 @@ BalancedPatches in_order(const ChartTargets& chart, const MeasuredPatches& measu
   }
   if (!missing.empty())
     throw Error(ErrorCode::input, "measured patches", fmt::format("missing: {}", fmt::join(missing, ", ")));
-  const std::size_t left = patches.colors.names.size();
-  if (2 * left < chart.names.size())
+  const std::size_t remaining = patches.colors.names.size();
+  if (2 * remaining < chart.names.size())
     throw Error(
         ErrorCode::input, "measured patches",
         fmt::format("{} of {} have saturated pixels: expose less, or show the chart on more pixels where "
                     "defective ones exceed {:g} % of a patch",
-                    chart.names.size() - left, chart.names.size(), 100 * kMostDefective));
+                    chart.names.size() - remaining, chart.names.size(), 100 * kMaxDefectiveFraction));
   return patches;
 }
 
-// From XYZ to the camera's values, as nearly as a matrix can; nothing where the patches determine none.
+// Matrix from XYZ to the camera's values with the least error; empty if the patches do not determine it.
 std::optional<Matrix3> to_camera(const PatchColors& colors) {
   try {
     const Matrix3 to_xyz = least_squares_matrix(colors);
@@ -75,14 +76,14 @@ bool is_neutral(const XYZ& xyz, const XYZ& white) {
   return std::hypot(lab[1], lab[2]) < kNeutralChroma;
 }
 
-// The values of the perfect diffuser by the neutral patches; not finite without any.
+// Values of the perfect diffuser from the neutral patches; not finite if there are none.
 Raw diffuser_by_neutrals(const PatchColors& colors) {
   const std::optional<Matrix3> camera = to_camera(colors);
   Raw sum{};
   double weight = 0;
   for (std::size_t i = 0; i < colors.xyz.size(); ++i) {
     const double y = colors.xyz[i][1];
-    if (!(y > 0 && is_neutral(colors.xyz[i], colors.white))) continue;  // a black one tells nothing
+    if (!(y > 0 && is_neutral(colors.xyz[i], colors.white))) continue;  // black patches carry no information
     const Raw grey = camera ? multiply(*camera, colors.white) : Raw{1, 1, 1};
     const Raw tinged = camera ? multiply(*camera, colors.xyz[i]) : Raw{y, y, y};
     for (std::size_t k = 0; k < 3; ++k) sum[k] += colors.raw[i][k] * y * (y * grey[k] / tinged[k]);

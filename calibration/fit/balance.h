@@ -7,19 +7,21 @@
 
 namespace abbe {
 
-/// Linear measured values beside the colours of their chart, white balanced.
+/// Linear, white-balanced measured values with the colours of their chart.
 struct BalancedPatches {
   PatchColors colors;
-  std::array<double, 3> gains;       ///< What balanced them.
+  std::array<double, 3> gains;       ///< Factors that balanced them.
   std::vector<Raw> deviations = {};  ///< Standard deviations of the balanced values; empty: unknown.
 };
 
-/// Balances on the patch named "perfect diffuser" if there is one, else on the value of the perfect diffuser
-/// that fits the chart's neutral patches (chroma below 5) best, in proportion to their luminance. Such
-/// patches are not quite neutral: what their tinge does to the values, the least-squares matrix of all
-/// patches tells, if they determine one. Every patch of the chart must have been measured, and no
-/// other; those with saturated pixels are left out. Throws Error{input} naming one that is unknown, or those
-/// that are missing, when less than half is left, and when there is nothing to balance on.
+/// Balances measured values on the patch named "perfect diffuser", if there is one. Otherwise it uses the
+/// value of the perfect diffuser that best fits the chart's neutral patches (chroma below 5), weighted by
+/// luminance. These patches are not exactly neutral. The least-squares matrix of all patches corrects for
+/// their tinge if the patches determine one.
+///
+/// Every patch of the chart must have been measured, and no other. Patches with saturated pixels are
+/// excluded. Throws Error{input} for an unknown patch and for missing ones, with their names. Throws it also
+/// if less than half of the patches remain, and if there is nothing to balance on.
 [[nodiscard]] BalancedPatches balance(const ChartTargets& chart, const MeasuredPatches& measured);
 
 }  // namespace abbe

@@ -17,13 +17,13 @@ namespace {
 
 constexpr double kLossScale = 0.05;  // colour difference below which the loss turns quadratic
 constexpr std::size_t kPatchesPerTerm = 4;
-// How far channels must differ, of their largest value, for a correction that tells them apart by more than
-// the inverse: films are floats, whose rounding, 6e-8 of that value, would be the colours of channels that
-// differ less. Measured filters differ by 8e-4 and more, bands of 10 nm that lie 1 nm apart by 8e-5. In the
-// light of a line all channels differ by next to nothing, and so do the colours.
-constexpr double kLeastDifference = 1e-6;
+// Minimum difference of channels, relative to their largest value. A correction with coefficients above its
+// inverse would amplify smaller differences, which are the rounding of float films (6e-8). Measured filters
+// differ by 8e-4 and more, bands of 10 nm at a distance of 1 nm by 8e-5. In monochromatic light all channels
+// and colours differ by almost nothing.
+constexpr double kMinDifference = 1e-6;
 
-// The columns of all terms but the last, which follows from the white.
+// Columns of all terms but the last, which follows from the white.
 using Parameters = std::vector<double>;
 
 ColorCorrection correction_of(CorrectionModel model, const Parameters& p, const XYZ& white) {
@@ -45,7 +45,7 @@ Parameters parameters_of(const ColorCorrection& correction) {
   return p;
 }
 
-// L*a*b* of one patch as a function of the parameters, against the truth.
+// Residual of one patch: its corrected L*a*b* against the true colour, as a function of the parameters.
 template <std::size_t kTerms>
 struct PatchResidual {
   std::vector<double> terms;
@@ -115,8 +115,8 @@ Attempt solve(const PatchColors& colors, const Parameters& start, const Correcti
   return solve_with<term_count(CorrectionModel::root_polynomial_3)>(colors, start, how);
 }
 
-// Ceres counts an exhausted iteration budget as usable and may call an infinite cost converged, so both are
-// looked at here.
+// True if an attempt converged to a finite solution. Ceres counts an exhausted iteration budget as usable and
+// may call an infinite cost converged, so both are tested here.
 bool usable(const Attempt& attempt) {
   return attempt.summary.IsSolutionUsable() && attempt.summary.termination_type == ceres::CONVERGENCE &&
          std::isfinite(attempt.summary.final_cost) &&
@@ -124,7 +124,7 @@ bool usable(const Attempt& attempt) {
                      [](double p) { return std::isfinite(p); });
 }
 
-// What the objective is, with the patches counting by their weights.
+// Value of the objective, with the patches weighted.
 double objective_of(const PatchErrors& errors, const PatchColors& colors, Objective objective) {
   const bool is_76 = objective == Objective::delta_e_76;
   if (colors.weights.empty()) return is_76 ? errors.mean_76 : errors.mean;
@@ -140,17 +140,17 @@ void require_determined(const Eigen::MatrixXd& a, Eigen::Index rank) {
                           a.rows(), rank, a.cols()));
 }
 
-// Least squares solution of a x = b, column by column, a being made of `channels`, whose values go up to
-// `largest`, or of their differences. Where it makes colours of next to nothing, channels that are alike are
-// none: what is left between them is rounding.
+// Least-squares solution of a x = b, column by column. The matrix a consists of `channels`, or of their
+// differences; `largest` is their largest value. If the solution is so large that it amplifies rounding,
+// nearly equal channels count as dependent.
 Eigen::MatrixXd solve_least_squares(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b,
                                     const Eigen::MatrixXd& channels, double largest) {
   const Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr(a);
   Eigen::MatrixXd solution = qr.solve(b);
-  const bool is_large = !(solution.lpNorm<Eigen::Infinity>() < 1 / kLeastDifference);
+  const bool is_large = !(solution.lpNorm<Eigen::Infinity>() < 1 / kMinDifference);
   if (qr.rank() == a.cols() && a.allFinite() && !is_large) return solution;
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> colours(channels);
-  colours.setThreshold(kLeastDifference * largest / colours.maxPivot());
+  colours.setThreshold(kMinDifference * largest / colours.maxPivot());
   require_determined(channels, colours.rank());
   require_determined(a, qr.rank());
   return solution;
@@ -218,8 +218,8 @@ void require_enough_patches(CorrectionModel model, std::size_t patches) {
   if (are_enough_patches(model, patches)) return;
   const std::size_t needed = kPatchesPerTerm * term_count(model);
   throw Error(ErrorCode::usage, "--correction",
-              fmt::format("{} terms on {} patches would follow the patches and not the camera: patches left "
-                          "out of the fit are shown worse than by a matrix (allowed from {} patches on)",
+              fmt::format("{} terms on {} patches would follow the patches and not the camera: a matrix "
+                          "would predict other patches better (allowed from {} patches on)",
                           term_count(model), patches, needed));
 }
 
@@ -254,10 +254,10 @@ CorrectionFit fit_correction(const PatchColors& colors, const CorrectionOptions&
   if (fit.usable == 0)
     throw Error(
         ErrorCode::input, "colour correction",
-        fmt::format("no correction can be found for these {} patches: their values do not go with their "
-                    "colours (tried {} starts; are chart, light and the order of the patches those "
-                    "of the photograph?)",
-                    colors.raw.size(), options.starts));
+        fmt::format(
+            "no correction can be found for these {} patches: their values do not match their colours (tried "
+            "{} starts; are chart, light and the order of the patches those of the photograph?)",
+            colors.raw.size(), options.starts));
   return fit;
 }
 

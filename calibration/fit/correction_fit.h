@@ -10,23 +10,24 @@
 
 namespace abbe {
 
-/// What a fit makes small.
+/// Objective that a fit minimises.
 enum class Objective {
   delta_e_2000,  ///< The mean CIEDE2000 over the patches.
   delta_e_76,    ///< The mean distance in L*a*b*.
   xyz,           ///< The squared error of XYZ.
 };
 
-/// The unconstrained matrix from white-balanced raw values to XYZ that minimises the squared XYZ error over
-/// the patches. Throws Error{input} when the patches do not span three dimensions.
+/// Matrix from white-balanced raw values to XYZ with the least squared XYZ error over the patches, without
+/// constraints. Throws Error{input} if the patches do not span three dimensions.
 [[nodiscard]] Matrix3 least_squares_matrix(const PatchColors& colors);
 
-/// The correction of any model with the least sum of squared XYZ errors, under the constraint that raw values
-/// (1, 1, 1) map to the white exactly.
+/// Correction of any model with the least sum of squared XYZ errors, under the constraint that raw values (1,
+/// 1, 1) map exactly to the white. Patches count by their weights. Throws Error{input} if the patches do not
+/// determine it.
 [[nodiscard]] ColorCorrection white_preserving_least_squares(const PatchColors& colors,
                                                              CorrectionModel model = CorrectionModel::linear);
 
-/// Colour differences of each patch between the corrected raw values and the truth, relative to the
+/// Colour differences of each patch between corrected raw values and true colour, relative to the
 /// illuminant's white.
 struct PatchErrors {
   std::vector<double> delta_e;  ///< CIEDE2000.
@@ -37,41 +38,45 @@ struct PatchErrors {
 };
 [[nodiscard]] PatchErrors patch_errors(const PatchColors& colors, const ColorCorrection& correction);
 
-/// A fitted correction with the account of its fit.
+/// A fitted correction with a report of the fit.
 struct CorrectionFit {
   ColorCorrection correction;
-  PatchErrors errors;       ///< Of the result.
-  PatchErrors start;        ///< Of the white-preserving least-squares correction the fit began from.
+  PatchErrors errors;  ///< Errors of `correction`.
+  PatchErrors start;  ///< Errors of the white-preserving least-squares correction, from which the fit starts.
   double initial_cost = 0;  ///< Half the sum of the losses at that start.
   double final_cost = 0;
-  int starts = 0;  ///< How many starts were tried.
-  int usable = 0;  ///< How many of them reached the tolerance with a finite solution; never none.
+  int starts = 0;  ///< Number of starts that were tried.
+  int usable = 0;  ///< Number of starts that reached the tolerance with a finite solution; at least 1.
 };
 
-/// How a correction is fitted.
+/// Options of a correction fit.
 struct CorrectionOptions {
   CorrectionModel model = CorrectionModel::linear;
   Objective objective = Objective::delta_e_2000;
-  int starts = 16;      ///< The least-squares start and jittered copies of it.
-  double jitter = 0.1;  ///< Standard deviation of the jitter of each coefficient.
+  int starts = 16;  ///< Number of starts: the least-squares correction and randomly displaced copies of it.
+  double jitter = 0.1;  ///< Standard deviation of the displacement of each coefficient.
   std::uint64_t seed = 1;
-  /// The most iterations made from each start. A sum of absolute errors approaches its minimum by a nearly
-  /// constant factor per step, as slowly as 0.97 for ideal filters, so a fit may need hundreds of them.
+  /// Maximum number of iterations from each start. A sum of absolute errors approaches its minimum by a
+  /// nearly constant factor per step, as slowly as 0.97 for ideal filters. A fit may therefore need hundreds
+  /// of iterations.
   int max_iterations = 2000;
 };
 
-/// Whether there are four patches for each term of a root polynomial, or any for a matrix.
+/// True if there are at least four patches for each term of a root polynomial. True for any number with a
+/// matrix.
 [[nodiscard]] bool are_enough_patches(CorrectionModel model, std::size_t patches);
 
-/// Throws Error{usage} with the reason when `patches` are too few for a root polynomial: fewer than four for
-/// each term, with which the terms follow the patches instead of the camera.
+/// Throws Error{usage} if there are fewer than four patches for each term of a root polynomial: its terms
+/// would then follow the patches instead of the camera.
 void require_enough_patches(CorrectionModel model, std::size_t patches);
 
-/// The white-preserving correction that minimises the objective over the patches, the last term's column
-/// following from the white. For a mean colour difference the loss of a patch is 2 a^2 (sqrt(1 + dE^2/a^2) -
-/// 1) with a = 0.05, an absolute error that is smooth at zero; for XYZ the least-squares start is the answer.
-/// Patches count by their weights. The result is never worse in the objective than its start. Throws
-/// Error{input} when no start reaches the tolerance: a cost that changes by less than 1e-10 of itself.
+/// White-preserving correction that minimises the objective over the patches. The last term's column follows
+/// from the white. Patches count by their weights.
+///
+/// For a mean colour difference, the loss of a patch is 2 a^2 (sqrt(1 + dE^2/a^2) - 1) with a = 0.05, an
+/// absolute error that is smooth at zero. For XYZ, the least-squares start is the answer. The result is never
+/// worse in the objective than its start. Throws Error{input} if no start converges to a relative change of
+/// the cost below 1e-10.
 [[nodiscard]] CorrectionFit fit_correction(const PatchColors& colors, const CorrectionOptions& options = {});
 
 }  // namespace abbe

@@ -4,7 +4,7 @@
 
 namespace abbe {
 
-/// The middle one of `values`, of which there is one at least; of an even number the mean of the two.
+/// Median of `values`, which must not be empty; for an even number, the mean of the central two.
 [[nodiscard]] double median(std::vector<double> values);
 
 }  // namespace abbe

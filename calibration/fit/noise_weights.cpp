@@ -8,7 +8,7 @@
 namespace abbe {
 namespace {
 
-// Of the colour differences, by the weights that are there.
+// Mean of values with the given weights; the plain mean if there are none.
 double weighted_mean(const std::vector<double>& values, const std::vector<double>& weights) {
   if (weights.empty())
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -22,12 +22,12 @@ std::vector<double> weights_under(const PatchColors& colors, std::span<const Raw
   std::vector<double> weights;
   for (std::size_t i = 0; i < colors.raw.size(); ++i) {
     const auto lab = [&](const Raw& raw) { return xyz_to_lab(correction(raw), colors.white); };
-    const Lab here = lab(colors.raw[i]);
+    const Lab lab_of_patch = lab(colors.raw[i]);
     double variance = 0;
     for (std::size_t k = 0; k < 3; ++k) {
       Raw moved = colors.raw[i];
       moved[k] += deviations[i][k];
-      const double shift = delta_e_2000(here, lab(moved));
+      const double shift = delta_e_2000(lab_of_patch, lab(moved));
       variance += shift * shift;
     }
     weights.push_back(typical > 0 ? typical * typical / (typical * typical + variance) : 1);
@@ -38,11 +38,11 @@ std::vector<double> weights_under(const PatchColors& colors, std::span<const Raw
 }  // namespace
 
 std::vector<double> noise_weights(const PatchColors& colors, std::span<const Raw> deviations) {
-  // The first matrix may have followed the noise: it is fitted anew by what has been found.
+  // The first matrix may follow the noise, so the weights are refined by fitting again with them.
   constexpr int kPasses = 3;
-  PatchColors weighed = colors;
-  for (int pass = 0; pass < kPasses; ++pass) weighed.weights = weights_under(weighed, deviations);
-  return weighed.weights;
+  PatchColors weighted = colors;
+  for (int pass = 0; pass < kPasses; ++pass) weighted.weights = weights_under(weighted, deviations);
+  return weighted.weights;
 }
 
 }  // namespace abbe

@@ -7,12 +7,14 @@
 
 namespace abbe {
 
-/// What noisy patches should count in the fit of a correction: t^2/(t^2 + s^2), s being the standard
-/// deviation in CIEDE2000 that the noise of the patch's values brings about and t the mean colour difference
-/// under the white-preserving least-squares matrix of these weights, by which the camera errs without noise
-/// too. So patches whose noise is below that count alike, and one far noisier counts by the inverse of its
-/// variance, as is best for independent errors of both kinds [DerSimonian1986, eq. 2]. `deviations` are those
-/// of the balanced values, one a patch.
+/// Weights of noisy patches in the fit of a correction: t^2/(t^2 + s^2).
+/// - s is the standard deviation in CIEDE2000 due to the noise of the patch's values.
+/// - t is the mean colour difference under the white-preserving least-squares matrix with these weights: the
+///   error that the camera makes without noise too.
+///
+/// Patches with s well below t have nearly equal weights. A far noisier patch has the inverse of its variance
+/// as weight, which is best for independent errors of both kinds [DerSimonian1986, eq. 2]. `deviations` are
+/// those of the balanced values, one per patch.
 [[nodiscard]] std::vector<double> noise_weights(const PatchColors& colors, std::span<const Raw> deviations);
 
 }  // namespace abbe

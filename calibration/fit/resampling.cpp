@@ -11,16 +11,16 @@
 namespace abbe {
 namespace {
 
-constexpr double kTail = 0.025;  // on either side of a 95 % interval
-// The patches left in are nearly all of them, so the least-squares start alone finds the minimum that many
-// starts found for the whole chart.
+constexpr double kTail = 0.025;  // probability on either side of a 95 % interval
+// Nearly all patches remain, so the least-squares start alone finds the minimum that many starts find for the
+// whole chart.
 constexpr int kStarts = 2;
 
-// The patches of these numbers, in their order and as often.
-PatchColors selection(const PatchColors& colors, const std::vector<std::size_t>& numbers) {
+// Selects patches by index, in this order and with repetition.
+PatchColors selection(const PatchColors& colors, const std::vector<std::size_t>& indices) {
   PatchColors some;
   some.white = colors.white;
-  for (const std::size_t i : numbers) {
+  for (const std::size_t i : indices) {
     some.names.push_back(colors.names[i]);
     some.raw.push_back(colors.raw[i]);
     some.xyz.push_back(colors.xyz[i]);
@@ -29,26 +29,26 @@ PatchColors selection(const PatchColors& colors, const std::vector<std::size_t>&
   return some;
 }
 
-// As many as there are, drawn with replacement.
-std::vector<std::size_t> drawn(std::size_t count, std::mt19937_64& random) {
+// Draws `count` indices with replacement.
+std::vector<std::size_t> draw_indices(std::size_t count, std::mt19937_64& random) {
   std::uniform_int_distribution<std::size_t> any(0, count - 1);
-  std::vector<std::size_t> numbers(count);
-  for (std::size_t& i : numbers) i = any(random);
-  return numbers;
+  std::vector<std::size_t> indices(count);
+  for (std::size_t& i : indices) i = any(random);
+  return indices;
 }
 
 Interval percentiles(std::vector<double> values) {
   std::sort(values.begin(), values.end());
-  const auto at = [&](double share) {
-    return values[static_cast<std::size_t>(std::lround(share * static_cast<double>(values.size() - 1)))];
+  const auto at = [&](double fraction) {
+    return values[static_cast<std::size_t>(std::lround(fraction * static_cast<double>(values.size() - 1)))];
   };
   return {at(kTail), at(1 - kTail)};
 }
 
-// Leaving out one patch at a time of a chart; of a large set, groups of them.
+// Number of folds to compare models: one patch each, or groups of patches for a large set.
 std::size_t folds_for_choice(std::size_t patches) {
-  constexpr std::size_t kMostFolds = 24;
-  return std::min(patches, kMostFolds);
+  constexpr std::size_t kMaxFolds = 24;
+  return std::min(patches, kMaxFolds);
 }
 
 }  // namespace
@@ -64,15 +64,14 @@ std::vector<ModelCandidate> cross_validate_models(const PatchColors& colors, con
     const std::size_t groups = folds > 0 ? folds : folds_for_choice(colors.raw.size());
     candidates.push_back({model, cross_validate(colors, how, groups).mean});
   }
-  // A simpler model is as good as one that is better by less than anybody sees.
+  // A simpler model is preferred if the difference is invisible.
   constexpr double kInvisible = 0.01;
   const auto less = [](const ModelCandidate& x, const ModelCandidate& y) {
     return x.unseen_mean < y.unseen_mean;
   };
-  const double enough =
-      std::min_element(candidates.begin(), candidates.end(), less)->unseen_mean + kInvisible;
+  const double limit = std::min_element(candidates.begin(), candidates.end(), less)->unseen_mean + kInvisible;
   const auto chosen = std::find_if(candidates.begin(), candidates.end(),
-                                   [&](const ModelCandidate& c) { return c.unseen_mean <= enough; });
+                                   [&](const ModelCandidate& c) { return c.unseen_mean <= limit; });
   std::rotate(candidates.begin(), chosen, chosen + 1);
   std::sort(candidates.begin() + 1, candidates.end(), less);
   return candidates;
@@ -98,9 +97,9 @@ PatchErrors cross_validate(const PatchColors& colors, const CorrectionOptions& o
       unseen.delta_e[left_out[j]] = errors.delta_e[j];
       unseen.delta_e_76[left_out[j]] = errors.delta_e_76[j];
     }
-    const double share = static_cast<double>(errors.delta_e.size()) / static_cast<double>(count);
-    unseen.mean += errors.mean * share;
-    unseen.mean_76 += errors.mean_76 * share;
+    const double fraction = static_cast<double>(errors.delta_e.size()) / static_cast<double>(count);
+    unseen.mean += errors.mean * fraction;
+    unseen.mean_76 += errors.mean_76 * fraction;
     unseen.max = std::max(unseen.max, errors.max);
   }
   return unseen;
@@ -110,7 +109,7 @@ Interval bootstrap_mean(std::span<const double> values, const BootstrapOptions& 
   std::mt19937_64 random(options.seed);
   std::vector<double> means(static_cast<std::size_t>(options.replicates));
   for (double& mean : means) {
-    for (const std::size_t i : drawn(values.size(), random)) mean += values[i];
+    for (const std::size_t i : draw_indices(values.size(), random)) mean += values[i];
     mean /= static_cast<double>(values.size());
   }
   return percentiles(std::move(means));
@@ -128,7 +127,7 @@ std::vector<std::array<Interval, 3>> bootstrap_columns(const PatchColors& colors
   for (int done = 0; done < options.replicates;) {
     try {
       const ColorCorrection fit =
-          fit_correction(selection(colors, drawn(colors.raw.size(), random)), once).correction;
+          fit_correction(selection(colors, draw_indices(colors.raw.size(), random)), once).correction;
       for (std::size_t t = 0; t < terms; ++t)
         for (std::size_t i = 0; i < 3; ++i) values[t][i].push_back(fit.columns[t][i]);
       ++done;

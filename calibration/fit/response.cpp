@@ -25,14 +25,15 @@ namespace {
 
 constexpr std::size_t kCoefficients = ResponseModel<double>::kCoefficients;
 constexpr double kFirstScale =
-    0.01;  // of the first pass: code errors beyond 1 % of full scale count ever less
+    0.01;  // of the first pass: code errors above 1 % of full scale have less and less weight
 constexpr double kFirstRoughness = 1;
-constexpr double kCauchy = 2.385;         // in deviations: 95 % efficient for Gaussian errors [Holland1977]
-constexpr double kLeastDeviation = 2e-5;  // of a code: what even exact values are taken to be uncertain by
+constexpr double kCauchy = 2.385;  // in standard deviations: 95 % efficient for Gaussian errors [Holland1977]
+constexpr double kMinDeviation = 2e-5;  // of a code; a lower limit even for exact values
 constexpr std::size_t kMinSamples = 32;
-constexpr double kDeviationsOf95 = 1.96;  // of a normal law, to both sides
+constexpr double kDeviationsOf95 = 1.96;  // half-width of a Gaussian 95 % interval
 
-// A straight line in the curve's coordinate, and the patches where it puts them.
+// Start of the fit: a straight line in the curve's coordinate, and the exposures of the patches that follow
+// from it.
 ResponseUnknowns start(const std::vector<ResponseSample>& samples, std::size_t patches) {
   ResponseUnknowns unknowns;
   unknowns.log_exposure.assign(patches, 0.0);
@@ -46,7 +47,7 @@ ResponseUnknowns start(const std::vector<ResponseSample>& samples, std::size_t p
   return unknowns;
 }
 
-/// Keeps Ceres from printing what an error is about to say.
+/// Silences Ceres, because the thrown errors contain its messages.
 struct QuietLibrary {
   int before = std::exchange(FLAGS_minloglevel, google::GLOG_FATAL);
 
@@ -70,17 +71,15 @@ ceres::Solver::Summary converge(const WeightedSamples& data, double roughness, i
   options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
   ceres::Solve(options, problem.get(), &summary);
-  require_for_response(
-      summary.IsSolutionUsable() && summary.termination_type == ceres::CONVERGENCE &&
-          std::isfinite(summary.final_cost),
-      fmt::format(
-          "no curve goes through these codes (gave up after {} steps): do the exposure times belong to "
-          "the photographs, and did nothing move between them?",
-          summary.iterations.size()));
+  require_for_response(summary.IsSolutionUsable() && summary.termination_type == ceres::CONVERGENCE &&
+                           std::isfinite(summary.final_cost),
+                       fmt::format("no curve fits these codes (gave up after {} iterations): do the exposure "
+                                   "times belong to the photographs, and did nothing move between them?",
+                                   summary.iterations.size()));
   return summary;
 }
 
-// Errors of the code values, absolute.
+// Absolute errors of the code values.
 std::vector<double> code_errors(const std::vector<ResponseSample>& samples,
                                 const ResponseUnknowns& unknowns) {
   const ResponseModel<double> model = unknowns.model();
@@ -91,20 +90,20 @@ std::vector<double> code_errors(const std::vector<ResponseSample>& samples,
   return sizes;
 }
 
-// Where on the curve the patch's exposure is, by bisection.
+// Code that the curve predicts for a sample, by bisection.
 double predicted_code(const ResponseUnknowns& unknowns, const ResponseSample& s) {
   const ResponseModel<double> model = unknowns.model();
   const double target = unknowns.log_exposure[s.patch] + s.log_time;
   double low = 0;
   double high = 1;
   for (int i = 0; i < 40; ++i) {
-    const double middle = (low + high) / 2;
-    (model(middle) < target ? low : high) = middle;
+    const double center = (low + high) / 2;
+    (model(center) < target ? low : high) = center;
   }
   return target > model(1) ? 1 : (low + high) / 2;
 }
 
-// How much larger errors are than their stated deviations; few outliers do not tell.
+// Ratio of the errors to their stated deviations, estimated robustly against a few outliers.
 double noise_scale(const std::vector<ResponseSample>& samples, const ResponseUnknowns& unknowns,
                    std::size_t unknown_count) {
   std::vector<double> sizes = code_errors(samples, unknowns);
@@ -114,13 +113,13 @@ double noise_scale(const std::vector<ResponseSample>& samples, const ResponseUnk
          std::sqrt(count / std::max(1.0, count - static_cast<double>(unknown_count)));
 }
 
-// Gives samples of which nothing is known the deviations that the residuals of codes like theirs have.
-void learn_deviations(std::vector<ResponseSample>& samples, WeightedSamples& fitted,
-                      const ResponseUnknowns& unknowns) {
+// Sets the unknown deviations of samples to those of the residuals at similar codes.
+void estimate_deviations(std::vector<ResponseSample>& samples, WeightedSamples& fitted,
+                         const ResponseUnknowns& unknowns) {
   const NoiseByCode noise(fitted.samples, code_errors(fitted.samples, unknowns));
   for (std::vector<ResponseSample>* const list : {&samples, &fitted.samples})
     for (ResponseSample& s : *list)
-      s.deviation = std::max(kLeastDeviation, noise.deviation(predicted_code(unknowns, s)));
+      s.deviation = std::max(kMinDeviation, noise.deviation(predicted_code(unknowns, s)));
 }
 
 WeightedSamples weigh(const std::vector<ResponseSample>& all, const ResponseUnknowns& unknowns,
@@ -128,8 +127,8 @@ WeightedSamples weigh(const std::vector<ResponseSample>& all, const ResponseUnkn
   WeightedSamples data{{}, {}, kCauchy};
   const ResponseModel<double> model = unknowns.model();
   for (const ResponseSample& s : all) {
-    const double deviation = std::max(kLeastDeviation, scale * s.deviation);
-    // Chosen by the curve, since a choice by the noisy code itself would favour one side.
+    const double deviation = std::max(kMinDeviation, scale * s.deviation);
+    // Select by the predicted code: a selection by the noisy code itself would be biased.
     const double expected = predicted_code(unknowns, s);
     if (!within_margins(expected, deviation)) continue;
     data.samples.push_back(s);
@@ -138,20 +137,21 @@ WeightedSamples weigh(const std::vector<ResponseSample>& all, const ResponseUnkn
   return data;
 }
 
-// Deviation of ln of the linear exposure relative to the gauge, from the covariance of the coefficients.
+// Standard deviation of ln exposure relative to mid-scale, from the covariance of the coefficients.
 std::vector<double> log_deviations(const WeightedSamples& data, double roughness, ResponseUnknowns& unknowns,
                                    std::size_t size) {
   const auto problem = all_terms(data, roughness, unknowns);
   const QuietLibrary quiet;
   ceres::Covariance::Options options;
   options.algorithm_type = ceres::DENSE_SVD;
-  options.min_reciprocal_condition_number = 1e-20;  // where no sample lies smoothness alone says something
+  // without samples, only the smoothness determines the curve
+  options.min_reciprocal_condition_number = 1e-20;
   ceres::Covariance covariance(options);
   const double* theta = unknowns.theta.data();
   const std::vector<std::pair<const double*, const double*>> blocks{{theta, theta}};
   require_for_response(
       covariance.Compute(blocks, problem.get()),
-      "the codes leave the curve open: more exposures, or patches of other brightness, are needed");
+      "the codes do not determine the curve: more exposures, or patches of other brightness, are needed");
   constexpr auto kSize = static_cast<int>(kCoefficients);
   Eigen::Matrix<double, kSize, kSize, Eigen::RowMajor> c;
   covariance.GetCovarianceBlock(theta, theta, c.data());
@@ -178,8 +178,8 @@ std::vector<double> tabulate(const ResponseUnknowns& unknowns, std::size_t size)
 
 // Distances of a sample from the curve.
 struct SampleError {
-  double code;          // by the curve, since outliers move from dense codes to sparse ones
-  double deviations;    // of the code
+  double code;          // predicted by the curve, since outliers move from dense codes to sparse ones
+  double deviations;    // error of the code in standard deviations
   double log_exposure;  // absolute
   double exposure;      // as a fraction of full scale
 };
@@ -193,7 +193,7 @@ std::vector<SampleError> sample_errors(const std::vector<ResponseSample>& sample
   for (std::size_t i = 0; i < samples.size(); ++i) {
     const double code = predicted_code(unknowns, samples[i]);
     const double log_exposure = errors[i] * model.slope(samples[i].code);
-    all.push_back({code, errors[i] / std::max(kLeastDeviation, scale * samples[i].deviation), log_exposure,
+    all.push_back({code, errors[i] / std::max(kMinDeviation, scale * samples[i].deviation), log_exposure,
                    log_exposure * std::exp(model(code) - full_scale)});
   }
   std::sort(all.begin(), all.end(),
@@ -201,12 +201,12 @@ std::vector<SampleError> sample_errors(const std::vector<ResponseSample>& sample
   return all;
 }
 
-constexpr double kOff = 6;          // deviations of a code that is off the curve
-constexpr std::size_t kWindow = 9;  // neighbouring codes
-constexpr std::size_t kMinOff = 3;  // of these
+constexpr double kOff = 6;          // minimum error, in standard deviations, of a code off the curve
+constexpr std::size_t kWindow = 9;  // number of neighbouring codes
+constexpr std::size_t kMinOff = 3;  // minimum number of these off the curve
 
-// True if outliers that are as frequent as elsewhere would hardly ever fill one of `windows` windows with so
-// many codes off the curve. The probability is that of the binomial law, with the rate of the other codes by
+// True if outliers as frequent as elsewhere would hardly ever put `off` codes off the curve in any of
+// `windows` windows. The probability follows the binomial law. Its rate is that of the other codes by
 // Laplace's rule of succession.
 bool is_cluster(std::size_t off, std::size_t off_elsewhere, std::size_t elsewhere, std::size_t windows) {
   constexpr double kSignificance = 0.01;  // over all windows
@@ -220,8 +220,8 @@ bool is_cluster(std::size_t off, std::size_t off_elsewhere, std::size_t elsewher
   return off >= kMinOff && (1 - fewer) * static_cast<double>(windows) < kSignificance;
 }
 
-// Neighbouring samples of which significantly more are off the curve than elsewhere, so that they are no
-// outliers: where the curve is too smooth for the codes, the loss takes some of them for these.
+// Range of neighbouring samples of which significantly more are off the curve than elsewhere, so that they
+// are not outliers. If the curve is too smooth for the codes, the loss treats some of them as outliers.
 std::optional<ResponseMisfit> misfit_of(const std::vector<SampleError>& errors) {
   constexpr double kNegligible = 0.002;  // of full scale
   const auto all_off = static_cast<std::size_t>(
@@ -240,7 +240,7 @@ std::optional<ResponseMisfit> misfit_of(const std::vector<SampleError>& errors) 
     const double exposure = median(std::move(off));
     if (exposure < kNegligible) continue;
     if (!misfit) misfit = {errors[first].code, 0, 0, 0};
-    const bool is_last = first + kWindow == errors.size();  // no code determines the curve above it
+    const bool is_last = first + kWindow == errors.size();  // no code determines the curve above
     misfit->high_code = is_last ? 1 : errors[first + kWindow - 1].code;
     misfit->exposure = std::max(misfit->exposure, exposure);
     misfit->log_exposure = std::max(misfit->log_exposure, median(std::move(log_off)));
@@ -248,7 +248,7 @@ std::optional<ResponseMisfit> misfit_of(const std::vector<SampleError>& errors) 
   return misfit;
 }
 
-// Makes the interval hold a curve that is off by so much.
+// Widens the interval to include the misfit.
 void widen(std::vector<double>& log_deviation, const ResponseMisfit& misfit) {
   const auto last = static_cast<double>(log_deviation.size() - 1);
   for (std::size_t i = 0; i < log_deviation.size(); ++i) {
@@ -262,12 +262,12 @@ void require_samples(const std::vector<ResponseSample>& samples) {
   require_for_response(
       samples.size() >= kMinSamples,
       fmt::format(
-          "only {} code values are neither black nor clipped (needed {}): a region is either where more "
-          "than {:g} % of its pixels are, as by one defective pixel of fewer than {:.0f}",
-          samples.size(), kMinSamples, 100 * kMostDefective, 1 / kMostDefective));
+          "only {} code values are neither black nor clipped (needed {}): a region counts as black or "
+          "clipped if more than {:g} % of its pixels are, such as one defective pixel in fewer than {:.0f}",
+          samples.size(), kMinSamples, 100 * kMaxDefectiveFraction, 1 / kMaxDefectiveFraction));
 }
 
-// The first pass knows neither slopes nor the size of errors.
+// Weights of the first pass, in which neither slopes nor error sizes are known.
 WeightedSamples first_weights(const std::vector<ResponseSample>& samples) {
   WeightedSamples data{samples, {}, 1};
   for (const ResponseSample& s : samples)
@@ -288,7 +288,7 @@ ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions
   fit.iterations = static_cast<int>(summary.iterations.size());
   const std::size_t unknown_count = kCoefficients + series.codes.size();
   for (int pass = 0; pass < 2; ++pass) {
-    if (series.deviations.empty()) learn_deviations(samples, data, unknowns);
+    if (series.deviations.empty()) estimate_deviations(samples, data, unknowns);
     fit.noise_scale = noise_scale(data.samples, unknowns, unknown_count);
     data = weigh(samples, unknowns, fit.noise_scale);
     require_samples(data.samples);
@@ -306,11 +306,10 @@ ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions
   if (!series.deviations.empty())
     fit.misfit = misfit_of(sample_errors(data.samples, unknowns, fit.noise_scale));
   if (fit.misfit) widen(fit.log_deviation, *fit.misfit);
-  require_for_response(
-      std::is_sorted(fit.linear.begin(), fit.linear.end(), std::less_equal<>()) &&
-          std::isfinite(fit.linear.back()),
-      "the curve that goes through these codes does not rise everywhere: do the exposure times belong to the "
-      "photographs, and are there enough of them?");
+  require_for_response(std::is_sorted(fit.linear.begin(), fit.linear.end(), std::less_equal<>()) &&
+                           std::isfinite(fit.linear.back()),
+                       "the curve that fits these codes does not rise everywhere: do the exposure times "
+                       "belong to the photographs, and are there enough of them?");
   require_determined(fit, data.samples);
   return fit;
 }

@@ -7,13 +7,13 @@
 
 namespace abbe {
 
-/// A monotone sensor response as ln(linear exposure) of the code value z in (0, 1], templated on its scalar
-/// so that the solver differentiates the function that renders.
+/// A monotone sensor response: ln(linear exposure) as a function of the code value z in (0, 1]. It is a
+/// template on its scalar, so that the solver differentiates the same function.
 ///
-/// In the coordinate u(z) = ln z - ln(1 + kShoulder - z) a power-law toe and a logistic shoulder are both
+/// In the coordinate u(z) = ln z - ln(1 + kShoulder - z), a power-law toe and a logistic shoulder are both
 /// straight lines. ln exposure is a sum of cumulative uniform B-splines in u (I-splines [Ramsay1988]) with
-/// coefficients exp(theta) > 0, hence strictly rising, and is zero at kMidCode: the gauge, since an unknown
-/// exposure scale is not observable.
+/// coefficients exp(theta) > 0. It therefore rises strictly. It is zero at kMidCode, because the scale of the
+/// exposure cannot be observed.
 template <typename T>
 class ResponseModel {
  public:
@@ -42,8 +42,7 @@ class ResponseModel {
     return sum / (sensitivity(code) * spacing());
   }
 
-  /// d code / d u: by how much a rise in u shows in the code, largest in mid-scale and falling to the toe and
-  /// the shoulder.
+  /// d code / d u: sensitivity of the code to u, largest at mid-scale and falling towards toe and shoulder.
   [[nodiscard]] static double sensitivity(double code) {
     return code * (1 + kShoulder - code) / (1 + kShoulder);
   }
@@ -60,9 +59,9 @@ class ResponseModel {
     return (coordinate(std::clamp(code, kLowestCode, 1.0)) - low) / spacing();
   }
   static double spacing() {
-    static const double knots_apart =
+    static const double knot_spacing =
         (coordinate(1) - coordinate(kLowestCode)) / static_cast<double>(kCoefficients - 2);
-    return knots_apart;
+    return knot_spacing;
   }
   static double knot(std::size_t k) { return static_cast<double>(k) - 2; }
 
@@ -75,7 +74,7 @@ class ResponseModel {
     return 0.5 + (x - 1.5) * (0.75 - (x - 1.5) * (x - 1.5) / 3);
   }
 
-  // Its derivative: the quadratic uniform B-spline.
+  // Derivative of `cumulative`: the quadratic uniform B-spline.
   static double bump(double x) {
     if (x <= 0 || x >= 3) return 0;
     if (x < 1) return x * x / 2;

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kMadToDeviation = 1.4826;
 constexpr std::size_t kGroups = 12;
-constexpr std::size_t kLeastGroup = 32;  // a deviation known to about a seventh
+constexpr std::size_t kMinGroupSize = 32;  // gives the deviation to about a seventh
 
 }  // namespace
 
@@ -24,7 +24,7 @@ NoiseByCode::NoiseByCode(std::span<const ResponseSample> samples, std::span<cons
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::sort(order.begin(), order.end(),
             [&](std::size_t a, std::size_t b) { return samples[a].code < samples[b].code; });
-  const std::size_t groups = std::clamp(samples.size() / kLeastGroup, std::size_t{1}, kGroups);
+  const std::size_t groups = std::clamp(samples.size() / kMinGroupSize, std::size_t{1}, kGroups);
   for (std::size_t g = 0; g < groups; ++g) {
     std::vector<double> codes;
     std::vector<double> sizes;

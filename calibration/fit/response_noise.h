@@ -7,20 +7,21 @@
 
 namespace abbe {
 
-/// The standard deviation that errors of these absolute sizes have if they are Gaussian; few outliers do not
-/// tell.
+/// Standard deviation of Gaussian errors with these absolute values, estimated from their median, which a few
+/// outliers hardly change.
 [[nodiscard]] double deviation_of(std::vector<double> sizes);
 
-/// How the errors of codes grow from the dark to full scale, told by the residuals of a fit where nothing
-/// else tells: photons make those of a single pixel's bright codes many times those of its dark ones, and a
-/// fit that takes them to be alike is far surer of the bright end than it may be.
+/// Noise of codes from dark to full scale, estimated from the residuals of a fit. It is used if a series does
+/// not state deviations. Photon noise makes the errors of single pixels many times larger at bright codes
+/// than at dark ones. A fit that assumed equal errors would be far too certain of the bright end.
 class NoiseByCode {
  public:
-  /// From the absolute `errors` of the codes of `samples`, as many: the samples in groups of neighbouring
-  /// codes, each with the deviation of its own errors.
+  /// Estimates the noise from the absolute `errors` of the codes of `samples`. The samples are divided into
+  /// groups of neighbouring codes, each with the standard deviation of its own errors.
   NoiseByCode(std::span<const ResponseSample> samples, std::span<const double> errors);
 
-  /// Standard deviation of a code in [0, 1]: linear between the middles of the groups, held beyond them.
+  /// Standard deviation of a code in [0, 1]: linear between the median codes of the groups, constant outside
+  /// them.
   [[nodiscard]] double deviation(double code) const;
 
  private:

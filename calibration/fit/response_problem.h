@@ -12,7 +12,7 @@
 
 namespace abbe {
 
-/// What the fit of a response looks for.
+/// Unknowns of a response fit.
 struct ResponseUnknowns {
   std::array<double, ResponseModel<double>::kCoefficients> theta{};
   std::vector<double> log_exposure;  ///< One per patch.
@@ -20,15 +20,15 @@ struct ResponseUnknowns {
   [[nodiscard]] ResponseModel<double> model() const { return ResponseModel<double>(theta.data()); }
 };
 
-/// Samples with what their residuals are multiplied by, so that their deviation is 1.
+/// Samples with weights that scale their residuals to a standard deviation of 1.
 struct WeightedSamples {
   std::vector<ResponseSample> samples;
   std::vector<double> weights;
   double loss = 0;  ///< Width of the Cauchy loss.
 };
 
-/// Second differences of the coefficients times `roughness`, and first ones weighted so lightly that they
-/// only carry the slope on where no sample lies.
+/// Residuals of the smoothness term: second differences of the coefficients times `roughness`, and first
+/// differences. The latter have a small weight, which only continues the slope where there are no samples.
 struct ResponseSmoothness {
   static constexpr std::size_t kCoefficients = ResponseModel<double>::kCoefficients;
   static constexpr int kTerms = static_cast<int>(2 * kCoefficients - 3);
@@ -48,11 +48,11 @@ struct ResponseSmoothness {
 using SmoothnessCost = ceres::AutoDiffCostFunction<ResponseSmoothness, ResponseSmoothness::kTerms,
                                                    static_cast<int>(ResponseSmoothness::kCoefficients)>;
 
-/// The residuals of the samples at these unknowns.
+/// Least-squares problem of the samples' residuals. It refers to `unknowns`.
 [[nodiscard]] std::unique_ptr<ceres::Problem> data_terms(const WeightedSamples& data,
                                                          ResponseUnknowns& unknowns);
 
-/// These and the smoothness.
+/// `data_terms` with the smoothness term.
 [[nodiscard]] std::unique_ptr<ceres::Problem> all_terms(const WeightedSamples& data, double roughness,
                                                         ResponseUnknowns& unknowns);
 

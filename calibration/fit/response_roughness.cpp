@@ -8,16 +8,16 @@
 namespace abbe {
 namespace {
 
-// The problem linearised at the unknowns, the exposures of the patches eliminated: what is left of the
-// residuals and of their derivatives by the curve where each patch lies best. The hat matrix of the exposures
-// alone is share share' between samples of one patch and 0 between others.
-struct Eliminated {
+// The problem linearised at the unknowns, with the exposures of the patches eliminated: residuals and their
+// derivatives by the curve, at the best exposure of each patch. With h = `hat_factor`, the hat matrix of the
+// exposures alone is h h' between samples of one patch and 0 between others.
+struct ReducedProblem {
   Eigen::MatrixXd jacobian;
   Eigen::VectorXd residuals;
-  Eigen::VectorXd share;            // Of a sample in the exposure of its patch, its square root.
-  std::vector<Eigen::Index> patch;  // Of each sample.
+  Eigen::VectorXd hat_factor;       // square root of a sample's leverage on the exposure of its patch
+  std::vector<Eigen::Index> patch;  // patch of each sample
 };
-Eliminated eliminate_exposures(const WeightedSamples& data, ResponseUnknowns& unknowns) {
+ReducedProblem eliminate_exposures(const WeightedSamples& data, ResponseUnknowns& unknowns) {
   const auto problem = data_terms(data, unknowns);
   ceres::Problem::EvaluateOptions options;
   options.parameter_blocks = {unknowns.theta.data()};
@@ -27,7 +27,7 @@ Eliminated eliminate_exposures(const WeightedSamples& data, ResponseUnknowns& un
   ceres::CRSMatrix sparse;
   problem->Evaluate(options, nullptr, &residuals, nullptr, &sparse);
   constexpr auto kCurve = static_cast<Eigen::Index>(ResponseSmoothness::kCoefficients);
-  // Columns: the curve's, the residual's. Rows have one more derivative each, by their patch's exposure.
+  // Columns are the curve's, then the residual. Each row has one more derivative, by its patch's exposure.
   Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(sparse.num_rows, kCurve + 1);
   Eigen::VectorXd by_exposure = Eigen::VectorXd::Zero(sparse.num_rows);
   std::vector<Eigen::Index> patch(static_cast<std::size_t>(sparse.num_rows));
@@ -51,21 +51,21 @@ Eliminated eliminate_exposures(const WeightedSamples& data, ResponseUnknowns& un
     weights[patch[static_cast<std::size_t>(row)]] += by_exposure[row] * by_exposure[row];
     sums.row(patch[static_cast<std::size_t>(row)]) += by_exposure[row] * rows.row(row);
   }
-  Eigen::VectorXd share(rows.rows());
+  Eigen::VectorXd hat_factor(rows.rows());
   for (Eigen::Index row = 0; row < rows.rows(); ++row) {
     const Eigen::Index at = patch[static_cast<std::size_t>(row)];
-    share[row] = by_exposure[row] / std::sqrt(weights[at]);
+    hat_factor[row] = by_exposure[row] / std::sqrt(weights[at]);
     rows.row(row) -= by_exposure[row] / weights[at] * sums.row(at);
   }
-  return {rows.leftCols(kCurve), rows.col(kCurve), std::move(share), std::move(patch)};
+  return {rows.leftCols(kCurve), rows.col(kCurve), std::move(hat_factor), std::move(patch)};
 }
 
-// J'J and J'r of the smoothness at these unknowns.
-struct Normal {
+// J'J and J'r of the smoothness term at the unknowns.
+struct NormalEquations {
   Eigen::MatrixXd matrix;
   Eigen::VectorXd gradient;
 };
-Normal smoothness_normal(double roughness, const ResponseUnknowns& unknowns) {
+NormalEquations smoothness_normal(double roughness, const ResponseUnknowns& unknowns) {
   const SmoothnessCost cost(new ResponseSmoothness{roughness});
   Eigen::Matrix<double, ResponseSmoothness::kTerms, static_cast<int>(ResponseSmoothness::kCoefficients),
                 Eigen::RowMajor>
@@ -77,7 +77,7 @@ Normal smoothness_normal(double roughness, const ResponseUnknowns& unknowns) {
   return {jacobian.transpose() * jacobian, jacobian.transpose() * residuals};
 }
 
-// Rows of the samples of each exposure time.
+// Rows of the samples, grouped by exposure time.
 std::vector<std::vector<Eigen::Index>> exposures_of(const WeightedSamples& data) {
   std::map<double, std::vector<Eigen::Index>> rows;
   for (std::size_t i = 0; i < data.samples.size(); ++i)
@@ -87,11 +87,11 @@ std::vector<std::vector<Eigen::Index>> exposures_of(const WeightedSamples& data)
   return exposures;
 }
 
-// Squared residuals of each exposure under the fit to all others. The fit is linear, so leaving out is exact
-// and needs no other fit: residuals r with the block H of the hat matrix become (I - H)^-1 r.
-double left_out_score(const std::vector<std::vector<Eigen::Index>>& exposures, const Eliminated& problem,
+// Sum of the squared residuals of each exposure under the fit to all others. The fit is linear, so leaving
+// out is exact and needs no other fit: residuals r with the block H of the hat matrix become (I - H)^-1 r.
+double left_out_score(const std::vector<std::vector<Eigen::Index>>& exposures, const ReducedProblem& problem,
                       const Eigen::LDLT<Eigen::MatrixXd>& solver, const Eigen::VectorXd& residuals) {
-  constexpr double kAlone = 1e-6;  // for a patch that no other exposure shows
+  constexpr double kAlone = 1e-6;  // for a patch without any other exposure
   const auto of_one_patch = [&problem](Eigen::Index a, Eigen::Index b) {
     return problem.patch[static_cast<std::size_t>(a)] == problem.patch[static_cast<std::size_t>(b)];
   };
@@ -104,7 +104,7 @@ double left_out_score(const std::vector<std::vector<Eigen::Index>>& exposures, c
       for (std::size_t j = 0; j < rows.size(); ++j)
         if (of_one_patch(rows[i], rows[j]))
           rest(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) -=
-              problem.share[rows[i]] * problem.share[rows[j]];
+              problem.hat_factor[rows[i]] * problem.hat_factor[rows[j]];
     score += rest.ldlt().solve(Eigen::VectorXd(residuals(rows))).squaredNorm();
   }
   return score;
@@ -113,20 +113,20 @@ double left_out_score(const std::vector<std::vector<Eigen::Index>>& exposures, c
 }  // namespace
 
 double choose_roughness(const WeightedSamples& data, ResponseUnknowns& unknowns) {
-  const Eliminated problem = eliminate_exposures(data, unknowns);
+  const ReducedProblem problem = eliminate_exposures(data, unknowns);
   const Eigen::MatrixXd data_matrix = problem.jacobian.transpose() * problem.jacobian;
   const Eigen::VectorXd data_gradient = problem.jacobian.transpose() * problem.residuals;
   const std::vector<std::vector<Eigen::Index>> exposures = exposures_of(data);
   double best = 1;
-  double least = std::numeric_limits<double>::infinity();
+  double best_score = std::numeric_limits<double>::infinity();
   for (double roughness = 1; roughness < 5000; roughness *= 2) {
-    const Normal smooth = smoothness_normal(roughness, unknowns);
+    const NormalEquations smooth = smoothness_normal(roughness, unknowns);
     const Eigen::LDLT<Eigen::MatrixXd> solver(data_matrix + smooth.matrix);
-    const Eigen::VectorXd moved =
+    const Eigen::VectorXd fitted_residuals =
         problem.residuals - problem.jacobian * solver.solve(data_gradient + smooth.gradient);
-    const double score = left_out_score(exposures, problem, solver, moved);
-    if (score < least) {
-      least = score;
+    const double score = left_out_score(exposures, problem, solver, fitted_residuals);
+    if (score < best_score) {
+      best_score = score;
       best = roughness;
     }
   }

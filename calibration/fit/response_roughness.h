@@ -4,9 +4,9 @@
 
 namespace abbe {
 
-/// The roughness under which exposures left out one at a time are predicted best, the problem being
-/// linearised at the unknowns. Whole exposures, since the samples of one share the error of its time, and
-/// patches that look alike share their rounding.
+/// Weight of the smoothness that best predicts exposures left out one at a time, for the problem linearised
+/// at the unknowns. Whole exposures are left out, because the samples of one have the error of its time in
+/// common, and similar patches have the same rounding.
 [[nodiscard]] double choose_roughness(const WeightedSamples& data, ResponseUnknowns& unknowns);
 
 }  // namespace abbe

@@ -7,8 +7,9 @@
 namespace abbe {
 namespace {
 
-constexpr double kDarkMargin = 8;    // deviations from black, below which the curve of noise is no noise
-constexpr double kBrightMargin = 4;  // deviations from full scale
+// standard deviations from black; below that the curve would follow the noise
+constexpr double kDarkMargin = 8;
+constexpr double kBrightMargin = 4;  // standard deviations from full scale
 
 }  // namespace
 

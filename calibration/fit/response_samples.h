@@ -7,20 +7,21 @@
 
 namespace abbe {
 
-/// One code of an exposure series that tells of the response.
+/// One usable code of an exposure series.
 struct ResponseSample {
   std::size_t patch;
   double code;
-  double deviation;  ///< Standard deviation of the code; 1 where none is known yet.
+  double deviation;  ///< Standard deviation of the code; 1 while unknown.
   double log_time;
 };
 
-/// Whether noise of this deviation cannot have brought a code from black or from beyond full scale.
+/// True if a code is so far from black and from full scale that noise of this standard deviation cannot have
+/// clipped it.
 [[nodiscard]] bool within_margins(double code, double deviation);
 
-/// The codes that are of use. Black and clipped ones say nothing of the exposure, nor do those of longer
-/// times than one that clipped, or of shorter ones than one that was black: noise alone moves them off the
-/// ends. With margins, codes within a few known deviations of either end are left out too.
+/// Usable codes of a series. Excluded are black and clipped codes, codes of longer times than one that
+/// clipped, and codes of shorter times than one that was black: only noise moves these off the ends.
+/// `with_margins` also excludes codes within a few known deviations of either end.
 [[nodiscard]] std::vector<ResponseSample> usable_samples(const ExposureSeries& series, bool with_margins);
 
 }  // namespace abbe

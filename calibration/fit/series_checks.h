@@ -8,17 +8,20 @@
 
 namespace abbe {
 
-/// Throws Error{input} with this message about a response fit unless the condition holds.
+/// Throws Error{input} about a response fit, with this message, unless `condition` holds.
 void require_for_response(bool condition, const std::string& message);
 
-/// Throws Error{input} unless a series has two times or more, all positive and at least 2 % between the
-/// shortest and the longest, and its codes do not fall as time grows: from one time to the next by more than
-/// 1 % of the patches' median, in three patches of four.
+/// Throws Error{input} unless
+/// - the series has two times or more, all positive, and the longest is at least 1.02 times the shortest;
+/// - codes do not fall as time grows.
+///
+/// Codes fall if three patches in four are darker at the next longer time and the median over the patches is
+/// lower by 1 % or more.
 void require_usable_times(const ExposureSeries& series);
 
-/// Throws Error{input} unless the samples that a fit has used determine its curve: unless between the lowest
-/// and the highest of their codes its 95 % interval reaches less than a tenth of the exposure of the highest
-/// to either side, and beyond them less than half of full scale.
+/// Throws Error{input} unless the samples of a fit determine its curve. Between their lowest and highest
+/// code, the 95 % interval must extend less than a tenth of the highest code's exposure to either side.
+/// Outside, it must extend less than half of full scale.
 void require_determined(const ResponseFit& fit, std::span<const ResponseSample> samples);
 
 }  // namespace abbe

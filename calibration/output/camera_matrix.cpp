@@ -23,7 +23,7 @@ std::string light_of(const OcioCameraSpace& space) {
   return space.name.substr(std::string_view(kCameraPrefix).size());
 }
 
-// Distance of chromaticities; infinite for a light that is no illuminant of the data directory.
+// Distance of chromaticities; infinite for a light that is not an illuminant of the data directory.
 double distance(const OcioCameraSpace& space, const Chromaticity& white) {
   Diagnostics unknown;
   const auto light = load_illuminant(light_of(space), {}, unknown);
@@ -37,13 +37,13 @@ const OcioCameraSpace& choose(const std::vector<OcioCameraSpace>& spaces, const 
   if (spaces.size() == 1) return spaces.front();
   std::vector<std::string> names;
   const OcioCameraSpace* nearest = nullptr;
-  double least = std::numeric_limits<double>::infinity();
+  double min_distance = std::numeric_limits<double>::infinity();
   for (const OcioCameraSpace& space : spaces) {
     if (light_of(space) == white_name) return space;
     names.push_back(space.name);
-    const double here = white ? distance(space, *white) : least;
-    if (here < least) nearest = &space;
-    least = std::min(here, least);
+    const double candidate = white ? distance(space, *white) : min_distance;
+    if (candidate < min_distance) nearest = &space;
+    min_distance = std::min(candidate, min_distance);
   }
   if (nearest == nullptr)
     throw Error(
@@ -74,8 +74,8 @@ std::optional<CameraMatrix> camera_matrix(const ViewOptions& view, std::span<con
   const OcioCameraSpace& space = choose(spaces, white_name, white);
   if (!space.to_xyz_d65 || !is_invertible(*space.to_xyz_d65))
     throw Error(ErrorCode::usage, kOption,
-                fmt::format("\"{}\" is no matrix, which alone can show films (allowed: a configuration of "
-                            "calibrate --correction matrix)",
+                fmt::format("\"{}\" is not a matrix, which films need (allowed: a configuration of calibrate "
+                            "--correction matrix)",
                             space.name));
   const Matrix3 matrix = in_order_of(channels, *space.to_xyz_d65);
   const std::array<double, 3> neutral = multiply(matrix.inverse(true), unit_xyz(kD65));

@@ -18,26 +18,27 @@ inline constexpr RgbSpace kP3D65{{0.680, 0.320}, {0.265, 0.690}, {0.150, 0.060},
 
 inline constexpr RgbSpace kRec2020{{0.708, 0.292}, {0.170, 0.797}, {0.131, 0.046}, kD65};  ///< [BT2020]
 
-/// Cone spaces in which white is adapted, by a gain for each cone.
+/// Cone spaces for chromatic adaptation, which multiplies each cone by a gain.
 enum class Adaptation {
   bradford,  ///< Sharpened Bradford cones, linear [Lam1985].
   cat02,     ///< The cones of CIECAM02 [CIE159].
   cat16,     ///< The cones of CAM16 [Li2017].
 };
 
-/// XYZ to the responses of those cones.
+/// Matrix from XYZ to the cone responses of a method.
 [[nodiscard]] Matrix3 cone_responses(Adaptation method);
 
-/// Chromatic adaptation of XYZ from one white to another, complete. Nothing for a white without a positive
-/// response of every cone, such as a spectral line.
+/// Matrix of complete chromatic adaptation of XYZ from one white to another. Empty for a white without a
+/// positive response of every cone, such as a spectral line.
 [[nodiscard]] std::optional<Matrix3> adaptation(const XYZ& from_white, const XYZ& to_white,
                                                 Adaptation method = Adaptation::bradford);
 
-/// Whether two lights have one white: the coordinates of illuminants, as tables round them, differ by less
-/// than 0.0005.
+/// True if two chromaticities are those of one white: they differ by less than 0.0005, the rounding of tables
+/// of illuminants.
 [[nodiscard]] bool is_same_white(const Chromaticity& a, const Chromaticity& b);
 
-/// Linear RGB of a space to XYZ relative to D65: through Bradford's cones where its own white is another.
+/// Matrix from linear RGB of a space to XYZ relative to D65, with Bradford adaptation if its white is
+/// another.
 [[nodiscard]] Matrix3 rgb_to_xyz_d65(const RgbSpace& space);
 
 }  // namespace abbe

@@ -31,7 +31,7 @@ namespace OCIO = OCIO_NAMESPACE;
 
 constexpr const char* kChart = "colorchecker24_babelcolor_average";
 constexpr double kPercentile = 0.99;
-constexpr float kClipTolerance = 1e-5F;  // float rounding of a white at exactly 1 is no clipping
+constexpr float kClipTolerance = 1e-5F;  // float rounding of a white at exactly 1 does not count as clipping
 
 void require_displayable(std::size_t channels) {
   if (channels == 1 || channels == 3) return;
@@ -74,51 +74,52 @@ Image split_planes(const std::vector<float>& packed, const Image& film, bool gre
   return image;
 }
 
-// The space of a user's configuration that holds ACES2065-1.
+// Name of the space for ACES2065-1 in a user's configuration.
 std::string aces_space(const OCIO::Config& config, const std::string& file) {
   for (const char* name : {"aces_interchange", "ACES2065-1", "ACES - ACES2065-1"})
     if (config.getColorSpace(name)) return name;
-  throw Error(
-      ErrorCode::input, file,
-      "has neither the role aces_interchange nor a colour space ACES2065-1, so it cannot be told what "
-      "the film's colours are");
+  throw Error(ErrorCode::input, file,
+              "has neither the role aces_interchange nor a colour space ACES2065-1, one of which is needed "
+              "for the film's colours");
 }
 
-// The one asked for among those there are, or the first.
-std::string choose(const char* option, const std::string& asked, int count,
+// Returns `requested` if it is one of the available names; the first name if nothing is requested.
+std::string choose(const char* option, const std::string& requested, int count,
                    const std::function<const char*(int)>& name) {
   std::vector<std::string> names;
   for (int i = 0; i < count; ++i) names.emplace_back(name(i));
   if (names.empty()) throw Error(ErrorCode::input, option, "the OpenColorIO configuration has none");
-  if (asked.empty()) return names.front();
-  if (std::find(names.begin(), names.end(), asked) == names.end())
-    throw Error(ErrorCode::usage, option, fmt::format("got {}, allowed {}", asked, fmt::join(names, ", ")));
-  return asked;
+  if (requested.empty()) return names.front();
+  if (std::find(names.begin(), names.end(), requested) == names.end())
+    throw Error(ErrorCode::usage, option,
+                fmt::format("got {}, allowed {}", requested, fmt::join(names, ", ")));
+  return requested;
 }
 
-/// The display and the view that options choose of a configuration.
+/// Display and view that the options select in a configuration.
 struct ChosenView {
   OCIO::ConstConfigRcPtr config;
   std::string display;
   std::string view;
 };
 
-// OpenColorIO would wait for the writer of a FIFO; names of its own, such as "ocio://default", are no files.
+// Throws an Error for a configuration that is not a regular file: OpenColorIO would wait for the writer of a
+// FIFO. Names of its own, such as "ocio://default", are not files.
 void require_no_device(const std::filesystem::path& config) {
   std::error_code ignored;
   if (std::filesystem::exists(config, ignored)) require_file(config);
 }
 
 ChosenView choose_view(const ViewOptions& options) {
-  const bool own = options.config.empty();
-  if (!own) require_no_device(options.config);
-  std::istringstream text(own ? ocio_config_text({}) : "");
-  const OCIO::ConstConfigRcPtr config =
-      own ? OCIO::Config::CreateFromStream(text) : OCIO::Config::CreateFromFile(options.config.c_str());
-  // All displays, not the active ones: $OCIO_ACTIVE_DISPLAYS is about a user's configuration.
+  const bool is_builtin = options.config.empty();
+  if (!is_builtin) require_no_device(options.config);
+  std::istringstream text(is_builtin ? ocio_config_text({}) : "");
+  const OCIO::ConstConfigRcPtr config = is_builtin ? OCIO::Config::CreateFromStream(text)
+                                                   : OCIO::Config::CreateFromFile(options.config.c_str());
+  // Abbe's configuration offers all displays: $OCIO_ACTIVE_DISPLAYS refers to a user's configuration.
   const std::string display =
-      choose("--screen", options.display, own ? config->getNumDisplaysAll() : config->getNumDisplays(),
-             [&](int i) { return own ? config->getDisplayAll(i) : config->getDisplay(i); });
+      choose("--screen", options.display, is_builtin ? config->getNumDisplaysAll() : config->getNumDisplays(),
+             [&](int i) { return is_builtin ? config->getDisplayAll(i) : config->getDisplay(i); });
   const std::string view = choose("--view", options.view, config->getNumViews(display.c_str()),
                                   [&](int i) { return config->getView(display.c_str(), i); });
   return {config, display, view};
@@ -128,15 +129,15 @@ ChosenView choose_view(const ViewOptions& options) {
   throw Error(options.config.empty() ? ErrorCode::internal : ErrorCode::input, "OpenColorIO", why.what());
 }
 
-// What the view can take in, in Abbe's own configuration or a user's.
-Gamut gamut_of(bool own, const std::string& display, const std::string& view) {
-  if (!own || view != kPlainView) return Gamut(kAcesCg);
+// Gamut of a view, in Abbe's own configuration or a user's.
+Gamut gamut_of(bool is_builtin, const std::string& display, const std::string& view) {
+  if (!is_builtin || view != kPlainView) return Gamut(kAcesCg);
   return Gamut(codes_of_display(display).space, 1);
 }
 
-// What a picture tells of its codes. A user's configuration says of its displays what they are called alone.
-std::map<std::string, std::string> told_of_codes(bool own, const std::string& display) {
-  if (!own) return {{kColorSpace, "that of " + display}};
+// Attributes that describe a picture's codes. A user's configuration only names its displays.
+std::map<std::string, std::string> code_attributes(bool is_builtin, const std::string& display) {
+  if (!is_builtin) return {{kColorSpace, "that of " + display}};
   const DisplayCodes& codes = codes_of_display(display);
   return {{kColorSpace, codes.color_space}, {kPrimariesKey, primaries_text(codes.space)}};
 }
@@ -146,7 +147,7 @@ DisplayTransform grey_display(const Channel& channel, const ViewOptions& options
   return {{channel.name}, Matrix3(white[0], 0, 0, white[1], 0, 0, white[2], 0, 0), {}, options};
 }
 
-// Film values of three channels that are no observer's to XYZ in the light.
+// Correction and matrix from film values of three sensor channels to XYZ in the light.
 std::pair<CorrectionFit, Matrix3> fit_channels(const std::vector<Channel>& channels,
                                                const std::vector<std::string>& names,
                                                const Curve& illuminant) {
@@ -161,11 +162,10 @@ std::pair<CorrectionFit, Matrix3> fit_channels(const std::vector<Channel>& chann
     return {std::move(fit), to_xyz};
   } catch (const Error& error) {
     if (error.code != ErrorCode::input) throw;
-    throw Error(
-        ErrorCode::usage, "display",
-        fmt::format("in its light channels {} do not tell colours apart between {} and {} nm, so that no "
-                    "colour picture can be made of them: {}",
-                    fmt::join(names, ", "), SumRange{}.low_nm, SumRange{}.high_nm, error.what()));
+    throw Error(ErrorCode::usage, "display",
+                fmt::format("in its light, channels {} do not distinguish colours between {} and {} nm, so "
+                            "no colour picture can be made of them: {}",
+                            fmt::join(names, ", "), SumRange{}.low_nm, SumRange{}.high_nm, error.what()));
   }
 }
 
@@ -173,9 +173,9 @@ std::pair<CorrectionFit, Matrix3> fit_channels(const std::vector<Channel>& chann
 
 struct DisplayTransform::Processor {
   Gamut gamut;
-  Matrix3 to_input;  // from the gamut's RGB
+  Matrix3 to_input;  // from linear RGB of the gamut
   OCIO::ConstCPUProcessorRcPtr cpu;
-  std::map<std::string, std::string> told;  // of the codes
+  std::map<std::string, std::string> attributes;  // description of the codes
 };
 
 std::filesystem::path users_configuration() {
@@ -199,20 +199,20 @@ DisplayTransform::DisplayTransform(std::vector<std::string> channels, const Matr
                                    std::optional<CorrectionFit> fit, const ViewOptions& options)
     : channels_(std::move(channels)), to_xyz_d65_(to_xyz_d65), fit_(std::move(fit)) {
   require_displayable(channels_.size());
-  const bool own = options.config.empty();
+  const bool is_builtin = options.config.empty();
   try {
     const auto [config, display, view] = choose_view(options);
-    const std::string input = own ? kReferenceSpace : aces_space(*config, options.config.string());
-    const Gamut gamut = gamut_of(own, display, view);
-    const Matrix3 from_xyz = own ? Matrix3() : rgb_to_xyz_d65(kAces2065).inverse();
-    // Lossless, because the fast powers and logarithms of other settings have errors (for negative values on
-    // some processors gross ones) that nobody bounds.
+    const std::string input = is_builtin ? kReferenceSpace : aces_space(*config, options.config.string());
+    const Gamut gamut = gamut_of(is_builtin, display, view);
+    const Matrix3 from_xyz = is_builtin ? Matrix3() : rgb_to_xyz_d65(kAces2065).inverse();
+    // Lossless, because the fast powers and logarithms of other settings have unbounded errors, which are
+    // large for negative values on some processors.
     const OCIO::ConstProcessorRcPtr processor =
         config->getProcessor(input.c_str(), display.c_str(), view.c_str(), OCIO::TRANSFORM_DIR_FORWARD);
     processor_ = std::make_shared<const Processor>(Processor{
         gamut, from_xyz * gamut.to_xyz_d65, processor->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS),
-        told_of_codes(own, display)});
-    if (own) return;
+        code_attributes(is_builtin, display)});
+    if (is_builtin) return;
     files_.push_back(options.config);
     const OCIO::ConstProcessorMetadataRcPtr used = processor->getProcessorMetadata();
     for (int i = 0; i < used->getNumFiles(); ++i) files_.emplace_back(used->getFile(i));
@@ -226,7 +226,7 @@ DisplayPicture DisplayTransform::operator()(const Image& film, std::optional<dou
   DisplayPicture picture;
   picture.scale = scale ? *scale : automatic_scale(film);
   if (film.pixels() == 0) return picture;
-  const auto& [gamut, to_input, cpu, told] = *processor_;
+  const auto& [gamut, to_input, cpu, attributes] = *processor_;
   const Matrix3 to_gamut = gamut.from_xyz_d65 * to_xyz_d65_ * picture.scale;
   std::vector<float> packed(3 * film.pixels(), 0.0F);
   std::vector<bool> too_bright(film.pixels());
@@ -247,11 +247,11 @@ DisplayPicture DisplayTransform::operator()(const Image& film, std::optional<dou
   std::size_t clipped = 0;
   for (std::size_t i = 0; i < film.pixels(); ++i) clipped += clip(&packed[3 * i]) || too_bright[i] ? 1U : 0U;
   const auto count = static_cast<double>(recorded_pixels(film).size());
-  picture.clipped_share = static_cast<double>(clipped) / count;
-  picture.outside_share = std::accumulate(outside.values.begin(), outside.values.end(), 0.0) / count;
+  picture.clipped_fraction = static_cast<double>(clipped) / count;
+  picture.outside_fraction = std::accumulate(outside.values.begin(), outside.values.end(), 0.0) / count;
   picture.outside = {film.width, film.height, {std::move(outside)}, film.metadata};
   picture.image = split_planes(packed, film, channels_.size() == 1);
-  for (const auto& [key, text] : told) picture.image.metadata[key] = text;
+  for (const auto& [key, text] : attributes) picture.image.metadata[key] = text;
   picture.image.metadata[kDisplayExposureKey] = fmt::format("{:.7g}", 1 / picture.scale);
   return picture;
 }

@@ -15,63 +15,67 @@
 
 namespace abbe {
 
-/// The attribute of films and pictures with the film value that is shown as white.
+/// Attribute of films and pictures with the film value that is displayed as white.
 inline constexpr const char* kDisplayExposureKey = "display_exposure";
 
-/// A film made fit for a display.
+/// A film converted for a display.
 struct DisplayPicture {
-  /// Channels R, G, B (or Y for a film of one channel): code values in [0, 1]. Its attributes `kColorSpace`
-  /// and `kPrimariesKey` tell how Abbe's own displays read them; those of a user's configuration it does not
-  /// know. `kDisplayExposureKey` is 1/scale to seven digits, those of a float.
+  /// Channels R, G, B (or Y for a film of one channel) with code values in [0, 1]. The attributes
+  /// `kColorSpace` and `kPrimariesKey` describe the codes of Abbe's own displays; the codes of a user's
+  /// configuration are unknown. `kDisplayExposureKey` is 1/scale to seven digits, those of a float.
   Image image;
-  Image outside;             ///< Channel Y: 1 where the colour lay outside the gamut, 0 elsewhere.
-  double scale = 1;          ///< What the film values were multiplied by.
-  double outside_share = 0;  ///< Share of pixels whose colour lay outside the gamut, whatever its brightness.
-  double clipped_share = 0;  ///< Share of pixels that were too bright for the display, or not numbers.
+  Image outside;     ///< Channel Y: 1 if the colour was outside the gamut, else 0.
+  double scale = 1;  ///< Factor applied to the film values.
+  /// Fraction of pixels whose colour was outside the gamut, whatever its brightness.
+  double outside_fraction = 0;
+  double clipped_fraction = 0;  ///< Fraction of pixels that were too bright for the display, or not a number.
 };
 
-/// Through which view a film is shown. Empty: Abbe's own configuration, its first display and that one's
-/// first view.
+/// OpenColorIO view through which a film is displayed. Empty members select Abbe's own configuration, its
+/// first display and the first view of the display.
 struct ViewOptions {
   std::filesystem::path config;  ///< A user's OpenColorIO configuration.
   std::string display;
   std::string view;
 };
 
-/// The configuration that $OCIO names; empty when it names none.
+/// Configuration that $OCIO names; empty if it is not set.
 [[nodiscard]] std::filesystem::path users_configuration();
 
-/// The views of the display that the options choose, theirs first. Throws Error{usage} for an unknown display
-/// or view, Error{input} for a configuration that cannot be read.
+/// Views of the display that the options select; the selected view comes first. Throws Error{usage} for an
+/// unknown display or view, Error{input} for a configuration that cannot be read.
 [[nodiscard]] std::vector<std::string> view_names(const ViewOptions& options);
 
-/// Takes the linear values of one sensor to the code values of a display, through OpenColorIO.
+/// Converts linear values of one sensor to code values of a display, with OpenColorIO.
 class DisplayTransform {
  public:
-  /// `channels` names the film channels in order, one or three of them; `to_xyz_d65` takes their values to
-  /// XYZ relative to D65. For one channel only its first column counts. A user's configuration is given
+  /// `channels` names the film channels in order, one or three of them. `to_xyz_d65` converts their values to
+  /// XYZ relative to D65; for one channel only its first column counts. A user's configuration receives
   /// ACES2065-1: it needs the role `aces_interchange`, or that space by name. Throws Error{usage} for another
-  /// number of channels and for an unknown display or view, Error{input} for a configuration that cannot be
-  /// used.
+  /// number of channels and for an unknown display or view, Error{input} for an unusable configuration.
   DisplayTransform(std::vector<std::string> channels, const Matrix3& to_xyz_d65,
                    std::optional<CorrectionFit> fit = {}, const ViewOptions& options = {});
 
-  /// Multiplies by `scale`, or else by the automatic one; brings every colour into the gamut (`map_into`):
-  /// that of the display for the plain view, AP1 without an upper end for any other, which does its own tone
-  /// mapping; then applies the view. Only what still exceeds code values of [0, 1] is clipped. A pixel that
-  /// is not a number becomes black and counts as clipped. Throws Error{input} when the film lacks a channel.
+  /// Converts a film. The steps are:
+  /// - multiply by `scale`, or by `automatic_scale`;
+  /// - map every colour into the gamut (`map_into`): that of the display for the plain view, AP1 without an
+  ///   upper limit for any other view, which does its own tone mapping;
+  /// - apply the view, and clip code values that still exceed [0, 1].
+  ///
+  /// A pixel that is not a number becomes black and counts as clipped. Throws Error{input} if the film lacks
+  /// a channel.
   [[nodiscard]] DisplayPicture operator()(const Image& film, std::optional<double> scale = {}) const;
 
-  /// The scale that brings the 99th percentile, over the pixels that the film has (`recorded_areas`), of the
-  /// brightest primary of Rec.709 to 1, colours having been brought into its gamut; where that is not
-  /// positive, the brightest pixel; 1 for a film without any light. No display or view changes it.
+  /// Scale that maps the 99th percentile of the brightest Rec.709 primary to 1, over the recorded pixels
+  /// (`recorded_areas`) and with colours mapped into that gamut. If the percentile is not positive, the
+  /// brightest pixel counts; the scale is 1 for a film without light. It does not depend on display or view.
   [[nodiscard]] double automatic_scale(const Image& film) const;
 
-  /// Film values to XYZ relative to D65.
+  /// Matrix from film values to XYZ relative to D65.
   [[nodiscard]] const Matrix3& to_xyz_d65() const { return to_xyz_d65_; }
-  /// The user's configuration and the tables of it that are used; none of Abbe's own.
+  /// Files of the user's configuration: itself and the tables that the view uses. Empty for Abbe's own.
   [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
-  /// How the matrix was fitted; nothing where it follows from the channels themselves.
+  /// Fit of the matrix; empty if the matrix follows from the channels.
   [[nodiscard]] const std::optional<CorrectionFit>& fit() const { return fit_; }
 
  private:
@@ -83,16 +87,19 @@ class DisplayTransform {
   std::shared_ptr<const Processor> processor_;
 };
 
-/// Adaptation of a white to D65 (Bradford); none for one of spectral lines or of no light that is seen, to
-/// whose colour no eye adapts: it is shown as it looks beside daylight.
+/// Bradford adaptation of a white to D65. It is the identity for spectral lines and for light that the
+/// observer does not see, for which chromatic adaptation is impossible.
 [[nodiscard]] Matrix3 white_adaptation(const Chromaticity& white);
 
-/// The display transform of a sensor in a light. Three channels named X, Y, Z are the observer: only the
-/// white is adapted to D65 (Bradford). Other three channels are white balanced on the light and corrected by
-/// the white-preserving matrix fitted on the ColorChecker (BabelColor average) in that light; then the white,
-/// which is the light's unless another is given, is adapted. Luminance is in units of the second channel's
-/// value of a neutral. One channel is shown as grey. Throws Error{usage} for another number, and for
-/// channels that in the light do not determine colours.
+/// Display transform of a sensor in a light.
+/// - Three channels named X, Y, Z are an observer; only the white is adapted to D65 (Bradford).
+/// - Other three channels are white balanced on the light. The white-preserving matrix fitted to the
+///   ColorChecker (BabelColor average) in that light corrects them. Then `white`, by default that of the
+///   light, is adapted.
+/// - One channel is displayed as grey.
+///
+/// Luminance is in units of the second channel's value of a neutral. Throws Error{usage} for another number
+/// of channels, and for channels that do not determine colours in this light.
 [[nodiscard]] DisplayTransform make_display(const std::vector<Channel>& channels, const Curve& illuminant,
                                             const ViewOptions& options = {},
                                             std::optional<Chromaticity> white = {});

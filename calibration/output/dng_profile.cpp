@@ -15,9 +15,9 @@ std::optional<DngMatrices> dng_matrices(const Matrix3& to_xyz, const XYZ& white)
   if (!to_d50 || !is_invertible(to_xyz)) return std::nullopt;
   Matrix3 color = to_xyz.inverse(true);
   const std::array<double, 3> camera_white = multiply(color, white);
-  const auto [least, most] = std::minmax_element(camera_white.begin(), camera_white.end());
-  if (*least <= 0) return std::nullopt;
-  color *= 1 / *most;
+  const auto [lowest, highest] = std::minmax_element(camera_white.begin(), camera_white.end());
+  if (*lowest <= 0) return std::nullopt;
+  color *= 1 / *highest;
   return DngMatrices{color, *to_d50 * to_xyz * diagonal(camera_white), multiply(color, white)};
 }
 
@@ -43,8 +43,8 @@ RawLight light_for(std::span<const std::string> channels, const RawLight& light)
 
 Matrix3 forward_between(const DngLight& first, const DngLight& second, double kelvin) {
   const double span = 1 / first.kelvin - 1 / second.kelvin;
-  const double share = span == 0 ? 1 : std::clamp((1 / kelvin - 1 / second.kelvin) / span, 0.0, 1.0);
-  return first.forward * share + second.forward * (1 - share);
+  const double weight = span == 0 ? 1 : std::clamp((1 / kelvin - 1 / second.kelvin) / span, 0.0, 1.0);
+  return first.forward * weight + second.forward * (1 - weight);
 }
 
 }  // namespace abbe

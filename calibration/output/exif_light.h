@@ -6,14 +6,13 @@
 
 namespace abbe {
 
-/// The number among the light sources of Exif [Exif] of the illuminant that the data folder has by this name,
-/// aliases included: A, B, C, D50, D55, D65, D75, or a fluorescent lamp of the CIE (FL1, F1, FL3.7 ...) by
-/// the colour temperatures that Exif gives its kinds. 255, another light, for any other name, and for tables
-/// of users whatever they are called.
+/// Exif light source number [Exif] of an illuminant by its name in the data directory, aliases included. It
+/// knows A, B, C, D50, D55, D65, D75 and the CIE's fluorescent lights (FL1, F1, FL3.7 ...), which Exif
+/// classifies by colour temperature. Other names, and all tables of users, give 255 (other light).
 [[nodiscard]] int exif_light_source(const std::string& name);
 
-/// The same of a light that is known by its chromaticity alone: that of the illuminant with this chromaticity
-/// to 0.0005, standard ones before FL1 to FL12.
+/// Exif light source number of a light with a known chromaticity only: that of the illuminant with this
+/// chromaticity to 0.0005. Standard illuminants precede FL1 to FL12.
 [[nodiscard]] int exif_light_source(const Chromaticity& white);
 
 }  // namespace abbe

@@ -9,7 +9,7 @@
 namespace abbe {
 namespace {
 
-constexpr double kRounding = 1e-5;  // relative: what single precision does to a colour on the border
+constexpr double kRounding = 1e-5;  // relative error of single precision for a colour on the border
 
 }  // namespace
 
@@ -25,12 +25,12 @@ MappedColor map_into(const Gamut& gamut, const std::array<double, 3>& rgb) {
     return {{0, 0, 0}, false, true};
   MappedColor mapped{rgb, *low < -kRounding * std::max(*high, -*low), false};
   const double grey = std::max(0.0, std::inner_product(rgb.begin(), rgb.end(), gamut.luminance.begin(), 0.0));
-  // The share of the way from grey to the colour that stays above zero.
-  const double share = *low < 0 ? grey / (grey - *low) : 1;
-  const double brightest = grey + share * (*high - grey);
+  // Fraction of the distance from grey to the colour at which all primaries stay above zero.
+  const double retained = *low < 0 ? grey / (grey - *low) : 1;
+  const double brightest = grey + retained * (*high - grey);
   mapped.too_bright = brightest > gamut.top * (1 + kRounding);
   const double dimming = brightest > gamut.top ? gamut.top / brightest : 1;
-  for (double& v : mapped.rgb) v = std::max(0.0, dimming * (grey + share * (v - grey)));
+  for (double& v : mapped.rgb) v = std::max(0.0, dimming * (grey + retained * (v - grey)));
   return mapped;
 }
 

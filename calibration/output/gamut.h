@@ -7,27 +7,28 @@
 
 namespace abbe {
 
-/// The colours a display or a view can take in: linear RGB of `space` from 0 to `top`.
+/// Gamut of a display or a view: linear RGB of `space` from 0 to `top`.
 struct Gamut {
   explicit Gamut(const RgbSpace& space, double top = std::numeric_limits<double>::infinity());
 
   Matrix3 to_xyz_d65;
   Matrix3 from_xyz_d65;
-  std::array<double, 3> luminance;  ///< Of the primaries, 1 in all.
+  std::array<double, 3> luminance;  ///< Luminances of the primaries, which add up to 1.
   double top;
 };
 
-/// A colour brought into a gamut.
+/// A colour mapped into a gamut.
 struct MappedColor {
   std::array<double, 3> rgb{};
-  bool outside = false;     ///< A primary was below zero by more than rounding: no such colour can be shown.
-  bool too_bright = false;  ///< A primary was above `top` by more than rounding even then.
+  /// True if a primary was below zero by more than rounding: the display cannot show such a colour.
+  bool outside = false;
+  bool too_bright = false;  ///< True if a primary still exceeded `top` by more than rounding.
 };
 
-/// Brings linear RGB into the gamut. A colour that has a negative primary goes along the straight line to the
-/// grey of its own luminance, as far as needed and no further: luminance stays, and so does hue, as the
-/// direction from white in the chromaticity diagram. One of no positive luminance becomes black. What is then
-/// too bright is dimmed at its chromaticity.
+/// Maps linear RGB into the gamut. A colour with a negative primary moves on the straight line towards the
+/// grey of its own luminance, only as far as necessary. Luminance is preserved, and so is hue, as the
+/// direction from white in the chromaticity diagram. A colour without positive luminance becomes black. A
+/// colour that is then too bright is dimmed at constant chromaticity.
 [[nodiscard]] MappedColor map_into(const Gamut& gamut, const std::array<double, 3>& rgb);
 
 }  // namespace abbe

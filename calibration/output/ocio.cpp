@@ -28,7 +28,8 @@ constexpr const char* kRec709Space = "Linear Rec.709 (sRGB)";
 constexpr const char* kAcesSpace = "ACES2065-1";
 constexpr const char* kAcesCgSpace = "ACEScg";
 constexpr const char* kRawSpace = "Raw";
-constexpr const char* kDiffuserWords = "the perfect diffuser, which becomes Y = 1, has ";  // in camera spaces
+constexpr const char* kDiffuserPhrase =
+    "the perfect diffuser, which becomes Y = 1, has ";  // marks camera spaces
 constexpr const char* kDisplayReferenceSpace = "CIE-XYZ-D65";
 struct DisplaySpace {
   const char* name;
@@ -50,11 +51,11 @@ const std::array kDisplaySpaces{
 constexpr const char* kAcesOutput = "ACES-OUTPUT - ACES2065-1_to_CIE-XYZ-D65 - SDR-VIDEO_1.0";
 constexpr std::size_t kMaxCurveSize = std::size_t{1} << 20;
 constexpr int kCubeEdge = 65;
-// In half steps of a cube, from the first above 0.2 % of its end on.
+// Test points of the bake error in half steps of the cube, from 0.2 % of its end on.
 constexpr int kDarkestTrial = 17;
 constexpr int kBrightTrials = 49;
 constexpr int kBrightStride = 6;
-constexpr double kDarkestChart = 0.125;  // as a share of full scale, in a photograph of any use
+constexpr double kDarkestChart = 0.125;  // as a fraction of full scale, in a useful photograph
 
 bool has_curve(const CameraProfile& profile) {
   return !profile.linearisation[0].empty();
@@ -64,9 +65,9 @@ bool has_cube(const CameraProfile& profile) {
   return profile.correction.model != CorrectionModel::linear;
 }
 
-// The linear value that a cube ends at, beyond which it tells nothing apart: 1 of shares of full scale, else
-// the next power of two above all that was calibrated, as digital numbers end at one. The nearer the chart
-// comes to the end, the finer the cube is where colours are.
+// Linear value at the end of a cube, which clips larger ones: 1 for fractions of full scale, else the next
+// power of two above all calibrated values, where digital numbers end too. The nearer the chart is to the
+// end, the finer is the cube at its colours.
 double cube_end(const CameraProfile& profile) {
   if (has_curve(profile)) return 1;
   const Raw white = white_values(profile);
@@ -75,12 +76,12 @@ double cube_end(const CameraProfile& profile) {
   return std::exp2(std::ceil(std::log2(brightest)));
 }
 
-// With the scale of what goes in, so that nobody needs to guess.
-std::string described(const CameraProfile& profile) {
+// Description of a camera space, including the scale of its input.
+std::string space_description(const CameraProfile& profile) {
   const Raw white = white_values(profile);
   return fmt::format(
       "{}. Input: {}; {}{}{} {:.6g}, {} {:.6g}, {} {:.6g}.{}", profile.description,
-      has_curve(profile) ? "code values, 1 at full scale" : "linear camera values", kDiffuserWords,
+      has_curve(profile) ? "code values, 1 at full scale" : "linear camera values", kDiffuserPhrase,
       has_curve(profile) ? "after the curve " : "", profile.channels[0], white[0], profile.channels[1],
       white[1], profile.channels[2], white[2],
       has_cube(profile) ? fmt::format(" Linear values are cut to [0, {:.6g}].", cube_end(profile)) : "");
@@ -109,14 +110,14 @@ OCIO::BuiltinTransformRcPtr builtin(const char* style) {
   return transform;
 }
 
-// A cube is as fine where it is dark as the eye is when it is looked up by cube roots.
+// Cube roots of the input make the cube perceptually even, with fine steps in the dark.
 OCIO::ExponentTransformRcPtr cube_root() {
   OCIO::ExponentTransformRcPtr transform = OCIO::ExponentTransform::Create();
   transform->setValue({1.0 / 3, 1.0 / 3, 1.0 / 3, 1});
   return transform;
 }
 
-// From linear values to XYZ. What a cube is asked for is brought to [0, 1] first, which it ends at.
+// Appends the transform from linear values to XYZ. The input is scaled to [0, 1], the range of the cube.
 void append_cube(const OCIO::GroupTransformRcPtr& group, const CameraProfile& profile) {
   const double end = cube_end(profile);
   if (end != 1) group->appendTransform(matrix_transform(diagonal({1 / end, 1 / end, 1 / end})));
@@ -148,8 +149,8 @@ void add_camera_space(OCIO::Config& config, const CameraProfile& profile) {
     append_cube(group, profile);
   else
     group->appendTransform(matrix_transform(matrix_to_xyz_d65(profile)));
-  const OCIO::ColorSpaceRcPtr space =
-      color_space(camera_space(profile).c_str(), described(profile).c_str(), OCIO::REFERENCE_SPACE_SCENE);
+  const OCIO::ColorSpaceRcPtr space = color_space(
+      camera_space(profile).c_str(), space_description(profile).c_str(), OCIO::REFERENCE_SPACE_SCENE);
   space->setTransform(group, OCIO::COLORSPACE_DIR_TO_REFERENCE);
   config.addColorSpace(space);
 }
@@ -240,13 +241,13 @@ std::string cube_text(const CameraProfile& profile) {
   return text;
 }
 
-// What a camera space does up to another space, as one file without references.
+// Transform from a camera space to another space, as one file without references.
 std::string clf_text(const OCIO::ConstConfigRcPtr& config, const CameraProfile& profile, const char* to) {
   const OCIO::GroupTransformRcPtr group =
       config->getProcessor(camera_space(profile).c_str(), to)->createGroupTransform();
   OCIO::FormatMetadata& metadata = group->getFormatMetadata();
   metadata.setID(fmt::format("abbe-{}-to-{}", camera_file(profile, ""), to).c_str());
-  metadata.addChildElement("Description", described(profile).c_str());
+  metadata.addChildElement("Description", space_description(profile).c_str());
   metadata.addChildElement("InputDescriptor",
                            has_curve(profile) ? "camera code values" : "linear camera values");
   metadata.addChildElement("OutputDescriptor", to);
@@ -255,8 +256,8 @@ std::string clf_text(const OCIO::ConstConfigRcPtr& config, const CameraProfile& 
   return text.str();
 }
 
-// Linear values in the middle between the cube's points, where interpolation errs most, and at them: all that
-// are dark, where the eye sees most of it, and some of the others.
+// Linear test values at the points of the cube and half way between them, where interpolation errs most. All
+// dark values are tested, where errors are most visible, and some of the others.
 std::vector<double> bake_trials(double end) {
   std::vector<double> values;
   const int half_steps = 2 * (kCubeEdge - 1);
@@ -273,8 +274,8 @@ double bake_error(const OCIO::ConstConfigRcPtr& config, const CameraProfile& pro
   const auto loss = [&](const Raw& raw) {
     float rgb[3] = {static_cast<float>(raw[0]), static_cast<float>(raw[1]), static_cast<float>(raw[2])};
     processor->applyRGB(rgb);
-    const Lab shown = xyz_to_lab(XYZ{rgb[0], rgb[1], rgb[2]}, white);
-    return delta_e_2000(xyz_to_lab(to_xyz_d65(profile, raw), white), shown);
+    const Lab baked_lab = xyz_to_lab(XYZ{rgb[0], rgb[1], rgb[2]}, white);
+    return delta_e_2000(xyz_to_lab(to_xyz_d65(profile, raw), white), baked_lab);
   };
   const std::vector<double> values = bake_trials(cube_end(profile));
   double worst = 0;
@@ -293,7 +294,7 @@ Matrix3 matrix_of(const OCIO::MatrixTransform& transform) {
   return m;
 }
 
-// The matrix of a camera space without its response curve; nothing where there is another transform.
+// Matrix of a camera space without its response curve; empty if the space has another transform.
 std::optional<Matrix3> camera_matrix(const OCIO::ConstTransformRcPtr& transform) {
   if (const auto* matrix = dynamic_cast<const OCIO::MatrixTransform*>(transform.get()))
     return matrix_of(*matrix);
@@ -363,7 +364,7 @@ std::vector<OcioCameraSpace> camera_spaces(const std::filesystem::path& config_f
       const char* name = config->getColorSpaceNameByIndex(i);
       const OCIO::ConstColorSpaceRcPtr space = config->getColorSpace(name);
       if (!std::string_view(name).starts_with(kCameraPrefix) ||
-          std::string_view(space->getDescription()).find(kDiffuserWords) == std::string_view::npos)
+          std::string_view(space->getDescription()).find(kDiffuserPhrase) == std::string_view::npos)
         continue;
       spaces.push_back({name, camera_matrix(space->getTransform(OCIO::COLORSPACE_DIR_TO_REFERENCE))});
     }

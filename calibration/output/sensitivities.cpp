@@ -10,7 +10,7 @@ namespace abbe {
 
 std::string sensitivities_json(const std::string& camera, std::span<const Channel> channels) {
   constexpr int kStep = 5;
-  constexpr SumRange kRange = kVisibleRange;  // which those programs expect
+  constexpr SumRange kRange = kVisibleRange;  // the range that those programs expect
   double greatest = 0;
   for (const Channel& channel : channels)
     for (int nm = kRange.low_nm; nm <= kRange.high_nm; nm += kStep)

@@ -27,19 +27,21 @@
 namespace abbe {
 namespace {
 
-// What the library takes for granted: JSON nested so little that its recursion ends, of a length that an int
-// holds, and, because each gets a copy, one buffer without a name at most.
-bool sound(std::string_view bytes, MeshReading& reading) {
+// True if the file meets the assumptions of the library. These are:
+// - JSON nested so little that recursion ends;
+// - JSON whose length fits an int;
+// - at most one buffer without a uri, because each gets a copy of the binary data.
+bool is_well_formed(std::string_view bytes, MeshReading& reading) {
   const auto json = gltf_json(bytes);
   if (!json) return reading.refuse(kBadGlb);
   if (bytes.size() > std::numeric_limits<std::uint32_t>::max() ||
       json->size() > std::numeric_limits<std::int32_t>::max())
     return reading.refuse("file too large");
-  if (valid_prefix(*json) != json->size()) return reading.refuse("its JSON is no UTF-8 text");
+  if (valid_prefix(*json) != json->size()) return reading.refuse("its JSON is not UTF-8 text");
   Diagnostics diagnostics;
   const auto root =
       parse_json(std::make_shared<const SourceText>(SourceText{reading.path.string(), std::string(*json)}),
-                 diagnostics, &reading.held);
+                 diagnostics, &reading.memory);
   if (!root) return reading.refuse("malformed JSON: " + diagnostics.all()[0].message);
   const JsonValue* list = root->find("buffers");
   const auto* buffers = list ? std::get_if<JsonValue::Array>(&list->value) : nullptr;
@@ -49,12 +51,13 @@ bool sound(std::string_view bytes, MeshReading& reading) {
   return true;
 }
 
-/// What the library's callbacks know. It tries names as they are, for it has been given no folder.
+/// State of the library's callbacks. The library opens names as they are, because it is given no folder.
 struct Files {
   MeshReading& reading;
   const tinygltf::Model& model;
 };
-// Buffers are read before anything else, images after views; images are not needed.
+// Buffers are read before anything else and images after the views. So a file is needed only while there are
+// no views.
 bool file_wanted(const std::string& /*name*/, void* user) {
   return static_cast<Files*>(user)->model.bufferViews.empty();
 }
@@ -73,14 +76,14 @@ bool ignore_image(tinygltf::Image* /*image*/, int /*number*/, std::string* /*err
   return true;
 }
 
-// Whether a file that requires the extension has the same meshes as without it.
-bool leaves_meshes_alone(const std::string& extension) {
+// True if a file has the same meshes with and without this extension.
+bool preserves_meshes(const std::string& extension) {
   return extension.starts_with("KHR_materials_") || extension == "KHR_lights_punctual" ||
          extension == "KHR_texture_transform";
 }
 
 bool load(const std::string& bytes, tinygltf::Model& model, MeshReading& reading) {
-  if (!sound(bytes, reading)) return false;
+  if (!is_well_formed(bytes, reading)) return false;
   Files files{reading, model};
   tinygltf::TinyGLTF library;
   library.SetFsCallbacks({file_wanted, same_name, read_file, nullptr, &files});
@@ -94,32 +97,32 @@ bool load(const std::string& bytes, tinygltf::Model& model, MeshReading& reading
                                    reinterpret_cast<const unsigned char*>(bytes.data()), size);
     else
       library.LoadASCIIFromString(&model, &error, &warning, bytes.data(), size, "");
-  } catch (const Error&) {  // of memory
+  } catch (const Error&) {  // Thrown if memory is exhausted.
     throw;
-  } catch (const std::exception& fault) {  // of JSON, or an empty buffer
+  } catch (const std::exception& fault) {  // Thrown for malformed JSON or an empty buffer.
     if (dynamic_cast<const std::bad_alloc*>(&fault)) throw;
     error += fault.what();
   }
   if (!reading.fault.empty()) return false;
-  // It reads on after some complaints, of what is lost by then and, alone of them, of what the format allows.
+  // The library continues after some errors. All of them lose data, except this one, which the format allows.
   constexpr std::string_view kAllowed = "'inverseBindMatrices' property is missing in Skin.\n";
   for (std::size_t at = 0; (at = error.find(kAllowed)) != std::string::npos;)
     error.erase(at, kAllowed.size());
-  constexpr std::size_t kLine = 200;  // it may repeat all of a buffer
+  constexpr std::size_t kLine = 200;  // A message may repeat a whole buffer.
   error = error.substr(0, std::min(error.find('\n'), kLine));
   if (!error.empty()) return reading.refuse(error.substr(0, valid_prefix(error)));
-  if (!model.asset.version.starts_with("2.")) return reading.refuse("no glTF 2.0 asset");
+  if (!model.asset.version.starts_with("2.")) return reading.refuse("not a glTF 2.0 asset");
   for (const std::string& extension : model.extensionsRequired)
-    if (!leaves_meshes_alone(extension))
-      return reading.refuse(fmt::format("it requires the extension {}, which is not read", extension));
+    if (!preserves_meshes(extension))
+      return reading.refuse(fmt::format("it requires the extension {}, which is not supported", extension));
   return true;
 }
 
-/// What nodes have put together so far, by material.
+/// The meshes of all nodes so far, by material.
 using MeshesByMaterial = std::map<std::optional<std::size_t>, Mesh>;
 
-/// Reads the texture coordinates of a primitive's vertices: none when it has none, or nobody wants them.
-/// False after a fault.
+/// Reads the texture coordinates of the vertices of a primitive. None if it has none or they are not
+/// requested. False after a fault.
 bool read_coordinates(const tinygltf::Model& model, const tinygltf::Primitive& primitive,
                       std::vector<Imath::V2f>& coordinates, MeshReading& reading) {
   const auto named = primitive.attributes.find("TEXCOORD_0");
@@ -138,8 +141,8 @@ bool read_coordinates(const tinygltf::Model& model, const tinygltf::Primitive& p
   return true;
 }
 
-/// Reads the normals of a primitive's vertices, moved as these are: none when it has none. False after a
-/// fault.
+/// Reads the normals of the vertices of a primitive, transformed like the vertices. None if it has none.
+/// False after a fault.
 bool read_normals(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const Imath::M44d& map,
                   std::vector<Imath::V3f>& normals, MeshReading& reading) {
   const auto named = primitive.attributes.find("NORMAL");
@@ -154,7 +157,7 @@ bool read_normals(const tinygltf::Model& model, const tinygltf::Primitive& primi
   return true;
 }
 
-// How a primitive's vertices follow each other in triangles; nothing for points and lines.
+// Indices of the vertices of each triangle of a primitive; empty for points and lines.
 std::vector<std::array<std::size_t, 3>> corners(int mode, std::size_t count) {
   std::vector<std::array<std::size_t, 3>> triangles;
   if (mode == TINYGLTF_MODE_TRIANGLES)
@@ -166,8 +169,8 @@ std::vector<std::array<std::size_t, 3>> corners(int mode, std::size_t count) {
   return triangles;
 }
 
-// Those of a triangle's corners, the next of the mesh's; what came before without is zero. False after a
-// fault.
+// Adds the normals at the corners of the next triangle of the mesh. Earlier triangles without normals get
+// zero. False after a fault.
 bool add_normals(const std::array<std::size_t, 3>& triangle, std::size_t base,
                  const std::vector<Imath::V3f>& normals, Mesh& mesh, MeshReading& reading) {
   mesh.normals.resize(mesh.triangles.size());
@@ -243,7 +246,8 @@ bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& prim
   return true;
 }
 
-// For row vectors: scale, then rotation, then translation, or the matrix, whose columns the format lists.
+// Transform of a node for row vectors: scale, then rotation, then translation; or the matrix, which the
+// format lists by columns.
 Imath::M44d local_map(const tinygltf::Node& node) {
   Imath::M44d map;
   if (node.matrix.size() == 16) {
@@ -259,9 +263,9 @@ Imath::M44d local_map(const tinygltf::Node& node) {
   return map;
 }
 
-// Every mesh the scene's nodes place. Nodes form a tree: one reached twice would let a small file grow
-// without bound.
-bool walk(const tinygltf::Model& model, MeshesByMaterial& meshes, MeshReading& reading) {
+// Adds every mesh of the nodes of the scene. Nodes form a tree; a node that is reached twice is an error,
+// because a small file could otherwise grow without bound.
+bool add_scene_meshes(const tinygltf::Model& model, MeshesByMaterial& meshes, MeshReading& reading) {
   const auto* scene = at(model.scenes, std::max(model.defaultScene, 0));
   if (!scene) return reading.refuse("it has no scene");
   struct Visit {
@@ -272,16 +276,16 @@ bool walk(const tinygltf::Model& model, MeshesByMaterial& meshes, MeshReading& r
   const auto push = [&](const std::vector<int>& nodes, const Imath::M44d& parent) {
     for (auto node = nodes.rbegin(); node != nodes.rend(); ++node) visits.push_back({*node, parent});
   };
-  std::vector<bool> seen(model.nodes.size(), false);
+  std::vector<bool> visited(model.nodes.size(), false);
   push(scene->nodes, Imath::M44d());
   while (!visits.empty()) {
     const Visit visit = visits.back();
     visits.pop_back();
     const auto* node = at(model.nodes, visit.node);
     if (!node) return reading.refuse("a node does not exist");
-    if (seen[static_cast<std::size_t>(visit.node)])
+    if (visited[static_cast<std::size_t>(visit.node)])
       return reading.refuse(fmt::format("node {} is reached twice", visit.node));
-    seen[static_cast<std::size_t>(visit.node)] = true;
+    visited[static_cast<std::size_t>(visit.node)] = true;
     if (node->rotation == std::vector<double>(4, 0.0))
       return reading.refuse(fmt::format("node {}: a rotation of length 0", visit.node));
     const Imath::M44d map = local_map(*node) * visit.parent;
@@ -296,7 +300,7 @@ bool walk(const tinygltf::Model& model, MeshesByMaterial& meshes, MeshReading& r
   return true;
 }
 
-void name_apart(std::vector<FileMaterial>& materials) {
+void make_names_distinct(std::vector<FileMaterial>& materials) {
   std::vector<std::string> names;
   for (const FileMaterial& material : materials) names.push_back(material.name);
   names = distinct_names(std::move(names));
@@ -311,19 +315,19 @@ bool read_gltf(std::string&& bytes, MeshReading& reading) {
   bytes = {};
   for (const auto& [count, what] :
        {std::pair(model.lights.size(), "lights"), {model.cameras.size(), "cameras"}})
-    if (count > 0) reading.lost.push_back(fmt::format("its {} are not read ({} of them)", what, count));
+    if (count > 0) reading.ignored.push_back(fmt::format("its {} are not read ({} of them)", what, count));
   MeshesByMaterial meshes;
-  if (!walk(model, meshes, reading)) return false;
+  if (!add_scene_meshes(model, meshes, reading)) return false;
   if (reading.materials != FileMaterials::ignored) {
     for (std::size_t i = 0; i < model.materials.size(); ++i)
       if (!read_gltf_material(model.materials[i], i, reading)) return false;
-    if (meshes.contains(std::nullopt)) {  // what the format says then
+    if (meshes.contains(std::nullopt)) {  // The default material of the format.
       reading.file.materials.push_back({kDefaultGltfMaterial, {1, 1, 1}, std::nullopt, {"metallic 1"}});
     }
   }
-  name_apart(reading.file.materials);
+  make_names_distinct(reading.file.materials);
   for (auto& [material, mesh] : meshes) {
-    if (mesh.triangles.empty()) continue;  // points and lines
+    if (mesh.triangles.empty()) continue;  // Only points and lines.
     if (mesh.coordinates.size() < mesh.triangles.size()) mesh.coordinates.clear();
     if (!mesh.normals.empty()) mesh.normals.resize(mesh.triangles.size());
     const std::size_t last = reading.file.materials.size();

@@ -11,10 +11,10 @@ static std::uint32_t word_at(std::string_view bytes, std::size_t offset) {
   return word;
 }
 
-// The library does not count the 8 bytes that head a GLB's second chunk, and
-// would read as many beyond its end.
+// The library does not count the 8-byte header of the second chunk of a GLB, and would read 8 bytes past its
+// end.
 std::optional<std::string_view> gltf_json(std::string_view bytes) {
-  constexpr std::size_t kHeaders = 20;  // of the file and its first chunk
+  constexpr std::size_t kHeaders = 20;  // Length of the headers of the file and its first chunk.
   constexpr std::size_t kHeader = 8;
   if (!bytes.starts_with("glTF")) return bytes;
   if (bytes.size() < kHeaders || word_at(bytes, 4) != 2 || word_at(bytes, kHeader) < kHeaders ||

@@ -22,9 +22,9 @@ double number_or(const tinygltf::Value* object, const char* key, double otherwis
                                                                    : otherwise;
 }
 
-// What the file says beyond a colour or an index goes into `lost`, in its own words.
+// Adds a feature that Abbe does not represent to `ignored`, in the words of the format.
 void note(FileMaterial& material, const char* what, double value, double neutral) {
-  if (value != neutral) material.lost.push_back(fmt::format("{} {:g}", what, value));
+  if (value != neutral) material.ignored.push_back(fmt::format("{} {:g}", what, value));
 }
 void note_textures(FileMaterial& material, const tinygltf::Material& from) {
   const std::pair<int, const char*> textures[] = {
@@ -34,10 +34,11 @@ void note_textures(FileMaterial& material, const tinygltf::Material& from) {
       {from.occlusionTexture.index, "occlusion texture"},
       {from.emissiveTexture.index, "emissive texture"}};
   for (const auto& [index, words] : textures)
-    if (index != -1) material.lost.emplace_back(words);
+    if (index != -1) material.ignored.emplace_back(words);
 }
 
-// The index of a material that transmits, and what it loses by being as clear as glass.
+// Reads the refractive index of a transmitting material, which becomes clear glass, and notes the features
+// that are ignored then.
 bool read_transmission(const tinygltf::Material& from, FileMaterial& material, MeshReading& reading) {
   constexpr double kDefaultIndex = 1.5;
   const tinygltf::Value* transmission = extension(from, "KHR_materials_transmission");
@@ -48,8 +49,8 @@ bool read_transmission(const tinygltf::Material& from, FileMaterial& material, M
     return reading.refuse(
         fmt::format("material \"{}\": ior (got {}, allowed (0, 100])", material.name, *material.index));
   note(material, "transmission", transmitted, 1);
-  if (transmission->Has("transmissionTexture")) material.lost.emplace_back("transmission texture");
-  if (material.color != LinearRgb{1, 1, 1}) material.lost.emplace_back("base colour");
+  if (transmission->Has("transmissionTexture")) material.ignored.emplace_back("transmission texture");
+  if (material.color != LinearRgb{1, 1, 1}) material.ignored.emplace_back("base colour");
   return true;
 }
 
@@ -69,11 +70,11 @@ bool read_gltf_material(const tinygltf::Material& from, std::size_t number, Mesh
   note(material, "metallic", surface.metallicFactor, 0);
   note(material, "roughness", surface.roughnessFactor, clear ? 0 : 1);
   note_textures(material, from);
-  if (from.emissiveFactor != std::vector{0.0, 0.0, 0.0}) material.lost.emplace_back("emission");
-  if (from.alphaMode != "OPAQUE") material.lost.push_back("alpha mode " + from.alphaMode);
+  if (from.emissiveFactor != std::vector{0.0, 0.0, 0.0}) material.ignored.emplace_back("emission");
+  if (from.alphaMode != "OPAQUE") material.ignored.push_back("alpha mode " + from.alphaMode);
   for (const auto& [name, value] : from.extensions)
     if (!clear || (name != "KHR_materials_transmission" && name != "KHR_materials_ior"))
-      material.lost.push_back(name);
+      material.ignored.push_back(name);
   reading.file.materials.push_back(std::move(material));
   return true;
 }

@@ -10,7 +10,7 @@ struct Material;
 
 namespace abbe {
 
-/// Adds what the material number `number` of a glTF file is to those of the mesh file; whether it is sound.
+/// Adds material number `number` of a glTF file to the mesh file. False after a fault.
 [[nodiscard]] bool read_gltf_material(const tinygltf::Material& from, std::size_t number,
                                       MeshReading& reading);
 

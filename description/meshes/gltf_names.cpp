@@ -13,7 +13,7 @@ std::string unnamed_gltf_material(std::size_t number) {
 
 std::vector<std::string> distinct_names(std::vector<std::string> names) {
   std::set<std::string> taken;
-  std::map<std::string, int> last;  // number given to each
+  std::map<std::string, int> last;  // Last number appended to each name.
   for (std::string& name : names) {
     const std::string given = name;
     while (!taken.insert(name).second) {

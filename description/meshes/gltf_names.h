@@ -5,13 +5,13 @@
 
 namespace abbe {
 
-/// The name of the material number `number` of a glTF file that gives it none.
+/// Name of material number `number` of a glTF file that gives it none.
 [[nodiscard]] std::string unnamed_gltf_material(std::size_t number);
-/// What stands for the material of a glTF file's primitives that have none.
+/// Name of the material of primitives without a material.
 inline constexpr const char* kDefaultGltfMaterial = "default";
 
-/// The same names, each that came before with a number behind it: glTF files tell materials apart by their
-/// place, and more than one may have a name.
+/// Makes names distinct by appending a number to each repeated one. Materials of glTF files are identified by
+/// their index, and several may have the same name.
 [[nodiscard]] std::vector<std::string> distinct_names(std::vector<std::string> names);
 
 }  // namespace abbe

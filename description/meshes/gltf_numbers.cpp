@@ -26,8 +26,8 @@ std::optional<GltfNumbers> numbers_of(const tinygltf::Model& model, int index, i
     return std::nullopt;
   };
   const auto* accessor = at(model.accessors, index);
-  if (!accessor) return refuse("there is none");
-  if (accessor->sparse.isSparse) return refuse("sparse accessors are not read");
+  if (!accessor) return refuse("it does not exist");
+  if (accessor->sparse.isSparse) return refuse("sparse accessors are not supported");
   if (accessor->type != type)
     return refuse(fmt::format("wrong type (allowed {})", type == TINYGLTF_TYPE_VEC3   ? "VEC3"
                                                          : type == TINYGLTF_TYPE_VEC2 ? "VEC2"
@@ -36,7 +36,7 @@ std::optional<GltfNumbers> numbers_of(const tinygltf::Model& model, int index, i
   const auto* buffer = view ? at(model.buffers, view->buffer) : nullptr;
   if (!buffer || view->byteOffset > buffer->data.size() ||
       view->byteLength > buffer->data.size() - view->byteOffset)
-    return refuse("its view leaves the buffer, or there is none");
+    return refuse("its view exceeds the buffer or does not exist");
   const int stride = accessor->ByteStride(*view);
   const int width = tinygltf::GetComponentSizeInBytes(static_cast<std::uint32_t>(accessor->componentType)) *
                     tinygltf::GetNumComponentsInType(static_cast<std::uint32_t>(type));
@@ -49,7 +49,7 @@ std::optional<GltfNumbers> numbers_of(const tinygltf::Model& model, int index, i
   if (stride < width || accessor->byteOffset > room ||
       static_cast<std::size_t>(width) > room - accessor->byteOffset ||
       numbers.count - 1 > (room - accessor->byteOffset - static_cast<std::size_t>(width)) / numbers.stride)
-    return refuse("it promises more than the buffer holds");
+    return refuse("it needs more bytes than the buffer holds");
   return numbers;
 }
 

@@ -8,9 +8,9 @@
 
 namespace abbe {
 
-/// The bytes that a file holds packed [RFC1952], which `held` counts as they are unpacked; or why there are
-/// none. There are at most `limit`, since a small file may unpack to any length.
+/// Decompresses a file [RFC1952] into `bytes`; `memory` counts them as they are unpacked. Returns a fault, or
+/// nothing on success. More than `limit` bytes are a fault, because a small file may unpack to any length.
 [[nodiscard]] std::optional<std::string> read_gzip_bytes(const std::filesystem::path& path, std::size_t limit,
-                                                         std::string& bytes, HeldMemory& held);
+                                                         std::string& bytes, MemoryReservation& memory);
 
 }  // namespace abbe

@@ -32,25 +32,25 @@ bool read_format(std::string&& bytes, MeshReading& reading) {
   return read_ply(std::move(bytes), reading);
 }
 
-// Moves the triangles without area to the slivers, and says how many there are.
+// Moves the triangles of zero area to `slivers`, and returns their number.
 std::size_t drop_slivers(Mesh& mesh) {
-  std::size_t kept = 0;
+  std::size_t remaining = 0;
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
     if (!(area_vector(mesh, i).length() > 0)) {
       mesh.slivers.push_back(mesh.triangles[i]);
       continue;
     }
-    if (!mesh.coordinates.empty()) mesh.coordinates[kept] = mesh.coordinates[i];
-    if (!mesh.normals.empty()) mesh.normals[kept] = mesh.normals[i];
-    mesh.triangles[kept++] = mesh.triangles[i];
+    if (!mesh.coordinates.empty()) mesh.coordinates[remaining] = mesh.coordinates[i];
+    if (!mesh.normals.empty()) mesh.normals[remaining] = mesh.normals[i];
+    mesh.triangles[remaining++] = mesh.triangles[i];
   }
-  mesh.triangles.resize(kept);
-  if (!mesh.coordinates.empty()) mesh.coordinates.resize(kept);
-  if (!mesh.normals.empty()) mesh.normals.resize(kept);
+  mesh.triangles.resize(remaining);
+  if (!mesh.coordinates.empty()) mesh.coordinates.resize(remaining);
+  if (!mesh.normals.empty()) mesh.normals.resize(remaining);
   return mesh.slivers.size();
 }
 
-// Readers leave the corners zero to which the file gives no normal.
+// Readers set the normals to zero at corners where the file gives none.
 void complete_normals(Mesh& mesh) {
   for (std::size_t i = 0; i < mesh.normals.size(); ++i) {
     std::array<Imath::V3f, 3>& corners = mesh.normals[i];
@@ -61,24 +61,24 @@ void complete_normals(Mesh& mesh) {
 }
 
 bool known_format(const std::filesystem::path& path) {
-  return brings_materials(path) || extension_of(path) == ".ply" || is_packed_ply(path);
+  return may_have_materials(path) || extension_of(path) == ".ply" || is_packed_ply(path);
 }
 
 }  // namespace
 
-bool brings_materials(const std::filesystem::path& path) {
+bool may_have_materials(const std::filesystem::path& path) {
   const std::string extension = extension_of(path);
   return extension == ".obj" || extension == ".gltf" || extension == ".glb";
 }
 
 std::optional<std::string> read_mesh_bytes(const std::filesystem::path& path, std::string& bytes,
-                                           HeldMemory& held) {
+                                           MemoryReservation& memory) {
   if (auto fault = file_fault(path)) return fault;
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(path, error);
   if (error || size > kMaxFileBytes) return "file too large";
-  if (is_packed_ply(path)) return read_gzip_bytes(path, kMaxFileBytes, bytes, held);
-  held.take_more(path.string(), static_cast<std::size_t>(size));
+  if (is_packed_ply(path)) return read_gzip_bytes(path, kMaxFileBytes, bytes, memory);
+  memory.reserve(path.string(), static_cast<std::size_t>(size));
   std::ifstream stream(path, std::ios::binary);
   bytes.resize(static_cast<std::size_t>(size));
   stream.read(bytes.data(), static_cast<std::streamsize>(size));
@@ -88,13 +88,13 @@ std::optional<std::string> read_mesh_bytes(const std::filesystem::path& path, st
 
 bool read_named_bytes(const std::string& name, std::string& bytes, MeshReading& reading) {
   const std::filesystem::path relative(name);
-  const bool leaves = relative.is_absolute() || name.find("://") != std::string::npos ||
-                      name.find('\\') != std::string::npos || name.find('\0') != std::string::npos ||
-                      std::find(relative.begin(), relative.end(), "..") != relative.end();
-  if (name.empty() || leaves)
-    return reading.refuse(fmt::format("it may name files beside it only (got \"{}\")", name));
+  const bool leaves_folder = relative.is_absolute() || name.find("://") != std::string::npos ||
+                             name.find('\\') != std::string::npos || name.find('\0') != std::string::npos ||
+                             std::find(relative.begin(), relative.end(), "..") != relative.end();
+  if (name.empty() || leaves_folder)
+    return reading.refuse(fmt::format("it may name only files in its folder or below (got \"{}\")", name));
   const std::filesystem::path path = reading.path.parent_path() / relative;
-  if (const auto fault = read_mesh_bytes(path, bytes, reading.held))
+  if (const auto fault = read_mesh_bytes(path, bytes, reading.memory))
     return reading.refuse(fmt::format("\"{}\", which it names: {}", name, *fault));
   reading.file.others.push_back(path);
   return true;
@@ -109,7 +109,7 @@ std::optional<MeshFile> load_mesh_file(const std::filesystem::path& path, FileMa
   };
   MeshReading reading{path, materials, coordinates, {}, {}, {}, {inputs, 0}};
   std::string bytes;
-  if (const auto fault = read_mesh_bytes(path, bytes, reading.held)) return refuse(*fault);
+  if (const auto fault = read_mesh_bytes(path, bytes, reading.memory)) return refuse(*fault);
   if (!known_format(path))
     return refuse(fmt::format("unknown format (got \"{}\", allowed .ply, .ply.gz, .obj, .gltf, .glb)",
                               path.extension().string()));
@@ -118,9 +118,9 @@ std::optional<MeshFile> load_mesh_file(const std::filesystem::path& path, FileMa
   for (MeshFile::Submesh& part : reading.file.submeshes)
     if (!check_mesh(part.mesh, where, diagnostics)) return std::nullopt;
   for (MeshFile::Submesh& part : reading.file.submeshes) complete_normals(part.mesh);
-  for (const std::string& lost : reading.lost)
+  for (const std::string& ignored : reading.ignored)
     if (materials != FileMaterials::named)
-      diagnostics.warning(where, fmt::format("mesh \"{}\": {}", path.string(), lost));
+      diagnostics.warning(where, fmt::format("mesh \"{}\": {}", path.string(), ignored));
   return std::move(reading.file);
 }
 
@@ -142,9 +142,9 @@ bool check_mesh(Mesh& mesh, const SourcePosition& where, Diagnostics& diagnostic
     return false;
   }
   const std::size_t dropped = drop_slivers(mesh);
-  if (dropped > 0) diagnostics.warning(where, fmt::format("triangles of zero area dropped: {}", dropped));
+  if (dropped > 0) diagnostics.warning(where, fmt::format("triangles of zero area removed: {}", dropped));
   if (!mesh.triangles.empty()) return true;
-  diagnostics.error(where, "a mesh without a triangle of any area", ErrorCode::input);
+  diagnostics.error(where, "the mesh has no triangle of nonzero area", ErrorCode::input);
   return false;
 }
 

@@ -13,15 +13,15 @@
 
 namespace abbe {
 
-/// A material as a mesh file describes it, as far as it can be represented.
+/// A material of a mesh file, as far as Abbe can represent it.
 struct FileMaterial {
   std::string name;
-  LinearRgb color{1, 1, 1};            ///< Diffuse reflectance, in [0, 1].
-  std::optional<double> index;         ///< Of a clear dielectric instead, > 0.
-  std::vector<std::string> lost = {};  ///< What else the file says, in words.
+  LinearRgb color{1, 1, 1};     ///< Diffuse reflectance, in [0, 1].
+  std::optional<double> index;  ///< Refractive index > 0 of a clear dielectric, which replaces `color`.
+  std::vector<std::string> ignored = {};  ///< Features of the material that are not represented, in words.
 };
 
-/// The triangles of a file, in its own units, split by material when materials were asked for.
+/// The triangles of a file, in its own units, split by material if materials were requested.
 struct MeshFile {
   struct Submesh {
     Mesh mesh;
@@ -29,35 +29,39 @@ struct MeshFile {
   };
   std::vector<Submesh> submeshes;
   std::vector<FileMaterial> materials;
-  std::vector<std::filesystem::path> others;  ///< Files the file named and that were read.
+  std::vector<std::filesystem::path> others;  ///< Files that the file names and that were read.
 };
 
-/// Whether triangles are told apart by the file's materials; `named`: without telling what of the file is not
-/// read.
+/// Mode in which the materials of the file are read. `wanted` splits triangles by material; `named` does so
+/// without warnings about ignored content.
 enum class FileMaterials { ignored, named, wanted };
-/// Whether texture coordinates at the corners of triangles are read. v runs upwards, so that of glTF is
-/// turned round.
+/// Mode in which texture coordinates at the corners of triangles are read. v increases upwards; that of glTF
+/// is converted.
 enum class FileCoordinates { ignored, wanted };
 
-/// Whether files of this extension may bring materials along.
-[[nodiscard]] bool brings_materials(const std::filesystem::path& path);
+/// True if files of this extension may contain materials.
+[[nodiscard]] bool may_have_materials(const std::filesystem::path& path);
 
-/// Reads a PLY (ASCII or binary), OBJ, glTF or GLB file, told by its extension; polygons are cut into
-/// triangles. A submesh whose triangles do not all have texture coordinates has none; where some have vertex
-/// normals, the others get their own normal at each corner. Warns of lights and cameras, which are not read.
-/// Reports, as input errors at `where`, a file that is missing, not regular or too large, anything malformed,
-/// a flat polygon whose edges cross, one of more than 16384 corners that is not convex, a count that promises
-/// more than the file holds (before anything is allocated for it), a name of another file that leaves the
-/// folder, and whatever `check_mesh` reports. While it reads, `inputs` counts the bytes of the files and what
-/// is stored of the meshes: throws Error{resource} for what is too large.
+/// Reads a PLY (ASCII or binary), OBJ, glTF or GLB file, recognised by its extension. Polygons are cut into
+/// triangles. A submesh with texture coordinates at only some of its triangles gets none. If only some
+/// corners of a submesh have vertex normals, its other triangles get their geometric normals. Warns of lights
+/// and cameras, which are not read.
+/// Reports as input errors at `where`:
+/// - a file that is missing, not regular, too large or malformed;
+/// - a flat polygon whose edges cross, and a polygon of more than 16384 corners that is not convex;
+/// - a count larger than the file can hold, before memory is allocated for it;
+/// - a name of another file outside the folder;
+/// - the errors of `check_mesh`.
+/// `inputs` counts the bytes of the files and of the meshes while they are read. Throws Error{resource} for
+/// what is too large.
 [[nodiscard]] std::optional<MeshFile> load_mesh_file(const std::filesystem::path& path,
                                                      FileMaterials materials, const SourcePosition& where,
                                                      Diagnostics& diagnostics,
                                                      FileCoordinates coordinates = FileCoordinates::ignored,
                                                      Inputs* inputs = nullptr);
 
-/// Reports a vertex that is not finite and a triangle naming a vertex that does not exist, each by index;
-/// takes triangles of zero area for slivers, with a warning that counts them. False when the mesh cannot be
+/// Checks a mesh. Reports, by index, a vertex that is not finite and a triangle with a vertex that does not
+/// exist. Moves triangles of zero area to `slivers` and warns of their number. False if the mesh cannot be
 /// used.
 [[nodiscard]] bool check_mesh(Mesh& mesh, const SourcePosition& where, Diagnostics& diagnostics);
 

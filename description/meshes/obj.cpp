@@ -24,33 +24,33 @@
 namespace abbe {
 namespace {
 
-/// Thrown out of the library, which knows no other way to stop; the fault is in the reading.
+/// Thrown through the library, which has no other way to stop. The fault is stored in the reading.
 struct Refused {};
 
 /// The faces of a material.
 struct Faces {
   std::vector<Triangle> triangles;
   std::vector<std::array<Imath::V2f, 3>> coordinates;
-  std::vector<std::array<Imath::V3f, 3>> normals;  // zero where a face has none
+  std::vector<std::array<Imath::V3f, 3>> normals;  // Zero for a face without normals.
 };
 
-/// A file being read by the library, which calls back with what each line says.
+/// State of reading a file; the library calls back for each line.
 struct Obj {
   MeshReading& reading;
   std::istringstream stream;
   std::vector<Imath::V3d> vertices;
   std::vector<Imath::V2f> coordinates;
   std::vector<Imath::V3f> normals;
-  std::map<std::optional<std::size_t>, Faces> faces;  // by material
+  std::map<std::optional<std::size_t>, Faces> faces;  // Faces by material.
   std::optional<std::size_t> material;
 
-  /// What has been read, up to the end of the line that is called about.
+  /// The text up to the end of the current line.
   [[nodiscard]] std::string_view read() const {
     const auto end = stream.rdbuf()->pubseekoff(0, std::ios::cur, std::ios::in);
     const std::string_view text = stream.view().substr(0, static_cast<std::size_t>(end));
     return text.substr(0, text.find_last_not_of("\r\n") + 1);
   }
-  /// Its words behind the first, without blanks at their ends.
+  /// The current line after its first word, without leading and trailing blanks.
   [[nodiscard]] std::string_view rest() const {
     constexpr std::string_view kBlanks = " \t";
     std::string_view line = read();
@@ -67,7 +67,8 @@ struct Obj {
   }
 };
 
-// Numbers at the start of a text. The library takes what a word begins with, or 0, for what is none.
+// Numbers at the start of a text; nothing if one is malformed. The library would read the start of such a
+// word, or 0.
 template <std::size_t N>
 std::optional<std::array<double, N>> numbers(std::string_view text) {
   constexpr std::string_view kBlanks = " \t\r\n\v\f";
@@ -83,7 +84,7 @@ std::optional<std::array<double, N>> numbers(std::string_view text) {
   return v;
 }
 
-// The three numbers of a line; `what` names number `count` of those.
+// The three numbers of a line. `what` and `count` name the line in a message.
 Imath::V3d three_numbers(const Obj& obj, const char* what, std::size_t count) {
   const auto v = numbers<3>(obj.rest());
   if (!v) obj.refuse(fmt::format("{} {} needs three finite numbers (got {})", what, count, obj.rest()));
@@ -114,7 +115,7 @@ void take_coordinates(void* user, double /*u*/, double /*v*/, double /*w*/) {
   obj.coordinates.push_back(uv);
 }
 
-// What a face names counts from 1, or back from the last.
+// Converts an index of a face to one that counts from 0. It counts from 1, or backwards from the last.
 template <typename T>
 std::size_t position(const Obj& obj, const char* what, std::int64_t named, const std::vector<T>& list) {
   const auto last = static_cast<std::int64_t>(list.size());
@@ -124,7 +125,7 @@ std::size_t position(const Obj& obj, const char* what, std::int64_t named, const
   return static_cast<std::size_t>(number - 1);
 }
 
-// The library takes the whole number at the start of a text, or 0, for what is none.
+// True if the text is an integer. The library would read the start of other texts, or 0.
 bool is_index(std::string_view text) {
   int index = 0;
   if (text.starts_with('+')) text.remove_prefix(1);
@@ -155,7 +156,7 @@ void require_corners(const Obj& obj) {
   }
 }
 
-// The triangles of a face, by position of its corners.
+// Triangles of a face; they refer to its corners by index.
 std::vector<Triangle> triangles_of(const Obj& obj, const std::vector<std::uint32_t>& polygon) {
   std::vector<Imath::V3d> corners;
   for (const std::uint32_t vertex : polygon) corners.push_back(obj.vertices[vertex]);
@@ -197,7 +198,7 @@ void take_face(void* user, tinyobj::index_t* indices, int count) {
   add_corners(coordinates, cut, faces.coordinates);
 }
 
-// A name may have blanks and "#" in it, so that a comment begins where no material would be named otherwise.
+// Names may contain blanks and "#". So a "#" begins a comment only if the whole text is no known material.
 void use_material(void* user, const char* name, int number) {
   Obj& obj = *static_cast<Obj*>(user);
   if (number >= 0) {
@@ -206,14 +207,14 @@ void use_material(void* user, const char* name, int number) {
   }
   std::vector<std::string> names;
   for (const FileMaterial& material : obj.reading.file.materials) names.push_back(material.name);
-  const std::string said = without_comment(name);
-  const auto found = std::find(names.begin(), names.end(), said);
-  if (found == names.end()) obj.refuse(unknown_name("material", said, names));
+  const std::string material_name = without_comment(name);
+  const auto found = std::find(names.begin(), names.end(), material_name);
+  if (found == names.end()) obj.refuse(unknown_name("material", material_name, names));
   obj.material = static_cast<std::size_t>(found - names.begin());
 }
 
-// What a material says beyond its colour, in the words of the format.
-std::vector<std::string> lost(const tinyobj::material_t& m) {
+// Keys of a material that are not represented, in the words of the format.
+std::vector<std::string> ignored_keys(const tinyobj::material_t& m) {
   const auto some = [](const double(&color)[3]) { return color[0] != 0 || color[1] != 0 || color[2] != 0; };
   const std::pair<const char*, bool> known[] = {{"Ka", some(m.ambient)},
                                                 {"Ks", some(m.specular)},
@@ -243,13 +244,13 @@ std::vector<std::string> lost(const tinyobj::material_t& m) {
                                                 {"map_Ke", !m.emissive_texname.empty()},
                                                 {"norm", !m.normal_texname.empty()}};
   std::vector<std::string> words;
-  for (const auto& [word, said] : known)
-    if (said) words.emplace_back(word);
+  for (const auto& [word, present] : known)
+    if (present) words.emplace_back(word);
   for (const auto& [word, value] : m.unknown_parameter) words.push_back(word);
   return words;
 }
 
-// Whether every Kd is a colour: the library takes for 0 what is no number.
+// True if every Kd is a colour. Checked here because the library reads malformed numbers as 0.
 bool check_colors(const std::string& name, const std::string& text, MeshReading& reading) {
   std::istringstream lines(text);
   int number = 0;
@@ -266,8 +267,8 @@ bool check_colors(const std::string& name, const std::string& text, MeshReading&
   return true;
 }
 
-// The files that a line of these names: one for each of its words, or one whose name may have blanks in it,
-// where there is such a file, or none of a word.
+// Files that an `mtllib` line names: the whole line if such a file exists, because names may contain blanks;
+// otherwise each of its words. If no word is a file either, the whole line.
 std::vector<std::string> names_of_files(const std::string& line, const MeshReading& reading) {
   const auto is_file = [&](const std::string& name) {
     std::error_code error;
@@ -281,11 +282,11 @@ std::vector<std::string> names_of_files(const std::string& line, const MeshReadi
   return names;
 }
 
-/// Reads the .mtl files that an .obj names, through the check of their paths.
+/// Reads the .mtl files that an .obj names, with the check of their paths.
 class MaterialFiles : public tinyobj::MaterialReader {
  public:
   explicit MaterialFiles(const Obj& obj) : obj_(obj) {}
-  // The library cuts a line at its blanks, and asks for the pieces one by one until one has been read.
+  // The library splits a line at blanks, and calls for each piece until one has been read.
   bool operator()(const std::string& /*piece*/, std::vector<tinyobj::material_t>* materials,
                   std::map<std::string, int>* numbers, std::string* warning, std::string* error) override {
     for (const std::string& name : names_of_files(without_comment(obj_.rest()), obj_.reading))
@@ -305,7 +306,7 @@ class MaterialFiles : public tinyobj::MaterialReader {
       const tinyobj::material_t& m = (*materials)[i];
       if (m.name.empty()) obj_.refuse(fmt::format("\"{}\" has a material without a name", name));
       reading.file.materials.push_back(
-          {m.name, {m.diffuse[0], m.diffuse[1], m.diffuse[2]}, std::nullopt, lost(m)});
+          {m.name, {m.diffuse[0], m.diffuse[1], m.diffuse[2]}, std::nullopt, ignored_keys(m)});
     }
   }
 
@@ -313,7 +314,7 @@ class MaterialFiles : public tinyobj::MaterialReader {
   std::set<std::string> read_{};
 };
 
-// The faces with the vertices they name and no others.
+// The faces as a mesh that has only the vertices they use.
 Mesh compact(const std::vector<Imath::V3d>& vertices, Faces faces, MeshReading& reading) {
   Mesh mesh;
   std::unordered_map<std::uint32_t, std::uint32_t> renamed;

@@ -16,7 +16,7 @@ std::string without_comment(std::string_view text) {
 }
 
 void erase_comments(std::string& bytes) {
-  std::size_t kept = 0;
+  std::size_t written = 0;
   for (std::size_t begin = 0; begin < bytes.size();) {
     const std::size_t end = std::min(bytes.find('\n', begin), bytes.size() - 1) + 1;
     const std::string_view line = std::string_view(bytes).substr(begin, end - begin);
@@ -27,30 +27,30 @@ void erase_comments(std::string& bytes) {
            (line[length - 1] == ' ' || line[length - 1] == '\t'))
       --length;
     const bool cut = length < line.size() && line.back() == '\n';
-    std::memmove(&bytes[kept], &bytes[begin], length);
-    kept += length;
-    if (cut) bytes[kept++] = '\n';
+    std::memmove(&bytes[written], &bytes[begin], length);
+    written += length;
+    if (cut) bytes[written++] = '\n';
     begin = end;
   }
-  bytes.resize(kept);
+  bytes.resize(written);
 }
 
 void join_continued_lines(std::string& bytes) {
-  std::size_t kept = 0;
+  std::size_t written = 0;
   std::size_t joined = 0;
   for (std::size_t i = 0; i < bytes.size(); ++i) {
     const std::string_view rest = std::string_view(bytes).substr(i);
     if (rest.starts_with("\\\n") || rest.starts_with("\\\r\n")) {
       i = bytes.find('\n', i);
-      bytes[kept++] = ' ';
+      bytes[written++] = ' ';
       ++joined;
       continue;
     }
-    bytes[kept++] = bytes[i];
+    bytes[written++] = bytes[i];
     if (bytes[i] != '\n') continue;
-    for (; joined > 0; --joined) bytes[kept++] = '\n';
+    for (; joined > 0; --joined) bytes[written++] = '\n';
   }
-  bytes.resize(kept);
+  bytes.resize(written);
 }
 
 }  // namespace abbe

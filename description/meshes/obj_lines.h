@@ -3,16 +3,16 @@
 #include <string>
 #include <string_view>
 
-// The lines of an .obj file, as the library that reads them takes them.
+// Preprocessing of the lines of an .obj file for the library that reads them.
 namespace abbe {
 
-/// What comes before a "#" that follows a blank, without blanks at its ends.
+/// The text before a "#" that follows a blank, without leading and trailing blanks.
 [[nodiscard]] std::string without_comment(std::string_view text);
-/// Takes comments out of a file: the library takes what is behind numbers for numbers. Lines of names, which
-/// may have a "#" in them, stay as they are.
+/// Removes comments, because the library reads words after the numbers of a line as further numbers. Lines
+/// with names, which may contain a "#", stay unchanged.
 void erase_comments(std::string& bytes);
-/// Puts lines that a "\" at the end continues into one, and as many ends of lines behind it, so that lines
-/// keep their numbers.
+/// Joins lines that a "\" at their end continues. Adds as many empty lines after them, so that line numbers
+/// stay the same.
 void join_continued_lines(std::string& bytes);
 
 }  // namespace abbe

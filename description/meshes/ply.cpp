@@ -1,8 +1,8 @@
-// The library's assertions stand between a property of an unexpected type and a null pointer: they stay in
-// every build.
+// The library relies on assertions where a property of an unexpected type would give a null pointer. They
+// must be active in every build.
 #define CGAL_DEBUG
-// Its check of rounding modes, which nothing here relies on, would end the program under Valgrind, which has
-// none.
+// The library checks rounding modes, which nothing here uses. The check would end the program under Valgrind,
+// which does not support them.
 #define CGAL_DISABLE_ROUNDING_MATH_CHECK
 #include <CGAL/IO/PLY.h>
 #include <CGAL/Simple_cartesian.h>
@@ -32,12 +32,13 @@ namespace {
 using Points = std::vector<CGAL::Simple_cartesian<double>::Point_3>;
 using Polygons = std::vector<std::vector<std::uint32_t>>;
 
-/// What a header says of vertices and faces.
+/// Vertices and faces that a header declares.
 struct Header {
   std::size_t vertices = 0;
   std::size_t faces = 0;
-  std::vector<std::pair<std::string, std::string>> numbers = {};  ///< Of each vertex: name and type.
-  std::optional<std::string> corners = {};                        ///< Their type, where faces list them.
+  std::vector<std::pair<std::string, std::string>> numbers =
+      {};                                   ///< Name and type of each number of a vertex.
+  std::optional<std::string> corners = {};  ///< Type of the corner indices, if faces list them.
 
   [[nodiscard]] bool has(std::string_view name) const {
     return std::any_of(numbers.begin(), numbers.end(),
@@ -53,8 +54,8 @@ bool is_faces(std::string_view element) {
   return element == "face" || element == "faces";
 }
 
-// What is wrong with the types: the library reads 0 for a position that is not there, no whole numbers for
-// positions, and corners of faces in 32 bits alone.
+// Fault of the types in a header. The library reads 0 for a missing position, rejects integer positions, and
+// reads corners of faces only as 32-bit integers.
 std::optional<std::string> type_fault(const Header& header) {
   constexpr std::array<std::string_view, 4> kCorners{"int", "int32", "uint", "uint32"};
   if (header.corners && std::find(kCorners.begin(), kCorners.end(), *header.corners) == kCorners.end())
@@ -74,10 +75,11 @@ std::optional<std::string> type_fault(const Header& header) {
                      names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", ")));
 }
 
-// Nothing unless the header has what the library takes for granted: an element before any property, known
-// types, a property of each element (else as many as the header likes would cost no bytes), and lists counted
-// in 8 or 16 bits, because room is made for a list before the first of its values is read.
-std::optional<Header> sound_header(std::istream& stream) {
+// Reads the header; nothing if it violates the assumptions of the library. These are:
+// - an element precedes any property, and types are known;
+// - each element has a property, since otherwise any number of elements would occupy no bytes;
+// - list lengths have 8 or 16 bits, because memory is reserved for a list before its first value is read.
+std::optional<Header> read_header(std::istream& stream) {
   constexpr std::array<std::string_view, 16> kTypes{
       "char", "int8",  "uchar", "uint8",  "short", "int16",   "ushort", "uint16",
       "int",  "int32", "uint",  "uint32", "float", "float32", "double", "float64"};
@@ -85,7 +87,7 @@ std::optional<Header> sound_header(std::istream& stream) {
   Header header;
   std::string element;
   int elements = 0;
-  int properties = 1;  // of the last element
+  int properties = 1;  // Number of properties of the last element.
   for (std::string line; std::getline(stream, line);) {
     std::istringstream words(line);
     std::string key;
@@ -117,7 +119,8 @@ std::optional<Header> sound_header(std::istream& stream) {
   return std::nullopt;
 }
 
-// Changes the header so that what it calls normals are positions, and what follows the vertices is a comment.
+// Changes the header so that normals are declared as positions, and the elements after the vertices become
+// comments.
 void call_normals_positions(std::string& bytes) {
   bool vertices = false;
   bool past = false;
@@ -140,20 +143,20 @@ void call_normals_positions(std::string& bytes) {
   }
 }
 
-// Counts what the library stores of so many vertices and faces, at most as many as the file has bytes.
+// Counts the memory in which the library stores vertices and faces, at most as many as the file has bytes.
 void take_memory(std::size_t vertices, std::size_t faces, std::size_t bytes, MeshReading& reading) {
   constexpr std::size_t kFace = sizeof(Polygons::value_type) + sizeof(Triangle);
-  reading.held.take_more(reading.path.string(), std::min(vertices, bytes) * sizeof(Points::value_type) +
+  reading.memory.reserve(reading.path.string(), std::min(vertices, bytes) * sizeof(Points::value_type) +
                                                     std::min(faces, bytes) * kFace);
 }
 
-// Polygons stay empty where only vertices are asked for.
+// Reads the vertices and, if the header has faces, the polygons. False after a fault.
 bool read(std::istream& stream, const Header& header, Points& points, Polygons& polygons,
           MeshReading& reading) {
   stream.imbue(std::locale::classic());
   try {
     if (CGAL::IO::read_PLY(stream, points, polygons, CGAL::parameters::verbose(false))) return true;
-  } catch (const std::logic_error&) {  // an assertion, or a list of negative length
+  } catch (const std::logic_error&) {  // Thrown by an assertion, or for a list of negative length.
     return reading.refuse("malformed PLY");
   }
   std::string word;
@@ -161,10 +164,10 @@ bool read(std::istream& stream, const Header& header, Points& points, Polygons& 
   if (points.size() < header.vertices && stream >> word)
     return reading.refuse(
         fmt::format("vertex {} needs finite numbers (got \"{}\")", points.size(), word.substr(0, 20)));
-  return reading.refuse("malformed PLY, or the header promises more than the file holds");
+  return reading.refuse("malformed PLY, or the header declares more than the file holds");
 }
 
-// Gives the corners of the triangles the normals of their vertices.
+// Sets the normals at the corners of the triangles to those of their vertices.
 bool read_normals(std::string&& bytes, const Header& header, Mesh& mesh, MeshReading& reading) {
   if (!header.has("nx") || !header.has("ny") || !header.has("nz"))
     return reading.refuse("a normal needs nx, ny and nz");
@@ -179,7 +182,7 @@ bool read_normals(std::string&& bytes, const Header& header, Mesh& mesh, MeshRea
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const std::uint32_t vertex = mesh.triangles[i].at(corner);
-      if (vertex >= given.size()) continue;  // reported with the triangle
+      if (vertex >= given.size()) continue;  // The triangle is reported later.
       Imath::V3f& normal = mesh.normals[i].at(corner);
       normal = unit_normal({given[vertex].x(), given[vertex].y(), given[vertex].z()});
       if (normal == Imath::V3f(0))
@@ -194,7 +197,7 @@ bool cut_polygons(const Polygons& polygons, Mesh& mesh, MeshReading& reading) {
   for (std::size_t i = 0; i < polygons.size(); ++i) {
     if (polygons[i].size() < 3) continue;
     corners.clear();
-    for (const std::uint32_t vertex : polygons[i])  // one that does not exist is reported with the triangle
+    for (const std::uint32_t vertex : polygons[i])  // A vertex that does not exist is reported later.
       corners.push_back(vertex < mesh.vertices.size() ? mesh.vertices[vertex] : Imath::V3d(NAN));
     if (const auto fault = cut_polygon(corners, cut))
       return reading.refuse(fmt::format("face {}: {}", i, *fault));
@@ -208,7 +211,7 @@ bool cut_polygons(const Polygons& polygons, Mesh& mesh, MeshReading& reading) {
 bool read_ply(std::string&& bytes, MeshReading& reading) {
   std::istringstream stream(std::move(bytes));
   stream.imbue(std::locale::classic());
-  const auto header = sound_header(stream);
+  const auto header = read_header(stream);
   if (!header) return reading.refuse("malformed PLY header, or lists counted in 32 bits");
   if (const auto fault = type_fault(*header)) return reading.refuse("PLY header: " + *fault);
   take_memory(header->vertices, header->faces, stream.view().size(), reading);

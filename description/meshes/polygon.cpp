@@ -10,13 +10,13 @@
 namespace abbe {
 namespace {
 
-// Files round coordinates to about six digits: nothing less tells where a corner is.
+// Files round coordinates to about six digits, so smaller distances have no meaning.
 constexpr double kRounding = 1e-6;
-// The time that ears take grows as the square of the corners.
+// Ear clipping takes a time quadratic in the number of corners.
 constexpr std::size_t kMaxConcaveCorners = 16384;
 
-/// A polygon of which ears, triangles of three successive corners with no other corner in them, are cut off
-/// until a triangle is left: every simple polygon has two [Meisters1975].
+/// A polygon that is triangulated by ear clipping. An ear is a triangle of three successive corners that
+/// contains no other corner; every simple polygon has two [Meisters1975].
 class Polygon {
  public:
   explicit Polygon(const std::vector<Imath::V3d>& corners) : corners_(corners) {
@@ -27,7 +27,7 @@ class Polygon {
     }
     rounding_ = kRounding * largest;
     Imath::V3d area(0);
-    Imath::V3d widest(0);  // where edges cross, whose areas may cancel
+    Imath::V3d widest(0);  // Used if edges cross, since their areas may cancel.
     for (std::size_t i = 2; i < corners.size(); ++i) {
       const Imath::V3d part = (corners[i - 1] - corners[0]).cross(corners[i] - corners[0]);
       if (part.length2() > widest.length2()) widest = part;
@@ -36,7 +36,7 @@ class Polygon {
     normal_ = (area.length() > line() ? area : widest).normalized();
   }
 
-  /// Whether no triangle around the first corner turns back, as none does in a convex polygon.
+  /// True if no triangle around the first corner turns back. This holds for every convex polygon.
   [[nodiscard]] bool is_fan() const {
     for (std::uint32_t i = 2; i < corners_.size(); ++i)
       if (turn(0, i - 1, i) < -line()) return false;
@@ -47,7 +47,8 @@ class Polygon {
       return std::abs(normal_.dot(corner - corners_[0])) <= rounding_;
     });
   }
-  /// Triangles that wind as the polygon does, those without area last; too few if its edges cross.
+  /// Triangles with the winding of the polygon, those without area last. There are too few if its edges
+  /// cross.
   [[nodiscard]] std::vector<Triangle> ears() {
     left_.resize(corners_.size());
     std::iota(left_.begin(), left_.end(), 0U);
@@ -61,23 +62,24 @@ class Polygon {
       }
       cut.push_back({left_[previous(i)], left_[i], left_[next(i)]});
       left_.erase(left_.begin() + static_cast<std::ptrdiff_t>(i));
-      i = previous(i);  // of which an ear may have become
+      i = previous(i);  // It may have become an ear.
       missed = 0;
     }
     return cut;
   }
 
  private:
-  // Twice the area of a triangle seen along the normal; negative if it winds the other way.
+  // Twice the area of a triangle as seen along the normal; negative for the opposite winding.
   [[nodiscard]] double turn(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
     return normal_.dot((corners_[b] - corners_[a]).cross(corners_[c] - corners_[a]));
   }
-  // The same of one that rounding may have made of a line.
+  // Bound for twice the area of a triangle that is a line up to rounding.
   [[nodiscard]] double line() const { return rounding_ * extent_; }
   [[nodiscard]] std::size_t next(std::size_t i) const { return (i + 1) % left_.size(); }
   [[nodiscard]] std::size_t previous(std::size_t i) const { return (i + left_.size() - 1) % left_.size(); }
 
-  // A corner where another is, as where a slit leads to a hole, is in no ear of that.
+  // True if the triangle contains the corner. A corner that coincides with one of the triangle does not
+  // count; such corners occur where a slit leads to a hole.
   [[nodiscard]] bool is_within(std::uint32_t corner, const Triangle& t) const {
     const auto at = [&](std::uint32_t i) { return (corners_[corner] - corners_[i]).length() <= rounding_; };
     return turn(t[0], t[1], corner) >= 0 && turn(t[1], t[2], corner) >= 0 && turn(t[2], t[0], corner) >= 0 &&
@@ -91,7 +93,7 @@ class Polygon {
   }
 
   const std::vector<Imath::V3d>& corners_;
-  std::vector<std::uint32_t> left_;  // of the corners, while ears are cut off
+  std::vector<std::uint32_t> left_;  // Corners that have not been cut off.
   Imath::V3d normal_;
   double extent_ = 0;
   double rounding_ = 0;

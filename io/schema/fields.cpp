@@ -12,15 +12,15 @@ Field Field::with(Presence other) const {
   return field;
 }
 
-Fields Fields::or_row(std::size_t least, std::size_t most) const {
+Fields Fields::or_array(std::size_t min_size, std::size_t max_size) const {
   Fields table = *this;
-  table.row = Row{least, most};
+  table.array_form = ArrayForm{min_size, max_size};
   return table;
 }
 
-std::vector<std::string_view> Fields::row_keys() const {
+std::vector<std::string_view> Fields::array_keys() const {
   std::vector<std::string_view> keys;
-  for (std::size_t i = 0; row && i < row->most; ++i) keys.push_back(fields.at(i).key);
+  for (std::size_t i = 0; array_form && i < array_form->max_size; ++i) keys.push_back(fields.at(i).key);
   return keys;
 }
 
@@ -29,20 +29,22 @@ Fields describe(std::string_view name, std::string_view text, std::vector<Field>
   return {name, text, std::move(fields), std::move(any_of), exclusive};
 }
 
-std::shared_ptr<const Part> detail::part(Kind&& kind) {
-  return std::make_shared<const Part>(std::move(kind));
+std::shared_ptr<const FieldContent> detail::content(ValueType&& type) {
+  return std::make_shared<const FieldContent>(std::move(type));
 }
-std::shared_ptr<const Part> detail::part(OneOf&& group) {
-  return std::make_shared<const Part>(std::move(group));
+std::shared_ptr<const FieldContent> detail::content(OneOf&& group) {
+  return std::make_shared<const FieldContent>(std::move(group));
 }
-std::shared_ptr<const Part> detail::part(Lent lent) {
-  return std::make_shared<const Part>(lent);
+std::shared_ptr<const FieldContent> detail::content(Inlined inlined) {
+  return std::make_shared<const FieldContent>(inlined);
 }
 
-void detail::require_same(const std::type_info& said, const std::type_info& is, std::string_view what) {
-  if (said != is)
+void detail::require_same(const std::type_info& declared, const std::type_info& actual,
+                          std::string_view what) {
+  if (declared != actual)
     throw Error{ErrorCode::internal, "",
-                fmt::format("the table of \"{}\" holds a {} for a {}", what, said.name(), is.name())};
+                fmt::format("the field table of \"{}\" declares the type {} for a member of type {}", what,
+                            declared.name(), actual.name())};
 }
 
 }  // namespace abbe::schema

@@ -8,72 +8,74 @@
 #include <variant>
 #include <vector>
 
-#include "io/schema/held.h"
-#include "io/schema/kind.h"
+#include "io/schema/member_access.h"
+#include "io/schema/value_type.h"
 
-// The declarative tables of a user's file. A thing is a plain struct whose members hold its defaults; beside
-// it stands its table,
+// Declarative field tables of user files. A plain struct has its defaults as member initialisers, and a
+// function returns its table:
 //
 //   Fields fields(Tag<Disc>) {
 //     return describe("disc", "A flat disc.",
-//                     {field("center", &Disc::center, point(), "Its middle."),
+//                     {field("center", &Disc::center, point(), "Its center."),
 //                      field("radius", &Disc::radius, kLength, "Its radius.")});
 //   }
 //
-// from which `read`, `write`, `json_schema` and the guide work. Of a member whose type says all, such as a
-// bool, a string, a thing, or a type V with a `Kind kind(Tag<V>)` beside it, no kind is said.
+// `read`, `write`, `json_schema`, the guide and help use these tables. The value type is omitted if the
+// member's type implies it: a bool, a string, a struct, or a type V with a function `ValueType
+// value_type(Tag<V>)`.
 namespace abbe::schema {
 
-/// Chooses the table of a thing: `fields(Tag<Disc>{})`.
+/// Selects the table of a type: `fields(Tag<Disc>{})`.
 template <typename T>
 struct Tag {};
 
-/// A value under a key, a group of keys, or the fields of another thing.
-using Part = std::variant<Kind, OneOf, Lent>;
+/// A value with a key, a group of keys, or the fields of another struct.
+using FieldContent = std::variant<ValueType, OneOf, Inlined>;
 
-/// One key of a thing, or one group of keys.
+/// One key of a struct, or one group of keys.
 struct Field {
-  std::string_view key;  ///< Empty unless a value stands under it.
-  std::shared_ptr<const Part> part;
+  std::string_view key;  ///< Empty for groups and inlined structs.
+  std::shared_ptr<const FieldContent> content;
   std::string_view
-      text;  ///< What it means, as a whole sentence; empty where that of the thing it holds does.
+      text;  ///< Meaning, as a sentence; empty if the text of the struct that is its value suffices.
   Presence presence;
-  std::ptrdiff_t offset;  ///< Of the member in its thing.
-  Holder holder;
+  std::ptrdiff_t offset;  ///< Offset of the member in its struct [bytes].
+  MemberFunctions access;
   const std::type_info* owner;
 
-  [[nodiscard]] void* member(void* thing) const { return static_cast<char*>(thing) + offset; }
-  [[nodiscard]] const void* look(const void* thing) const {
-    return holder.look(static_cast<const char*>(thing) + offset);
+  [[nodiscard]] void* member(void* instance) const { return static_cast<char*>(instance) + offset; }
+  [[nodiscard]] const void* get(const void* instance) const {
+    return access.get(static_cast<const char*>(instance) + offset);
   }
-  /// The same, but for whether it must be there.
+  /// This field with another presence.
   [[nodiscard]] Field with(Presence other) const;
 };
 
-/// A list that may stand in the place of a thing's object: the values of its first keys, of so many at least
-/// and at most, null where a key is not said.
-struct Row {
-  std::size_t least;
-  std::size_t most;
+/// An array that may replace the object of a struct. It has `min_size` to `max_size` values, which belong to
+/// the first keys of the table; null omits a key.
+struct ArrayForm {
+  std::size_t min_size;
+  std::size_t max_size;
 };
 
-/// The table of a thing.
+/// The field table of a struct.
 struct Fields {
-  std::string_view name;  ///< That of a definition of the JSON schema.
-  std::string_view text;  ///< What it is, as a whole sentence.
+  std::string_view name;  ///< Name of the definition in the JSON schema.
+  std::string_view text;  ///< Meaning of the struct, as a sentence.
   std::vector<Field> fields;
-  /// Keys, or paths of keys ("sun/irradiance"), one of which must be there; the first is asked for.
+  /// Keys, or paths of keys ("sun/irradiance"), one of which must be present. Errors name the first.
   std::vector<std::string_view> any_of = {};
-  bool exclusive = false;       ///< Whether no two of them may be there.
-  std::optional<Row> row = {};  ///< Of keys alone, each of which may be absent.
-  // What the type of the thing tells.
-  const void* defaults = nullptr;                   ///< A thing as its members' initialisers make it.
-  SourcePosition* (*where)(void* thing) = nullptr;  ///< Where it keeps its place, nullptr when it does not.
+  bool exclusive = false;                    ///< True if at most one of `any_of` may be present.
+  std::optional<ArrayForm> array_form = {};  ///< Allowed for tables of optional single keys only.
+  // Set from the type of the struct.
+  const void* defaults = nullptr;  ///< A default-constructed struct.
+  SourcePosition* (*where)(void* instance) =
+      nullptr;  ///< Its member for the source position; nullptr if it has none.
 
-  /// The same table of a thing that may be written as a row.
-  [[nodiscard]] Fields or_row(std::size_t least, std::size_t most) const;
-  /// The keys of the row.
-  [[nodiscard]] std::vector<std::string_view> row_keys() const;
+  /// This table for a struct that may be written as an array.
+  [[nodiscard]] Fields or_array(std::size_t min_size, std::size_t max_size) const;
+  /// The keys that the values of the array belong to.
+  [[nodiscard]] std::vector<std::string_view> array_keys() const;
 };
 
 namespace detail {
@@ -84,73 +86,75 @@ const T& defaults() {
   return kDefaults;
 }
 
-/// Throws Error{internal} where a table is wrong about the type of a member.
-void require_same(const std::type_info& said, const std::type_info& is, std::string_view what);
+/// Throws Error{internal} if a table declares another type than a member has.
+void require_same(const std::type_info& declared, const std::type_info& actual, std::string_view what);
 
-/// The table with what the type T tells; throws as `require_same` for the field of another thing.
+/// The table with the members that depend on the type T. Throws like `require_same` if it contains a field of
+/// another struct.
 template <typename T>
 Fields completed(Fields table) {
   for (const Field& field : table.fields) require_same(*field.owner, typeid(T), table.name);
   table.defaults = &defaults<T>();
-  table.where = [](void* thing) { return where_of(*static_cast<T*>(thing)); };
+  table.where = [](void* instance) { return where_of(*static_cast<T*>(instance)); };
   return table;
 }
 
-// Not in line, where the compiler loses its way among the alternatives.
-[[nodiscard]] std::shared_ptr<const Part> part(Kind&& kind);
-[[nodiscard]] std::shared_ptr<const Part> part(OneOf&& group);
-[[nodiscard]] std::shared_ptr<const Part> part(Lent lent);
+// Defined out of line: the compiler does not resolve the conversion among the alternatives here.
+[[nodiscard]] std::shared_ptr<const FieldContent> content(ValueType&& type);
+[[nodiscard]] std::shared_ptr<const FieldContent> content(OneOf&& group);
+[[nodiscard]] std::shared_ptr<const FieldContent> content(Inlined inlined);
 
 template <typename T, typename M>
-Field make_field(std::string_view key, std::shared_ptr<const Part> part, std::string_view text,
+Field make_field(std::string_view key, std::shared_ptr<const FieldContent> content, std::string_view text,
                  M T::*member) {
-  const T& thing = defaults<T>();
-  const auto offset = reinterpret_cast<const char*>(&(thing.*member)) - reinterpret_cast<const char*>(&thing);
-  return {key, std::move(part), text, Held<M>::kPresence, offset, holder<M>(), &typeid(T)};
+  const T& instance = defaults<T>();
+  const auto offset =
+      reinterpret_cast<const char*>(&(instance.*member)) - reinterpret_cast<const char*>(&instance);
+  return {key, std::move(content), text, MemberAccess<M>::kPresence, offset, access<M>(), &typeid(T)};
 }
 
 template <typename V, typename A>
-Alternative alternative(Kind kind) {
-  require_same(*kind.type, typeid(ValueOf<A>), "an alternative");
-  return {std::make_shared<const Kind>(std::move(kind)),
+Alternative alternative(ValueType type) {
+  require_same(*type.cpp_type, typeid(ValueOf<A>), "an alternative");
+  return {std::make_shared<const ValueType>(std::move(type)),
           [](void* variant, const SourcePosition& where) -> void* {
             return open_at(static_cast<V*>(variant)->template emplace<A>(), where);
           },
           [](const void* variant) -> const void* {
-            const A* held = std::get_if<A>(static_cast<const V*>(variant));
-            return held ? Held<A>::look(*held) : nullptr;
+            const A* value = std::get_if<A>(static_cast<const V*>(variant));
+            return value ? MemberAccess<A>::get(*value) : nullptr;
           }};
 }
 
-/// A choice or form before it is known whose alternative it is.
+/// A choice or form whose variant is not known yet.
 template <typename A>
 struct LooseChoice {
   std::string_view key;
-  Kind kind;
+  ValueType type;
   std::string_view text;
-  bool inside;
+  bool nested;
 };
 template <typename A>
 struct LooseForm {
   Json json;
   std::vector<std::string_view> keys;
-  Kind kind;
+  ValueType type;
 };
 
 template <typename T, typename V, typename... A>
-Field group(V T::*member, bool required, std::string_view several, LooseChoice<A>... choice) {
+Field group(V T::*member, bool required, std::string_view conflict, LooseChoice<A>... choice) {
   return make_field("",
-                    part(OneOf{required,
-                               several,
-                               {Choice{choice.key, choice.text, choice.inside,
-                                       alternative<V, A>(std::move(choice.kind))}...},
-                               [](void* variant) { static_cast<V*>(variant)->template emplace<0>(); }}),
+                    content(OneOf{required,
+                                  conflict,
+                                  {Choice{choice.key, choice.text, choice.nested,
+                                          alternative<V, A>(std::move(choice.type))}...},
+                                  [](void* variant) { static_cast<V*>(variant)->template emplace<0>(); }}),
                     "", member);
 }
 
 }  // namespace detail
 
-/// What the table of T says.
+/// The field table of T.
 template <typename T>
 [[nodiscard]] const Fields& fields_of() {
   static const Fields kFields = detail::completed<T>(fields(Tag<T>{}));
@@ -158,17 +162,19 @@ template <typename T>
 }
 
 template <typename E>
-[[nodiscard]] Kind word(std::string_view what, std::vector<const char*> names, bool numbers = false) {
-  return {Word{what, std::move(names), numbers,
-               [](void* value, std::size_t to) { *static_cast<E*>(value) = static_cast<E>(to); },
-               [](const void* value) { return static_cast<std::size_t>(*static_cast<const E*>(value)); }},
-          &typeid(E)};
+[[nodiscard]] ValueType enumeration(std::string_view what, std::vector<const char*> names,
+                                    bool accepts_numbers = false) {
+  return {
+      Enumeration{what, std::move(names), accepts_numbers,
+                  [](void* value, std::size_t to) { *static_cast<E*>(value) = static_cast<E>(to); },
+                  [](const void* value) { return static_cast<std::size_t>(*static_cast<const E*>(value)); }},
+      &typeid(E)};
 }
-/// As many numbers as V holds: an array or a vector of geometry.
+/// A fixed-size array or vector of numbers. `nonzero` excludes the zero vector.
 template <typename V>
-[[nodiscard]] Kind vector(Range range, bool direction = false) {
+[[nodiscard]] ValueType vector(Range range, bool nonzero = false) {
   using Number = std::remove_cvref_t<decltype(std::declval<V&>()[0])>;
-  return {Vector{sizeof(V) / sizeof(Number), range, direction, std::is_integral_v<Number>,
+  return {Vector{sizeof(V) / sizeof(Number), range, nonzero, std::is_integral_v<Number>,
                  [](void* value, std::size_t i, double to) {
                    (&(*static_cast<V*>(value))[0])[i] = static_cast<Number>(to);
                  },
@@ -178,30 +184,31 @@ template <typename V>
           &typeid(V)};
 }
 template <typename T>
-[[nodiscard]] Kind thing() {
-  return {Thing{fields_of<T>}, &typeid(T)};
+[[nodiscard]] ValueType structure() {
+  return {Struct{fields_of<T>}, &typeid(T)};
 }
 template <typename T>
-[[nodiscard]] Kind list(Kind element, std::string_view what, std::size_t least, bool bare = false) {
+[[nodiscard]] ValueType list(ValueType element, std::string_view what, std::size_t min_size,
+                             bool allows_single = false) {
   using L = std::vector<T>;
-  detail::require_same(*element.type, typeid(detail::ValueOf<T>), what);
-  return {List{std::make_shared<const Kind>(std::move(element)), what, least, bare,
+  detail::require_same(*element.cpp_type, typeid(detail::ValueOf<T>), what);
+  return {List{std::make_shared<const ValueType>(std::move(element)), what, min_size, allows_single,
                [](void* l, std::size_t count) { static_cast<L*>(l)->reserve(count); },
                [](void* l, const SourcePosition& where) -> void* {
                  return detail::open_at(static_cast<L*>(l)->emplace_back(), where);
                },
                [](const void* l) { return static_cast<const L*>(l)->size(); },
                [](const void* l, std::size_t i) -> const void* {
-                 return detail::Held<T>::look((*static_cast<const L*>(l))[i]);
+                 return detail::MemberAccess<T>::get((*static_cast<const L*>(l))[i]);
                }},
           &typeid(L)};
 }
-/// A std::vector of `Named<T>`.
+/// A std::vector of `Named<T>`: an object with names that the user chooses.
 template <typename T>
-[[nodiscard]] Kind by_name(Kind element, std::string_view what, std::size_t least) {
+[[nodiscard]] ValueType by_name(ValueType element, std::string_view what, std::size_t min_size) {
   using L = std::vector<Named<T>>;
-  detail::require_same(*element.type, typeid(detail::ValueOf<T>), what);
-  return {ByName{std::make_shared<const Kind>(std::move(element)), what, least,
+  detail::require_same(*element.cpp_type, typeid(detail::ValueOf<T>), what);
+  return {ByName{std::make_shared<const ValueType>(std::move(element)), what, min_size,
                  [](void* l, const std::string& name, const SourcePosition& where) -> void* {
                    Named<T>& named = static_cast<L*>(l)->emplace_back();
                    named.name = name;
@@ -210,7 +217,7 @@ template <typename T>
                  },
                  [](const void* l) { return static_cast<const L*>(l)->size(); },
                  [](const void* l, std::size_t i) -> const void* {
-                   return detail::Held<T>::look((*static_cast<const L*>(l))[i].value);
+                   return detail::MemberAccess<T>::get((*static_cast<const L*>(l))[i].value);
                  },
                  [](const void* l, std::size_t i) -> const std::string& {
                    return (*static_cast<const L*>(l))[i].name;
@@ -218,9 +225,9 @@ template <typename T>
           &typeid(L)};
 }
 
-/// A V in that range: a number, an integer, or a point or list of numbers which are.
+/// A V within a range: a number, an integer, or a vector or list of numbers that all are.
 template <typename V>
-[[nodiscard]] Kind within(Range range) {
+[[nodiscard]] ValueType within(Range range) {
   if constexpr (std::is_same_v<V, double>)
     return {Number{range}, &typeid(V)};
   else if constexpr (std::is_same_v<V, std::vector<double>>)
@@ -234,122 +241,129 @@ template <typename V>
     return vector<V>(range);
 }
 
-/// What a V is when no more is said: a bool, a string, what `kind(Tag<V>)` says, or a thing.
+/// The value type that V implies: a bool, a string, the result of `value_type(Tag<V>)`, or a struct.
 template <typename V>
-[[nodiscard]] Kind kind_of() {
+[[nodiscard]] ValueType value_type_of() {
   if constexpr (std::is_same_v<V, bool>)
     return {Boolean{}, &typeid(V)};
   else if constexpr (std::is_same_v<V, std::string>)
     return {Text{}, &typeid(V)};
-  else if constexpr (requires { kind(Tag<V>{}); })
-    return kind(Tag<V>{});
+  else if constexpr (requires { value_type(Tag<V>{}); })
+    return value_type(Tag<V>{});
   else
-    return thing<V>();
+    return structure<V>();
 }
 
 template <typename T>
-[[nodiscard]] Kind list(std::string_view what, std::size_t least, bool bare = false) {
-  return list<T>(kind_of<detail::ValueOf<T>>(), what, least, bare);
+[[nodiscard]] ValueType list(std::string_view what, std::size_t min_size, bool allows_single = false) {
+  return list<T>(value_type_of<detail::ValueOf<T>>(), what, min_size, allows_single);
 }
 template <typename T>
-[[nodiscard]] Kind by_name(std::string_view what, std::size_t least) {
-  return by_name<T>(kind_of<detail::ValueOf<T>>(), what, least);
+[[nodiscard]] ValueType by_name(std::string_view what, std::size_t min_size) {
+  return by_name<T>(value_type_of<detail::ValueOf<T>>(), what, min_size);
 }
 
-/// A number, or several.
+/// A number, or an array of numbers.
 template <typename V>
 concept Numeric = std::is_arithmetic_v<V> || requires(V v) {
   requires std::is_arithmetic_v<std::remove_cvref_t<decltype(v[0])>>;
 };
 
-/// What a table says of a value: its kind or its range.
-struct Saying {
-  std::variant<Range, Kind> said;
+/// A value type or a range, as an argument of table entries.
+struct TypeOrRange {
+  std::variant<Range, ValueType> value;
 
-  Saying(Range range) : said(range) {}
-  Saying(double low, double high, bool open_low = false, bool open_high = false)
-      : said(Range{low, high, open_low, open_high}) {}
-  Saying(Kind kind) : said(std::move(kind)) {}
+  TypeOrRange(Range range) : value(range) {}
+  TypeOrRange(double low, double high, bool open_low = false, bool open_high = false)
+      : value(Range{low, high, open_low, open_high}) {}
+  TypeOrRange(ValueType type) : value(std::move(type)) {}
 
   template <typename V>
-  [[nodiscard]] Kind of() const {
+  [[nodiscard]] ValueType as() const {
     if constexpr (Numeric<V>)
-      if (const auto* range = std::get_if<Range>(&said)) return within<V>(*range);
-    return std::get<Kind>(said);
+      if (const auto* range = std::get_if<Range>(&value)) return within<V>(*range);
+    return std::get<ValueType>(value);
   }
 };
 
-/// The alternative A of a variant, written as that type of JSON; objects perhaps only with one of `keys`.
+/// The alternative A of a variant, written as that JSON type. If `keys` are given, an object must have one of
+/// them.
 template <typename A>
-[[nodiscard]] detail::LooseForm<A> form(Json json, const Saying& said) {
-  return {json, {}, said.of<detail::ValueOf<A>>()};
+[[nodiscard]] detail::LooseForm<A> form(Json json, const TypeOrRange& value) {
+  return {json, {}, value.as<detail::ValueOf<A>>()};
 }
 template <typename A>
 [[nodiscard]] detail::LooseForm<A> form(Json json, std::vector<std::string_view> keys = {}) {
-  return {json, std::move(keys), kind_of<detail::ValueOf<A>>()};
+  return {json, std::move(keys), value_type_of<detail::ValueOf<A>>()};
 }
-/// A variant V that is told by how it is written; `name` is that of its definition in the JSON schema, if it
-/// is to have one, and errors say that it is `expected`.
+/// A variant V whose alternative follows from the JSON form. `name` is its definition in the JSON schema, or
+/// empty. Errors call it `expected`.
 template <typename V, typename... A>
-[[nodiscard]] Kind forms(std::string_view name, std::string_view expected, detail::LooseForm<A>... form) {
+[[nodiscard]] ValueType forms(std::string_view name, std::string_view expected,
+                              detail::LooseForm<A>... form) {
   return {Forms{name,
                 expected,
-                {Form{form.json, std::move(form.keys), detail::alternative<V, A>(std::move(form.kind))}...}},
+                {Form{form.json, std::move(form.keys), detail::alternative<V, A>(std::move(form.type))}...}},
           &typeid(V)};
 }
 
-/// The alternative A of a variant under a key of its own.
+/// The alternative A of a variant as the value of its own key.
 template <typename A>
-[[nodiscard]] detail::LooseChoice<A> under(std::string_view key, const Saying& said, std::string_view text) {
-  return {key, said.of<detail::ValueOf<A>>(), text, true};
+[[nodiscard]] detail::LooseChoice<A> under(std::string_view key, const TypeOrRange& value,
+                                           std::string_view text) {
+  return {key, value.as<detail::ValueOf<A>>(), text, true};
 }
 template <typename A>
 [[nodiscard]] detail::LooseChoice<A> under(std::string_view key, std::string_view text = {}) {
-  return {key, kind_of<detail::ValueOf<A>>(), text, true};
+  return {key, value_type_of<detail::ValueOf<A>>(), text, true};
 }
-/// The alternative A of a variant as fields of the same object, told by the one of them under `key`.
+/// The alternative A of a variant, with its fields in the same object. The presence of `key`, one of them,
+/// selects it.
 template <typename A>
-[[nodiscard]] detail::LooseChoice<A> beside(std::string_view key) {
-  return {key, thing<A>(), {}, false};
+[[nodiscard]] detail::LooseChoice<A> inlined_by(std::string_view key) {
+  return {key, structure<A>(), {}, false};
 }
 
-/// The member under a key. It must be there unless the member is optional.
+/// A member with a key. The key is required unless the type of the member is optional.
 template <typename T, typename M>
-[[nodiscard]] Field field(std::string_view key, M T::*member, const Saying& said, std::string_view text) {
-  Kind kind = said.of<detail::ValueOf<M>>();
-  detail::require_same(*kind.type, typeid(detail::ValueOf<M>), key);
-  return detail::make_field(key, detail::part(std::move(kind)), text, member);
+[[nodiscard]] Field field(std::string_view key, M T::*member, const TypeOrRange& value,
+                          std::string_view text) {
+  ValueType type = value.as<detail::ValueOf<M>>();
+  detail::require_same(*type.cpp_type, typeid(detail::ValueOf<M>), key);
+  return detail::make_field(key, detail::content(std::move(type)), text, member);
 }
 template <typename T, typename M>
 [[nodiscard]] Field field(std::string_view key, M T::*member, std::string_view text = {}) {
-  return field(key, member, kind_of<detail::ValueOf<M>>(), text);
+  return field(key, member, value_type_of<detail::ValueOf<M>>(), text);
 }
-/// The same that may be absent: then the member's initialiser holds.
+/// A member with an optional key. Without it the member keeps its initialiser.
 template <typename T, typename M>
-[[nodiscard]] Field defaulted(std::string_view key, M T::*member, const Saying& said, std::string_view text) {
-  return field(key, member, said, text).with(Presence::optional);
+[[nodiscard]] Field defaulted(std::string_view key, M T::*member, const TypeOrRange& value,
+                              std::string_view text) {
+  return field(key, member, value, text).with(Presence::optional);
 }
 template <typename T, typename M>
 [[nodiscard]] Field defaulted(std::string_view key, M T::*member, std::string_view text) {
   return field(key, member, text).with(Presence::optional);
 }
-/// The fields of a member that is a thing, in the same object.
+/// A member that is a struct, with its fields in the same object.
 template <typename T, typename M>
-[[nodiscard]] Field lent(M T::*member) {
-  return detail::make_field("", detail::part(Lent{fields_of<M>}), "", member);
+[[nodiscard]] Field inlined(M T::*member) {
+  return detail::make_field("", detail::content(Inlined{fields_of<M>}), "", member);
 }
-/// Keys of which exactly one is there; the member is a variant of std::monostate and their alternatives.
+/// A group of keys, exactly one of which is present. The member is a variant of std::monostate and the
+/// alternatives.
 template <typename T, typename V, typename... A>
 [[nodiscard]] Field one_of(V T::*member, detail::LooseChoice<A>... choice) {
   return detail::group(member, true, "", std::move(choice)...);
 }
-/// Keys of which one at most is there; `several` says what is wrong with two.
+/// A group of keys, at most one of which is present. `conflict` is the error for two.
 template <typename T, typename V, typename... A>
-[[nodiscard]] Field at_most_one(V T::*member, std::string_view several, detail::LooseChoice<A>... choice) {
-  return detail::group(member, false, several, std::move(choice)...);
+[[nodiscard]] Field at_most_one(V T::*member, std::string_view conflict, detail::LooseChoice<A>... choice) {
+  return detail::group(member, false, conflict, std::move(choice)...);
 }
 
-/// The table of a thing. Its name is that of a definition of the JSON schema.
+/// Builds a field table. `name` is its definition in the JSON schema.
 [[nodiscard]] Fields describe(std::string_view name, std::string_view text, std::vector<Field> fields,
                               std::vector<std::string_view> any_of = {}, bool exclusive = false);
 

@@ -6,10 +6,10 @@
 
 namespace abbe::schema {
 
-/// A guide in Markdown with its tables of keys written anew. A table stands between the lines
-/// `<!-- keys: NAME, NAME -->`, which names things that `root` or something below it holds, and `<!-- end
-/// -->`. A thing below these that no table names is told in the first that meets it; others link to the
-/// heading above. Throws Error{internal} for a name that is no thing's, and a table without an end.
+/// The Markdown text `guide` with its tables of keys regenerated. A table is between the lines `<!-- keys:
+/// NAME, NAME -->` and `<!-- end -->`. The names are those of `root` or of structs inside it. A struct that
+/// no table names is described in the first table that contains it; other tables link to that heading. Throws
+/// Error{internal} for an unknown name and for a table without an end.
 [[nodiscard]] std::string with_tables(const std::string& guide, const Fields& root);
 
 }  // namespace abbe::schema

@@ -13,12 +13,12 @@
 namespace abbe::schema {
 namespace {
 
-std::string keys_text(const std::vector<const Fields*>& things) {
+std::string keys_text(const std::vector<const Fields*>& structs) {
   std::string text;
   int group = 0;
-  for (const Key& key : keys_of(things)) {
+  for (const Key& key : keys_of(structs)) {
     if (key.group != nullptr && key.group_number != group)
-      text += fmt::format("\n  {}\n", heading(*key.group));
+      text += fmt::format("\n  {}\n", group_label(*key.group));
     const char* indent = key.group != nullptr ? "    " : "  ";
     if (key.group == nullptr && group != 0) text += '\n';
     group = key.group_number;
@@ -29,49 +29,50 @@ std::string keys_text(const std::vector<const Fields*>& things) {
 
 std::string entry(const std::string& path, const Key& key) {
   std::string text = fmt::format("{}\n  {}\n  {}\n", path, key.meaning(), key.allowed());
-  const std::vector<const Fields*> things = things_in(key.kinds);
-  return things.empty() ? text : text + '\n' + keys_text(things);
+  const std::vector<const Fields*> structs = structs_in(key.types);
+  return structs.empty() ? text : text + '\n' + keys_text(structs);
 }
 
 [[noreturn]] void refuse(const std::string& key, const std::vector<std::string>& known) {
   throw Error(ErrorCode::usage, "", unknown_name("key", key, known));
 }
 
-// Whether values of these kinds hold an element that goes by this: a number in lists, or else a name that the
-// user chose.
-bool hold_element(const std::vector<const Kind*>& kinds, const std::string& step) {
+// True if values of these types have an element that the step of a path names: a number in lists, or a name
+// that the user chose.
+bool hold_element(const std::vector<const ValueType*>& types, const std::string& step) {
   const bool is_number = step.find_first_not_of("0123456789") == std::string::npos;
-  return std::any_of(kinds.begin(), kinds.end(), [is_number](const Kind* kind) {
-    return std::holds_alternative<ByName>(kind->of) || (is_number && std::holds_alternative<List>(kind->of));
+  return std::any_of(types.begin(), types.end(), [is_number](const ValueType* type) {
+    return std::holds_alternative<ByName>(type->variant) ||
+           (is_number && std::holds_alternative<List>(type->variant));
   });
 }
 
-// A path of keys, or a JSON pointer as complaints print it, with the numbers and names of elements.
+// Help for a path of keys, or for a JSON pointer as in error messages, with numbers and names of elements.
 std::string entry_at(const Fields& root, const std::string& path) {
-  std::vector<const Fields*> things{&root};
+  std::vector<const Fields*> structs{&root};
   std::vector<std::string> steps = split(path, '/');
   std::erase(steps, "");
   std::string text;
   std::string keys;
-  std::vector<const Kind*> holders;
+  std::vector<const ValueType*> holders;
   for (const std::string& step : steps) {
     std::vector<std::string> known;
     std::string found;
     std::vector<const Fields*> below;
-    std::vector<const Kind*> kinds;
-    for (const Key& key : keys_of(things)) {
+    std::vector<const ValueType*> types;
+    for (const Key& key : keys_of(structs)) {
       known.emplace_back(key.name);
       if (key.name != step) continue;
       found += entry(joined(keys, step), key);
-      kinds.insert(kinds.end(), key.kinds.begin(), key.kinds.end());
-      for (const Fields* thing : things_in(key.kinds)) below.push_back(thing);
+      types.insert(types.end(), key.types.begin(), key.types.end());
+      for (const Fields* fields : structs_in(key.types)) below.push_back(fields);
     }
     if (found.empty() && !hold_element(holders, step)) refuse(step, known);
-    holders = std::move(kinds);
+    holders = std::move(types);
     if (found.empty()) continue;
     text = std::move(found);
     keys = joined(keys, step);
-    things = std::move(below);
+    structs = std::move(below);
   }
   return text;
 }
@@ -82,17 +83,17 @@ std::string help(const Fields& root, const std::string& key) {
   if (key.empty()) return keys_text({&root});
   if (key.find('/') != std::string::npos) return entry_at(root, key);
   std::string text;
-  for (const Place& place : places_below(root))
-    for (const Key& known : keys_of(std::vector{place.thing}))
-      if (known.name == key) text += (text.empty() ? "" : "\n") + entry(joined(place.path, key), known);
+  for (const StructPath& path_entry : structs_below(root))
+    for (const Key& known : keys_of(std::vector{path_entry.fields}))
+      if (known.name == key) text += (text.empty() ? "" : "\n") + entry(joined(path_entry.path, key), known);
   if (text.empty()) refuse(key, all_keys(root));
   return text;
 }
 
 std::vector<std::string> all_keys(const Fields& root) {
   std::set<std::string> keys;
-  for (const Place& place : places_below(root))
-    for (const Key& key : keys_of(std::vector{place.thing})) keys.emplace(key.name);
+  for (const StructPath& path_entry : structs_below(root))
+    for (const Key& key : keys_of(std::vector{path_entry.fields})) keys.emplace(key.name);
   return {keys.begin(), keys.end()};
 }
 

@@ -6,10 +6,12 @@
 
 namespace abbe::schema {
 
-/// What a key of a file means, in lines for a terminal: its text, type, range and default, and of objects the
-/// keys in them. `key` is a path from the root, through lists and names ("lights/sun/towards"), or a key that
-/// may stand in several places, each of which is told; the keys of the root when it is empty. Throws
-/// Error{usage} with the nearest known key.
+/// Help for a key, as lines for a terminal: its meaning, type, range and default, and the keys of objects in
+/// it. `key` is one of:
+/// - a path from the root, through lists and names ("lights/sun/towards");
+/// - a key, which is described at every position where it occurs;
+/// - empty, for the keys of the root.
+/// Throws Error{usage} with the nearest known key.
 [[nodiscard]] std::string help(const Fields& root, const std::string& key);
 
 /// Every key of the file, each once, in alphabetical order.

@@ -25,7 +25,7 @@ JsonValue object_of(std::string_view key, JsonValue value) {
   add(object, key, std::move(value));
   return json(std::move(object));
 }
-// {"required": [key]}; of a path, that the first key is there and has the rest.
+// {"required": [key]}. For a path, the first key is required and its value must have the rest.
 JsonValue has(std::string_view path) {
   const std::size_t end = path.find('/');
   JsonValue first = object_of("required", json(Array{string(path.substr(0, end))}));
@@ -35,27 +35,27 @@ JsonValue has(std::string_view path) {
   return first;
 }
 
-/// What an object must satisfy.
-struct Part {
+/// Constraints on an object.
+struct ObjectSchema {
   Object properties;
   Array required;
   Array clauses;
 };
 
-/// The definitions that have been referred to, by name.
+/// Definitions that have been referred to, by name.
 using Definitions = std::map<std::string, JsonValue>;
 
-JsonValue schema_of(const Kind& kind, Definitions& definitions);
-void add_fields(const Fields& fields, Part& part, Definitions& definitions);
+JsonValue schema_of(const ValueType& type, Definitions& definitions);
+void add_fields(const Fields& fields, ObjectSchema& content, Definitions& definitions);
 
-// Writes a part: one clause as it is, several as "allOf".
-void write_part(Part part, Object& into) {
-  if (!part.properties.empty()) add(into, "properties", json(std::move(part.properties)));
-  if (!part.required.empty()) add(into, "required", json(std::move(part.required)));
-  if (part.clauses.size() == 1) {
-    for (auto& member : std::get<Object>(part.clauses.front().value)) into.push_back(std::move(member));
-  } else if (part.clauses.size() > 1) {
-    add(into, "allOf", json(std::move(part.clauses)));
+// Writes the constraints: a single clause directly, several as "allOf".
+void write_object_schema(ObjectSchema content, Object& into) {
+  if (!content.properties.empty()) add(into, "properties", json(std::move(content.properties)));
+  if (!content.required.empty()) add(into, "required", json(std::move(content.required)));
+  if (content.clauses.size() == 1) {
+    for (auto& member : std::get<Object>(content.clauses.front().value)) into.push_back(std::move(member));
+  } else if (content.clauses.size() > 1) {
+    add(into, "allOf", json(std::move(content.clauses)));
   }
 }
 
@@ -64,42 +64,44 @@ void describe_as(JsonValue& schema, std::string_view text) {
 }
 
 JsonValue field_schema(const Field& field, const void* defaults, Definitions& definitions) {
-  JsonValue schema = schema_of(std::get<Kind>(*field.part), definitions);
+  JsonValue schema = schema_of(std::get<ValueType>(*field.content), definitions);
   describe_as(schema, field.text);
   if (auto value = default_of(field, defaults))
     add(std::get<Object>(schema.value), "default", *std::move(value));
   return schema;
 }
 
-/// What stands beside the key of each choice of a group.
-std::vector<Part> branches_of(const OneOf& group, Definitions& definitions) {
-  std::vector<Part> branches;
+/// Constraints on the object for each choice of a group.
+std::vector<ObjectSchema> branches_of(const OneOf& group, Definitions& definitions) {
+  std::vector<ObjectSchema> branches;
   for (const Choice& choice : group.choices) {
-    Part& branch = branches.emplace_back();
-    if (choice.inside) {
-      JsonValue schema = schema_of(*choice.alternative.kind, definitions);
+    ObjectSchema& branch = branches.emplace_back();
+    if (choice.nested) {
+      JsonValue schema = schema_of(*choice.alternative.type, definitions);
       describe_as(schema, choice.text);
       add(branch.properties, choice.key, std::move(schema));
     } else {
-      add_fields(std::get<Thing>(choice.alternative.kind->of).fields(), branch, definitions);
+      add_fields(std::get<Struct>(choice.alternative.type->variant).fields(), branch, definitions);
     }
   }
   return branches;
 }
 
-bool same_everywhere(const std::vector<Part>& branches, const std::string& key, const JsonValue& schema) {
+bool same_everywhere(const std::vector<ObjectSchema>& branches, const std::string& key,
+                     const JsonValue& schema) {
   const std::string text = to_text(schema);
-  return std::all_of(branches.begin(), branches.end(), [&](const Part& branch) {
+  return std::all_of(branches.begin(), branches.end(), [&](const ObjectSchema& branch) {
     const auto found = std::find_if(branch.properties.begin(), branch.properties.end(),
                                     [&](const auto& member) { return member.first == key; });
     return found == branch.properties.end() || to_text(found->second) == text;
   });
 }
 
-// The properties of all branches: said once where they agree, else left to each branch.
-void share_properties(std::vector<Part>& branches, Object& properties) {
-  const std::vector<Part> all = branches;
-  for (Part& branch : branches)
+// Merges the properties of all branches. A property with the same schema in all branches is moved to
+// `properties`; others stay in their branches.
+void merge_properties(std::vector<ObjectSchema>& branches, Object& properties) {
+  const std::vector<ObjectSchema> all = branches;
+  for (ObjectSchema& branch : branches)
     std::erase_if(branch.properties, [&](const JsonValue::Member& member) {
       const bool same = same_everywhere(all, member.first, member.second);
       const bool known = std::any_of(properties.begin(), properties.end(),
@@ -109,8 +111,8 @@ void share_properties(std::vector<Part>& branches, Object& properties) {
     });
 }
 
-// For each key that stands beside some choices only, that one of these is there.
-void tie_companions(const OneOf& group, const std::vector<Part>& branches, Object& dependent) {
+// Requires, for each key that belongs to some choices only, one of these choices.
+void require_owner_keys(const OneOf& group, const std::vector<ObjectSchema>& branches, Object& dependent) {
   std::map<std::string, Array> owners;
   for (std::size_t i = 0; i < branches.size(); ++i)
     for (const auto& member : branches[i].properties)
@@ -120,11 +122,11 @@ void tie_companions(const OneOf& group, const std::vector<Part>& branches, Objec
       add(dependent, key, object_of("anyOf", json(std::move(choices))));
 }
 
-void add_group(const OneOf& group, Part& part, Definitions& definitions) {
-  std::vector<Part> branches = branches_of(group, definitions);
+void add_group(const OneOf& group, ObjectSchema& content, Definitions& definitions) {
+  std::vector<ObjectSchema> branches = branches_of(group, definitions);
   Object dependent;
-  tie_companions(group, branches, dependent);
-  share_properties(branches, part.properties);
+  require_owner_keys(group, branches, dependent);
+  merge_properties(branches, content.properties);
   Array choices;
   for (std::size_t i = 0; i < branches.size(); ++i) {
     const std::string_view key = group.choices[i].key;
@@ -132,7 +134,7 @@ void add_group(const OneOf& group, Part& part, Definitions& definitions) {
     std::erase_if(branches[i].required,
                   [&](const JsonValue& other) { return std::get<std::string>(other.value) == key; });
     Object schema;
-    write_part(std::move(branches[i]), schema);
+    write_object_schema(std::move(branches[i]), schema);
     if (!schema.empty()) add(dependent, key, json(std::move(schema)));
   }
   if (!group.required) {
@@ -142,31 +144,31 @@ void add_group(const OneOf& group, Part& part, Definitions& definitions) {
   Object clause;
   add(clause, "oneOf", json(std::move(choices)));
   if (!dependent.empty()) add(clause, "dependentSchemas", json(std::move(dependent)));
-  part.clauses.push_back(json(std::move(clause)));
+  content.clauses.push_back(json(std::move(clause)));
 }
 
-void add_fields(const Fields& fields, Part& part, Definitions& definitions) {
+void add_fields(const Fields& fields, ObjectSchema& content, Definitions& definitions) {
   for (const Field& field : fields.fields) {
-    if (const auto* group = std::get_if<OneOf>(field.part.get())) {
-      add_group(*group, part, definitions);
-    } else if (const auto* lent = std::get_if<Lent>(field.part.get())) {
-      add_fields(lent->fields(), part, definitions);
+    if (const auto* group = std::get_if<OneOf>(field.content.get())) {
+      add_group(*group, content, definitions);
+    } else if (const auto* inlined = std::get_if<Inlined>(field.content.get())) {
+      add_fields(inlined->fields(), content, definitions);
     } else {
-      add(part.properties, field.key, field_schema(field, fields.defaults, definitions));
-      if (field.presence == Presence::required) part.required.push_back(string(field.key));
+      add(content.properties, field.key, field_schema(field, fields.defaults, definitions));
+      if (field.presence == Presence::required) content.required.push_back(string(field.key));
     }
   }
   if (fields.any_of.empty()) return;
   Array keys;
   for (const std::string_view path : fields.any_of) keys.push_back(has(path));
-  part.clauses.push_back(object_of(fields.exclusive ? "oneOf" : "anyOf", json(std::move(keys))));
+  content.clauses.push_back(object_of(fields.exclusive ? "oneOf" : "anyOf", json(std::move(keys))));
 }
 
 void write_object(const Fields& fields, Object& into, Definitions& definitions) {
-  Part part;
-  add_fields(fields, part, definitions);
+  ObjectSchema content;
+  add_fields(fields, content, definitions);
   add(into, "type", string("object"));
-  write_part(std::move(part), into);
+  write_object_schema(std::move(content), into);
   add(into, "additionalProperties", json(false));
 }
 
@@ -182,58 +184,58 @@ JsonValue bounded(std::string_view type, const Range& range, double largest) {
   return schema;
 }
 
-JsonValue array_of(JsonValue items, std::size_t least, std::size_t most) {
+JsonValue array_of(JsonValue items, std::size_t min_size, std::size_t max_size) {
   JsonValue schema = of_type("array");
   auto& object = std::get<Object>(schema.value);
   add(object, "items", std::move(items));
-  if (least > 0) add(object, "minItems", json(static_cast<double>(least)));
-  if (most > 0) add(object, "maxItems", json(static_cast<double>(most)));
+  if (min_size > 0) add(object, "minItems", json(static_cast<double>(min_size)));
+  if (max_size > 0) add(object, "maxItems", json(static_cast<double>(max_size)));
   return schema;
 }
 
-/// How each kind is said in a schema.
+/// The JSON schema of each value type.
 struct SchemaOf {
   Definitions& definitions;
 
-  JsonValue operator()(const Number& kind) const { return bounded("number", kind.range, kLargestFloat); }
-  JsonValue operator()(const Integer& kind) const { return bounded("integer", kind.range, kLargestInteger); }
+  JsonValue operator()(const Number& type) const { return bounded("number", type.range, kLargestFloat); }
+  JsonValue operator()(const Integer& type) const { return bounded("integer", type.range, kLargestInteger); }
   JsonValue operator()(const Boolean&) const { return of_type("boolean"); }
   JsonValue operator()(const Text&) const { return of_type("string"); }
-  JsonValue operator()(const Word& kind) const {
+  JsonValue operator()(const Enumeration& type) const {
     Array names;
-    for (const char* name : kind.names) {
+    for (const char* name : type.names) {
       names.push_back(string(name));
-      if (kind.numbers) names.push_back(json(parse_number(name).value()));
+      if (type.accepts_numbers) names.push_back(json(parse_number(name).value()));
     }
     return object_of("enum", json(std::move(names)));
   }
-  JsonValue operator()(const Vector& kind) const {
-    JsonValue number = kind.whole ? bounded("integer", kind.range, kLargestInteger)
-                                  : bounded("number", kind.range, kLargestFloat);
-    JsonValue schema = array_of(std::move(number), kind.count, kind.count);
-    if (kind.direction)
-      add(std::get<Object>(schema.value), "not", object_of("const", json(Array(kind.count, json(0.0)))));
+  JsonValue operator()(const Vector& type) const {
+    JsonValue number = type.integers ? bounded("integer", type.range, kLargestInteger)
+                                     : bounded("number", type.range, kLargestFloat);
+    JsonValue schema = array_of(std::move(number), type.count, type.count);
+    if (type.nonzero)
+      add(std::get<Object>(schema.value), "not", object_of("const", json(Array(type.count, json(0.0)))));
     return schema;
   }
-  JsonValue operator()(const Numbers& kind) const {
-    return array_of(bounded("number", kind.range, kLargestFloat), 0, 0);
+  JsonValue operator()(const Numbers& type) const {
+    return array_of(bounded("number", type.range, kLargestFloat), 0, 0);
   }
-  // Refers to the definition of that name, which `write` writes the first time.
+  // A reference to the definition called `name`, which `write` creates at the first use.
   template <typename Write>
   JsonValue defined(std::string_view name, Write write) const {
     if (!definitions.contains(std::string(name))) {
-      definitions[std::string(name)];  // may be referred to by what it holds
+      definitions[std::string(name)];  // Inserted first, since the struct may contain its own type.
       JsonValue schema = write();
       definitions[std::string(name)] = std::move(schema);
     }
     return object_of("$ref", string(fmt::format("#/$defs/{}", name)));
   }
-  JsonValue operator()(const Thing& kind) const {
-    const Fields& fields = kind.fields();
+  JsonValue operator()(const Struct& type) const {
+    const Fields& fields = type.fields();
     return defined(fields.name, [&] {
       Object schema;
       if (!fields.text.empty()) add(schema, "description", string(fields.text));
-      if (fields.row) {
+      if (fields.array_form) {
         Object object;
         write_object(fields, object, definitions);
         add(schema, "anyOf", json(Array{json(std::move(object)), row_of(fields)}));
@@ -245,41 +247,41 @@ struct SchemaOf {
   }
   JsonValue row_of(const Fields& fields) const {
     Array values;
-    for (std::size_t i = 0; i < fields.row->most; ++i)
+    for (std::size_t i = 0; i < fields.array_form->max_size; ++i)
       values.push_back(object_of(
-          "anyOf",
-          json(Array{schema_of(std::get<Kind>(*fields.fields[i].part), definitions), of_type("null")})));
+          "anyOf", json(Array{schema_of(std::get<ValueType>(*fields.fields[i].content), definitions),
+                              of_type("null")})));
     JsonValue schema = of_type("array");
     auto& object = std::get<Object>(schema.value);
     add(object, "prefixItems", json(std::move(values)));
-    add(object, "minItems", json(static_cast<double>(fields.row->least)));
-    add(object, "maxItems", json(static_cast<double>(fields.row->most)));
+    add(object, "minItems", json(static_cast<double>(fields.array_form->min_size)));
+    add(object, "maxItems", json(static_cast<double>(fields.array_form->max_size)));
     return schema;
   }
-  JsonValue operator()(const List& kind) const {
-    JsonValue all = array_of(schema_of(*kind.element, definitions), kind.least, 0);
-    if (!kind.bare) return all;
-    return object_of("anyOf", json(Array{schema_of(*kind.element, definitions), std::move(all)}));
+  JsonValue operator()(const List& type) const {
+    JsonValue all = array_of(schema_of(*type.element, definitions), type.min_size, 0);
+    if (!type.allows_single) return all;
+    return object_of("anyOf", json(Array{schema_of(*type.element, definitions), std::move(all)}));
   }
-  JsonValue operator()(const ByName& kind) const {
+  JsonValue operator()(const ByName& type) const {
     JsonValue schema = of_type("object");
     auto& object = std::get<Object>(schema.value);
-    add(object, "additionalProperties", schema_of(*kind.element, definitions));
-    if (kind.least > 0) add(object, "minProperties", json(static_cast<double>(kind.least)));
+    add(object, "additionalProperties", schema_of(*type.element, definitions));
+    if (type.min_size > 0) add(object, "minProperties", json(static_cast<double>(type.min_size)));
     return schema;
   }
-  JsonValue operator()(const Forms& kind) const {
+  JsonValue operator()(const Forms& type) const {
     const auto any_of = [&] {
       Array forms;
-      for (const Form& form : kind.forms) forms.push_back(schema_of(*form.alternative.kind, definitions));
+      for (const Form& form : type.forms) forms.push_back(schema_of(*form.alternative.type, definitions));
       return object_of("anyOf", json(std::move(forms)));
     };
-    return kind.name.empty() ? any_of() : defined(kind.name, any_of);
+    return type.name.empty() ? any_of() : defined(type.name, any_of);
   }
 };
 
-JsonValue schema_of(const Kind& kind, Definitions& definitions) {
-  return std::visit(SchemaOf{definitions}, kind.of);
+JsonValue schema_of(const ValueType& type, Definitions& definitions) {
+  return std::visit(SchemaOf{definitions}, type.variant);
 }
 
 }  // namespace

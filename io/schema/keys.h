@@ -8,48 +8,50 @@
 
 #include "io/schema/fields.h"
 
-// The tables of things as lists of keys, which guides and helps tell.
+// Field tables as lists of keys, for the guide and for help.
 namespace abbe::schema {
 
-/// The anchors in a page of Markdown that things are told at.
+/// Anchors of a Markdown page at which structs are described.
 using Links = std::map<const Fields*, std::string>;
 
 /// A key of an object.
 struct Key {
   std::string_view name;
-  std::string text;                           ///< What it means: its own text, or that of the thing it holds.
-  std::vector<const Kind*> kinds;             ///< Of its value; several where that depends on other keys.
-  std::string presence;                       ///< "required", "default 4", or nothing.
-  const OneOf* group = nullptr;               ///< That it is a choice of,
-  int group_number = 0;                       ///< which is this one of its object's, from 1 on.
-  std::vector<std::string_view> beside = {};  ///< Keys of which one stands there too; none where it need not.
-  std::vector<std::string_view> of = {};      ///< Things that have it; none where all asked of do.
+  std::string text;  ///< Meaning: the field's text, or the text of the struct that is its value.
+  std::vector<const ValueType*> types;  ///< Types of the value; several if they depend on other keys.
+  std::string presence;                 ///< "required", "default 4", or empty.
+  const OneOf* group = nullptr;         ///< Group of which the key is a choice, or nullptr.
+  int group_number = 0;                 ///< Number of the group in its object, from 1 on; 0 without a group.
+  std::vector<std::string_view> sibling_keys =
+      {};  ///< Keys one of which must be present with this one; empty if none is needed.
+  std::vector<std::string_view> owners =
+      {};  ///< Names of the structs that have the key; empty if all requested structs have it.
 
-  /// Its text, and what it stands beside and belongs to.
+  /// `text`, preceded by the sibling keys and owners.
   [[nodiscard]] std::string meaning() const;
-  /// Type, range and presence: "number in (0, 180), default 4". Objects told elsewhere are linked in
-  /// Markdown.
+  /// Type, range and presence, such as "number in (0, 180), default 4". Structs with an anchor in `links` are
+  /// linked in Markdown.
   [[nodiscard]] std::string allowed(const Links& links = {}) const;
 };
 
-/// All keys that an object of one of these things may have, in the order of their tables.
-[[nodiscard]] std::vector<Key> keys_of(std::span<const Fields* const> things);
+/// All keys that an object of one of these structs may have, in the order of their field tables.
+[[nodiscard]] std::vector<Key> keys_of(std::span<const Fields* const> structs);
 
-/// The things that values of these kinds hold, in lists or as one of several forms too.
-[[nodiscard]] std::vector<const Fields*> things_in(std::span<const Kind* const> kinds);
+/// The structs that are values of these types, or elements or alternatives of them.
+[[nodiscard]] std::vector<const Fields*> structs_in(std::span<const ValueType* const> types);
 
-/// A thing, and the first of the shortest paths of keys that lead to it.
-struct Place {
-  std::string path;  ///< As "sensor/readout"; empty for the root.
-  const Fields* thing;
+/// A struct and the first of the shortest key paths to it.
+struct StructPath {
+  std::string path;  ///< Such as "sensor/readout"; empty for the root.
+  const Fields* fields;
 };
-/// The root and all things below it, each once.
-[[nodiscard]] std::vector<Place> places_below(const Fields& root);
+/// The root and all structs inside it, each once.
+[[nodiscard]] std::vector<StructPath> structs_below(const Fields& root);
 
-/// `path` and one more key.
+/// `path` and `key`, joined by '/'.
 [[nodiscard]] std::string joined(std::string_view path, std::string_view key);
 
-/// What tells of keys that belong to a group: "one of" or "at most one of".
-[[nodiscard]] std::string_view heading(const OneOf& group);
+/// Label above the keys of a group: "one of" or "at most one of".
+[[nodiscard]] std::string_view group_label(const OneOf& group);
 
 }  // namespace abbe::schema

@@ -8,35 +8,36 @@
 namespace abbe::schema {
 namespace {
 
-/// An object on its way into a thing.
+/// State while an object is read.
 struct ObjectReading {
   const JsonValue& json;
   Diagnostics& diagnostics;
-  std::size_t known = 0;  ///< How many members have been found.
-  bool chosen = true;     ///< Whether every group of keys that must be there is; else keys may belong to it.
+  std::size_t known_count = 0;  ///< Number of members that have been found.
+  bool groups_resolved =
+      true;  ///< False if a required group of keys has no unique choice; unknown keys may then belong to it.
 };
 
-bool read_fields(ObjectReading& reading, const Fields& fields, void* thing);
+bool read_fields(ObjectReading& reading, const Fields& fields, void* instance);
 
-bool read_member(const JsonValue& json, const Field& field, void* thing, Diagnostics& diagnostics) {
-  void* member = field.member(thing);
-  void* value = field.holder.open(member);
-  if (SourcePosition* where = field.holder.where(member)) *where = json.where;
-  if (read(json, std::get<Kind>(*field.part), value, diagnostics)) return true;
-  field.holder.close(member);
+bool read_member(const JsonValue& json, const Field& field, void* instance, Diagnostics& diagnostics) {
+  void* member = field.member(instance);
+  void* value = field.access.open(member);
+  if (SourcePosition* where = field.access.where(member)) *where = json.where;
+  if (read(json, std::get<ValueType>(*field.content), value, diagnostics)) return true;
+  field.access.close(member);
   return false;
 }
 
-// The choice whose key is there; nullptr for none, and after an error.
+// The choice whose key is present; nullptr for none, and after an error.
 const Choice* choose(ObjectReading& reading, const OneOf& group) {
   std::vector<const Choice*> present;
   for (const Choice& choice : group.choices)
     if (reading.json.find(choice.key)) present.push_back(&choice);
   if (present.size() == 1) return present.front();
   if (present.empty() && !group.required) return nullptr;
-  reading.chosen = false;
-  if (!group.several.empty() && present.size() > 1) {
-    reading.diagnostics.error(reading.json.where, fmt::format("{} (got {} and {})", group.several,
+  reading.groups_resolved = false;
+  if (!group.conflict.empty() && present.size() > 1) {
+    reading.diagnostics.error(reading.json.where, fmt::format("{} (got {} and {})", group.conflict,
                                                               present[0]->key, present[1]->key));
     return nullptr;
   }
@@ -48,29 +49,29 @@ const Choice* choose(ObjectReading& reading, const OneOf& group) {
 
 bool read_group(ObjectReading& reading, const OneOf& group, void* variant) {
   const Choice* choice = choose(reading, group);
-  if (choice == nullptr) return reading.chosen;
+  if (choice == nullptr) return reading.groups_resolved;
   const Alternative& alternative = choice->alternative;
-  const JsonValue& json = choice->inside ? *reading.json.find(choice->key) : reading.json;
+  const JsonValue& json = choice->nested ? *reading.json.find(choice->key) : reading.json;
   void* value = alternative.emplace(variant, json.where);
-  bool sound = false;
-  if (choice->inside) {
-    ++reading.known;
-    sound = read(json, *alternative.kind, value, reading.diagnostics);
+  bool valid = false;
+  if (choice->nested) {
+    ++reading.known_count;
+    valid = read(json, *alternative.type, value, reading.diagnostics);
   } else {
-    sound = read_fields(reading, std::get<Thing>(alternative.kind->of).fields(), value);
+    valid = read_fields(reading, std::get<Struct>(alternative.type->variant).fields(), value);
   }
-  if (!sound) group.clear(variant);
-  return sound;
+  if (!valid) group.clear(variant);
+  return valid;
 }
 
-bool read_field(ObjectReading& reading, const Field& field, void* thing) {
-  if (const auto* group = std::get_if<OneOf>(field.part.get()))
-    return read_group(reading, *group, field.member(thing));
-  if (const auto* lent = std::get_if<Lent>(field.part.get()))
-    return read_fields(reading, lent->fields(), field.member(thing));
+bool read_field(ObjectReading& reading, const Field& field, void* instance) {
+  if (const auto* group = std::get_if<OneOf>(field.content.get()))
+    return read_group(reading, *group, field.member(instance));
+  if (const auto* inlined = std::get_if<Inlined>(field.content.get()))
+    return read_fields(reading, inlined->fields(), field.member(instance));
   if (const JsonValue* json = reading.json.find(field.key)) {
-    ++reading.known;
-    return read_member(*json, field, thing, reading.diagnostics);
+    ++reading.known_count;
+    return read_member(*json, field, instance, reading.diagnostics);
   }
   if (field.presence == Presence::optional) return true;
   reading.diagnostics.error(reading.json.where, fmt::format("missing key \"{}\"", field.key));
@@ -87,7 +88,7 @@ const JsonValue* find_path(const JsonValue& json, std::string_view path) {
   return found;
 }
 
-// Whether one of the keys is there that a table asks for, and no other where there may be none.
+// Checks that one of the keys in `any_of` is present, and no other if they are exclusive.
 bool check_any_of(const ObjectReading& reading, const Fields& fields) {
   std::vector<std::string_view> present;
   for (const std::string_view path : fields.any_of)
@@ -99,82 +100,84 @@ bool check_any_of(const ObjectReading& reading, const Fields& fields) {
   }
   const auto parent = [](std::string_view path) { return path.substr(0, path.find('/')); };
   if (present.size() == 1 || !fields.exclusive) return true;
-  if (parent(present[0]) == parent(present[1])) return false;  // of which that one tells
+  // That object reports the error.
+  if (parent(present[0]) == parent(present[1])) return false;
   reading.diagnostics.error(find_path(reading.json, present[1])->where,
-                            fmt::format("goes in place of \"{}\", and there is one", present[0]));
+                            fmt::format("cannot be combined with \"{}\"", present[0]));
   return false;
 }
 
-bool read_fields(ObjectReading& reading, const Fields& fields, void* thing) {
-  bool sound = true;
-  if (SourcePosition* where = fields.where(thing)) *where = reading.json.where;
-  for (const Field& field : fields.fields) sound = read_field(reading, field, thing) && sound;
-  return (fields.any_of.empty() || check_any_of(reading, fields)) && sound;
+bool read_fields(ObjectReading& reading, const Fields& fields, void* instance) {
+  bool valid = true;
+  if (SourcePosition* where = fields.where(instance)) *where = reading.json.where;
+  for (const Field& field : fields.fields) valid = read_field(reading, field, instance) && valid;
+  return (fields.any_of.empty() || check_any_of(reading, fields)) && valid;
 }
 
-// The keys that an object may have, given the alternatives it has chosen.
+// Collects the keys that an object may have, given the choices it has made.
 void collect_keys(const JsonValue& json, const Fields& fields, std::vector<std::string>& keys) {
   for (const Field& field : fields.fields) {
-    if (const auto* group = std::get_if<OneOf>(field.part.get())) {
+    if (const auto* group = std::get_if<OneOf>(field.content.get())) {
       for (const Choice& choice : group->choices) {
         keys.emplace_back(choice.key);
-        if (!choice.inside && json.find(choice.key))
-          collect_keys(json, std::get<Thing>(choice.alternative.kind->of).fields(), keys);
+        if (!choice.nested && json.find(choice.key))
+          collect_keys(json, std::get<Struct>(choice.alternative.type->variant).fields(), keys);
       }
-    } else if (const auto* lent = std::get_if<Lent>(field.part.get())) {
-      collect_keys(json, lent->fields(), keys);
+    } else if (const auto* inlined = std::get_if<Inlined>(field.content.get())) {
+      collect_keys(json, inlined->fields(), keys);
     } else {
       keys.emplace_back(field.key);
     }
   }
 }
 
-// The keys one of which would have to be there for an object to have this one.
+// Collects the keys that would have to be present for the object to have `key`.
 void collect_owners(const JsonValue& json, const Fields& fields, std::string_view key,
                     std::vector<std::string_view>& owners) {
   for (const Field& field : fields.fields) {
-    if (const auto* lent = std::get_if<Lent>(field.part.get()))
-      collect_owners(json, lent->fields(), key, owners);
-    const auto* group = std::get_if<OneOf>(field.part.get());
+    if (const auto* inlined = std::get_if<Inlined>(field.content.get()))
+      collect_owners(json, inlined->fields(), key, owners);
+    const auto* group = std::get_if<OneOf>(field.content.get());
     if (group == nullptr) continue;
     for (const Choice& choice : group->choices) {
-      if (choice.inside) continue;
-      const Fields& beside = std::get<Thing>(choice.alternative.kind->of).fields();
+      if (choice.nested) continue;
+      const Fields& inlined_fields = std::get<Struct>(choice.alternative.type->variant).fields();
       std::vector<std::string> keys;
-      collect_keys(json, beside, keys);
+      collect_keys(json, inlined_fields, keys);
       if (std::find(keys.begin(), keys.end(), key) != keys.end()) owners.push_back(choice.key);
-      if (json.find(choice.key)) collect_owners(json, beside, key, owners);
+      if (json.find(choice.key)) collect_owners(json, inlined_fields, key, owners);
     }
   }
 }
 
 bool read_list(const JsonValue& json, const List& list, void* value, Diagnostics& diagnostics) {
-  if (list.bare && !std::holds_alternative<JsonValue::Array>(json.value))
+  if (list.allows_single && !std::holds_alternative<JsonValue::Array>(json.value))
     return read(json, *list.element, list.append(value, json.where), diagnostics);
-  const JsonValue::Array* elements = read_array(json, list.what, list.least, diagnostics);
+  const JsonValue::Array* elements = read_array(json, list.what, list.min_size, diagnostics);
   if (!elements) return false;
-  const bool rows =
-      std::holds_alternative<Vector>(list.element->of);  // of which there may be many: one fault will do
+  const bool is_vector_list =
+      // There may be many: report the first error only.
+      std::holds_alternative<Vector>(list.element->variant);
   list.reserve(value, elements->size());
-  bool sound = true;
+  bool valid = true;
   for (const JsonValue& element : *elements) {
-    sound = read(element, *list.element, list.append(value, element.where), diagnostics) && sound;
-    if (rows && !sound) return false;
+    valid = read(element, *list.element, list.append(value, element.where), diagnostics) && valid;
+    if (is_vector_list && !valid) return false;
   }
-  return sound;
+  return valid;
 }
 
 bool read_by_name(const JsonValue& json, const ByName& group, void* value, Diagnostics& diagnostics) {
   const auto* members = std::get_if<JsonValue::Object>(&json.value);
-  if (!members || members->size() < group.least) {
+  if (!members || members->size() < group.min_size) {
     diagnostics.error(json.where,
-                      fmt::format("expected {} (got {})", group.what, members ? "none" : json.kind()));
+                      fmt::format("expected {} (got {})", group.what, members ? "none" : json.type_name()));
     return false;
   }
-  bool sound = true;
+  bool valid = true;
   for (const auto& [name, member] : *members)
-    sound = read(member, *group.element, group.append(value, name, member.where), diagnostics) && sound;
-  return sound;
+    valid = read(member, *group.element, group.append(value, name, member.where), diagnostics) && valid;
+  return valid;
 }
 
 bool fits(const JsonValue& json, const Form& form) {
@@ -185,7 +188,8 @@ bool fits(const JsonValue& json, const Form& form) {
                                           [&](std::string_view key) { return json.find(key) != nullptr; });
 }
 
-// Whether a key that tells a form is there but for a slip, which in one of two letters makes another word.
+// True if a key that selects the form is present, but misspelt. Keys of one or two letters are excluded: a
+// typing error makes another word of them.
 bool fits_misspelt(const JsonValue& json, const Form& form) {
   const auto* object = std::get_if<JsonValue::Object>(&json.value);
   std::vector<std::string> keys(form.keys.begin(), form.keys.end());
@@ -199,42 +203,42 @@ bool fits_misspelt(const JsonValue& json, const Form& form) {
 bool read_form(const JsonValue& json, const Forms& forms, void* value, Diagnostics& diagnostics) {
   for (const Form& form : forms.forms)
     if (fits(json, form) || fits_misspelt(json, form))
-      return read(json, *form.alternative.kind, form.alternative.emplace(value, json.where), diagnostics);
-  diagnostics.error(json.where, fmt::format("expected {} (got {})", forms.expected, json.kind()));
+      return read(json, *form.alternative.type, form.alternative.emplace(value, json.where), diagnostics);
+  diagnostics.error(json.where, fmt::format("expected {} (got {})", forms.expected, json.type_name()));
   return false;
 }
 
-// Integers, each of which is reported at its own place.
+// Reads integers. Each is reported at its own position.
 bool read_integers(const JsonValue& json, const Vector& vector, void* value, Diagnostics& diagnostics) {
   if (!read_numbers(json, vector.count, Range::any(), diagnostics)) return false;
-  bool sound = true;
+  bool valid = true;
   for (std::size_t i = 0; i < vector.count; ++i) {
     const auto read = read_integer(std::get<JsonValue::Array>(json.value)[i], vector.range, diagnostics);
     if (read) vector.set(value, i, static_cast<double>(*read));
-    sound = sound && read;
+    valid = valid && read;
   }
-  return sound;
+  return valid;
 }
 
 bool read_vector(const JsonValue& json, const Vector& vector, void* value, Diagnostics& diagnostics) {
-  if (vector.whole) return read_integers(json, vector, value, diagnostics);
+  if (vector.integers) return read_integers(json, vector, value, diagnostics);
   const auto numbers = read_numbers(json, vector.count, vector.range, diagnostics);
   if (!numbers) return false;
   for (std::size_t i = 0; i < vector.count; ++i) vector.set(value, i, (*numbers)[i]);
   const auto is_zero = [](double x) { return x == 0; };
-  if (!vector.direction || !std::all_of(numbers->begin(), numbers->end(), is_zero)) return true;
+  if (!vector.nonzero || !std::all_of(numbers->begin(), numbers->end(), is_zero)) return true;
   diagnostics.error(json.where, fmt::format("a direction must not be zero (got [{}])",
                                             fmt::join(std::vector<int>(vector.count, 0), ", ")));
   return false;
 }
 
-// A word, or a number in place of its digits.
-bool read_word(const JsonValue& json, const Word& word, void* value, Diagnostics& diagnostics) {
-  const auto* number = word.numbers ? std::get_if<double>(&json.value) : nullptr;
+// Reads a name, or a number in place of its digits.
+bool read_enumeration(const JsonValue& json, const Enumeration& type, void* value, Diagnostics& diagnostics) {
+  const auto* number = type.accepts_numbers ? std::get_if<double>(&json.value) : nullptr;
   const auto read =
-      number ? read_choice({fmt::format("{}", *number), json.where}, word.what, word.names, diagnostics)
-             : read_choice(json, word.what, word.names, diagnostics);
-  if (read) word.set(value, *read);
+      number ? read_choice({fmt::format("{}", *number), json.where}, type.what, type.names, diagnostics)
+             : read_choice(json, type.what, type.names, diagnostics);
+  if (read) type.set(value, *read);
   return read.has_value();
 }
 
@@ -245,47 +249,48 @@ bool store(std::optional<T> read, void* value) {
   return true;
 }
 
-/// How each kind reads.
+/// Reads each value type.
 struct ReadValue {
   const JsonValue& json;
   void* value;
   Diagnostics& diagnostics;
 
-  bool operator()(const Number& kind) const {
-    return store(read_number(json, kind.range, diagnostics), value);
+  bool operator()(const Number& type) const {
+    return store(read_number(json, type.range, diagnostics), value);
   }
-  bool operator()(const Integer& kind) const {
-    const auto read = read_integer(json, kind.range, diagnostics);
-    if (read) kind.set(value, *read);
+  bool operator()(const Integer& type) const {
+    const auto read = read_integer(json, type.range, diagnostics);
+    if (read) type.set(value, *read);
     return read.has_value();
   }
   bool operator()(const Boolean&) const { return store(read_boolean(json, diagnostics), value); }
   bool operator()(const Text&) const { return store(read_string(json, diagnostics), value); }
-  bool operator()(const Word& kind) const { return read_word(json, kind, value, diagnostics); }
-  bool operator()(const Vector& kind) const { return read_vector(json, kind, value, diagnostics); }
-  bool operator()(const Numbers& kind) const {
-    return store(read_numbers(json, 0, kind.range, diagnostics), value);
+  bool operator()(const Enumeration& type) const { return read_enumeration(json, type, value, diagnostics); }
+  bool operator()(const Vector& type) const { return read_vector(json, type, value, diagnostics); }
+  bool operator()(const Numbers& type) const {
+    return store(read_numbers(json, 0, type.range, diagnostics), value);
   }
-  bool operator()(const Thing& kind) const { return read(json, kind.fields(), value, diagnostics); }
-  bool operator()(const List& kind) const { return read_list(json, kind, value, diagnostics); }
-  bool operator()(const ByName& kind) const { return read_by_name(json, kind, value, diagnostics); }
-  bool operator()(const Forms& kind) const { return read_form(json, kind, value, diagnostics); }
+  bool operator()(const Struct& type) const { return read(json, type.fields(), value, diagnostics); }
+  bool operator()(const List& type) const { return read_list(json, type, value, diagnostics); }
+  bool operator()(const ByName& type) const { return read_by_name(json, type, value, diagnostics); }
+  bool operator()(const Forms& type) const { return read_form(json, type, value, diagnostics); }
 };
 
-// What a row stands for.
-std::optional<JsonValue> object_of_row(const JsonValue& json, const JsonValue::Array& row,
-                                       const Fields& fields, Diagnostics& diagnostics) {
-  const std::vector<std::string_view> keys = fields.row_keys();
-  if (row.size() < fields.row->least || row.size() > keys.size()) {
+// The object that an array replaces.
+std::optional<JsonValue> object_of_array(const JsonValue& json, const JsonValue::Array& array,
+                                         const Fields& fields, Diagnostics& diagnostics) {
+  const std::vector<std::string_view> keys = fields.array_keys();
+  if (array.size() < fields.array_form->min_size || array.size() > keys.size()) {
     diagnostics.error(
-        json.where, fmt::format("a list in place of an object has {} here (got {} values, allowed {} to {})",
-                                fmt::join(keys, ", "), row.size(), fields.row->least, keys.size()));
+        json.where,
+        fmt::format("an array in place of this object has the values {} (got {} values, allowed {} to {})",
+                    fmt::join(keys, ", "), array.size(), fields.array_form->min_size, keys.size()));
     return std::nullopt;
   }
   JsonValue::Object object;
-  for (std::size_t i = 0; i < row.size(); ++i) {
-    if (std::holds_alternative<std::nullptr_t>(row[i].value)) continue;
-    JsonValue& value = object.emplace_back(JsonValue::Member{std::string(keys[i]), row[i]}).second;
+  for (std::size_t i = 0; i < array.size(); ++i) {
+    if (std::holds_alternative<std::nullptr_t>(array[i].value)) continue;
+    JsonValue& value = object.emplace_back(JsonValue::Member{std::string(keys[i]), array[i]}).second;
     value.key_offset = value.where.offset;
   }
   JsonValue whole = json;
@@ -295,30 +300,29 @@ std::optional<JsonValue> object_of_row(const JsonValue& json, const JsonValue::A
 
 }  // namespace
 
-bool read(const JsonValue& json, const Kind& kind, void* value, Diagnostics& diagnostics) {
-  return std::visit(ReadValue{json, value, diagnostics}, kind.of);
+bool read(const JsonValue& json, const ValueType& type, void* value, Diagnostics& diagnostics) {
+  return std::visit(ReadValue{json, value, diagnostics}, type.variant);
 }
 
-bool read(const JsonValue& json, const Fields& fields, void* thing, Diagnostics& diagnostics) {
-  if (const auto* row = std::get_if<JsonValue::Array>(&json.value); row != nullptr && fields.row) {
-    const auto object = object_of_row(json, *row, fields, diagnostics);
-    return object && read(*object, fields, thing, diagnostics);
+bool read(const JsonValue& json, const Fields& fields, void* instance, Diagnostics& diagnostics) {
+  if (const auto* array = std::get_if<JsonValue::Array>(&json.value); array != nullptr && fields.array_form) {
+    const auto object = object_of_array(json, *array, fields, diagnostics);
+    return object && read(*object, fields, instance, diagnostics);
   }
   const JsonValue::Object* object = read_object(json, diagnostics);
   if (!object) return false;
   ObjectReading reading{json, diagnostics};
-  const bool sound = read_fields(reading, fields, thing);
-  if (!reading.chosen || reading.known == object->size()) return sound;
+  const bool valid = read_fields(reading, fields, instance);
+  if (!reading.groups_resolved || reading.known_count == object->size()) return valid;
   std::vector<std::string> keys;
   collect_keys(json, fields, keys);
   for (const auto& [key, member] : *object) {
     if (std::find(keys.begin(), keys.end(), key) != keys.end()) continue;
     std::vector<std::string_view> owners;
     collect_owners(json, fields, key, owners);
-    diagnostics.error(
-        member.key_position(),
-        owners.empty() ? unknown_name("key", key, keys)
-                       : fmt::format("{} goes with {}, which is not there", key, fmt::join(owners, " or ")));
+    diagnostics.error(member.key_position(), owners.empty() ? unknown_name("key", key, keys)
+                                                            : fmt::format("{} requires {}, which is missing",
+                                                                          key, fmt::join(owners, " or ")));
   }
   return false;
 }

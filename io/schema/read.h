@@ -6,27 +6,27 @@
 
 namespace abbe::schema {
 
-/// Reads a thing from an object as its table says, over what `thing` is already. Reports what is wrong: a
-/// missing, unknown or misspelt key, a value of another kind or out of range. False if there is an error;
-/// what is sound has been read all the same.
-bool read(const JsonValue& json, const Fields& fields, void* thing, Diagnostics& diagnostics);
+/// Reads the struct at `instance` from an object. Members that have no key keep their value. Reports missing,
+/// unknown and misspelt keys, and values of a wrong type or range. Returns false if there is an error; valid
+/// keys are read all the same.
+bool read(const JsonValue& json, const Fields& fields, void* instance, Diagnostics& diagnostics);
 
-/// Reads a value of that kind, as `read` does a thing.
-bool read(const JsonValue& json, const Kind& kind, void* value, Diagnostics& diagnostics);
+/// Reads a value of that type from JSON. Errors and result are those of the overload for structs.
+bool read(const JsonValue& json, const ValueType& type, void* value, Diagnostics& diagnostics);
 
-/// The same for a new thing, nothing after an error.
+/// Reads a new T. Returns nothing after an error.
 template <typename T>
 [[nodiscard]] std::optional<T> read(const JsonValue& json, Diagnostics& diagnostics) {
-  std::optional<T> thing(std::in_place);
-  if (!read(json, fields_of<T>(), &*thing, diagnostics)) thing.reset();
-  return thing;
+  std::optional<T> instance(std::in_place);
+  if (!read(json, fields_of<T>(), &*instance, diagnostics)) instance.reset();
+  return instance;
 }
 
-/// The same for a value of that kind, which `M` holds.
+/// Reads a value of that type into a new member M. Returns nothing after an error.
 template <typename M>
-[[nodiscard]] std::optional<M> read(const JsonValue& json, const Kind& kind, Diagnostics& diagnostics) {
+[[nodiscard]] std::optional<M> read(const JsonValue& json, const ValueType& type, Diagnostics& diagnostics) {
   std::optional<M> value(std::in_place);
-  if (!read(json, kind, detail::open_at(*value, json.where), diagnostics)) value.reset();
+  if (!read(json, type, detail::open_at(*value, json.where), diagnostics)) value.reset();
   return value;
 }
 

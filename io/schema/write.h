@@ -6,21 +6,22 @@
 
 namespace abbe::schema {
 
-/// A value that stands nowhere in a file.
+/// A JSON value without a source position.
 [[nodiscard]] inline JsonValue json(decltype(JsonValue::value) value) {
   return {std::move(value), {}};
 }
-/// The object that reads as this thing; what is as its initialiser makes it is left out. It has no places.
-[[nodiscard]] JsonValue write(const Fields& fields, const void* thing);
+/// The object that `read` reads as this struct. Members with their default are omitted. It has no source
+/// positions.
+[[nodiscard]] JsonValue write(const Fields& fields, const void* instance);
 template <typename T>
-[[nodiscard]] JsonValue write(const T& thing) {
-  return write(fields_of<T>(), &thing);
+[[nodiscard]] JsonValue write(const T& instance) {
+  return write(fields_of<T>(), &instance);
 }
-/// The value of that kind at an address.
-[[nodiscard]] JsonValue write(const Kind& kind, const void* value);
+/// The value of that type at address `value`.
+[[nodiscard]] JsonValue write(const ValueType& type, const void* value);
 
-/// What holds without the field's key, if it may be absent and that is worth telling: no infinity, and no
-/// list of nothing. `defaults` is that of its table.
+/// The default of an optional field, for documentation. Nothing if the default is infinite or an empty list
+/// or object. `defaults` comes from the field table.
 [[nodiscard]] std::optional<JsonValue> default_of(const Field& field, const void* defaults);
 
 }  // namespace abbe::schema

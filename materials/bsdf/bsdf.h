@@ -21,10 +21,13 @@
 
 namespace abbe {
 
-/// What every scattering model has: `sample`; `index_inside`, of the matter behind a surface that lets light
-/// in, relative to what is outside, at one lane, 1 for the others; whether it `kScatters`, in more than
-/// single directions, for which it then has `eval` and `pdf`; and whether it sends light in single
-/// directions, `kDelta`, for which it has `delta_probability` and `delta_power`.
+/// Interface of the scattering models.
+/// - `sample`: samples a direction.
+/// - `index_inside`: at one wavelength, the index behind a surface that light enters, relative to the
+///   outside; 1 for other surfaces.
+/// - `kScatters`: true if the model scatters into more than single directions. It then has `eval` and `pdf`.
+/// - `kDelta`: true if the model scatters into single directions. It then has `delta_probability` and
+///   `delta_power`.
 template <typename Model>
 concept BsdfModel = requires(const Model& model, const Imath::V3f& w, const BsdfRandom& u) {
   { model.sample(w, u, 0, TransportMode::radiance) } -> std::same_as<std::optional<BsdfSample>>;
@@ -43,14 +46,14 @@ concept BsdfModel = requires(const Model& model, const Imath::V3f& w, const Bsdf
       { model.delta_power(w, true) } -> std::same_as<SampledSpectrum>;
     });
 
-/// The closed list of scattering models, evaluated at one packet of wavelengths. A new model is a file pair
-/// and an entry here; the statistical tests iterate the list.
+/// The closed list of scattering models, evaluated at a packet of wavelengths. A new model is a file pair and
+/// an entry here; the statistical tests iterate the list.
 using Bsdf = std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, CoatedDielectricBsdf,
                           CoatedConductorBsdf, RoughDielectricBsdf, RoughConductorBsdf, CoatedDiffuseBsdf,
                           ThinGlassBsdf, MixtureBsdf, MirrorBsdf, SchlickBsdf, OrenNayarBsdf, PrincipledBsdf,
                           CosinePowerBsdf<false>, CosinePowerBsdf<true>, PhongBsdf, RetroreflectorBsdf,
                           PolariserBsdf, WavePlateBsdf, DepolariserBsdf>;
-static_assert(sizeof(Bsdf) <= 4 * sizeof(SampledSpectrum));  // every vertex of a path holds one
+static_assert(sizeof(Bsdf) <= 4 * sizeof(SampledSpectrum));  // every path vertex stores one
 
 template <typename List>
 inline constexpr bool kAllBsdfModels = false;
@@ -58,26 +61,27 @@ template <typename... Models>
 inline constexpr bool kAllBsdfModels<std::variant<Models...>> = (BsdfModel<Models> && ...);
 static_assert(kAllBsdfModels<Bsdf>);
 
-/// Whether a model is one of some.
+/// True if the model of `bsdf` is one of `Models`.
 template <typename... Models>
 [[nodiscard]] bool is_any_of(const Bsdf& bsdf) {
   return (std::holds_alternative<Models>(bsdf) || ...);
 }
 
-/// What `visitor` makes of the model, the commonest being asked for first, in line.
+/// Calls `visitor` with the model. The most frequent model is tested first, inline.
 template <typename Visitor>
 [[nodiscard]] decltype(auto) visit_model(Visitor&& visitor, const Bsdf& bsdf) {
   if (const auto* diffuse = std::get_if<DiffuseBsdf>(&bsdf)) return visitor(*diffuse);
   return std::visit(std::forward<Visitor>(visitor), bsdf);
 }
 
-/// Draws a direction in which light leaves (radiance mode: from which it comes); nothing where none does.
+/// Samples the direction into which light leaves (in radiance mode: from which it arrives). Empty if no light
+/// leaves.
 [[nodiscard]] inline std::optional<BsdfSample> sample(const Bsdf& bsdf, const Imath::V3f& wo,
                                                       const BsdfRandom& u, int hero, TransportMode mode) {
   return visit_model([&](const auto& model) { return model.sample(wo, u, hero, mode); }, bsdf);
 }
 
-/// f(wo, wi) [1/sr] lane by lane, without the cosine and without what goes in single directions.
+/// f(wo, wi) [1/sr] at each wavelength, without the cosine and without delta lobes.
 [[nodiscard]] inline SampledSpectrum eval(const Bsdf& bsdf, const Imath::V3f& wo, const Imath::V3f& wi,
                                           TransportMode mode) {
   return visit_model(
@@ -90,7 +94,8 @@ template <typename Visitor>
       bsdf);
 }
 
-/// Density with which `sample` would draw wi, by an event that is not delta, were each lane the hero [1/sr].
+/// Pdf [1/sr] with which `sample` draws wi by an event that is not delta, at each wavelength as if it were
+/// the hero.
 [[nodiscard]] inline SampledSpectrum pdf(const Bsdf& bsdf, const Imath::V3f& wo, const Imath::V3f& wi) {
   return visit_model(
       [&]<typename Model>(const Model& model) {
@@ -102,8 +107,8 @@ template <typename Visitor>
       bsdf);
 }
 
-/// Probability with which `sample` would draw a delta event, were each lane the hero. What is left of 1 are
-/// events of `pdf`, and those by which nothing leaves.
+/// Probability with which `sample` draws a delta event, at each wavelength as if it were the hero. The
+/// remaining probability belongs to the events of `pdf` and to events without a direction.
 [[nodiscard]] inline SampledSpectrum delta_probability(const Bsdf& bsdf, const Imath::V3f& wo) {
   return visit_model(
       [&]<typename Model>(const Model& model) {
@@ -115,8 +120,8 @@ template <typename Visitor>
       bsdf);
 }
 
-/// Share of the unpolarised light from `wo` that leaves in a single direction, lane by lane: through the
-/// surface, or on the side that it came from.
+/// Fraction of the unpolarised light from `wo` that leaves in a single direction, at each wavelength: by
+/// transmission if `through`, else by reflection.
 [[nodiscard]] inline SampledSpectrum delta_power(const Bsdf& bsdf, const Imath::V3f& wo, bool through) {
   return visit_model(
       [&]<typename Model>(const Model& model) {
@@ -128,10 +133,10 @@ template <typename Visitor>
       bsdf);
 }
 
-/// The density of a delta event of `bsdf`, lane by lane, that is the same whichever of its two ways light
-/// takes: its probability. Films that absorb, in a mixture too, let light through with a probability that
-/// depends on the side it comes from; the transmittance, which does not, stands there for both. `squared_eta`
-/// is the square of the index it goes on in over that it came in.
+/// Density of a delta event at each wavelength, equal for both directions of travel: the probability of the
+/// event. Absorbing thin films, also in a mixture, transmit with a probability that depends on the side of
+/// incidence. Their transmittance does not depend on it and replaces the probability. `squared_eta` is the
+/// squared index on the far side divided by that on the side of incidence.
 [[nodiscard]] inline SampledSpectrum delta_density(const Bsdf& bsdf, const BsdfSample& event,
                                                    float squared_eta, TransportMode mode) {
   const bool may_be_film =
@@ -141,18 +146,18 @@ template <typename Visitor>
   return event.lane_pdf * event.pdf;
 }
 
-/// Whether light may leave in more than single directions, so that connecting to lights pays.
+/// True if the model scatters into more than single directions, so that next-event estimation can contribute.
 [[nodiscard]] inline bool scatters(const Bsdf& bsdf) {
   return visit_model([]<typename Model>(const Model&) { return Model::kScatters; }, bsdf);
 }
 
-/// Index of the matter behind a surface that lets light in, relative to what is outside, at one lane; 1 for
-/// the others.
+/// At one wavelength, the index behind a surface that light enters, relative to the outside; 1 for other
+/// surfaces.
 [[nodiscard]] inline float index_inside(const Bsdf& bsdf, int lane) {
   return visit_model([lane](const auto& model) { return model.index_inside(lane); }, bsdf);
 }
 
-/// Whether nothing leaves, whatever arrives.
+/// True if the surface absorbs all light.
 [[nodiscard]] inline bool is_black(const Bsdf& bsdf) {
   const auto* diffuse = std::get_if<DiffuseBsdf>(&bsdf);
   return diffuse != nullptr && diffuse->reflectance.is_zero();

@@ -12,7 +12,7 @@ float cosine_of(const Imath::V3f& wo) {
   return std::min(std::abs(wo.z), 1.0F);
 }
 
-// What the surface gives back and lets through, lane by lane.
+// Reflectance and transmittance at each wavelength.
 struct Powers {
   SampledSpectrum R, T;
 };
@@ -28,22 +28,22 @@ Powers all_lanes(const CoatingAt& at, const SampledSpectrum& n, const SampledSpe
   return {SampledSpectrum(R), SampledSpectrum(T)};
 }
 
-// An event that all lanes could have drawn, each with the share of `part` in R + T, and which the hero drew
-// with `probability`.
+// An event that all wavelengths can draw, each with probability `part`/(R + T). The hero drew it with
+// `probability`.
 BsdfSample together(const Imath::V3f& wi, const SampledSpectrum& part, const Powers& powers, int hero,
                     float probability) {
-  const SampledSpectrum shares = quotient(part, powers.R + powers.T);
+  const SampledSpectrum fractions = quotient(part, powers.R + powers.T);
   return {.wi = wi,
           .weight = part * (1 / probability),
-          .lane_pdf = shares * (1 / shares[hero]),
+          .lane_pdf = fractions * (1 / fractions[hero]),
           .pdf = probability,
           .delta = true};
 }
 
 }  // namespace
 
-// Light is mirrored with the probability R/(R + T), and passes otherwise; the weights carry what the films
-// absorb.
+// The probability of reflection is R/(R + T), else light is transmitted. The weights contain the absorption
+// of the films.
 std::optional<BsdfSample> CoatedDielectricBsdf::sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                        TransportMode mode) const {
   if (wo.z == 0) return std::nullopt;

@@ -8,8 +8,8 @@
 
 namespace abbe {
 
-/// Smooth dielectric interface under thin films, which may absorb; it refers to the material and sees the
-/// packet `wavelengths_nm`.
+/// A smooth dielectric interface under thin films, which may absorb. It refers to the material and holds the
+/// wavelengths of the packet.
 struct CoatedDielectricBsdf {
   static constexpr bool kScatters = false;
   static constexpr bool kDelta = true;
@@ -17,7 +17,7 @@ struct CoatedDielectricBsdf {
   SampledSpectrum wavelengths_nm;
   const RefractiveIndex* index;
   const Coating* coating;
-  const RefractiveIndex* outside = nullptr;  ///< Of what the matter is in; nullptr is air.
+  const RefractiveIndex* outside = nullptr;  ///< Medium outside; nullptr is air.
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
@@ -30,7 +30,7 @@ struct CoatedDielectricBsdf {
   }
 };
 
-/// Smooth conductor under thin films.
+/// A smooth conductor under thin films.
 struct CoatedConductorBsdf {
   static constexpr bool kScatters = false;
   static constexpr bool kDelta = true;

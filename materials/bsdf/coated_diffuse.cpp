@@ -30,8 +30,8 @@ Passage through(const CoatedDiffuseBsdf& bsdf, float cos_i) {
   return {SampledSpectrum(reflected), SampledSpectrum(let_in)};
 }
 
-// Probability of leaving spread: about what leaves so of all that leaves, as of the light let in `ground`
-// (1 - r_outside) does.
+// Probability of sampling the diffuse lobe: approximately its fraction of the reflected power. The diffuse
+// albedo is let_in * ground * (1 - r_outside); the last factor is neglected.
 SampledSpectrum spread_probability(const CoatedDiffuseBsdf& bsdf, const Passage& passage) {
   const auto part = [](float spread, float mirrored) {
     return mirrored > 0 ? spread / (spread + mirrored) : 1.0F;
@@ -46,12 +46,12 @@ std::optional<BsdfSample> CoatedDiffuseBsdf::sample(const Imath::V3f& wo, const 
   if (wo.z == 0) return std::nullopt;
   const Passage passage = through(*this, wo.z);
   const SampledSpectrum spread = spread_probability(*this, passage);
-  const float mirrored_share = 1 - spread[hero];
-  if (u.lobe < mirrored_share)
+  const float mirror_probability = 1 - spread[hero];
+  if (u.lobe < mirror_probability)
     return BsdfSample{.wi = mirrored(wo),
-                      .weight = passage.reflected * (1 / mirrored_share),
-                      .lane_pdf = (SampledSpectrum(1) - spread) * (1 / mirrored_share),
-                      .pdf = mirrored_share,
+                      .weight = passage.reflected * (1 / mirror_probability),
+                      .lane_pdf = (SampledSpectrum(1) - spread) * (1 / mirror_probability),
+                      .pdf = mirror_probability,
                       .delta = true};
   Imath::V3f wi = cosine_hemisphere(u.direction);
   if (wi.z == 0) return std::nullopt;

@@ -6,19 +6,19 @@
 
 namespace abbe {
 
-/// A Lambertian ground under a clear smooth coat, alike on both sides: the coat reflects in the mirror's
-/// direction; what it lets in is scattered by the ground, thrown back by the coat from within and scattered
-/// again, any number of times, and leaves spread,
+/// A Lambertian ground under a transparent smooth coat, with the same properties on both sides. The coat
+/// reflects specularly. The ground scatters the light that enters; the coat reflects it internally any number
+/// of times before it leaves diffusely:
 ///
 ///   f = T(o) T(i) rho/(n^2 (1 - rho r) pi),
 ///
-/// T being what Fresnel's equations let pass, rho the reflectance of the ground, r that of the coat for
-/// diffuse light from within. Energy is kept for rho = 1. [Saunderson1942]
+/// with T the Fresnel transmittance, rho the reflectance of the ground, and r the internal diffuse
+/// reflectance of the coat. The model conserves energy for rho = 1. [Saunderson1942]
 struct CoatedDiffuseBsdf {
   static constexpr bool kScatters = true;
   static constexpr bool kDelta = true;
 
-  SampledSpectrum n;       ///< Of the coat, relative to the outside, 1 or more.
+  SampledSpectrum n;       ///< Index of the coat relative to the outside, 1 or more.
   SampledSpectrum ground;  ///< rho/(n^2 (1 - rho r)).
   bool dispersive;
 
@@ -31,8 +31,8 @@ struct CoatedDiffuseBsdf {
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
-/// The model at one packet, from the index `n` of the coat, the ground's reflectance `rho` and `inner`, the
-/// coat's reflectance for diffuse light from within.
+/// The model at one packet. `n` is the index of the coat, `rho` the reflectance of the ground, `inner` the
+/// internal diffuse reflectance of the coat.
 [[nodiscard]] inline CoatedDiffuseBsdf coated_diffuse(const SampledSpectrum& n, const SampledSpectrum& rho,
                                                       const SampledSpectrum& inner, bool dispersive) {
   return {n, rho / (n * n * (SampledSpectrum(1) - rho * inner)), dispersive};

@@ -9,9 +9,9 @@
 
 namespace abbe {
 
-/// Mirrors that matter does not make, kept to teach and to compare with; both sides alike.
+/// Mirrors that no real material has, for teaching and for comparisons. Both sides reflect alike.
 
-/// The ideal mirror R/cos delta, of the same reflectance at every angle. [Marschner2021, sec. 14.1]
+/// The ideal mirror R/cos delta, with the same reflectance at every angle. [Marschner2021, sec. 14.1]
 struct MirrorBsdf {
   static constexpr bool kScatters = false;
   static constexpr bool kDelta = true;
@@ -32,7 +32,7 @@ struct MirrorBsdf {
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
-/// A smooth surface by Schlick's approximation in place of Fresnel's equations. [Schlick1994]
+/// A smooth surface by Schlick's approximation instead of Fresnel's equations. [Schlick1994]
 struct SchlickBsdf {
   static constexpr bool kScatters = false;
   static constexpr bool kDelta = true;

@@ -8,19 +8,18 @@
 namespace abbe {
 namespace {
 
-// What the surface of matter of relative index n does to light from wo.
+// Fresnel power for light from `wo` at the surface of a medium of relative index n.
 FresnelPower<float> fresnel(const Imath::V3f& wo, float n) {
   return fresnel_dielectric(std::min(std::abs(wo.z), 1.0F), wo.z < 0 ? 1 / n : n);
 }
 
-// Reflection leaves in the same direction at every wavelength, so the packet stays together: each lane would
-// have drawn it with its own reflectance as probability, and carries that share.
+// The reflected direction is the same at every wavelength, so all wavelengths continue. Each draws reflection
+// with its own reflectance as probability, which `ratio` contains.
 BsdfSample reflected(const Imath::V3f& wo, const SampledSpectrum& ratio, float probability) {
   return {.wi = mirrored(wo), .weight = ratio, .lane_pdf = ratio, .pdf = probability, .delta = true};
 }
 
-// Refraction goes where the hero goes; the other lanes could not have come along unless the index is the same
-// for all.
+// Refraction follows the hero wavelength. The other wavelengths can continue only if all have the same index.
 BsdfSample refracted(const Imath::V3f& wo, const FresnelPower<float>& f, float eta, TransportMode mode) {
   const float probability = 1 - f.R();
   return {.wi = refracted_direction(wo, eta, f.cos_t),

@@ -9,7 +9,7 @@
 
 namespace abbe {
 
-/// Lambertian reflection on the side of the normal `wo` is on; both sides alike.
+/// Lambertian reflection on the side of `wo`. Both sides reflect alike.
 struct DiffuseBsdf {
   static constexpr bool kScatters = true;
   static constexpr bool kDelta = false;
@@ -23,9 +23,10 @@ struct DiffuseBsdf {
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
-// In line, as scattering off the commonest matter costs less than the calls would.
+// These functions are inline: Lambertian surfaces are so frequent that calls would cost more than the
+// scattering.
 
-// f = reflectance/pi, drawn with density cos/pi: the weight is the reflectance for every direction.
+// f = reflectance/pi, sampled with pdf cos/pi, so the weight is the reflectance for every direction.
 
 inline std::optional<BsdfSample> DiffuseBsdf::sample(const Imath::V3f& wo, const BsdfRandom& u, int /*hero*/,
                                                      TransportMode /*mode*/) const {

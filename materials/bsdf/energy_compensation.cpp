@@ -12,7 +12,7 @@
 namespace abbe {
 namespace {
 
-constexpr float kMostLost = 0.999F;  // some light is always left to the first scattering
+constexpr float kMaxLost = 0.999F;  // single scattering never loses all light
 
 bool isotropic(const Microfacets<float>& facets) {
   return facets.alpha_x == facets.alpha_y;
@@ -29,8 +29,8 @@ struct Lattice {
     return {fraction(std::int64_t{i} * step), fraction(i)};
   }
 };
-// The facets of each direction: of brushed ones fewer, as their tables have many more directions. Dielectrics
-// need more, for total reflection makes their energies less smooth.
+// Facet normals for each direction. Anisotropic facets use fewer, because their tables have many more
+// directions. Dielectrics need more, because total reflection makes their energies less smooth.
 Lattice mirror_lattice(const Microfacets<float>& facets) {
   return isotropic(facets) ? Lattice{987, 610} : Lattice{610, 377};
 }
@@ -38,14 +38,14 @@ Lattice dielectric_lattice(const Microfacets<float>& facets) {
   return isotropic(facets) ? Lattice{2584, 1597} : Lattice{1597, 987};
 }
 
-// The width of slopes, all azimuths alike.
+// Width of the slopes, averaged over azimuths.
 float mean_alpha(const Microfacets<float>& facets) {
   return std::sqrt((facets.alpha_x * facets.alpha_x + facets.alpha_y * facets.alpha_y) / 2);
 }
 
-// Table coordinates in [0, 1]. `tilt` is 1 along the normal, 0 at the horizon, where it is finest, and its
-// square 1/2 where the cotangent of the angle is the width of slopes, mostly that in the azimuth of w; `turn`
-// is the azimuth from x to y.
+// Table coordinates in [0, 1]. `tilt` is 1 along the normal and 0 at the horizon, where the table is finest.
+// Its square is 1/2 where the cotangent of the polar angle equals the width of slopes, mainly that in the
+// azimuth of w. `turn` is the azimuth from x to y.
 float tilted_alpha(const Microfacets<float>& facets, const Imath::V3f& w) {
   if (isotropic(facets)) return facets.projected_alpha(w);
   const float sine = std::sqrt(w.x * w.x + w.y * w.y);
@@ -73,17 +73,17 @@ Cell cell_of(float coordinate, int cells) {
   return {number, scaled - static_cast<float>(number)};
 }
 
-// Slope of a cubic spline at a node between the rises of two cells: their mean, limited so that the spline is
-// monotone where the nodes are. [Fritsch1980]
+// Slope of a cubic spline at a node between two cells. It is the mean of their rises, limited so that the
+// spline is monotone if the nodes are. [Fritsch1980]
 float monotone_slope(float before, float after) {
   if (!(before * after > 0)) return 0;
-  const float least = 3 * std::min(std::abs(before), std::abs(after));
-  return std::clamp((before + after) / 2, -least, least);
+  const float limit = 3 * std::min(std::abs(before), std::abs(after));
+  return std::clamp((before + after) / 2, -limit, limit);
 }
 
-// Cells of the density are even in the logarithm of the tangent of the angle, since 1 - E falls as its square
-// towards the normal. From the horizon to the first tangent 1 - E is nearly constant; what is lost about the
-// normal, below the last one, is negligible.
+// Cells of the density are uniform in the logarithm of the tangent of the polar angle, because 1 - E falls as
+// its square towards the normal. From the horizon to the first tangent 1 - E is nearly constant. The loss
+// near the normal, below the last tangent, is negligible.
 struct DensityCells {
   explicit DensityCells(const Microfacets<float>& facets, int count)
       : log_first(std::log(30 / mean_alpha(facets))),
@@ -105,7 +105,8 @@ struct DensityCells {
 
 }  // namespace
 
-EnergyCompensation::Place EnergyCompensation::place(const Microfacets<float>& facets, const Imath::V3f& w) {
+EnergyCompensation::TableCoordinates EnergyCompensation::table_coordinates(const Microfacets<float>& facets,
+                                                                           const Imath::V3f& w) {
   const float z = std::abs(w.z);
   const float tilt = tilt_of(z, tilted_alpha(facets, w));
   const Cell row = cell_of(tilt, kCells);
@@ -126,34 +127,34 @@ std::vector<EnergyCompensation> EnergyCompensation::tabulate(const Microfacets<f
             table_direction(facets, static_cast<float>(i) / kCells, static_cast<float>(j) / (kTurns - 1)),
             values);
       for (std::size_t k = 0; k < count; ++k)
-        tables[k].lost_[i][j] = std::clamp(static_cast<float>(1 - values[k]), 0.0F, kMostLost);
+        tables[k].lost_[i][j] = std::clamp(static_cast<float>(1 - values[k]), 0.0F, kMaxLost);
     }
   for (EnergyCompensation& table : tables) table.prepare_density(facets);
   return tables;
 }
 
-float EnergyCompensation::at(const Place& place) const {
-  // The rows are continued about the normal as the even function of the angle that they are, and about the
-  // horizon in a straight line.
-  const auto turn = static_cast<std::size_t>(place.turn_cell);
+float EnergyCompensation::at(const TableCoordinates& coordinates) const {
+  // The rows are extrapolated about the normal as an even function of the angle, and about the horizon
+  // linearly.
+  const auto turn = static_cast<std::size_t>(coordinates.turn_cell);
   const auto row = [&](int number) {
     const auto& values = lost_[static_cast<std::size_t>(number)];
-    return values[turn] + place.turn * (values[turn + 1] - values[turn]);
+    return values[turn] + coordinates.turn * (values[turn + 1] - values[turn]);
   };
-  const int cell = place.tilt_cell;
+  const int cell = coordinates.tilt_cell;
   const float low = row(cell);
   const float high = row(cell + 1);
   const float rise = high - low;
   const float slope_low = cell > 0 ? monotone_slope(low - row(cell - 1), rise) : rise;
   const float slope_high = cell + 1 < kCells ? monotone_slope(rise, row(cell + 2) - high) : 0;
-  const float t = place.tilt;
+  const float t = coordinates.tilt;
   return low + t * (slope_low +
                     t * (3 * rise - 2 * slope_low - slope_high + t * (slope_low + slope_high - 2 * rise)));
 }
 
 void EnergyCompensation::prepare_density(const Microfacets<float>& facets) {
-  constexpr double kLeastDensity = 1e-9;  // all directions can be drawn
-  constexpr int kParts = 8;               // of each cell, whose midpoints are looked at
+  constexpr double kMinDensity = 1e-9;  // every direction has positive pdf
+  constexpr int kParts = 8;             // midpoints per cell
   const int azimuths = isotropic(facets) ? 1 : 8;
   const auto mean_at = [&](float cos2) {
     const float sine = std::sqrt(1 - cos2);
@@ -161,7 +162,7 @@ void EnergyCompensation::prepare_density(const Microfacets<float>& facets) {
     for (int a = 0; a < azimuths; ++a) {
       const float phi = kQuarterTurn * ((static_cast<float>(a) + 0.5F) / static_cast<float>(azimuths));
       sum += static_cast<double>(
-          at(place(facets, {sine * std::cos(phi), sine * std::sin(phi), std::sqrt(cos2)})));
+          at(table_coordinates(facets, {sine * std::cos(phi), sine * std::sin(phi), std::sqrt(cos2)})));
     }
     return sum / azimuths;
   };
@@ -170,7 +171,7 @@ void EnergyCompensation::prepare_density(const Microfacets<float>& facets) {
   for (std::size_t k = 0; k < kDensityCells; ++k) {
     cos2_[k + 1] = k + 1 < kDensityCells ? cells.end_cos2(static_cast<int>(k)) : 1;
     const float width = cos2_[k + 1] - cos2_[k];
-    double mean = kLeastDensity;
+    double mean = kMinDensity;
     for (int part = 0; part < kParts; ++part)
       mean += mean_at(cos2_[k] + width * ((static_cast<float>(part) + 0.5F) / kParts)) / kParts;
     density_[k] = static_cast<float>(mean);
@@ -190,8 +191,8 @@ Imath::V3f EnergyCompensation::sample(const Imath::V2f& u) const {
   return {sine * std::cos(phi), sine * std::sin(phi), std::sqrt(cos2)};
 }
 
-float EnergyCompensation::pdf(const Place& place, float cos) const {
-  return density_[static_cast<std::size_t>(place.density_cell)] * cos;
+float EnergyCompensation::pdf(const TableCoordinates& coordinates, float cos) const {
+  return density_[static_cast<std::size_t>(coordinates.density_cell)] * cos;
 }
 
 double mirror_energy(const Microfacets<float>& facets, const Imath::V3f& w) {

@@ -9,44 +9,48 @@
 
 namespace abbe {
 
-/// What light that a rough surface has scattered once does not leave with: the share 1 - E(w) of each
-/// direction w above the surface, by a table. Light scattered more often leaves in proportion to it, which
-/// keeps both reciprocity and energy. [Kelemen2001] [Kulla2017]
+/// Table of the energy 1 - E(w) that single scattering by a rough surface loses, for directions w above the
+/// surface. Multiply scattered light leaves in proportion to it, which preserves reciprocity and conserves
+/// energy. [Kelemen2001] [Kulla2017]
 class EnergyCompensation {
  public:
-  /// A direction's place in all tables of the same facets.
-  struct Place {
+  /// Coordinates of a direction in all tables of the same facets.
+  struct TableCoordinates {
     int tilt_cell, turn_cell;
-    float tilt, turn;  ///< Between the ends of those cells.
+    float tilt, turn;  ///< Position within the cell, in [0, 1].
     int density_cell;
   };
-  [[nodiscard]] static Place place(const Microfacets<float>& facets, const Imath::V3f& w);
+  /// Table coordinates of a direction, on either side of the surface.
+  [[nodiscard]] static TableCoordinates table_coordinates(const Microfacets<float>& facets,
+                                                          const Imath::V3f& w);
 
-  /// Writes E(w) of some light or other, w.z > 0, into its second argument.
+  /// Writes the energies E(w), w.z > 0, into `energies`, one for each table.
   using Energies = std::function<void(const Imath::V3f& w, std::span<double> energies)>;
-  /// Makes `count` tables, one for each of the energies, from their values for a few hundred directions.
+  /// Makes `count` tables, one for each energy, from their values for a few hundred directions.
   [[nodiscard]] static std::vector<EnergyCompensation> tabulate(const Microfacets<float>& facets,
                                                                 std::size_t count, const Energies& energies);
 
   /// 1 - E, in [0, 1).
-  [[nodiscard]] float at(const Place& place) const;
-  /// The integral of the table over projected solid angle [sr], positive.
+  [[nodiscard]] float at(const TableCoordinates& coordinates) const;
+  /// Integral of 1 - E over projected solid angle [sr], positive.
   [[nodiscard]] float total() const { return total_; }
-  /// A direction w, w.z > 0, drawn nearly in proportion to (1 - E) w.z, and the density of that [1/sr].
+  /// Samples a direction w, w.z > 0, approximately in proportion to (1 - E) w.z.
   [[nodiscard]] Imath::V3f sample(const Imath::V2f& u) const;
-  [[nodiscard]] float pdf(const Place& place, float cos) const;  ///< At a direction of that cosine.
+  [[nodiscard]] float pdf(const TableCoordinates& coordinates,
+                          float cos) const;  ///< Pdf of `sample` [1/sr]; `cos` is w.z.
 
  private:
   static constexpr int kTilts = 33;
-  static constexpr int kTurns = 17;  // of a quarter turn
+  static constexpr int kTurns = 17;  // azimuths in a quarter turn
   static constexpr int kCells = kTilts - 1;
 
   void prepare_density(const Microfacets<float>& facets);
 
   std::array<std::array<float, kTurns>, kTilts> lost_{};
   float total_ = 0;
-  // The mean over azimuths in cells of squared cosine, from the horizon up, each of one density over
-  // projected solid angle. They are narrower than those of the table, within which 1 - E varies manyfold.
+  // Mean over azimuths in cells of the squared cosine, from the horizon up, with one density per projected
+  // solid angle in each cell. The cells are narrower than those of the table, within which 1 - E varies by
+  // large factors.
   static constexpr int kDensityCells = 8 * kCells;
   std::array<float, kDensityCells + 1> cos2_{};
   std::array<float, kDensityCells + 1> cumulative_{};
@@ -55,7 +59,7 @@ class EnergyCompensation {
 
 /// E for perfectly reflecting facets. [Heitz2014, eq. 99]
 [[nodiscard]] double mirror_energy(const Microfacets<float>& facets, const Imath::V3f& w);
-/// E for the boundary to matter of each relative index, reflection and transmission together.
+/// E of a dielectric interface for each relative index in `etas`, by reflection and transmission together.
 /// [Walter2007, eq. 20 and 21]
 void dielectric_energies(const Microfacets<float>& facets, const Imath::V3f& w, std::span<const float> etas,
                          std::span<double> energies);

@@ -2,12 +2,12 @@
 
 #include <ImathVec.h>
 
-#include "spectral/packet.h"
+#include "spectral/sampled_spectrum.h"
 
 namespace abbe {
 
-/// Which quantity a path carries: radiance (from the camera) or importance's adjoint, power (from a light).
-/// Refraction scales radiance by 1/eta^2 and leaves power alone.
+/// The quantity that a path carries: radiance from the camera, or power (the adjoint of importance) from a
+/// light. Refraction scales radiance by 1/eta^2 and leaves power unchanged.
 enum class TransportMode { radiance, power };
 
 /// Random numbers of one scattering event.
@@ -16,19 +16,20 @@ struct BsdfRandom {
   Imath::V2f direction;
 };
 
-/// One scattering event. Directions are local: z along the normal, both away from the surface.
+/// A sampled scattering event. Directions are local: z points along the normal, and both directions point
+/// away from the surface.
 ///
-/// The direction was drawn by the hero lane. `weight` is f |cos wi| / pdf(hero), lane by lane; `lane_pdf` is
-/// pdf(lane)/pdf(hero), so that transport can balance the lanes. Lanes that could not have taken this
-/// direction have weight and lane_pdf 0.
+/// The hero wavelength drew the direction. `weight` is f |cos wi| / pdf(hero) at each wavelength. `lane_pdf`
+/// is pdf(wavelength)/pdf(hero), with which transport applies MIS over wavelengths. Both are 0 at wavelengths
+/// that cannot scatter into this direction.
 struct BsdfSample {
   Imath::V3f wi;
   SampledSpectrum weight;
   SampledSpectrum lane_pdf{1.0F};
-  float pdf = 0;  ///< Density of wi for the hero [1/sr]; for a delta event the probability of the event.
+  float pdf = 0;  ///< Pdf of wi at the hero wavelength [1/sr]; for a delta event its probability.
   bool delta = false;
   bool transmitted = false;
-  bool dispersive = false;  ///< wi depends on wavelength: only the hero follows.
+  bool dispersive = false;  ///< True if wi depends on wavelength, so that only the hero continues.
 };
 
 }  // namespace abbe

@@ -11,28 +11,28 @@
 
 namespace abbe {
 
-/// What rough surfaces have in common. Directions o and i are on the side of the surface where o.z > 0, and
-/// `seen` is G1(o)/o.z, so that facets are drawn with the density seen (o.h) D(h).
+/// Functions shared by the rough models. Directions o and i are in a frame with o.z > 0. `visibility` is
+/// G1(o)/o.z, so that facets are sampled with pdf visibility (o.h) D(h).
 
-/// Local directions as seen from the side of `wo`.
+/// A local direction in the frame in which `wo` is above the surface.
 [[nodiscard]] inline Imath::V3f from_side_of(const Imath::V3f& wo, const Imath::V3f& w) {
   return {w.x, w.y, wo.z < 0 ? -w.z : w.z};
 }
 
-/// The share of `part` in `all`, lane by lane; 0 of nothing.
-[[nodiscard]] inline SampledSpectrum share_of(const SampledSpectrum& part, const SampledSpectrum& all) {
+/// part/all at each wavelength, limited to 1; 0 if `all` is not positive.
+[[nodiscard]] inline SampledSpectrum fraction_of(const SampledSpectrum& part, const SampledSpectrum& all) {
   return SampledSpectrum::map(part, all,
                               [](float x, float y) { return y > 0 ? std::min(x / y, 1.0F) : 0.0F; });
 }
 
-/// The fraction of the light that a facet sends from o into i that no other facet stops, by the lambda of
-/// both. Masking is correlated by height in reflection, where o and i are on the same side [Heitz2014, eq.
-/// 99], and independent in transmission.
+/// Fraction of the light scattered by a facet from o to i that other facets do not mask. The arguments are
+/// the lambda of both directions. Masking is height-correlated in reflection [Heitz2014, eq. 99] and
+/// independent in transmission.
 [[nodiscard]] inline float unmasked(float lambda_o, float lambda_i, bool reflected) {
   return reflected ? (1 + lambda_o) / (1 + lambda_o + lambda_i) : 1 / (1 + lambda_i);
 }
 
-/// Random numbers for a second draw: hashes of those of the first, as good as independent of them.
+/// Random numbers for a second sample: hashes of the first ones, practically independent of them.
 [[nodiscard]] inline BsdfRandom redrawn(const BsdfRandom& u) {
   const auto bits = [](float x) { return std::bit_cast<std::uint32_t>(x); };
   const std::uint32_t key = combine(combine(bits(u.lobe), bits(u.direction.x)), bits(u.direction.y));
@@ -40,27 +40,28 @@ namespace abbe {
   return {number(0), {number(1), number(2)}};
 }
 
-/// The cosine at which facets are met that mirror o into i.
+/// Cosine of incidence on the facets that mirror o into i.
 [[nodiscard]] inline float mirror_cosine(const Imath::V3f& o, const Imath::V3f& i) {
   return std::min((o + i).length() / 2, 1.0F);
 }
 
-/// Facets that mirror o into i: the density of i [1/sr] by all their light, and the cosine they are met at.
+/// Mirror facets: the pdf of i [1/sr] if they reflect all light, and the cosine of incidence on them.
 struct FacetMirror {
   float density;
   float cos;
 };
-[[nodiscard]] inline FacetMirror facet_mirror(const Microfacets<float>& facets, float seen,
+/// The mirror facets between o and i.
+[[nodiscard]] inline FacetMirror facet_mirror(const Microfacets<float>& facets, float visibility,
                                               const Imath::V3f& o, const Imath::V3f& i) {
-  return {seen * facets.D(o + i) / 4, mirror_cosine(o, i)};  // |dh/di| = 1/(4 o.h)
+  return {visibility * facets.D(o + i) / 4, mirror_cosine(o, i)};  // |dh/di| = 1/(4 o.h)
 }
 
-/// Facets that refract o into i, eta = n_i/n_o: their normal is that of o + eta i = m [Walter2007, eq. 16].
-/// In double, and with what Fresnel's formulas ask for from the thinner side, so that both ways agree where
-/// facets are met at grazing angles.
+/// A facet that refracts o into i, eta = n_i/n_o. Its normal is parallel to m = o + eta i [Walter2007, eq.
+/// 16]. The computation is in double, and Fresnel's formulas use the side of lower index. Both directions of
+/// travel then agree at grazing incidence on the facet.
 struct RefractingFacet {
   Imath::V3d m;
-  double cos_o, cos_i;  ///< With m, times its length; none such facet is there unless both are positive.
+  double cos_o, cos_i;  ///< Cosines with m times its length. The facet exists only if both are positive.
   double m2;
 
   RefractingFacet(const Imath::V3f& o, const Imath::V3f& i, double eta)
@@ -70,24 +71,28 @@ struct RefractingFacet {
     cos_i = -m.dot(Imath::V3d(i)) * upward;
     m2 = m.length2();
   }
-  [[nodiscard]] bool there() const { return cos_o > 0 && cos_i > 0 && m.z != 0; }
-  [[nodiscard]] float cos_thin(float eta) const {
+  /// True if a facet refracts o into i.
+  [[nodiscard]] bool exists() const { return cos_o > 0 && cos_i > 0 && m.z != 0; }
+  /// Cosine between the facet normal and the direction on the side of lower index.
+  [[nodiscard]] float cos_rarer_side(float eta) const {
     return std::min(static_cast<float>((eta > 1 ? cos_o : cos_i) / std::sqrt(m2)), 1.0F);
   }
 };
-[[nodiscard]] inline float from_thin(float eta) {
+/// Relative index of the interface for light from the side of lower index.
+[[nodiscard]] inline float eta_from_rarer_side(float eta) {
   return eta > 1 ? eta : 1 / eta;
 }
 
-/// Density of i [1/sr] by the light that facets refract from o into it, eta = n_i/n_o; |dh/di| is
-/// eta^2 |i.h|/m^2. [Walter2007, eq. 17]
-[[nodiscard]] inline float facet_refraction(const Microfacets<float>& facets, float seen, const Imath::V3f& o,
-                                            const Imath::V3f& i, float eta) {
+/// Pdf of i [1/sr] of the light that facets refract from o, eta = n_i/n_o, weighted by their transmittance;
+/// |dh/di| is eta^2 |i.h|/m^2. [Walter2007, eq. 17]
+[[nodiscard]] inline float facet_refraction(const Microfacets<float>& facets, float visibility,
+                                            const Imath::V3f& o, const Imath::V3f& i, float eta) {
   const double e = eta;
   const RefractingFacet facet(o, i, e);
-  if (!facet.there()) return 0;
-  const float transmitted = fresnel_dielectric(facet.cos_thin(eta), from_thin(eta)).transmitted();
-  return transmitted * seen * facets.D(Imath::V3f(facet.m)) *
+  if (!facet.exists()) return 0;
+  const float transmitted =
+      fresnel_dielectric(facet.cos_rarer_side(eta), eta_from_rarer_side(eta)).transmitted();
+  return transmitted * visibility * facets.D(Imath::V3f(facet.m)) *
          static_cast<float>(facet.cos_o * facet.cos_i * e * e / (facet.m2 * facet.m2));
 }
 

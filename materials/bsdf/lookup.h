@@ -3,21 +3,21 @@
 #include <ImathVec.h>
 
 #include "materials/index/refractive_index.h"
-#include "spectral/packet.h"
+#include "spectral/sampled_spectrum.h"
 
 namespace abbe {
 
-/// Where on a surface, and at which wavelengths, its scattering is asked for.
+/// Surface position and wavelengths at which to evaluate scattering.
 struct SurfaceLookup {
   const SampledSpectrum& wavelengths_nm;
-  Imath::V2f uv{0, 0};                       ///< Surface coordinates, known where a material asks for them.
-  const RefractiveIndex* outside = nullptr;  ///< Of the matter the surface's own is in; nullptr is air.
+  Imath::V2f uv{0, 0};                       ///< Surface coordinates, set if the material needs them.
+  const RefractiveIndex* outside = nullptr;  ///< Index outside the surface; nullptr is air.
 };
 
-/// Tells in which ways a material sends light on; black matter in none.
+/// Kinds of lobes into which a material scatters. Black materials have none.
 struct Lobes {
-  bool delta = false;   ///< In single directions, as mirrors and smooth glass do: light may be focused.
-  bool spread = false;  ///< In all directions of some range: connecting to lights pays.
+  bool delta = false;  ///< True for single directions, as of mirrors and smooth glass, which may focus light.
+  bool spread = false;  ///< True for directions of finite pdf, to which next-event estimation applies.
 };
 
 }  // namespace abbe

@@ -6,23 +6,24 @@
 
 namespace abbe {
 
-/// What smooth surfaces have in common.
+/// Functions shared by the smooth models.
 
+/// Local mirror direction of `wo`.
 [[nodiscard]] inline Imath::V3f mirrored(const Imath::V3f& wo) {
   return {-wo.x, -wo.y, wo.z};
 }
 
-/// Through the surface, eta = n_t/n_i, cos_t of the refracted angle.
+/// Direction refracted through the surface, with eta = n_t/n_i and the cosine of the refracted angle.
 [[nodiscard]] inline Imath::V3f refracted_direction(const Imath::V3f& wo, float eta, float cos_t) {
   return {-wo.x / eta, -wo.y / eta, std::copysign(cos_t, -wo.z)};
 }
 
-/// What refraction does to the quantity carried.
+/// Factor by which refraction scales the quantity of a path, eta = n_t/n_i.
 [[nodiscard]] inline float refraction_scale(float eta, TransportMode mode) {
   return mode == TransportMode::radiance ? 1 / (eta * eta) : 1.0F;
 }
 
-/// `s` for the hero alone: the other lanes could not have come along.
+/// `s` restricted to the hero wavelength, for directions that the other wavelengths cannot take.
 [[nodiscard]] inline BsdfSample only_lane(BsdfSample s, int hero) {
   s.weight = SampledSpectrum::only(hero, s.weight[hero]);
   s.lane_pdf = SampledSpectrum::only(hero, 1);

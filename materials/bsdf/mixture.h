@@ -10,9 +10,9 @@ namespace abbe {
 
 struct MixtureMaterial;
 
-/// The mixture of scattering models a material describes, which it refers to: it makes them anew each time,
-/// as a vertex has no room for several. A lane draws a part by its weight there; parts that send light in
-/// single directions do so each for itself, the others' densities add up.
+/// A mixture of scattering models. It refers to the material and makes the component models at each call,
+/// because a path vertex has no room for several. Each wavelength samples a component in proportion to its
+/// weight there. Delta lobes are sampled separately; the pdfs of all other lobes add up.
 class MixtureBsdf {
  public:
   static constexpr bool kScatters = true;
@@ -27,7 +27,8 @@ class MixtureBsdf {
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
   [[nodiscard]] SampledSpectrum delta_probability(const Imath::V3f& wo) const;
   [[nodiscard]] SampledSpectrum delta_power(const Imath::V3f& wo, bool through) const;
-  /// What `mueller` says of it: the mean over the parts by the power that each sends from wo to wi.
+  /// Mean of the components' Mueller matrices, weighted by the power that each scatters from wo to wi. Empty
+  /// if all depolarise.
   [[nodiscard]] std::optional<MuellerMatrix> mueller(const Imath::V3f& wo, const Imath::V3f& wi,
                                                      bool delta) const;
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }

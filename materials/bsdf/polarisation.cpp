@@ -18,20 +18,20 @@ struct MuellerOf {
   const Imath::V3f& wo;
   const Imath::V3f& wi;
   bool delta;
-  std::optional<int> lone;  // the lane that is asked for, of all
+  std::optional<int> single_lane;  // the only wavelength sample needed, if given
   float cos_i = std::min(std::abs(wo.z), 1.0F);
   bool through = wo.z * wi.z < 0;
 
   using Matrix = std::optional<MuellerMatrix>;
 
-  // Smooth surfaces, whose plane of incidence is that of their normal.
+  // Smooth surfaces: the plane of incidence contains the surface normal.
 
   Matrix operator()(const DielectricBsdf& glass) const {
     const auto at = [&](int lane) {
       const float eta = glass.eta(wo, lane);
       return through ? refraction_mueller(cos_i, eta) : reflection_mueller(cos_i, eta, 0.0F);
     };
-    return glass.dispersive ? smooth(at) : alike(at(0));
+    return glass.dispersive ? smooth(at) : uniform(at(0));
   }
   Matrix operator()(const ConductorBsdf& metal) const {
     return smooth([&](int lane) { return reflection_mueller(cos_i, metal.n[lane], metal.k[lane]); });
@@ -53,12 +53,12 @@ struct MuellerOf {
   Matrix operator()(const CoatedDiffuseBsdf& paint) const {
     if (!delta) return std::nullopt;
     const auto at = [&](int lane) { return reflection_mueller(cos_i, paint.n[lane], 0.0F); };
-    return paint.dispersive ? smooth(at) : alike(at(0));
+    return paint.dispersive ? smooth(at) : uniform(at(0));
   }
-  Matrix operator()(const MirrorBsdf& /*mirror*/) const { return alike(kIdealMirror<float>); }
-  Matrix operator()(const SchlickBsdf& /*mirror*/) const { return alike(kIdealMirror<float>); }
+  Matrix operator()(const MirrorBsdf& /*mirror*/) const { return uniform(kIdealMirror<float>); }
+  Matrix operator()(const SchlickBsdf& /*mirror*/) const { return uniform(kIdealMirror<float>); }
 
-  // Thin elements, about their own axes.
+  // Thin elements have their own axes.
 
   Matrix operator()(const PolariserBsdf& sheet) const {
     return mueller_of_lanes(projected_axis(sheet.axis, wo),
@@ -70,8 +70,8 @@ struct MuellerOf {
   }
   Matrix operator()(const DepolariserBsdf& /*sheet*/) const { return std::nullopt; }
 
-  // Rough ones, at whose facets the plane of incidence is that of both directions. What more than one of them
-  // has scattered is taken to be unpolarised.
+  // Rough surfaces: the plane of incidence of a facet contains both directions. Multiply scattered light is
+  // assumed unpolarised.
 
   Matrix operator()(const RoughConductorBsdf& metal) const {
     const RelativeIndex at = relative_index(*metal.index, metal.outside, metal.wavelengths_nm);
@@ -83,13 +83,14 @@ struct MuellerOf {
       const float eta = wo.z < 0 ? 1 / glass.n[lane] : glass.n[lane];
       if (!through) return reflection_mueller(mirror_cosine(wo, wi), eta, 0.0F);
       const RefractingFacet facet(from_side_of(wo, wo), from_side_of(wo, wi), eta);
-      return facet.there() ? refraction_mueller(facet.cos_thin(eta), from_thin(eta)) : Elements{};
+      return facet.exists() ? refraction_mueller(facet.cos_rarer_side(eta), eta_from_rarer_side(eta))
+                            : Elements{};
     });
   }
 
   Matrix operator()(const MixtureBsdf& mixture) const { return mixture.mueller(wo, wi, delta); }
 
-  // All that is left depolarises. What sends light on in single directions must say what it does.
+  // All other models depolarise. A model with a delta lobe needs an overload.
   template <typename Other>
   Matrix operator()(const Other&) const {
     static_assert(!Other::kDelta);
@@ -98,21 +99,21 @@ struct MuellerOf {
 
   template <typename F>
   [[nodiscard]] MuellerMatrix smooth(F elements) const {
-    if (lone) return alike(elements(*lone));
+    if (single_lane) return uniform(elements(*single_lane));
     return mueller_of_lanes(across(wo, {0, 0, 1}), elements);
   }
-  [[nodiscard]] MuellerMatrix alike(const Elements& m) const {
+  [[nodiscard]] MuellerMatrix uniform(const Elements& m) const {
     return {across(wo, {0, 0, 1}), SampledSpectrum(m.d), SampledSpectrum(m.p), SampledSpectrum(m.c),
             SampledSpectrum(m.s)};
   }
-  [[nodiscard]] Elements taken(const MuellerBothWays<float>& m) const {
+  [[nodiscard]] Elements taken(const InterfaceMueller<float>& m) const {
     return through ? m.through : m.reflected;
   }
   template <typename Rough, typename F>
   [[nodiscard]] MuellerMatrix rough(const Rough& surface, F elements) const {
     MuellerMatrix m = mueller_of_lanes(across(wo, wi), elements);
-    const SampledSpectrum share = surface.single_share(wo, wi);
-    for (SampledSpectrum* element : {&m.d, &m.p, &m.c, &m.s}) *element *= share;
+    const SampledSpectrum fraction = surface.single_fraction(wo, wi);
+    for (SampledSpectrum* element : {&m.d, &m.p, &m.c, &m.s}) *element *= fraction;
     return m;
   }
 };

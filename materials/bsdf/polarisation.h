@@ -7,10 +7,10 @@
 
 namespace abbe {
 
-/// What the model does to polarisation between the local directions `wo` and `wi`, both away from the
-/// surface, by one of its events of a single direction if `delta`, else by all others; nothing where it
-/// depolarises. The axis is local too. What it does to unpolarised light is told by the event's weight, or by
-/// `eval`. Where a path has one `lane` left, all elements may be those at that one.
+/// Mueller matrix of scattering between the local directions `wo` and `wi`, both pointing away from the
+/// surface, about a local axis. It is that of the delta lobe if `delta` is true, else that of all other
+/// lobes. Empty if the model depolarises. The power is not included: it is in the event's weight or in
+/// `eval`. If `lane` is given, all elements may hold the values at that wavelength sample.
 [[nodiscard]] std::optional<MuellerMatrix> mueller(const Bsdf& bsdf, const Imath::V3f& wo,
                                                    const Imath::V3f& wi, bool delta,
                                                    std::optional<int> lane = {});

@@ -14,13 +14,13 @@ using Imath::V3f;
 
 constexpr float kTwoPi = 2 * std::numbers::pi_v<float>;
 
-// c^n of the angle between two directions, 0 where it is obtuse; narrow lobes keep their digits.
+// cos^n of the angle between two directions, 0 if it is obtuse, accurate also for narrow lobes.
 float power_of_cosine(const V3f& a, const V3f& b, float n) {
   const float versine = (a - b).length2() / 2;
   return versine < 1 ? std::exp(n * std::log1p(-versine)) : 0.0F;
 }
 
-/// Directions with density (n + 1)/(2 pi) cos^n about `axis`; nothing is sent to those beyond the horizon.
+/// Directions with pdf (n + 1)/(2 pi) cos^n about `axis`. Directions below the horizon get no light.
 struct PowerLobe {
   V3f axis;
   float n;
@@ -34,7 +34,7 @@ struct PowerLobe {
     const float versine = -std::expm1(std::log1p(-u.x) / (n + 1));
     const float sine = std::sqrt(versine * (2 - versine));
     const V3f about_z(sine * std::cos(kTwoPi * u.y), sine * std::sin(kTwoPi * u.y), 1 - versine);
-    // Mirrored by the plane that takes z to the axis.
+    // Reflect by the plane that maps z to the axis.
     const V3f across = V3f(0, 0, 1) - axis;
     const float length2 = across.length2();
     const V3f w = length2 > 0 ? about_z - across * (2 * about_z.dot(across) / length2) : about_z;
@@ -54,7 +54,7 @@ std::optional<BsdfSample> sample_lobe(const Model& model, const PowerLobe& lobe,
   return BsdfSample{.wi = *wi, .weight = model.eval(wo, *wi, mode) * (std::abs(wi->z) / pdf), .pdf = pdf};
 }
 
-// Where light comes from.
+// The direction of incident light.
 const V3f& source(const V3f& wo, const V3f& wi, TransportMode mode) {
   return mode == TransportMode::radiance ? wi : wo;
 }
@@ -63,9 +63,9 @@ bool same_side(const V3f& wo, const V3f& wi) {
   return wo.z * wi.z > 0;
 }
 
-template <bool BothWays>
-PowerLobe lobe_of(const CosinePowerBsdf<BothWays>& model, const V3f& wo) {
-  return {V3f(0, 0, std::copysign(1.0F, wo.z)), 1 + (BothWays ? model.exponent : 0)};
+template <bool Reciprocal>
+PowerLobe lobe_of(const CosinePowerBsdf<Reciprocal>& model, const V3f& wo) {
+  return {V3f(0, 0, std::copysign(1.0F, wo.z)), 1 + (Reciprocal ? model.exponent : 0)};
 }
 PowerLobe lobe_of(const PhongBsdf& model, const V3f& wo) {
   return {mirrored(wo), model.exponent};
@@ -76,21 +76,21 @@ PowerLobe lobe_of(const RetroreflectorBsdf& model, const V3f& wo) {
 
 }  // namespace
 
-template <bool BothWays>
-std::optional<BsdfSample> CosinePowerBsdf<BothWays>::sample(const V3f& wo, const BsdfRandom& u, int /*hero*/,
-                                                            TransportMode mode) const {
+template <bool Reciprocal>
+std::optional<BsdfSample> CosinePowerBsdf<Reciprocal>::sample(const V3f& wo, const BsdfRandom& u,
+                                                              int /*hero*/, TransportMode mode) const {
   return sample_lobe(*this, lobe_of(*this, wo), wo, u, mode);
 }
-template <bool BothWays>
-SampledSpectrum CosinePowerBsdf<BothWays>::eval(const V3f& wo, const V3f& wi, TransportMode mode) const {
+template <bool Reciprocal>
+SampledSpectrum CosinePowerBsdf<Reciprocal>::eval(const V3f& wo, const V3f& wi, TransportMode mode) const {
   if (!same_side(wo, wi)) return {};
-  if constexpr (BothWays)
+  if constexpr (Reciprocal)
     return reflectance * ((exponent + 2) / kTwoPi * std::pow(wo.z * wi.z, exponent));
   else
     return reflectance * (2 / kTwoPi * std::pow(std::abs(source(wo, wi, mode).z), exponent));
 }
-template <bool BothWays>
-SampledSpectrum CosinePowerBsdf<BothWays>::pdf(const V3f& wo, const V3f& wi) const {
+template <bool Reciprocal>
+SampledSpectrum CosinePowerBsdf<Reciprocal>::pdf(const V3f& wo, const V3f& wi) const {
   return SampledSpectrum(lobe_of(*this, wo).density(wi));
 }
 template struct CosinePowerBsdf<false>;
@@ -101,9 +101,9 @@ std::optional<BsdfSample> PhongBsdf::sample(const V3f& wo, const BsdfRandom& u, 
   return sample_lobe(*this, lobe_of(*this, wo), wo, u, mode);
 }
 SampledSpectrum PhongBsdf::eval(const V3f& wo, const V3f& wi, TransportMode mode) const {
-  constexpr float kLeastCosine = 1e-6F;  // keeps finite what has no bound
+  constexpr float kMinCosine = 1e-6F;  // bounds the unbounded BRDF
   if (!same_side(wo, wi)) return {};
-  const float cos_i = std::max(std::abs(source(wo, wi, mode).z), kLeastCosine);
+  const float cos_i = std::max(std::abs(source(wo, wi, mode).z), kMinCosine);
   return reflectance * ((exponent + 1) / kTwoPi * power_of_cosine(mirrored(wo), wi, exponent) / cos_i);
 }
 SampledSpectrum PhongBsdf::pdf(const V3f& wo, const V3f& wi) const {

@@ -6,17 +6,16 @@
 
 namespace abbe {
 
-/// Models made of powers of a cosine, kept for what they teach; both sides alike. k_i is where light comes
-/// from and k_o where it is seen from: models that break reciprocity tell them apart by the TransportMode.
+/// Models made of powers of a cosine, for teaching. Both sides reflect alike. k_i points to the light and k_o
+/// to the viewer; TransportMode distinguishes them in models that are not reciprocal.
 
-/// C cos^a theta_i, or C cos^a theta_i cos^a theta_o when `BothWays`: only the latter may be reversed. With
-/// rho the reflectance of light along the normal, which is the largest, C is rho/pi, or rho (a + 2)/(2 pi).
-/// [Marschner2021, ch. 14, exercises]
-template <bool BothWays>
+/// The lobe C cos^a theta_i or, if `Reciprocal`, C cos^a theta_i cos^a theta_o. C is rho/pi or rho (a + 2)/(2
+/// pi), where rho is the reflectance along the normal, the largest one. [Marschner2021, ch. 14, exercises]
+template <bool Reciprocal>
 struct CosinePowerBsdf {
   static constexpr bool kScatters = true;
   static constexpr bool kDelta = false;
-  static constexpr bool kReciprocal = BothWays;
+  static constexpr bool kReciprocal = Reciprocal;
 
   SampledSpectrum reflectance;
   float exponent;  ///< In [0, 1e4].
@@ -28,9 +27,9 @@ struct CosinePowerBsdf {
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
-/// Phong's highlight as a scattering function, C cos^n alpha/cos theta_i with alpha between k_o and the
-/// mirror's direction of k_i and C = rho (n + 1)/(2 pi). It cannot be reversed, and at grazing incidence more
-/// leaves than arrives, without bound. [Phong1975]
+/// Phong's highlight as a BRDF, C cos^n alpha/cos theta_i with C = rho (n + 1)/(2 pi). alpha is the angle
+/// between k_o and the mirror direction of k_i. It is not reciprocal, and its albedo is unbounded towards
+/// grazing incidence. [Phong1975]
 struct PhongBsdf {
   static constexpr bool kScatters = true;
   static constexpr bool kDelta = false;
@@ -47,9 +46,9 @@ struct PhongBsdf {
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
-/// A retroreflector, C (k_i . k_o)^n where that is positive. The directional-hemispherical reflectance is the
-/// largest along the normal, as a convolution of two functions that fall away from their middles is where
-/// these meet: C (n + 2)/(2 pi) makes it rho there. [Marschner2021, ch. 14, exercises]
+/// A retroreflector, C (k_i . k_o)^n where the product is positive. Its directional-hemispherical reflectance
+/// is largest along the normal, where the maxima of the lobe and of the cosine coincide. C = rho (n + 2)/(2
+/// pi) makes it rho there. [Marschner2021, ch. 14, exercises]
 struct RetroreflectorBsdf {
   static constexpr bool kScatters = true;
   static constexpr bool kDelta = false;

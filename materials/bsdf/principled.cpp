@@ -15,10 +15,10 @@ using Imath::V3f;
 
 constexpr float kPi = std::numbers::pi_v<float>;
 constexpr float kCoatIndex = 1.5F;
-constexpr auto kCoatStrength = static_cast<float>(kCoatShare);
-constexpr auto kDullCoat = static_cast<float>(kDullCoatWidth);
-constexpr auto kGlossyCoat = static_cast<float>(kGlossyCoatWidth);
-constexpr float kCoatShadowing = 0.25F;  // alpha
+constexpr auto kCoatStrength = static_cast<float>(kCoatScale);
+constexpr auto kDullCoat = static_cast<float>(kDullCoatAlpha);
+constexpr auto kGlossyCoat = static_cast<float>(kGlossyCoatAlpha);
+constexpr float kCoatShadowing = 0.25F;  // alpha of the coat's masking and shadowing
 constexpr int kCosines = 32;
 constexpr int kSteps = 64;
 constexpr float kTableError = 3e-3F;
@@ -31,13 +31,13 @@ Microfacets<float> facets(float alpha) {
   return {FacetShape::ggx, alpha, alpha};
 }
 
-// The long-tailed distribution of the clear coat, gamma = 1. [Burley2012, eq. 4]
+// Long-tailed distribution of the clear coat, gamma = 1. [Burley2012, eq. 4]
 float coat_density(const V3f& h, float alpha) {
   const float a2 = alpha * alpha;
   return (1 - a2) / (-2 * kPi * std::log(alpha) * (h.x * h.x + h.y * h.y + a2 * h.z * h.z));
 }
 
-// A facet drawn with density D cos. [Burley2012, eq. 5]
+// Samples a facet with pdf D cos. [Burley2012, eq. 5]
 V3f sample_coat(float alpha, const Imath::V2f& u) {
   const float a2 = alpha * alpha;
   const float sin2 = (std::pow(a2, 1 - u.x) - a2) / (1 - a2);
@@ -46,7 +46,7 @@ V3f sample_coat(float alpha, const Imath::V2f& u) {
           std::sqrt(std::clamp(1 - sin2, 0.0F, 1.0F))};
 }
 
-// The diffuse factor without colour: at grazing angles from 1/2 when smooth to 5/2 when rough.
+// Diffuse factor without colour. At grazing angles it ranges from 1/2 when smooth to 5/2 when rough.
 // [Burley2012, sec. 5.3]
 float retro_diffuse(float roughness, float cos_o, float cos_i, float cos_d) {
   const float more = 2 * roughness * cos_d * cos_d - 0.5F;
@@ -55,7 +55,7 @@ float retro_diffuse(float roughness, float cos_o, float cos_i, float cos_d) {
 
 }  // namespace
 
-// Two directions of the side z > 0 and the facet that would mirror one into the other.
+// Two directions with z > 0 and the facet that mirrors one into the other.
 struct Principled::Facet {
   V3f wo, wi, h;
   float cos_d, rise, per_facet;
@@ -69,35 +69,37 @@ struct Principled::Facet {
         per_facet(1 / (4 * o.z * i.z)) {}
 };
 
-Principled::Principled(const PrincipledLook& look)
-    : look_(look),
-      alpha_(std::max(static_cast<float>(kLeastAlpha), look.roughness * look.roughness)),
-      coat_alpha_(kDullCoat + (kGlossyCoat - kDullCoat) * look.clearcoat_gloss) {
-  const float root = std::sqrt(0.08F * look.specular);
+Principled::Principled(const PrincipledParameters& parameters)
+    : parameters_(parameters),
+      alpha_(std::max(static_cast<float>(kMinAlpha), parameters.roughness * parameters.roughness)),
+      coat_alpha_(kDullCoat + (kGlossyCoat - kDullCoat) * parameters.clearcoat_gloss) {
+  const float root = std::sqrt(0.08F * parameters.specular);
   n_ = (1 + root) / (1 - root);
-  probability_ = {1 - look.metallic, std::max(look.metallic, 0.5F), kCoatStrength * look.clearcoat};
+  probability_ = {1 - parameters.metallic, std::max(parameters.metallic, 0.5F),
+                  kCoatStrength * parameters.clearcoat};
   const float all = probability_[ground] + probability_[highlight] + probability_[coat];
   for (float& p : probability_) p /= all;
   for (int i = 0; i < kCosines; ++i) {
-    const double share = std::max(1e-4, static_cast<double>(i) / (kCosines - 1));
-    albedo_.push_back(integrated(direction_at(share * share, 0)));
+    const double root_cosine = std::max(1e-4, static_cast<double>(i) / (kCosines - 1));
+    albedo_.push_back(integrated(direction_at(root_cosine * root_cosine, 0)));
   }
 }
 
 Principled::Terms Principled::value(Lobe lobe, const Facet& at) const {
-  const float body = 1 - look_.metallic;
+  const float body = 1 - parameters_.metallic;
   if (lobe == ground)
-    return {body * look_.sheen * at.rise, body * retro_diffuse(look_.roughness, at.wo.z, at.wi.z, at.cos_d)};
+    return {body * parameters_.sheen * at.rise,
+            body * retro_diffuse(parameters_.roughness, at.wo.z, at.wi.z, at.cos_d)};
   if (lobe == coat) {
     const Microfacets<float> shadowing = facets(kCoatShadowing);
-    return {kCoatStrength * look_.clearcoat * coat_density(at.h, coat_alpha_) * shadowing.G1(at.wo) *
+    return {kCoatStrength * parameters_.clearcoat * coat_density(at.h, coat_alpha_) * shadowing.G1(at.wo) *
                 shadowing.G1(at.wi) * fresnel_dielectric(at.cos_d, kCoatIndex).R() * at.per_facet,
             0};
   }
   const Microfacets<float> surface = facets(alpha_);
   const float facing = surface.D(at.h) * at.per_facet / (1 + surface.lambda(at.wo) + surface.lambda(at.wi));
-  return {(body * fresnel_dielectric(at.cos_d, n_).R() + look_.metallic * at.rise) * facing,
-          look_.metallic * (1 - at.rise) * facing};
+  return {(body * fresnel_dielectric(at.cos_d, n_).R() + parameters_.metallic * at.rise) * facing,
+          parameters_.metallic * (1 - at.rise) * facing};
 }
 
 float Principled::density(Lobe lobe, const Facet& at) const {
@@ -144,7 +146,7 @@ std::optional<V3f> Principled::draw(const V3f& wo, const BsdfRandom& u) const {
   return draw(coated ? coat : highlight, wo, u.direction);
 }
 
-// Each lobe by the midpoint rule over what draws it.
+// Integrates each lobe by the midpoint rule over the random numbers that sample it.
 Principled::Terms Principled::integrated(const V3f& wo) const {
   Terms sum;
   for (const Lobe lobe : kLobes)
@@ -156,8 +158,8 @@ Principled::Terms Principled::integrated(const V3f& wo) const {
       if (!wi) continue;
       const Facet at(wo, *wi);
       const Terms f = value(lobe, at);
-      const float share = wi->z / (density(lobe, at) * kSteps * kSteps);
-      sum = {sum.white + f.white * share, sum.coloured + f.coloured * share};
+      const float weight = wi->z / (density(lobe, at) * kSteps * kSteps);
+      sum = {sum.white + f.white * weight, sum.coloured + f.coloured * weight};
     }
   return sum;
 }
@@ -181,28 +183,28 @@ V3f above(const V3f& w) {
 
 SampledSpectrum PrincipledBsdf::eval(const V3f& wo, const V3f& wi, TransportMode /*mode*/) const {
   if (!(wo.z * wi.z > 0)) return {};
-  const Principled::Terms f = look->unlimited(above(wo), above(wi));
-  const Principled::Terms o = look->albedo(std::abs(wo.z));
-  const Principled::Terms i = look->albedo(std::abs(wi.z));
+  const Principled::Terms f = principled->unlimited(above(wo), above(wi));
+  const Principled::Terms o = principled->albedo(std::abs(wo.z));
+  const Principled::Terms i = principled->albedo(std::abs(wi.z));
   return SampledSpectrum::map(base, [&](float b) {
-    const float most = std::max(o.white + b * o.coloured, i.white + b * i.coloured);
-    return (f.white + b * f.coloured) / std::max(1.0F, most * (1 + kTableError));
+    const float largest = std::max(o.white + b * o.coloured, i.white + b * i.coloured);
+    return (f.white + b * f.coloured) / std::max(1.0F, largest * (1 + kTableError));
   });
 }
 
 std::optional<BsdfSample> PrincipledBsdf::sample(const V3f& wo, const BsdfRandom& u, int /*hero*/,
                                                  TransportMode mode) const {
   if (wo.z == 0) return std::nullopt;
-  std::optional<V3f> wi = look->draw(above(wo), u);
+  std::optional<V3f> wi = principled->draw(above(wo), u);
   if (!wi) return std::nullopt;
-  const float pdf = look->density(above(wo), *wi);
+  const float pdf = principled->density(above(wo), *wi);
   if (!(pdf > 0)) return std::nullopt;
   wi->z = std::copysign(wi->z, wo.z);
   return BsdfSample{.wi = *wi, .weight = eval(wo, *wi, mode) * (std::abs(wi->z) / pdf), .pdf = pdf};
 }
 
 SampledSpectrum PrincipledBsdf::pdf(const V3f& wo, const V3f& wi) const {
-  return SampledSpectrum(wo.z * wi.z > 0 ? look->density(above(wo), above(wi)) : 0.0F);
+  return SampledSpectrum(wo.z * wi.z > 0 ? principled->density(above(wo), above(wi)) : 0.0F);
 }
 
 }  // namespace abbe

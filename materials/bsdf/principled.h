@@ -8,41 +8,41 @@
 
 namespace abbe {
 
-/// What an artist says of matter beside its colour, each in [0, 1].
-struct PrincipledLook {
+/// Parameters of the principled model besides its base colour, each in [0, 1].
+struct PrincipledParameters {
   float metallic = 0;
-  float roughness = 0.5F;  ///< The facets' width is its square.
-  float specular = 0.5F;   ///< Reflectance along the normal of what is no metal, over 0.08.
-  float sheen = 0;         ///< As of cloth at grazing angles.
+  float roughness = 0.5F;  ///< Square root of the facets' alpha.
+  float specular = 0.5F;   ///< Reflectance along the normal of the dielectric part, divided by 0.08.
+  float sheen = 0;         ///< Strength of a lobe at grazing angles, as of cloth.
   float clearcoat = 0;     ///< Strength of a second highlight.
   float clearcoat_gloss = 1;
 };
 
-/// Share that a clear coat of strength 1 has of what a layer of its index reflects, and the widths of its
-/// facets at a gloss of 0 and of 1.
-inline constexpr double kCoatShare = 0.25;
-inline constexpr double kDullCoatWidth = 0.1;
-inline constexpr double kGlossyCoatWidth = 0.001;
+/// Reflectance of a clear coat of strength 1, relative to a layer of its index; alpha of the coat at a gloss
+/// of 0 and of 1.
+inline constexpr double kCoatScale = 0.25;
+inline constexpr double kDullCoatAlpha = 0.1;
+inline constexpr double kGlossyCoatAlpha = 0.001;
 
-/// A look with what it needs of all directions: how much light from one leaves in all. Both `white` and,
-/// times the base colour, `coloured` are held at 32 cosines.
+/// The principled model without its base colour, with its directional albedo at 32 cosines.
 class Principled {
  public:
-  /// Both terms of a scattering function [1/sr], or of its albedo.
+  /// A scattering function [1/sr] or albedo as `white` + base colour * `coloured`.
   struct Terms {
     float white = 0;
     float coloured = 0;
   };
 
-  explicit Principled(const PrincipledLook& look);
+  /// Tabulates the directional albedo.
+  explicit Principled(const PrincipledParameters& parameters);
 
-  /// The scattering function as Burley has it, not limited to what arrives; directions are on the side z > 0.
+  /// The scattering function of [Burley2012], without the limit on energy. Both directions have z > 0.
   [[nodiscard]] Terms unlimited(const Imath::V3f& wo, const Imath::V3f& wi) const;
-  /// Share of what arrives at an angle of that cosine which leaves, before it is limited; to 3e-3.
+  /// Directional albedo at a cosine, before the limit on energy; accurate to 3e-3.
   [[nodiscard]] Terms albedo(float cosine) const;
-  /// Density of the directions drawn [1/sr], the same for all lanes.
+  /// Pdf of `draw` [1/sr], the same for all wavelengths.
   [[nodiscard]] float density(const Imath::V3f& wo, const Imath::V3f& wi) const;
-  /// Draws a direction with that density; nothing where it leads below the surface.
+  /// Samples a direction; empty if it points below the surface.
   [[nodiscard]] std::optional<Imath::V3f> draw(const Imath::V3f& wo, const BsdfRandom& u) const;
 
  private:
@@ -55,27 +55,28 @@ class Principled {
   [[nodiscard]] std::optional<Imath::V3f> draw(Lobe lobe, const Imath::V3f& wo, const Imath::V2f& u) const;
   [[nodiscard]] Terms integrated(const Imath::V3f& wo) const;
 
-  PrincipledLook look_;
-  float n_;                             // of what is no metal
-  float alpha_, coat_alpha_;            // widths of the facets
-  std::array<float, 3> probability_{};  // of drawing each lobe; that of an absent one is 0
+  PrincipledParameters parameters_;
+  float n_;                             // index of the dielectric part
+  float alpha_, coat_alpha_;            // alpha of the highlight and of the coat
+  std::array<float, 3> probability_{};  // of sampling each lobe; 0 for an absent one
   std::vector<Terms> albedo_;
 };
 
-/// The principled model of Disney's animation studio [Burley2012]: a diffuse ground that is darker or lighter
-/// at grazing angles by its roughness, sheen, a GGX highlight and a clear coat's, drawn to a measured look
-/// and not from one surface; both sides alike. The base colour is a spectrum. What is no metal reflects by
-/// Fresnel's equations, metals by Schlick's approximation from the base colour as there is no index.
+/// The principled model of Disney [Burley2012]: a diffuse lobe that depends on roughness at grazing angles,
+/// sheen, a GGX highlight and a clear coat. It is fitted to measured appearance, not derived from one
+/// surface. Both sides reflect alike. The base colour is a spectrum. The dielectric part uses Fresnel's
+/// equations. The metallic part has no index, so it uses Schlick's approximation with the base colour.
 ///
-/// Its lobes are not balanced: a white look may return half as much again as arrives. Here f is divided by
-/// max(1, E(o), E(i)), E being the albedo of a direction in a lane, a little more than known, which leaves it
-/// as it is where both directions conserve energy, makes all do so, and keeps it reciprocal.
+/// The lobes do not conserve energy: with a white base colour the albedo may be 1.5. So f is divided by
+/// max(1, E(o), E(i)), with E the directional albedo at each wavelength, increased by the error of its table.
+/// This leaves f unchanged where both directions conserve energy, makes all directions conserve it, and
+/// preserves reciprocity.
 struct PrincipledBsdf {
   static constexpr bool kScatters = true;
   static constexpr bool kDelta = false;
 
   SampledSpectrum base;  ///< In [0, 1].
-  const Principled* look;
+  const Principled* principled;
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;

@@ -16,7 +16,7 @@ float index_at(float coordinate) {
   return 1 + coordinate * std::abs(coordinate);
 }
 
-// The relative indices of those coordinates for light from outside, then for light from inside.
+// Relative indices at the coordinates for light from outside, followed by those for light from inside.
 std::vector<float> both_sides(std::span<const float> coordinates) {
   std::vector<float> etas;
   for (const float x : coordinates) etas.push_back(index_at(x));
@@ -24,8 +24,8 @@ std::vector<float> both_sides(std::span<const float> coordinates) {
   return etas;
 }
 
-// Largest error of energies that are quadratic between two coordinates, a quarter of the way from either end.
-// The cotangents of the directions are these multiples of the width of slopes.
+// Largest error of quadratic interpolation of the energies between two coordinates, tested at one and three
+// quarters. The cotangents of the tested directions are multiples of the width of slopes.
 double interpolation_error(const Microfacets<float>& facets, float low, float high) {
   const float step = (high - low) / 4;
   const std::vector<float> etas =
@@ -44,8 +44,8 @@ double interpolation_error(const Microfacets<float>& facets, float low, float hi
   return largest;
 }
 
-// Adds the coordinates beyond `low` up to `high`. The interval is halved up to `halvings` times where
-// energies would be off by more than 2e-3 of the light, the precision of a table in direction.
+// Adds the coordinates above `low` up to `high`. The interval is halved up to `halvings` times while the
+// interpolation error exceeds 2e-3 of the light, the precision of a table in direction.
 void add_coordinates(const Microfacets<float>& facets, float low, float high, int halvings,
                      std::vector<float>& coordinates) {
   constexpr double kTolerance = 2e-3;
@@ -85,9 +85,9 @@ RoughInterface::RoughInterface(const Microfacets<float>& of, float low, float hi
   const auto inner = tables.begin() + static_cast<std::ptrdiff_t>(coordinates.size());
   lost[0].assign(tables.begin(), inner);
   lost[1].assign(inner, tables.end());
-  const float n = index_at(coordinates[middle()]);
-  const float inside = n * n * lost[1][middle()].total();
-  inside_share = inside / (lost[0][middle()].total() + inside);
+  const float n = index_at(coordinates[sampling_index()]);
+  const float inside = n * n * lost[1][sampling_index()].total();
+  inside_probability = inside / (lost[0][sampling_index()].total() + inside);
 }
 
 }  // namespace abbe

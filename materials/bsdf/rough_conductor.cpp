@@ -8,12 +8,12 @@
 namespace abbe {
 namespace {
 
-// Reflection from o into i by facets that reflect everything, times the cosine of i [1/sr]; as many times as
-// it takes in `multiple`. Directions are drawn as those of `RoughDielectricBsdf`.
+// Reflection from o to i by perfectly reflecting facets, times the cosine of i [1/sr]: by a single facet and
+// by multiple scattering. `RoughDielectricBsdf` describes how directions are sampled.
 struct Reflection {
   float single = 0;
   float multiple = 0;
-  float cos = 0;  // to the facets of the single one
+  float cos = 0;  // of incidence on the facets of `single`
   float pdf = 0;
 };
 
@@ -22,13 +22,13 @@ Reflection reflection(const RoughMetal& surface, const Imath::V3f& o, const Imat
   const float lambda_o = facets.lambda(o);
   const FacetMirror mirror = facet_mirror(facets, 1 / ((1 + lambda_o) * o.z), o, i);
   const float single = mirror.density * unmasked(lambda_o, facets.lambda(i), true);
-  const EnergyCompensation::Place place = EnergyCompensation::place(facets, i);
-  const float lost = surface.lost.at(EnergyCompensation::place(facets, o));
-  return {single, lost * surface.lost.at(place) * i.z / surface.lost.total(), mirror.cos,
-          single + lost * surface.lost.pdf(place, i.z)};
+  const EnergyCompensation::TableCoordinates coordinates = EnergyCompensation::table_coordinates(facets, i);
+  const float lost = surface.lost.at(EnergyCompensation::table_coordinates(facets, o));
+  return {single, lost * surface.lost.at(coordinates) * i.z / surface.lost.total(), mirror.cos,
+          single + lost * surface.lost.pdf(coordinates, i.z)};
 }
 
-// f cos of each lane.
+// f cos at each wavelength.
 struct Coloured {
   SampledSpectrum single, multiple;
 
@@ -38,7 +38,7 @@ Coloured coloured(const RoughConductorBsdf& bsdf, const Reflection& r) {
   const RelativeIndex index = relative_index(*bsdf.index, bsdf.outside, bsdf.wavelengths_nm);
   const SampledSpectrum once = SampledSpectrum::map(
       index.n, index.k, [&](float n, float k) { return fresnel_conductor(r.cos, n, k).R(); });
-  // F^2 E + F^2 (1 - E) F E + ...: reflected twice or more, each time leaving with the mean energy E
+  // F^2 E + F^2 (1 - E) F E + ...: two or more reflections, after each of which a mean energy E leaves
   // [Kulla2017].
   const float energy = 1 - bsdf.surface->lost.total() * std::numbers::inv_pi_v<float>;
   const SampledSpectrum often = SampledSpectrum::map(bsdf.mean_reflectance, [energy](float mean) {
@@ -76,10 +76,10 @@ SampledSpectrum RoughConductorBsdf::pdf(const Imath::V3f& wo, const Imath::V3f& 
   return SampledSpectrum(reflection(*surface, from_side_of(wo, wo), from_side_of(wo, wi)).pdf);
 }
 
-SampledSpectrum RoughConductorBsdf::single_share(const Imath::V3f& wo, const Imath::V3f& wi) const {
+SampledSpectrum RoughConductorBsdf::single_fraction(const Imath::V3f& wo, const Imath::V3f& wi) const {
   if (!(wo.z * wi.z > 0)) return {};
   const Coloured f = coloured(*this, reflection(*surface, from_side_of(wo, wo), from_side_of(wo, wi)));
-  return share_of(f.single, f.all());
+  return fraction_of(f.single, f.all());
 }
 
 }  // namespace abbe

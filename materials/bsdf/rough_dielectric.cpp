@@ -11,9 +11,9 @@
 namespace abbe {
 namespace {
 
-using Weights = std::array<SampledSpectrum, RoughInterface::kMostIndices>;
+using Weights = std::array<SampledSpectrum, RoughInterface::kMaxIndices>;
 
-// Per lane: the weights of the indices that a surface is tabulated at.
+// Weights of the tabulated indices at each wavelength.
 Weights weights(const RoughInterface& surface, const SampledSpectrum& n) {
   const std::vector<float>& at = surface.coordinates;
   Weights weights;
@@ -34,7 +34,7 @@ Weights weights(const RoughInterface& surface, const SampledSpectrum& n) {
   return weights;
 }
 
-// Lane by lane, the value of the tables of one side by `read`.
+// Interpolates `read` of the tables of one side to the indices of the wavelengths.
 template <typename F>
 SampledSpectrum at_lanes(const RoughInterface& surface, bool inside, const Weights& weights, F read) {
   const auto& tables = surface.lost[inside ? 1 : 0];
@@ -43,17 +43,18 @@ SampledSpectrum at_lanes(const RoughInterface& surface, bool inside, const Weigh
   return SampledSpectrum::map(sum, [](float x) { return std::max(x, 0.0F); });
 }
 SampledSpectrum lost_energy(const RoughInterface& surface, bool inside, const Weights& weights,
-                            const EnergyCompensation::Place& place) {
-  return at_lanes(surface, inside, weights, [&](const EnergyCompensation& table) { return table.at(place); });
+                            const EnergyCompensation::TableCoordinates& coordinates) {
+  return at_lanes(surface, inside, weights,
+                  [&](const EnergyCompensation& table) { return table.at(coordinates); });
 }
 
-// BSDF from o to i times the cosine of i [1/sr], per wavelength sample: by single scattering and in all.
-// `pdf` is the density of i [1/sr] if that wavelength is the hero.
+// BSDF from o to i times the cosine of i [1/sr] at each wavelength: `single` scattering, and `power` in
+// total. `pdf` is the pdf of i [1/sr] if that wavelength is the hero.
 struct Scattered {
   SampledSpectrum single, power, pdf;
 };
 
-// The power scattered by single facets.
+// BSDF of single scattering times the cosine of i.
 SampledSpectrum by_facets(const Microfacets<float>& facets, const SampledSpectrum& eta, const Imath::V3f& o,
                           const Imath::V3f& i) {
   const float lambda_o = facets.lambda(o);
@@ -69,32 +70,36 @@ SampledSpectrum by_facets(const Microfacets<float>& facets, const SampledSpectru
                       eta, [&](float lane_eta) { return facet_refraction(facets, visible, o, i, lane_eta); });
 }
 
-// Single and multiple scattering. With A_s the integral of 1 - E over the projected solid angle of side s,
-// multiple scattering sends (1 - E(o)) (1 - E(i)) n_i^2 / (A_outside + n^2 A_inside).
+// Single and multiple scattering. Let A_s be the integral of 1 - E over the projected solid angle of side s.
+// Multiple scattering is (1 - E(o)) (1 - E(i)) n_i^2 / (A_outside + n^2 A_inside).
 //
-// `sample` draws one facet, and a direction of multiple scattering if other facets stop the light of that
-// one. The first happens with the density of the power of single scattering, the second with the probability
-// 1 - E(o), for which the pdf takes the table's value.
+// `sample` draws a facet. If other facets mask its light, `sample` draws a direction of multiple scattering.
+// The pdf of the first case equals the power of single scattering. The probability of the second is 1 - E(o),
+// for which the pdf uses the value of the table.
 Scattered scattered(const RoughDielectricBsdf& bsdf, bool inside, const Imath::V3f& o, const Imath::V3f& i) {
   const RoughInterface& surface = *bsdf.surface;
   const SampledSpectrum& n = bsdf.n;
   const SampledSpectrum once = by_facets(surface.facets, inside ? SampledSpectrum(1) / n : n, o, i);
   const Weights w = weights(surface, n);
   const bool into_inside = inside == (i.z > 0);
-  const EnergyCompensation::Place place_i = EnergyCompensation::place(surface.facets, i);
-  const SampledSpectrum lost = lost_energy(surface, inside, w, EnergyCompensation::place(surface.facets, o));
+  const EnergyCompensation::TableCoordinates coordinates_i =
+      EnergyCompensation::table_coordinates(surface.facets, i);
+  const SampledSpectrum lost =
+      lost_energy(surface, inside, w, EnergyCompensation::table_coordinates(surface.facets, o));
   const auto total = [](const EnergyCompensation& table) { return table.total(); };
   const SampledSpectrum total_of_both =
       at_lanes(surface, false, w, total) + n * n * at_lanes(surface, true, w, total);
-  SampledSpectrum fraction = lost_energy(surface, into_inside, w, place_i) * std::abs(i.z) / total_of_both;
+  SampledSpectrum fraction =
+      lost_energy(surface, into_inside, w, coordinates_i) * std::abs(i.z) / total_of_both;
   if (into_inside) fraction *= n * n;
 
-  const float density = (into_inside ? surface.inside_share : 1 - surface.inside_share) *
-                        surface.lost[into_inside ? 1 : 0][surface.middle()].pdf(place_i, std::abs(i.z));
+  const float density =
+      (into_inside ? surface.inside_probability : 1 - surface.inside_probability) *
+      surface.lost[into_inside ? 1 : 0][surface.sampling_index()].pdf(coordinates_i, std::abs(i.z));
   return {once, once + lost * fraction, once + lost * density};
 }
 
-// What refraction does to the quantity carried into `wi`, lane by lane.
+// Factor by which refraction into `wi` scales the quantity of the path, at each wavelength.
 SampledSpectrum scale(const SampledSpectrum& n, const Imath::V3f& wo, const Imath::V3f& wi,
                       TransportMode mode) {
   if (wo.z * wi.z > 0) return SampledSpectrum(1);
@@ -102,8 +107,8 @@ SampledSpectrum scale(const SampledSpectrum& n, const Imath::V3f& wo, const Imat
       n, [&](float lane_n) { return refraction_scale(wo.z < 0 ? 1 / lane_n : lane_n, mode); });
 }
 
-// The direction into which one facet, drawn by `u`, sends light from o. Nothing if another facet stops it: at
-// once, if the direction is on the wrong side of the surface, or with the probability of masking.
+// Direction of light from o after a facet sampled by `u`. Empty if another facet masks it. This is certain if
+// the direction is on the wrong side of the surface, else it has the probability of masking.
 std::optional<Imath::V3f> off_facet(const Microfacets<float>& facets, const Imath::V3f& o, float eta,
                                     const BsdfRandom& u) {
   const Imath::V3f h = facets.sample_visible(o, u.direction);
@@ -117,10 +122,10 @@ std::optional<Imath::V3f> off_facet(const Microfacets<float>& facets, const Imat
   return rest < unmasked(facets.lambda(o), facets.lambda(i), reflected) ? std::optional(i) : std::nullopt;
 }
 
-// A direction of multiple scattering: the lobe number selects the side.
+// Samples a direction of multiple scattering. u.lobe selects the side.
 Imath::V3f off_surface(const RoughInterface& surface, bool inside, const BsdfRandom& u) {
-  const bool into_inside = u.lobe < surface.inside_share;
-  const Imath::V3f i = surface.lost[into_inside ? 1 : 0][surface.middle()].sample(u.direction);
+  const bool into_inside = u.lobe < surface.inside_probability;
+  const Imath::V3f i = surface.lost[into_inside ? 1 : 0][surface.sampling_index()].sample(u.direction);
   return {i.x, i.y, into_inside == inside ? i.z : -i.z};
 }
 
@@ -156,10 +161,10 @@ SampledSpectrum RoughDielectricBsdf::pdf(const Imath::V3f& wo, const Imath::V3f&
   return scattered(*this, wo.z < 0, from_side_of(wo, wo), from_side_of(wo, wi)).pdf;
 }
 
-SampledSpectrum RoughDielectricBsdf::single_share(const Imath::V3f& wo, const Imath::V3f& wi) const {
+SampledSpectrum RoughDielectricBsdf::single_fraction(const Imath::V3f& wo, const Imath::V3f& wi) const {
   if (wo.z == 0 || wi.z == 0) return {};
   const Scattered all = scattered(*this, wo.z < 0, from_side_of(wo, wo), from_side_of(wo, wi));
-  return share_of(all.single, all.power);
+  return fraction_of(all.single, all.power);
 }
 
 }  // namespace abbe

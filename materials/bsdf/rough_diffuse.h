@@ -6,15 +6,15 @@
 
 namespace abbe {
 
-/// A rough diffuse surface that throws light back, both sides alike: Oren and Nayar's model as Fujii writes
-/// it, which reflects less than arrives, and a lobe for the light scattered on among the facets that makes up
-/// for it: white matter returns all. [Portsmouth2025]
+/// A rough diffuse surface, with the same properties on both sides: Fujii's form of the Oren-Nayar model. It
+/// loses energy, so a lobe for light scattered repeatedly among the facets is added. A white surface reflects
+/// all light. [Portsmouth2025]
 struct OrenNayarBsdf {
   static constexpr bool kScatters = true;
   static constexpr bool kDelta = false;
 
   SampledSpectrum reflectance;
-  float roughness;  ///< In [0, 1]; 0 is Lambert's.
+  float roughness;  ///< In [0, 1]; 0 is Lambertian.
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
@@ -23,8 +23,8 @@ struct OrenNayarBsdf {
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
-/// The roughness for facets whose slopes have the standard deviation `sigma_deg`: what B is to A in the
-/// qualitative model of [OrenNayar1994].
+/// Roughness of facets whose slopes have the standard deviation `sigma_deg` [degrees]: B/A in the qualitative
+/// model of [OrenNayar1994].
 [[nodiscard]] float oren_nayar_roughness(double sigma_deg);
 
 }  // namespace abbe

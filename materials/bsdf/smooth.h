@@ -6,7 +6,7 @@
 
 namespace abbe {
 
-/// Smooth dielectric interface with the normal towards the outside; `n` is the inside index relative to the
+/// A smooth dielectric interface with its normal towards the outside. `n` is the inside index relative to the
 /// outside.
 struct DielectricBsdf {
   static constexpr bool kScatters = false;
@@ -22,13 +22,13 @@ struct DielectricBsdf {
   }
   [[nodiscard]] SampledSpectrum delta_power(const Imath::V3f& wo, bool through) const;
   [[nodiscard]] float index_inside(int lane) const { return n[lane]; }
-  /// The index of the other side over that of the side of `wo`.
+  /// Index of the far side divided by that of the side of `wo`.
   [[nodiscard]] float eta(const Imath::V3f& wo, int lane) const { return wo.z < 0 ? 1 / n[lane] : n[lane]; }
-  /// The share of unpolarised light that is reflected.
+  /// Reflectance for unpolarised light.
   [[nodiscard]] float reflectance(const Imath::V3f& wo, int lane) const;
 };
 
-/// Smooth conductor, opaque, reflecting on both sides.
+/// A smooth conductor, opaque, reflecting on both sides.
 struct ConductorBsdf {
   static constexpr bool kScatters = false;
   static constexpr bool kDelta = true;

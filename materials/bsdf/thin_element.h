@@ -7,11 +7,11 @@
 
 namespace abbe {
 
-/// Thin sheets that change the polarisation of light and let it straight on, from both sides alike: what they
-/// reflect is left out. Axes lie in the surface, x being along u; of light that comes at an angle they are
-/// their projections across it.
+/// Thin sheets that change the polarisation of light and transmit it undeflected, alike from both sides. They
+/// do not reflect. Axes lie in the surface, with x along u. At oblique incidence the effective axis is the
+/// projection perpendicular to the ray.
 
-/// What all of them are to light that is not polarised.
+/// The part common to all thin elements: their action on unpolarised light.
 struct ThinElement {
   static constexpr bool kScatters = false;
   static constexpr bool kDelta = true;
@@ -32,19 +32,19 @@ struct ThinElement {
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
-/// A linear polariser; what it does not let pass it absorbs.
+/// A linear polariser. It absorbs what it does not transmit.
 struct PolariserBsdf : ThinElement {
-  SampledSpectrum blocked;  ///< Transmittance across the axis over that along it, in [0, 1].
-  Imath::V2f axis;          ///< Unit vector along which fields pass.
+  SampledSpectrum blocked;  ///< Transmittance perpendicular to the axis divided by that along it, in [0, 1].
+  Imath::V2f axis;          ///< Unit vector along which fields are transmitted.
 };
 
 /// A wave plate.
 struct WavePlateBsdf : ThinElement {
-  SampledSpectrum retardance;  ///< Of fields across the fast axis behind those along it [rad].
+  SampledSpectrum retardance;  ///< Phase lag of fields perpendicular to the fast axis [rad].
   Imath::V2f axis;             ///< Unit vector along the fast axis.
 };
 
-/// A sheet that light leaves unpolarised.
+/// A sheet that depolarises the light it transmits.
 struct DepolariserBsdf : ThinElement {};
 
 }  // namespace abbe

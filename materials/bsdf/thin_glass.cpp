@@ -19,7 +19,7 @@ Sheet sheet(float cos_i, float n, float depth) {
 
 }  // namespace
 
-// A lane is reflected by its share of what leaves.
+// Each wavelength reflects with the probability R/(R + T).
 std::optional<BsdfSample> ThinGlassBsdf::sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                 TransportMode /*mode*/) const {
   if (wo.z == 0) return std::nullopt;

@@ -8,16 +8,17 @@
 
 namespace abbe {
 
-/// Unit vector of the given cosine to z and azimuth [rad].
+/// Unit vector at the polar angle of cosine `cos_theta` from z and the azimuth `phi` [rad].
 [[nodiscard]] inline Imath::V3f direction_at(double cos_theta, double phi) {
   const double sin_theta = std::sqrt(std::max(0.0, (1 - cos_theta) * (1 + cos_theta)));
   return Imath::V3f(Imath::V3d(sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta));
 }
 
-/// Sine and cosine of an angle within an eighth of a turn either way, by their series to float precision.
+/// Sine and cosine of an angle.
 struct SineCosine {
   float sine, cosine;
 };
+/// Sine and cosine of an angle in [-pi/4, pi/4], by their series, to float precision.
 [[nodiscard]] inline SineCosine sine_cosine_of_eighth(float angle) {
   const float x = angle * angle;
   return {angle * (1 + x * (-1.0F / 6 + x * (1.0F / 120 + x * (-1.0F / 5040 + x * (1.0F / 362880))))),
@@ -29,7 +30,7 @@ template <typename Real>
   return std::numbers::pi_v<Real> * radius * radius;
 }
 
-/// Uniform on the unit disc from `u` in [0, 1)^2, keeping neighbours together: squares go to rings.
+/// Maps `u` in [0, 1)^2 uniformly to the unit disc. Squares become rings, so neighbours stay together.
 /// [Shirley1997]
 [[nodiscard]] inline Imath::V2f concentric_disc(const Imath::V2f& u) {
   const float a = 2 * u.x - 1;
@@ -37,12 +38,12 @@ template <typename Real>
   const bool along_x = std::abs(a) > std::abs(b);
   const float radius = along_x ? a : b;
   if (radius == 0) return {0, 0};
-  const auto [sine, cosine] =
-      sine_cosine_of_eighth(std::numbers::pi_v<float> / 4 * ((along_x ? b : a) / radius));  // from that axis
+  const auto [sine, cosine] = sine_cosine_of_eighth(std::numbers::pi_v<float> / 4 *
+                                                    ((along_x ? b : a) / radius));  // angle from that axis
   return {radius * (along_x ? cosine : sine), radius * (along_x ? sine : cosine)};
 }
 
-/// The place in [0, 1]^2 that `concentric_disc` takes to a point of the unit disc.
+/// Inverse of `concentric_disc`: the point in [0, 1]^2 that maps to a point of the unit disc.
 [[nodiscard]] inline Imath::V2d square_of_disc(const Imath::V2d& at) {
   const bool along_x = std::abs(at.x) > std::abs(at.y);
   const double axis = along_x ? at.x : at.y;
@@ -52,15 +53,16 @@ template <typename Real>
   return {((along_x ? radius : other) + 1) / 2, ((along_x ? other : radius) + 1) / 2};
 }
 
-/// Direction with z >= 0 and density cos/(pi sine^2) [1/sr] within an angle of that sine about z.
+/// Samples a direction about z, z >= 0, with pdf cos/(pi sine^2) [1/sr] within the cone whose half angle has
+/// that sine.
 [[nodiscard]] inline Imath::V3f cosine_cone(const Imath::V2f& u, float sine) {
-  const float radius =
-      sine * std::max(std::abs(2 * u.x - 1), std::abs(2 * u.y - 1));  // that of the disc point
+  const float radius = sine * std::max(std::abs(2 * u.x - 1),
+                                       std::abs(2 * u.y - 1));  // distance of the disc point from the center
   const Imath::V2f disc = concentric_disc(u) * sine;
   return {disc.x, disc.y, std::sqrt((1 - radius) * (1 + radius))};
 }
 
-/// Direction with z >= 0 and density cos/pi [1/sr] about z.
+/// Samples a direction about z, z >= 0, with pdf cos/pi [1/sr].
 [[nodiscard]] inline Imath::V3f cosine_hemisphere(const Imath::V2f& u) {
   return cosine_cone(u, 1);
 }

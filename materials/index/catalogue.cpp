@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// "maker/glass" of "specs/maker/.../glass.yml"; nothing for the path of another kind of material.
+/// "maker/glass" of "specs/maker/.../glass.yml"; empty for paths of other materials.
 std::optional<std::string> glass_at(const std::string& db_path) {
   const fs::path path = db_path;
   const auto part = path.begin();
@@ -23,7 +23,7 @@ std::optional<std::string> glass_at(const std::string& db_path) {
   return fmt::format("{}/{}", std::next(part)->string(), path.stem().string());
 }
 
-/// Reads a catalogue once, however many ask for it.
+/// Reads a catalogue at the first request and caches it. Thread-safe.
 class CatalogueCache {
  public:
   CatalogueCache(const char* file, bool with_extinction) : file_(file), with_extinction_(with_extinction) {}

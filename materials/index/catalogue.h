@@ -9,25 +9,26 @@
 
 namespace abbe {
 
-/// The folder of data with what is transparent.
+/// The data folder of transparent materials.
 inline constexpr const char* kGlassFolder = "glass";
 
-/// A table of `data/glass` with a dispersion formula per row: columns id, formula, c1, c2, ...,
-/// lambda_min_um, lambda_max_um, db_path, perhaps source, name and index_relative_to.
+/// A table of `data/glass` with one dispersion formula per row. Columns: id, formula, c1, c2, ...,
+/// lambda_min_um, lambda_max_um, db_path; optionally source, name and index_relative_to.
 class Catalogue {
  public:
-  /// `with_extinction`: the folder holds extinction tables of these materials, as `<id>_k.csv`.
+  /// If `with_extinction` is true, the folder may hold extinction tables of these materials as `<id>_k.csv`.
   Catalogue(Table table, bool with_extinction);
 
-  /// Row of each id and alias.
+  /// Row number of each id and alias.
   [[nodiscard]] const std::map<std::string, std::size_t>& rows() const { return rows_; }
-  /// Row of each glass of a maker, as "maker/glass" in the makers' spelling of the glass.
+  /// Row number of each maker's glass, under "maker/glass" with the makers' spelling of the glass.
   [[nodiscard]] const std::map<std::string, std::size_t>& glasses() const { return glasses_; }
 
-  /// The index of a row as `name`, with its extinction where that is tabulated. Reports a malformed number, a
-  /// pole within the row's range, and n <= 1 there.
+  /// The index of a row under `name`, with its extinction if that is tabulated. Reports a malformed number, a
+  /// pole within the row's range, and n <= 1 there; the result is then empty.
   [[nodiscard]] std::optional<NamedIndex> load(std::size_t row, const std::string& name,
                                                Diagnostics& diagnostics) const;
+  /// The text of a cell. Throws Error{input} if there is no such column.
   [[nodiscard]] const std::string& cell(std::size_t row, const std::string& column) const;
 
  private:
@@ -42,9 +43,9 @@ class Catalogue {
   std::map<std::string, std::size_t> glasses_;
 };
 
-/// The shipped catalogues, each read when first asked for and kept. `dielectrics` are transparent materials
-/// by name, `makers` what else the makers of optical glass sell. nullptr, with a complaint, when one cannot
-/// be read.
+/// The shipped catalogues, read at the first request and cached. `dielectrics` holds transparent materials by
+/// name, `makers` the other glasses of the makers of optical glass. nullptr, with an error in `diagnostics`,
+/// if the file cannot be read.
 [[nodiscard]] const Catalogue* dielectrics(Diagnostics& diagnostics);
 [[nodiscard]] const Catalogue* makers(Diagnostics& diagnostics);
 

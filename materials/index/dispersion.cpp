@@ -10,7 +10,7 @@
 namespace abbe {
 namespace {
 
-// The squared wavelengths [um^2] at which terms of `f` diverge.
+// Squared wavelengths [um^2] at which terms of `f` diverge.
 std::vector<double> poles_um2(const DispersionFormula& f) {
   const auto c = [&f](int i) { return dispersion::coefficient<double>(f, i); };
   std::vector<double> poles;

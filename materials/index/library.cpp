@@ -18,40 +18,42 @@ namespace fs = std::filesystem;
 
 constexpr const char* kFolders[] = {kGlassFolder, "metal"};
 
-/// The file of `name` if that is a table of n (and perhaps k): its stem or an alias, or a user's path.
+/// Path of the table of n, and perhaps k, called `name`: by its stem, an alias or a user's path. Empty if
+/// there is none.
 std::optional<fs::path> table_of(const char* folder, const std::string& name) {
-  Diagnostics unheard;
-  const auto found = find_table(folder, name, {}, unheard);
+  Diagnostics ignored;
+  const auto found = find_table(folder, name, {}, ignored);
   if (!found || (!found->column.empty() && found->column != "n")) return std::nullopt;
-  if (!find_table(folder, found->path.stem().string() + ":n", {}, unheard)) return std::nullopt;
+  if (!find_table(folder, found->path.stem().string() + ":n", {}, ignored)) return std::nullopt;
   return found->path;
 }
 
-/// Complains of a column that an index does not have.
+/// False, with an error, if the table has a column that no index has.
 bool has_index_columns(const Table& table, Diagnostics& diagnostics) {
   const std::vector<std::string> known{"wavelength_nm", "wavelength_um", "n", "k"};
   for (const std::string& column : table.columns) {
     if (std::find(known.begin(), known.end(), column) != known.end()) continue;
     const std::string word = lower_case(column);
-    diagnostics.error(table.where,
-                      word == "k" || word == "kappa"
-                          ? fmt::format("column \"{}\" (k is called k)", column)
-                          : fmt::format("unknown column of an index (got \"{}\", allowed {})", column,
-                                        fmt::join(known, ", ")),
-                      ErrorCode::input);
+    diagnostics.error(
+        table.where,
+        word == "k" || word == "kappa"
+            ? fmt::format("unknown column \"{}\" (the extinction column must be called k)", column)
+            : fmt::format("unknown column of an index (got \"{}\", allowed {})", column,
+                          fmt::join(known, ", ")),
+        ErrorCode::input);
     return false;
   }
   return true;
 }
 
-/// Complains of a table that would have an index of 0 beyond its rows.
-bool is_held_beyond(const Table& table, const NamedCurve& n, Diagnostics& diagnostics) {
+/// False, with an error, if the table declares an index of 0 outside its rows.
+bool has_valid_outside_rule(const Table& table, const NamedCurve& n, Diagnostics& diagnostics) {
   const bool covers_all = n.low_nm <= kMinWavelengthNm && kMaxWavelengthNm <= n.high_nm;
   if (table.outside != Outside::zero || covers_all) return true;
   diagnostics.error(
       table.where,
-      "no index is 0 beyond its rows (got \"# outside: zero\", allowed clamp, error: it is held "
-      "there from the nearer end)",
+      "an index cannot be 0 outside the rows of its table (got \"# outside: zero\", allowed clamp, error: "
+      "both use the value at the nearer end)",
       ErrorCode::input);
   return false;
 }
@@ -61,10 +63,10 @@ std::optional<NamedIndex> load_tables(const char* folder, const std::string& nam
   const auto table = read_table(path, TableOrigin::user, diagnostics);
   if (!table || !has_index_columns(*table, diagnostics)) return std::nullopt;
   const auto n = load_curve(folder, name + ":n", where, diagnostics, kAnyWavelength);
-  if (!n || !is_held_beyond(*table, *n, diagnostics)) return std::nullopt;
+  if (!n || !has_valid_outside_rule(*table, *n, diagnostics)) return std::nullopt;
   std::optional<Extinction> k;
-  Diagnostics unheard;
-  if (find_table(folder, name + ":k", where, unheard)) {
+  Diagnostics ignored;
+  if (find_table(folder, name + ":k", where, ignored)) {
     const auto loaded = load_curve(folder, name + ":k", where, diagnostics, kAnyWavelength);
     if (!loaded) return std::nullopt;
     k = {loaded->curve, {loaded->low_nm, loaded->high_nm}};
@@ -74,8 +76,8 @@ std::optional<NamedIndex> load_tables(const char* folder, const std::string& nam
     return std::nullopt;
   }
   const std::vector<std::string> media{"air", "vacuum"};
-  const auto said = table->keys.find("index_relative_to");
-  const std::string medium = said != table->keys.end() ? said->second : media.front();
+  const auto declared = table->keys.find("index_relative_to");
+  const std::string medium = declared != table->keys.end() ? declared->second : media.front();
   if (std::find(media.begin(), media.end(), medium) == media.end()) {
     diagnostics.error(table->where, unknown_name("index_relative_to", medium, media), ErrorCode::input);
     return std::nullopt;
@@ -92,7 +94,7 @@ std::string qualified(const std::string& name) {
   return lower_case(std::string_view(name).substr(0, maker)) + name.substr(maker);
 }
 
-/// The makers' glasses called `name` without its maker.
+/// All makers' glasses called `name` without the maker.
 std::vector<std::string> glasses_called(const std::string& name, Diagnostics& diagnostics) {
   std::vector<std::string> glasses;
   for (const Catalogue* catalogue : {dielectrics(diagnostics), makers(diagnostics)})
@@ -129,10 +131,11 @@ void require_data_at(const NamedIndex& material, std::span<const double> wavelen
   const DataRange data{material.index.low_nm(), material.index.high_nm()};
   for (const double nm : wavelengths_nm)
     if (data.contains(nm) && !(nm >= low && nm <= high))
-      throw Error(ErrorCode::usage, where,
-                  fmt::format("beyond the wavelengths of Abbe, though within the data of {} (got {} nm, "
-                              "allowed [{:g}, {:g}] nm)",
-                              material.name, nm, low, high));
+      throw Error(
+          ErrorCode::usage, where,
+          fmt::format("outside the wavelengths that Abbe supports, although {} has data there (got {} nm, "
+                      "allowed [{:g}, {:g}] nm)",
+                      material.name, nm, low, high));
   require_between(material.name, low, high, wavelengths_nm, where);
 }
 
@@ -149,8 +152,8 @@ void require_between(const std::string& name, double low_nm, double high_nm,
   for (const double nm : wavelengths_nm)
     if (!(nm >= low_nm && nm <= high_nm))
       throw Error(ErrorCode::usage, where,
-                  fmt::format("{} has no data there (got {} nm, allowed [{:g}, {:g}] nm)", name, nm, low_nm,
-                              high_nm));
+                  fmt::format("{} has no data at this wavelength (got {} nm, allowed [{:g}, {:g}] nm)", name,
+                              nm, low_nm, high_nm));
 }
 
 bool is_refractiveindex_info(const std::string& name) {
@@ -186,9 +189,9 @@ std::optional<NamedIndex> load_index(const std::string& name, const SourcePositi
 }
 
 std::vector<std::string> index_names() {
-  Diagnostics unheard;
+  Diagnostics ignored;
   std::vector<std::string> names;
-  if (const Catalogue* catalogue = dielectrics(unheard))
+  if (const Catalogue* catalogue = dielectrics(ignored))
     for (const auto& [name, row] : catalogue->rows()) names.push_back(name);
   for (const char* folder : kFolders)
     for (const std::string& name : table_names(folder))
@@ -198,9 +201,9 @@ std::vector<std::string> index_names() {
 }
 
 std::vector<std::string> glass_names() {
-  Diagnostics unheard;
+  Diagnostics ignored;
   std::vector<std::string> names;
-  for (const Catalogue* catalogue : {dielectrics(unheard), makers(unheard)})
+  for (const Catalogue* catalogue : {dielectrics(ignored), makers(ignored)})
     if (catalogue)
       for (const auto& [glass, row] : catalogue->glasses()) names.push_back(glass);
   std::sort(names.begin(), names.end());

@@ -10,34 +10,36 @@
 
 namespace abbe {
 
-/// Finds a material by name: the dispersion formulas of `data/glass/dielectrics.csv` (with the k(lambda)
-/// table of the same glass where there is one); the n, k tables of `data/glass` and `data/metal`; the makers'
-/// glasses of `data/glass/makers.csv` as "maker/glass" (the maker in any case) or as "glass" where one maker
-/// alone sells it; a user's `.csv` with columns wavelength_nm, n and perhaps k, or `.yml` of
-/// refractiveindex.info. Reports an unknown name with the nearest one, a name of several makers' glasses with
-/// all of them, and a formula with a pole or n^2 <= 1 inside its range.
+/// Finds a material by name. Searched in this order:
+/// - a user's `.csv` with columns wavelength_nm, n and optionally k, or a `.yml` of refractiveindex.info;
+/// - the dispersion formulas of `data/glass/dielectrics.csv`, with the k table of the same glass if there is
+///   one;
+/// - the n, k tables of `data/glass` and `data/metal`;
+/// - the makers' glasses as "maker/glass" (the maker in any case), or as "glass" if only one maker sells it.
+/// Reports an unknown name with the nearest known one, and a glass of several makers with all of them. Also
+/// reports a formula with a pole or n <= 1 inside its range. The result is then empty.
 [[nodiscard]] std::optional<NamedIndex> load_index(const std::string& name, const SourcePosition& where,
                                                    Diagnostics& diagnostics);
 
-/// Throws Error{usage} naming `where` for a wavelength [nm] at which the material has no data, or that Abbe
-/// does not carry.
+/// Throws Error{usage} naming `where` if the material has no data at one of the wavelengths [nm], or Abbe
+/// does not support that wavelength.
 void require_data_at(const NamedIndex& material, std::span<const double> wavelengths_nm,
                      const std::string& where);
 
-/// Throws Error{usage} naming `where` for a wavelength [nm] at which k is not measured, and is held at more
-/// than a glass has, so that what the surface reflects hangs on it.
+/// Throws Error{usage} naming `where` if k is not measured at one of the wavelengths [nm] and its
+/// extrapolated value exceeds that of any glass. The reflectance of the surface then depends on an unknown k.
 void require_k_at(const NamedIndex& material, std::span<const double> wavelengths_nm,
                   const std::string& where);
 
-/// Throws Error{usage} naming `where` for a wavelength [nm] outside [low_nm, high_nm], between which `name`
-/// has data.
+/// Throws Error{usage} naming `where` for a wavelength [nm] outside [low_nm, high_nm], the range of the data
+/// of `name`.
 void require_between(const std::string& name, double low_nm, double high_nm,
                      std::span<const double> wavelengths_nm, const std::string& where);
 
-/// Whether a name is that of a file in the format of refractiveindex.info.
+/// True if `name` has the extension of a refractiveindex.info file.
 [[nodiscard]] bool is_refractiveindex_info(const std::string& name);
 
-/// All names of dielectrics and of tables, aliases included, sorted.
+/// All names of dielectrics and of n, k tables, including aliases, sorted.
 [[nodiscard]] std::vector<std::string> index_names();
 /// All makers' glasses, as "maker/glass", sorted.
 [[nodiscard]] std::vector<std::string> glass_names();

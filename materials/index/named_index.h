@@ -7,15 +7,15 @@
 
 namespace abbe {
 
-/// A refractive index with its identity.
+/// A refractive index with its name and source.
 struct NamedIndex {
   std::string name;
   std::string source;
   RefractiveIndex index;
 };
 
-/// An index may be asked for at any wavelength: RefractiveIndex holds n beyond a table, and says where that
-/// begins.
+/// No wavelength range is required of an index table: RefractiveIndex extrapolates n and reports the range of
+/// its data.
 inline constexpr NeededRange kAnyWavelength{kMaxWavelengthNm, kMinWavelengthNm};
 
 }  // namespace abbe

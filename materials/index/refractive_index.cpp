@@ -22,7 +22,7 @@ SampledSpectrum clamped(const SampledSpectrum& wavelengths_nm, double low_nm, do
   return SampledSpectrum::map(wavelengths_nm, [=](float nm) { return std::min(std::max(nm, low), high); });
 }
 
-// Formulas 1 and 2 term by term over the whole packet: cheaper than a table look-up, and exact.
+// Formulas 1 and 2, term by term over the whole packet: exact, and faster than a table.
 SampledSpectrum sellmeier_index(const DispersionFormula& f, const SampledSpectrum& wavelengths_nm) {
   const SampledSpectrum l2 =
       SampledSpectrum::map(wavelengths_nm, [](float nm) { return nm * 1e-3F * (nm * 1e-3F); });
@@ -35,7 +35,7 @@ SampledSpectrum sellmeier_index(const DispersionFormula& f, const SampledSpectru
   return SampledSpectrum::map(n2, [](float x) { return std::sqrt(x); });
 }
 
-// A quantity of the wavelength, every 1 nm.
+// Tabulates a function of wavelength every 1 nm.
 template <typename F>
 Curve each_nm(F quantity) {
   std::vector<Knot> knots;

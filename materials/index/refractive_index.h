@@ -9,51 +9,52 @@
 
 namespace abbe {
 
-/// More k than any glass or varnish has, and less than any metal.
+/// Larger than k of any glass or varnish, smaller than k of any metal.
 inline constexpr double kLargestGlassK = 1e-3;
 
-/// What a catalogued index is relative to.
+/// The medium relative to which an index is tabulated.
 enum class IndexMedium { air, vacuum };
 
-/// Why `n` and `k` cannot be an index: n <= 0 or k < 0 somewhere in [300, 1100] nm. Nothing when they can.
+/// An error message if `n` and `k` cannot be a refractive index: n <= 0 or k < 0 somewhere in [300, 1100] nm.
+/// Empty otherwise.
 [[nodiscard]] std::optional<std::string> index_fault(const Curve& n, const Curve& k);
 
-/// The wavelengths [nm] between which something is measured.
+/// A range of wavelengths [nm] with measured data.
 struct DataRange {
   double low_nm, high_nm;
   [[nodiscard]] bool contains(double nm) const { return low_nm <= nm && nm <= high_nm; }
 };
 
-/// An extinction k, 0 or more, with where it is measured.
+/// The extinction coefficient k, 0 or more, and the range in which it was measured.
 struct Extinction {
   Curve k;
   DataRange range;
 };
 
-/// A complex refractive index n + ik over wavelength: catalogued numbers with what they are relative to and
-/// where they hold. Outside [low_nm, high_nm] n keeps its value at the nearer end, as k does outside its
-/// `k_range`; a k that is measured nowhere is 0. Packets agree with the double functions to 1e-5.
+/// A complex refractive index n + ik over wavelength, with the medium and the range of its data. Outside
+/// [low_nm, high_nm] n has the value at the nearer end; so does k outside `k_range`. If k was never measured,
+/// it is 0. The packet functions agree with the double functions to 1e-5.
 class RefractiveIndex {
  public:
   /// A constant, non-dispersive n + ik.
   explicit RefractiveIndex(double n, double k = 0);
-  /// A dispersion formula, valid on [low_nm, high_nm], with the k that is measured beside it, if one is.
+  /// A dispersion formula, valid on [low_nm, high_nm], with k if it was measured.
   RefractiveIndex(const DispersionFormula& formula, std::optional<Extinction> k, IndexMedium medium,
                   double low_nm, double high_nm);
-  /// Tabulated n, valid on [low_nm, high_nm], with the k that is measured beside it, if one is.
+  /// Tabulated n, valid on [low_nm, high_nm], with k if it was measured.
   RefractiveIndex(Curve n, std::optional<Extinction> k, IndexMedium medium, double low_nm, double high_nm);
   /// Tabulated n and k, both valid on [low_nm, high_nm].
   RefractiveIndex(Curve n, Curve k, IndexMedium medium, double low_nm, double high_nm);
 
-  /// The same n with that k relative to air in place of its own, at all wavelengths.
+  /// A copy with `k`, relative to air and valid at all wavelengths, in place of its own k.
   [[nodiscard]] RefractiveIndex with_k(Curve k) const;
 
-  /// The catalogued numbers at a wavelength [nm], relative to `medium()`.
+  /// Tabulated values at a wavelength [nm], relative to `medium()`.
   [[nodiscard]] double catalogued_n(double wavelength_nm) const;
   [[nodiscard]] double catalogued_k(double wavelength_nm) const;
 
-  /// n and k relative to air, as the renderer uses them: the catalogued ones, divided by the index of air for
-  /// a vacuum table.
+  /// n and k relative to air, as the renderer uses them. Values relative to vacuum are divided by the index
+  /// of air.
   [[nodiscard]] double n(double wavelength_nm) const;
   [[nodiscard]] double k(double wavelength_nm) const;
   [[nodiscard]] SampledSpectrum n(const SampledSpectrum& wavelengths_nm) const;
@@ -63,15 +64,18 @@ class RefractiveIndex {
   [[nodiscard]] double absorption_per_m(double wavelength_nm) const;
   [[nodiscard]] SampledSpectrum absorption_per_m(const SampledSpectrum& wavelengths_nm) const;
 
+  /// True if n depends on wavelength.
   [[nodiscard]] bool dispersive() const;
-  [[nodiscard]] bool absorbing() const;  ///< k > 0 somewhere in [300, 1100] nm.
+  [[nodiscard]] bool absorbing() const;  ///< True if k > 0 somewhere in [300, 1100] nm.
+  /// The medium relative to which the catalogued values hold.
   [[nodiscard]] IndexMedium medium() const { return medium_; }
+  /// The range in which n is valid [nm].
   [[nodiscard]] double low_nm() const { return low_nm_; }
   [[nodiscard]] double high_nm() const { return high_nm_; }
-  /// Where k is measured; nothing when it is nowhere.
+  /// Range in which k was measured; empty if k was never measured.
   [[nodiscard]] const std::optional<DataRange>& k_range() const { return k_range_; }
-  /// Whether k is measured at a wavelength [nm].
-  [[nodiscard]] bool knows_k(double wavelength_nm) const {
+  /// True if k was measured at a wavelength [nm].
+  [[nodiscard]] bool has_measured_k(double wavelength_nm) const {
     return k_range_ && k_range_->contains(wavelength_nm);
   }
 

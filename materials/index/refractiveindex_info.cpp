@@ -35,37 +35,38 @@ std::vector<Word> words_of(std::string_view text) {
   return words;
 }
 
-// A text of the database as one line without its HTML tags.
+// A text of the database as one line, without its HTML tags.
 std::string plain(std::string_view text) {
-  std::string shown;
+  std::string without_tags;
   for (std::size_t at = 0; at < text.size(); ++at) {
     const bool tag = text[at] == '<' && at + 1 < text.size() &&
                      (text[at + 1] == '/' || std::isalpha(static_cast<unsigned char>(text[at + 1])));
     const std::size_t end = tag ? text.find('>', at) : std::string_view::npos;
     if (end == std::string_view::npos)
-      shown += text[at];
+      without_tags += text[at];
     else
       at = end;
   }
   std::string line;
-  for (const Word& word : words_of(shown)) line += (line.empty() ? "" : " ") + std::string(word.text);
+  for (const Word& word : words_of(without_tags)) line += (line.empty() ? "" : " ") + std::string(word.text);
   return line;
 }
 
-// How many coefficients a formula takes: from `least` to `most` in steps of `step`.
+// Allowed numbers of coefficients of a formula: from `min` to `max` in steps of `step`.
 struct Count {
-  std::size_t least, most, step;
+  std::size_t min, max, step;
 };
 constexpr Count kCounts[] = {{3, 17, 2}, {3, 17, 2}, {3, 17, 2}, {5, 17, 1}, {3, 11, 2},
                              {3, 11, 2}, {3, 6, 1},  {4, 4, 1},  {6, 6, 1}};
 
-// What a file may say of its references, in the words of later and of earlier editions, and where.
+// Keys for the medium of index and wavelengths, in the spellings of current and earlier editions, and the
+// sections that may contain them.
 using Spellings = std::array<const char*, 2>;
 constexpr Spellings kAbsolute{"n_is_absolute", "n_absolute"};
 constexpr Spellings kVacuumWavelengths{"wavelength_is_vacuum", "wavelength_vacuum"};
 constexpr std::array kSections{"SPECS", "CONDITIONS", "PROPERTIES"};
 
-bool is_of_references(std::string_view key) {
+bool is_reference_key(std::string_view key) {
   const auto is_key = [key](const char* word) { return key == word; };
   return std::ranges::any_of(kAbsolute, is_key) || std::ranges::any_of(kVacuumWavelengths, is_key);
 }
@@ -82,9 +83,9 @@ class EntryReader {
       complain(data ? data->where : root.where, "expected DATA, a list of formulas and tables");
       return std::nullopt;
     }
-    check_places(root, true);
-    if (says(root, kAbsolute)) medium_ = IndexMedium::vacuum;
-    vacuum_wavelengths_ = says(root, kVacuumWavelengths);
+    check_key_placement(root, true);
+    if (read_flag(root, kAbsolute)) medium_ = IndexMedium::vacuum;
+    vacuum_wavelengths_ = read_flag(root, kVacuumWavelengths);
     for (const JsonValue& block : *blocks) read_block(block);
     if (!complained_ && !formula_ && !n_) complain(data->where, "no block of DATA gives n");
     if (complained_) return std::nullopt;
@@ -103,26 +104,26 @@ class EntryReader {
     return found ? std::get_if<std::string>(&found->value) : nullptr;
   }
 
-  // What is said of references elsewhere than where it is heeded would be lost.
-  void check_places(const JsonValue& value, bool is_root, bool is_section = false) {
+  // Reports these keys where they would be ignored.
+  void check_key_placement(const JsonValue& value, bool is_root, bool is_section = false) {
     if (const auto* list = std::get_if<JsonValue::Array>(&value.value))
-      for (const JsonValue& item : *list) check_places(item, false);
+      for (const JsonValue& item : *list) check_key_placement(item, false);
     const auto* object = std::get_if<JsonValue::Object>(&value.value);
     if (object == nullptr) return;
     for (const auto& [key, inner] : *object) {
-      if (!is_section && is_of_references(key))
-        complain(inner.where, fmt::format("{} is not heeded there (allowed under {} alone)", key,
-                                          fmt::join(kSections, ", ")));
+      if (!is_section && is_reference_key(key))
+        complain(inner.where,
+                 fmt::format("{} is ignored here (allowed only under {})", key, fmt::join(kSections, ", ")));
       const bool names_section = std::find(kSections.begin(), kSections.end(), key) != kSections.end();
-      check_places(inner, false, is_root && names_section);
+      check_key_placement(inner, false, is_root && names_section);
     }
   }
 
-  // Editions of the database differ in where they say it and in its spelling; a file must not contradict
-  // itself.
-  bool says(const JsonValue& root, const Spellings& spellings) {
-    std::string said;
-    std::string_view by;  // which key said it
+  // Value of a flag, false if absent. Editions of the database differ in the section and the spelling of its
+  // key. Reports contradictory values.
+  bool read_flag(const JsonValue& root, const Spellings& spellings) {
+    std::string flag;
+    std::string_view first_key;  // where the value was found
     for (const char* section : kSections)
       for (const char* key : spellings) {
         const JsonValue* specs = root.find(section);
@@ -132,14 +133,14 @@ class EntryReader {
         const std::string word = lower_case(*value);
         if (word != "true" && word != "false") {
           complain(at, fmt::format("{} (got \"{}\", allowed true, false)", key, *value));
-        } else if (!by.empty() && word != said) {
-          complain(at, fmt::format("{} is {}, but {} is {}", key, word, by, said));
+        } else if (!first_key.empty() && word != flag) {
+          complain(at, fmt::format("{} is {}, but {} is {}", key, word, first_key, flag));
         } else {
-          said = word;
-          by = key;
+          flag = word;
+          first_key = key;
         }
       }
-    return said == "true";
+    return flag == "true";
   }
 
   std::string identity(const JsonValue& root) const {
@@ -169,7 +170,7 @@ class EntryReader {
                              type->substr(0, 40)));
   }
 
-  // False, after a complaint, when the file gave that already.
+  // False, with an error, if the file gave the quantity before.
   bool is_first(const JsonValue& block, const char* what, bool& given) {
     if (given) complain(block.where, fmt::format("{} is given twice", what));
     return !std::exchange(given, true);
@@ -184,15 +185,15 @@ class EntryReader {
       return complain(block.where, "expected a wavelength_range of two ascending wavelengths in micrometres");
     const Count count = kCounts[id - 1];
     const std::size_t got = coefficients->size();
-    if (got < count.least || got > count.most || (got - count.least) % count.step != 0)
+    if (got < count.min || got > count.max || (got - count.min) % count.step != 0)
       return complain(block.find("coefficients")->where,
                       fmt::format("wrong number of coefficients for formula {} (got {}, allowed {})", id, got,
                                   text(count)));
     DispersionFormula formula{
         .id = id, .c = {}, .terms = static_cast<int>(got), .vacuum_wavelengths = vacuum_wavelengths_};
     std::copy(coefficients->begin(), coefficients->end(), formula.c.begin());
-    low_nm_ = label((*range)[0] * kNmPerUm);
-    high_nm_ = label((*range)[1] * kNmPerUm);
+    low_nm_ = to_air_nm((*range)[0] * kNmPerUm);
+    high_nm_ = to_air_nm((*range)[1] * kNmPerUm);
     if (auto fault = range_fault(low_nm_, high_nm_)) return complain(block.where, std::move(*fault));
     if (auto fault = dispersion_fault(formula, low_nm_, high_nm_))
       return complain(block.where, std::move(*fault));
@@ -200,8 +201,8 @@ class EntryReader {
   }
 
   static std::string text(const Count& count) {
-    if (count.least == count.most) return std::to_string(count.least);
-    return fmt::format("{} to {}{}", count.least, count.most, count.step == 2 ? ", odd" : "");
+    if (count.min == count.max) return std::to_string(count.min);
+    return fmt::format("{} to {}{}", count.min, count.max, count.step == 2 ? ", odd" : "");
   }
 
   void read_table(const JsonValue& block, bool with_n, bool with_k) {
@@ -233,9 +234,9 @@ class EntryReader {
       complain(table.where, std::move(*fault));
   }
 
-  // The rows of a table's text; false after a complaint.
+  // Reads the rows of a table's text; false after an error.
   bool fill(Table& table, const std::string& data) {
-    // Only what stands as a literal block keeps its lines.
+    // Only a literal block of YAML preserves its lines.
     const bool literal = source_->text[table.where.offset] == '|';
     const std::string_view text = literal ? std::string_view(source_->text) : std::string_view(data);
     std::size_t line = literal ? text.find('\n', table.where.offset) + 1 : 0;
@@ -257,7 +258,8 @@ class EntryReader {
       if (!number) return false;
       if (cells.empty() && !(*number > 0))
         complain(at, fmt::format("expected a wavelength above 0 (got {})", word.text));
-      cells.push_back(cells.empty() ? fmt::format("{}", label(*number * kNmPerUm)) : std::string(word.text));
+      cells.push_back(cells.empty() ? fmt::format("{}", to_air_nm(*number * kNmPerUm))
+                                    : std::string(word.text));
     }
     if (cells.size() != table.columns.size()) {
       complain(at,
@@ -277,7 +279,7 @@ class EntryReader {
     return number;
   }
 
-  // The numbers of the scalar under `key`.
+  // The numbers in the scalar under `key`; empty after an error.
   std::optional<std::vector<double>> numbers(const JsonValue& block, std::string_view key) {
     const std::string* text = scalar(block, key);
     if (!text) {
@@ -293,8 +295,9 @@ class EntryReader {
     return numbers;
   }
 
-  // The label in standard air of a wavelength of the file; below 200 nm, where air absorbs, they are one.
-  double label(double nm) const { return vacuum_wavelengths_ && nm > 200 ? vacuum_to_air(nm) : nm; }
+  // Converts a wavelength of the file to one in standard air. Below 200 nm, where air absorbs, both are taken
+  // as equal.
+  double to_air_nm(double nm) const { return vacuum_wavelengths_ && nm > 200 ? vacuum_to_air(nm) : nm; }
 
   std::shared_ptr<const SourceText> source_;
   Diagnostics& diagnostics_;

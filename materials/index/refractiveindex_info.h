@@ -8,13 +8,16 @@
 
 namespace abbe {
 
-/// Reads a file of the refractiveindex.info database (`.yml`): of its DATA, one block that gives n ("formula
-/// 1" to "formula 9", "tabulated n", "tabulated nk") and perhaps another that gives k ("tabulated nk",
-/// "tabulated k"); REFERENCES and COMMENTS become the source; `n_is_absolute` and `wavelength_is_vacuum` of
-/// SPECS, CONDITIONS or PROPERTIES, or `n_absolute` and `wavelength_vacuum`, as earlier editions spell them,
-/// say what index and wavelengths refer to, air unless they do. Beyond its table k is held from the nearer
-/// end. Reports, as input errors at their place in the file, whatever is missing, no number, out of order,
-/// out of place or contradictory: nothing is guessed. [Polyanskiy2024]
+/// Reads a file of the refractiveindex.info database (`.yml`). [Polyanskiy2024]
+/// - DATA has one block that gives n ("formula 1" to "formula 9", "tabulated n", "tabulated nk") and
+///   optionally one that gives k ("tabulated nk", "tabulated k"). Outside its table k has the value at the
+///   nearer end.
+/// - REFERENCES and COMMENTS become the source.
+/// - `n_is_absolute` and `wavelength_is_vacuum` in SPECS, CONDITIONS or PROPERTIES declare the medium of
+///   index and wavelengths, which is air by default. Earlier editions spell them `n_absolute` and
+///   `wavelength_vacuum`.
+/// Anything missing, malformed, out of order, misplaced or contradictory is reported as an input error with
+/// its position; the result is then empty.
 [[nodiscard]] std::optional<NamedIndex> read_refractiveindex_info(const std::filesystem::path& path,
                                                                   Diagnostics& diagnostics);
 

@@ -9,11 +9,11 @@
 namespace abbe {
 namespace {
 
-// What `ask` says of the layers as met from one side. `material(i)` is n and k of material i; these, n, k and
-// the wavelength are relative to what is outside.
-template <typename Material, typename Ask>
-auto of_films(const Coating& coating, double wavelength_nm, double n, double k, double cos_i, bool inside,
-              Material material, Ask ask) {
+// Evaluates a quantity of the layers as seen from one side. `material(i)` is n + ik of material i. It, n, k
+// and the wavelength are relative to the medium outside.
+template <typename Material, typename Evaluate>
+auto eval_films(const Coating& coating, double wavelength_nm, double n, double k, double cos_i, bool inside,
+                Material material, Evaluate evaluate) {
   std::array<FilmLayer<double>, Coating::kMaxLayers> layers;
   const std::size_t count = coating.layers.size();
   const double n_i = inside ? n : 1;
@@ -22,19 +22,20 @@ auto of_films(const Coating& coating, double wavelength_nm, double n, double k, 
     const Complex<double> index = material(layer.material);
     layers[i] = {index.re / n_i, index.im / n_i, layer.thickness_nm / wavelength_nm * n_i};
   }
-  return ask(cos_i, std::span<const FilmLayer<double>>(layers.data(), count), inside ? 1 / n : n,
-             inside ? 0 : k);
+  return evaluate(cos_i, std::span<const FilmLayer<double>>(layers.data(), count), inside ? 1 / n : n,
+                  inside ? 0 : k);
 }
 
-// The same with all indices relative to air.
-template <typename Ask>
-auto of_coating(const Coating& coating, double wavelength_nm, double n, double k, double cos_i, bool inside,
-                double outside, Ask ask) {
+// Evaluates a quantity with all indices relative to air.
+template <typename Evaluate>
+auto eval_coating(const Coating& coating, double wavelength_nm, double n, double k, double cos_i, bool inside,
+                  double outside, Evaluate evaluate) {
   const auto material = [&](std::uint32_t i) {
     const RefractiveIndex& index = coating.materials[i].index;
     return Complex<double>{index.n(wavelength_nm) / outside, index.k(wavelength_nm) / outside};
   };
-  return of_films(coating, wavelength_nm / outside, n / outside, k / outside, cos_i, inside, material, ask);
+  return eval_films(coating, wavelength_nm / outside, n / outside, k / outside, cos_i, inside, material,
+                    evaluate);
 }
 
 constexpr auto kPower = [](auto... films) { return film_power<double>(films...); };
@@ -56,21 +57,21 @@ FresnelPower<double> coated_power(const Coating& coating, double wavelength_nm, 
     if (!inside && k > 0) return fresnel_conductor(cos_i, n / outside, k / outside);
     return fresnel_dielectric(cos_i, inside ? outside / n : n / outside);
   }
-  return of_coating(coating, wavelength_nm, n, k, cos_i, inside, outside, kPower);
+  return eval_coating(coating, wavelength_nm, n, k, cos_i, inside, outside, kPower);
 }
 
-MuellerBothWays<double> coated_mueller(const Coating& coating, double wavelength_nm, double n, double k,
-                                       double cos_i, bool inside, double outside) {
+InterfaceMueller<double> coated_mueller(const Coating& coating, double wavelength_nm, double n, double k,
+                                        double cos_i, bool inside, double outside) {
   if (coating.layers.empty()) {
     const double eta = inside ? outside / n : n / outside;
     return {reflection_mueller(cos_i, eta, inside ? 0.0 : k / outside), refraction_mueller(cos_i, eta)};
   }
-  return of_coating(coating, wavelength_nm, n, k, cos_i, inside, outside, kMueller);
+  return eval_coating(coating, wavelength_nm, n, k, cos_i, inside, outside, kMueller);
 }
 
 FilmReflection<double> coated_reflection(const Coating& coating, double wavelength_nm, double n, double k,
                                          double cos_i, bool inside, double outside) {
-  return of_coating(coating, wavelength_nm, n, k, cos_i, inside, outside, kReflection);
+  return eval_coating(coating, wavelength_nm, n, k, cos_i, inside, outside, kReflection);
 }
 
 CoatingAt::CoatingAt(const Coating& coating, const SampledSpectrum& wavelengths_nm,
@@ -84,18 +85,18 @@ CoatingAt::CoatingAt(const Coating& coating, const SampledSpectrum& wavelengths_
   if (outside != nullptr) wavelengths_nm_ = wavelengths_nm / outside->n(wavelengths_nm);
 }
 
-// In double: many layers wear out a float.
+// Rounding errors of many layers are too large in float, so the computation is in double.
 FresnelPower<float> CoatingAt::power(int lane, float n, float k, float cos_i, bool inside) const {
   const auto material = [&](std::uint32_t i) { return Complex<double>{n_[i][lane], k_[i][lane]}; };
   const FresnelPower<double> f =
-      of_films(coating_, wavelengths_nm_[lane], n, k, cos_i, inside, material, kPower);
+      eval_films(coating_, wavelengths_nm_[lane], n, k, cos_i, inside, material, kPower);
   return {narrow(f.Rs), narrow(f.Rp), narrow(f.Ts), narrow(f.Tp), narrow(f.cos_t)};
 }
 
-MuellerBothWays<float> CoatingAt::mueller(int lane, float n, float k, float cos_i, bool inside) const {
+InterfaceMueller<float> CoatingAt::mueller(int lane, float n, float k, float cos_i, bool inside) const {
   const auto material = [&](std::uint32_t i) { return Complex<double>{n_[i][lane], k_[i][lane]}; };
-  const MuellerBothWays<double> m =
-      of_films(coating_, wavelengths_nm_[lane], n, k, cos_i, inside, material, kMueller);
+  const InterfaceMueller<double> m =
+      eval_films(coating_, wavelengths_nm_[lane], n, k, cos_i, inside, material, kMueller);
   return {narrow(m.reflected), narrow(m.through)};
 }
 

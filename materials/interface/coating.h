@@ -11,13 +11,14 @@
 
 namespace abbe {
 
-/// Coherent layers on a smooth surface, from the outside inwards; none of them is the bare surface. Layers of
-/// one material share it.
+/// Coherent layers on a smooth surface, ordered from the outside inwards. Without layers the surface is bare.
+/// Layers of the same material refer to one entry of `materials`.
 struct Coating {
   struct Material {
     std::string index_name;
     RefractiveIndex index;
   };
+  /// A layer of `materials[material]`.
   struct Layer {
     std::uint32_t material;
     double thickness_nm;
@@ -29,36 +30,38 @@ struct Coating {
   std::vector<Layer> layers;
 };
 
-/// Reflectance and transmittance of the surface of matter of index n + ik under `coating`, for light from
-/// outside, or, when `inside`, from within matter of real index n. All indices are relative to air, that of
-/// the matter `outside` too.
+/// Reflectance and transmittance of the coated surface of a medium with index n + ik. Light arrives from
+/// outside or, if `inside` is true, from within a medium of real index n. All indices, including that of the
+/// medium `outside`, are relative to air.
 [[nodiscard]] FresnelPower<double> coated_power(const Coating& coating, double wavelength_nm, double n,
                                                 double k, double cos_i, bool inside, double outside = 1);
 
-/// What the same surface does to polarisation; light is let through to clear matter.
-[[nodiscard]] MuellerBothWays<double> coated_mueller(const Coating& coating, double wavelength_nm, double n,
-                                                     double k, double cos_i, bool inside, double outside = 1);
+/// Mueller matrices of the same surface. The matrix of transmission holds for a medium that does not absorb.
+[[nodiscard]] InterfaceMueller<double> coated_mueller(const Coating& coating, double wavelength_nm, double n,
+                                                      double k, double cos_i, bool inside,
+                                                      double outside = 1);
 
-/// Its amplitudes of reflection, with the signs of `FresnelAmplitudes`.
+/// Amplitude reflection coefficients of the same surface, with the signs of `FresnelAmplitudes`.
 [[nodiscard]] FilmReflection<double> coated_reflection(const Coating& coating, double wavelength_nm, double n,
                                                        double k, double cos_i, bool inside,
                                                        double outside = 1);
 
-/// A coating at the lanes of a packet: its indices are looked up once for all of them, relative to the matter
-/// `outside`, air if nullptr.
+/// A coating at the wavelengths of a packet. The constructor looks up its indices once for all wavelengths,
+/// relative to the medium `outside`, or to air if that is nullptr.
 class CoatingAt {
  public:
   CoatingAt(const Coating& coating, const SampledSpectrum& wavelengths_nm,
             const RefractiveIndex* outside = nullptr);
 
-  /// Reflectance and transmittance at one lane of matter of index n + ik, relative to what is outside.
+  /// Reflectance and transmittance at one wavelength for a medium of index n + ik, relative to the medium
+  /// outside.
   [[nodiscard]] FresnelPower<float> power(int lane, float n, float k, float cos_i, bool inside) const;
-  /// What the surface does to polarisation at one lane.
-  [[nodiscard]] MuellerBothWays<float> mueller(int lane, float n, float k, float cos_i, bool inside) const;
+  /// Mueller matrices of reflection and transmission at one wavelength.
+  [[nodiscard]] InterfaceMueller<float> mueller(int lane, float n, float k, float cos_i, bool inside) const;
 
  private:
   const Coating& coating_;
-  SampledSpectrum wavelengths_nm_;  // as they are outside
+  SampledSpectrum wavelengths_nm_;  // in the medium outside
   std::array<SampledSpectrum, Coating::kMaxMaterials> n_;
   std::array<SampledSpectrum, Coating::kMaxMaterials> k_;
 };

@@ -2,7 +2,8 @@
 
 namespace abbe {
 
-/// A complex number of any scalar; std::complex is for the built-in ones, and looks for NaN in every product.
+/// A complex number of any scalar type. std::complex supports the built-in types only and checks every
+/// product for NaN.
 template <typename T>
 struct Complex {
   T re, im;

@@ -4,7 +4,7 @@
 
 namespace abbe {
 
-/// How thick the films of coatings may be; nothing thicker is coherent.
+/// Allowed thickness of a thin film. Thicker layers are not coherent.
 inline constexpr Range kFilmThickness{0, 1e5, true, false, "nm"};
 
 }  // namespace abbe

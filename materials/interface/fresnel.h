@@ -9,34 +9,36 @@
 
 namespace abbe {
 
-/// Power reflectance and transmittance of a smooth interface for the two polarisations; R + T = 1.
+/// Power reflectance and transmittance of a smooth interface for s and p polarisation; R + T = 1.
 template <typename T>
 struct FresnelPower {
   T Rs, Rp;
   T Ts, Tp;
-  T cos_t;  ///< Cosine of the refracted angle; 0 on total reflection and for a conductor.
+  T cos_t;  ///< Cosine of the refracted angle; 0 for total internal reflection and for a conductor.
 
+  /// Reflectance for unpolarised light.
   [[nodiscard]] T R() const { return (Rs + Rp) * T(0.5); }
+  /// Transmittance for unpolarised light.
   [[nodiscard]] T transmitted() const { return (Ts + Tp) * T(0.5); }
 };
 
-/// Dielectric, eta = n_t/n_i > 0, cos_i in [0, 1]. T keeps its digits however small, and so does R.
-/// [Born1999, sec. 1.5]
+/// Fresnel power of a dielectric interface, eta = n_t/n_i > 0, cos_i in [0, 1]. R and T keep full relative
+/// precision however small they are. [Born1999, sec. 1.5]
 template <typename T>
 [[nodiscard]] FresnelPower<T> fresnel_dielectric(const T& cos_i, const T& eta);
 
-/// Conductor or absorbing medium, relative index eta + ik (k >= 0, absorbing when positive), cos_i in [0, 1];
-/// T holds the absorptance, what enters the medium. [Born1999, sec. 14.2]
+/// Fresnel power of a conductor or absorbing medium of relative index eta + ik, k >= 0, cos_i in [0, 1]. T is
+/// the absorptance, the power that enters the medium. [Born1999, sec. 14.2]
 template <typename T>
 [[nodiscard]] FresnelPower<T> fresnel_conductor(const T& cos_i, const T& eta, const T& k);
 
-/// The refracted wave's component along the normal, sqrt((eta + ik)^2 - sin_i^2), relative to the wave number
-/// of the medium of incidence; both its parts are 0 or more.
+/// Normal component of the refracted wave vector, sqrt((eta + ik)^2 - sin_i^2), divided by the wave number in
+/// the medium of incidence. Both parts are 0 or more.
 template <typename T>
 [[nodiscard]] Complex<T> normal_component(const T& cos_i, const T& eta, const T& k);
 
-/// Complex amplitude coefficients r_s, r_p, t_s, t_p for a relative index eta (Im eta > 0 absorbing); r_p and
-/// r_s have opposite signs at normal incidence, and fields go as exp(-i omega t).
+/// Complex amplitude coefficients for a relative index eta, Im eta > 0 if absorbing. r_p and r_s have
+/// opposite signs at normal incidence. Fields vary in time as exp(-i omega t).
 struct FresnelAmplitudes {
   std::complex<double> rs, rp, ts, tp;
 };
@@ -50,15 +52,15 @@ template <typename T>
 FresnelPower<T> fresnel_dielectric(const T& cos_i, const T& eta) {
   const T cos_t = refracted_cosine(cos_i, eta);
   if (!(cos_t > T(0))) return {T(1), T(1), T(0), T(0), T(0)};
-  // r_s = (c - eta ct)/(c + eta ct) and r_p = (eta c - ct)/(eta c + ct), multiplied out by their denominators
-  // so that what cancels in the numerators (all of r_s at eta = 1, r_p but for Brewster's zero) cancels on
-  // paper.
+  // r_s = (c - eta ct)/(c + eta ct) and r_p = (eta c - ct)/(eta c + ct), expanded by their denominators. The
+  // terms that would cancel in the numerators then cancel analytically. These are all of r_s at eta = 1, and
+  // r_p except for the zero at Brewster's angle.
   const T eta2_1 = (eta - T(1)) * (eta + T(1));
   const T s = cos_i + eta * cos_t;
   const T p = eta * cos_i + cos_t;
   const T rs = eta2_1 / s / s;
-  // (eta cos_i)^2 - sin_i^2, which vanishes at Brewster's angle; close to that is the critical angle of a
-  // small eta, where r_p is large again.
+  // (eta cos_i)^2 - sin_i^2 vanishes at Brewster's angle. For small eta the critical angle, at which r_p is
+  // large again, is close to it.
   using W = typename Wider<T>::type;
   const W c_w(cos_i);
   const W eta_w(eta);
@@ -76,8 +78,8 @@ template <typename T>
 Complex<T> normal_component(const T& cos_i, const T& eta, const T& k) {
   using std::sqrt;
   using W = typename Wider<T>::type;
-  // a + ib = sqrt(z), z = (eta + ik)^2 - sin_i^2: the larger of a, b by a sum, the other from their product
-  // eta k.
+  // a + ib = sqrt(z), z = (eta + ik)^2 - sin_i^2. The larger of a and b comes from a sum, the other from
+  // their product eta k.
   const W c_w(cos_i);
   const T re = T((W(eta) - W(k)) * (W(eta) + W(k)) - (W(1) - c_w) * (W(1) + c_w));
   const T half_im = eta * k;
@@ -95,12 +97,13 @@ FresnelPower<T> fresnel_conductor(const T& cos_i, const T& eta, const T& k) {
   const T& c = cos_i;
   const T sin2 = (T(1) - c) * (T(1) + c);
   const T s = (a + c) * (a + c) + b * b;
-  // Of the perfect mirror, n = k = 0, p would vanish along the normal, where the polarisations are one.
-  const T least(std::numeric_limits<float>::min());
-  const T p = (a * c + sin2) * (a * c + sin2) + b * c * (b * c) + least;
+  // Without `tiny`, p would vanish along the normal for the perfect mirror n = k = 0, where s and p do not
+  // differ.
+  const T tiny(std::numeric_limits<float>::min());
+  const T p = (a * c + sin2) * (a * c + sin2) + b * c * (b * c) + tiny;
   const T Rs = ((a - c) * (a - c) + b * b) / s;
   const T As = T(4) * a * c / s;
-  const T ratio = ((a * c - sin2) * (a * c - sin2) + b * c * (b * c) + least) / p;
+  const T ratio = ((a * c - sin2) * (a * c - sin2) + b * c * (b * c) + tiny) / p;
   return {Rs, Rs * ratio, As, As + T(4) * Rs * a * c * sin2 / p, T(0)};
 }
 

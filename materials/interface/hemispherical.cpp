@@ -9,7 +9,7 @@
 namespace abbe {
 
 double diffuse_reflectance_outside(double eta) {
-  // Near 1 the terms below are as large as 1/(eta - 1)^2 and cancel: their limit takes over.
+  // Near 1 the terms below are as large as 1/(eta - 1)^2 and cancel, so their limit is used.
   if (eta < 1 + 1e-4) return (eta - 1) / 3;
   const double n2 = eta * eta;
   const double n4 = n2 * n2;

@@ -9,19 +9,20 @@
 
 namespace abbe {
 
-/// Surfaces of less roughness than this are smooth: their lobes are narrower than what floats and pixels
-/// tell apart.
-inline constexpr double kLeastAlpha = 1e-3;
+/// Surfaces of lower roughness are treated as smooth: their lobes are narrower than float precision and
+/// pixels can resolve.
+inline constexpr double kMinAlpha = 1e-3;
 
-/// The widths of slopes along the two axes are at most this many times apart: what is scattered more than
-/// once is tabulated too coarsely for more.
-inline constexpr double kMostStretch = 20;
+/// Largest ratio of the roughness along the two axes. The tables of multiple scattering are too coarse for a
+/// larger one.
+inline constexpr double kMaxAlphaRatio = 20;
 
+/// The distribution of slopes: GGX (Trowbridge-Reitz) or Beckmann.
 enum class FacetShape { ggx, beckmann };
 
-/// A rough surface as facets whose slopes along x and y have the widths alpha_x and alpha_y, in
-/// [kLeastAlpha, 1], under Smith's assumption that heights and slopes are independent. Directions are local:
-/// z along the normal, away from the surface; facets are named by their normal h, h.z > 0.
+/// A microfacet surface whose slopes along x and y have widths alpha_x and alpha_y in [kMinAlpha, 1]. Smith's
+/// assumption holds: heights and slopes are independent. Directions are local: z points along the normal,
+/// away from the surface. A facet is given by its normal h, h.z > 0.
 template <typename T>
 struct Microfacets {
   using Vec = Imath::Vec3<T>;
@@ -29,38 +30,40 @@ struct Microfacets {
   FacetShape shape = FacetShape::ggx;
   T alpha_x, alpha_y;
 
-  /// Whether x and y differ, so that it matters which way they lie.
+  /// True if the surface is anisotropic.
   [[nodiscard]] bool brushed() const { return alpha_x != alpha_y; }
 
-  /// Area of the facets of normal h per area of the surface [1/sr]: the integral of D h.z is 1. h may have
-  /// any length. [Walter2007, eq. 25 and 33]
+  /// Normal distribution: area of the facets of normal h per surface area [1/sr]. The integral of D h.z is 1.
+  /// h may have any length. [Walter2007, eq. 25 and 33]
   [[nodiscard]] T D(const Vec& h) const;
-  /// Area that hides facets from w for each that is seen, on either side. [Heitz2014, sec. 5]
+  /// Smith's Lambda: masked area per visible area of the facets that face w, on either side of the surface.
+  /// [Heitz2014, sec. 5]
   [[nodiscard]] T lambda(const Vec& w) const;
-  /// Share of the facets facing w that w sees.
+  /// Fraction of the facets facing w that are visible from w.
   [[nodiscard]] T G1(const Vec& w) const { return 1 / (1 + lambda(w)); }
-  /// Density of the facets as w sees them, w.z > 0 [1/sr]. [Heitz2014b]
+  /// Distribution of normals visible from w, w.z > 0 [1/sr]. [Heitz2014b]
   [[nodiscard]] T visible(const Vec& w, const Vec& h) const {
     return G1(w) * std::max(T(0), w.dot(h)) * D(h) / w.z;
   }
-  /// A facet drawn with that density from u in [0, 1)^2.
+  /// Samples a normal from `visible` with u in [0, 1)^2.
   [[nodiscard]] Vec sample_visible(const Vec& w, const Imath::Vec2<T>& u) const;
-  /// The width of slopes along the azimuth of w, times the sine of its angle.
+  /// Width of the slopes along the azimuth of w, times the sine of the polar angle of w.
   [[nodiscard]] T projected_alpha(const Vec& w) const {
     return std::sqrt(alpha_x * w.x * (alpha_x * w.x) + alpha_y * w.y * (alpha_y * w.y));
   }
 };
 
-/// The slope below which lies the share u of normal slopes (of density exp(-s^2)/sqrt(pi)) that are seen at
-/// an angle of tangent k >= 0, each weighed by 1 - k s. [Heitz2014b]
+/// Inverts the distribution of visible slopes. Slopes s are distributed as exp(-s^2)/sqrt(pi), weighted by
+/// max(0, 1 - k s), where k >= 0 is the tangent of the viewing angle. Returns the slope at the cumulative
+/// probability u. [Heitz2014b]
 [[nodiscard]] inline double visible_slope(double u, double k) {
-  constexpr double kReach = 6;  // the slopes beyond are fewer than a float can ask for
+  constexpr double kMaxSlope = 6;  // larger slopes are too rare for a float u
   constexpr double kRootPi = 1 / std::numbers::inv_sqrtpi;
   const auto below = [k](double s) { return (std::erfc(-s) + k * std::exp(-s * s) / kRootPi) / 2; };
-  double low = -kReach;
-  double high = k * kReach > 1 ? 1 / k : kReach;
+  double low = -kMaxSlope;
+  double high = k * kMaxSlope > 1 ? 1 / k : kMaxSlope;
   const double target = u * below(high);
-  // The error function's inverse to 2e-3 [Winitzki2008], then Newton's steps within the bracket.
+  // The inverse error function to 2e-3 [Winitzki2008] is the start of Newton's method, limited to a bracket.
   const double log = std::log(std::max(4 * u * (1 - u), 1e-12));
   const double half = 2 / (std::numbers::pi * 0.147) + log / 2;
   const double start = std::copysign(std::sqrt(std::sqrt(half * half - log / 0.147) - half), u - 0.5);
@@ -104,12 +107,13 @@ T Microfacets<T>::lambda(const Vec& w) const {
 
 template <typename T>
 typename Microfacets<T>::Vec Microfacets<T>::sample_visible(const Vec& w, const Imath::Vec2<T>& u) const {
-  // Scaled so that the slopes have width 1, drawn there, and scaled back.
+  // Scale so that the slopes have width 1, sample there, and scale back.
   const Vec scaled = Vec(alpha_x * w.x, alpha_y * w.y, w.z).normalized();
   if (shape == FacetShape::ggx) {
-    // Halfway between w and a direction spread evenly over what a hemisphere of mirrors sends w [Dupuy2023].
+    // The normal is halfway between w and a direction that is uniform over the reflections of w by a
+    // hemisphere of mirrors [Dupuy2023].
     const T phi = 2 * std::numbers::pi_v<T> * u.x;
-    const T z = (1 - u.y) * (1 + scaled.z);  // of the sum; in [0, 1 + w.z]
+    const T z = (1 - u.y) * (1 + scaled.z);  // component of the sum of both directions, in [0, 1 + w.z]
     const T cap_z = z - scaled.z;
     const T radius = std::sqrt(std::max(T(0), (1 - cap_z) * (1 + cap_z)));
     return Vec(alpha_x * (scaled.x + radius * std::cos(phi)), alpha_y * (scaled.y + radius * std::sin(phi)),

@@ -7,7 +7,7 @@
 
 #include "materials/interface/complex.h"
 #include "materials/interface/quotient.h"
-#include "spectral/packet.h"
+#include "spectral/sampled_spectrum.h"
 
 namespace abbe {
 
@@ -17,18 +17,18 @@ struct MuellerElements {
   T d{0}, p{1}, c{1}, s{0};
 };
 
-/// The elements of what reflects, and of what lets through.
+/// Mueller elements of reflection and of transmission.
 template <typename T>
-struct MuellerBothWays {
+struct InterfaceMueller {
   MuellerElements<T> reflected, through;
 };
 
-/// What reflects both polarisations alike, with the signs that reflection has along the normal.
+/// An ideal mirror: it reflects s and p equally, with the signs of reflection along the normal.
 template <typename T>
 inline constexpr MuellerElements<T> kIdealMirror{T(0), T(1), T(-1), T(0)};
 
-/// Of light that has the powers `S` and `P` across the plane of incidence and in it, and the mean `sp` of s
-/// p* over whatever adds up without interference; the identity where nothing is left.
+/// Elements from the powers `S` and `P` perpendicular to the plane of incidence and in it. `sp` is the mean
+/// of s p* over all contributions that add without interference. Returns the identity if the power is zero.
 template <typename T>
 [[nodiscard]] MuellerElements<T> mueller_elements(const T& S, const T& P, const Complex<T>& sp) {
   const T sum = S + P;
@@ -36,8 +36,8 @@ template <typename T>
   return {(S - P) / sum, T(1), T(2) * sp.re / sum, T(2) * sp.im / sum};
 }
 
-/// The mean of the matrices about one axis of what sends light the same way, by the power that each sends of
-/// unpolarised light. The elements of a sum of no power are 0, as of what depolarises.
+/// Mean of matrices about one axis, weighted by the power that each contributes for unpolarised light. If the
+/// total power is 0, all elements are 0, as for a depolariser.
 template <typename T>
 class MuellerMean {
  public:
@@ -48,9 +48,10 @@ class MuellerMean {
     sum_.s += power * part.s;
     add_unpolarised(power);
   }
-  /// A part that depolarises.
+  /// Adds a contribution that depolarises.
   void add_unpolarised(const T& power) { power_ += power; }
 
+  /// The weighted mean of all contributions.
   [[nodiscard]] MuellerElements<T> mean() const {
     return {quotient(sum_.d, power_), quotient(sum_.p, power_), quotient(sum_.c, power_),
             quotient(sum_.s, power_)};
@@ -61,20 +62,20 @@ class MuellerMean {
   T power_{0};
 };
 
-/// What an event does to polarised light over what it does to unpolarised light, lane by lane: Mueller's
-/// matrix over its first element,
+/// Normalised Mueller matrix of an event at each wavelength, divided by its first element:
 ///     1 d 0  0
 ///     d p 0  0
 ///     0 0 c -s
-///     0 0 s  c,
-/// for light that arrives and leaves with Stokes vectors (I, Q, U, V) in frames of one common first axis, a
-/// unit vector perpendicular to both directions; the second axis of each is k x axis, k being the unit vector
-/// along which the light travels. `docs/physics/conventions.md` says what the signs mean. Nothing in it
-/// depends on which of its two ways the light takes. All that is isotropic about the plane of its directions
-/// has this form: interfaces with d = (S - P)/(S + P) and c + is = 2 s p*/(S + P) for the amplitudes s, p of
-/// the fields across the plane of incidence, along the axis, and in it, and their powers S, P [Born1999,
-/// sec. 1.5]; so have polarisers and retarders about their own axis. p is 1, and d^2 + c^2 + s^2 too, where
-/// nothing is depolarised.
+///     0 0 s  c.
+/// The Stokes vectors (I, Q, U, V) of the arriving and the leaving light use frames with a common first axis.
+/// It is a unit vector perpendicular to both directions. The second axis is k x axis, where the unit vector k
+/// is the direction of travel. `docs/physics/conventions.md` defines the signs. The matrix is the same for
+/// both directions of travel along the path.
+///
+/// Every event that is symmetric about the plane of its directions has this form. Let an interface have the
+/// amplitudes s and p for fields perpendicular to the plane of incidence (along the axis) and in it, and the
+/// powers S and P. Then d = (S - P)/(S + P) and c + is = 2 s p*/(S + P) [Born1999, sec. 1.5]. Polarisers and
+/// retarders have it about their own axis. Without depolarisation p = 1 and d^2 + c^2 + s^2 = 1.
 struct MuellerMatrix {
   Imath::V3f axis;
   SampledSpectrum d{};
@@ -83,7 +84,7 @@ struct MuellerMatrix {
   SampledSpectrum s{};
 };
 
-/// The matrix about `axis` whose elements at each lane are `elements(lane)`.
+/// The matrix about `axis` with `elements(lane)` at each wavelength sample.
 template <std::invocable<int> F>
 [[nodiscard]] MuellerMatrix mueller_of_lanes(const Imath::V3f& axis, F elements) {
   SampledSpectrum::Values d, p, c, s;
@@ -98,7 +99,8 @@ template <std::invocable<int> F>
   return {axis, SampledSpectrum(d), SampledSpectrum(p), SampledSpectrum(c), SampledSpectrum(s)};
 }
 
-/// A unit vector perpendicular to both of two unit vectors; to the first where they are parallel.
+/// A unit vector perpendicular to two unit vectors; if they are parallel, any vector perpendicular to the
+/// first.
 [[nodiscard]] Imath::V3d across(const Imath::V3d& a, const Imath::V3d& b);
 [[nodiscard]] inline Imath::V3f across(const Imath::V3f& a, const Imath::V3f& b) {
   return Imath::V3f(across(Imath::V3d(a), Imath::V3d(b)));

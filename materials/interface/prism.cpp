@@ -10,7 +10,7 @@ namespace abbe {
 std::optional<PrismPassage> prism_passage(double n, double apex_deg, double incidence_deg) {
   const double sin_i = std::sin(incidence_deg * kDegree);
   const double r = std::asin(sin_i / n);
-  const double inside = apex_deg * kDegree - r;  // angle on the second face
+  const double inside = apex_deg * kDegree - r;  // angle of incidence on the second face
   const double sin_e = n * std::sin(inside);
   if (!(std::abs(sin_e) < 1) || !(std::cos(inside) > 0)) return std::nullopt;
   const FresnelPower<double> in = fresnel_dielectric(std::cos(incidence_deg * kDegree), n);

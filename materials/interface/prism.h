@@ -4,21 +4,20 @@
 
 namespace abbe {
 
-/// The straight way of a ray through a prism in its principal section: refracted at two faces, without
-/// reflections between them.
+/// A ray through a prism in its principal section, refracted at two faces without internal reflections.
 struct PrismPassage {
-  double incidence_deg;  ///< At the first face, positive on the side of its normal away from the apex.
-  double deviation_deg;  ///< Towards the base.
-  double Ts, Tp;         ///< Transmittance of both faces together.
+  double incidence_deg;  ///< At the first face; positive if the ray arrives from the side of the base.
+  double deviation_deg;  ///< Positive towards the base.
+  double Ts, Tp;         ///< Product of the transmittances of both faces.
 };
 
-/// The passage at an incidence in (-90, 90) degrees through a prism of apex angle in (0, 180) degrees and
-/// index `n` relative to what surrounds it. Nothing where the second face reflects totally. deviation = i + e
-/// - A, sin i = n sin r, sin e = n sin(A - r) [Born1999, sec. 4.7.2].
+/// Passage through a prism. The incidence is in (-90, 90) degrees, the apex angle in (0, 180) degrees. `n` is
+/// the index relative to the surrounding medium. deviation = i + e - A, sin i = n sin r, sin e = n sin(A - r)
+/// [Born1999, sec. 4.7.2]. Empty if the second face reflects totally.
 [[nodiscard]] std::optional<PrismPassage> prism_passage(double n, double apex_deg, double incidence_deg);
 
-/// The symmetric passage, which deviates least: i = asin(n sin(A/2)), deviation = 2i - A [Born1999,
-/// sec. 4.7.2]. Nothing when n sin(A/2) >= 1.
+/// Passage of minimum deviation, which is symmetric: i = asin(n sin(A/2)), deviation = 2i - A [Born1999, sec.
+/// 4.7.2]. Empty if n sin(A/2) >= 1.
 [[nodiscard]] std::optional<PrismPassage> prism_minimum(double n, double apex_deg);
 
 }  // namespace abbe

@@ -2,11 +2,11 @@
 
 #include <concepts>
 
-#include "spectral/packet.h"
+#include "spectral/sampled_spectrum.h"
 
 namespace abbe {
 
-/// a/b, and 0 where b is not above 0: the share of a part in a whole that may be nothing.
+/// a/b, or 0 if b is not positive, as for a fraction of a total that may be zero.
 template <std::floating_point T>
 [[nodiscard]] T quotient(T a, T b) {
   return b > 0 ? a / b : T(0);

@@ -13,19 +13,19 @@ template <typename T>
   return n * (2 * wo.dot(n)) - wo;
 }
 
-/// Cosine of the refracted angle for cos_i in [0, 1] and eta = n_t/n_i; 0 on total reflection. Exactly cos_i
-/// for eta = 1.
+/// Cosine of the refracted angle for cos_i in [0, 1] and eta = n_t/n_i; 0 for total internal reflection. It
+/// is exactly cos_i for eta = 1.
 template <typename T>
 [[nodiscard]] T refracted_cosine(const T& cos_i, const T& eta);
 
-/// Direction of the refracted ray, away from the surface on the other side of `n` than `wo`; eta = n_t/n_i,
-/// n.wo > 0. Nothing on total reflection. [Marschner2021, sec. 14.1]
+/// Direction of the refracted ray, pointing away from the surface on the side opposite to `wo`; eta =
+/// n_t/n_i, n.wo > 0. Empty for total internal reflection. [Marschner2021, sec. 14.1]
 template <typename T>
 [[nodiscard]] std::optional<Imath::Vec3<T>> refract(const Imath::Vec3<T>& wo, const Imath::Vec3<T>& n,
                                                     const T& eta);
 
-/// The type to subtract nearly equal squares in: the next wider one, or T itself where there is none (dual
-/// numbers).
+/// The type in which to subtract nearly equal squares: the next wider type, or T itself if there is none
+/// (dual numbers).
 template <typename T>
 struct Wider {
   using type = T;
@@ -39,8 +39,8 @@ struct Wider<double> {
   using type = long double;
 };
 
-/// (eta cos_t)^2 = eta^2 - sin_i^2, rounded only after its parts have cancelled: it vanishes at the critical
-/// angle, where half of its lost digits would be lost to cos_t.
+/// (eta cos_t)^2 = eta^2 - sin_i^2, rounded only after its terms have cancelled. It vanishes at the critical
+/// angle, and cos_t would lose half as many digits as the radicand.
 template <typename T>
 [[nodiscard]] auto refraction_radicand(const T& cos_i, const T& eta) {
   using W = typename Wider<T>::type;
@@ -49,8 +49,8 @@ template <typename T>
   return (e - W(1)) * (e + W(1)) + c * c;
 }
 
-/// The radicand of the cosine of refraction for doubles, whose squares do not fit a long double: cut in heads
-/// of 24 bits and tails.
+/// The radicand for doubles. The squares of doubles do not fit a long double, so each is split into a head of
+/// 24 bits and a tail.
 [[nodiscard]] inline long double refraction_radicand(double cos_i, double eta) {
   const long double c = static_cast<float>(cos_i);
   const long double e = static_cast<float>(eta);
@@ -59,8 +59,8 @@ template <typename T>
   return ((e - 1) * (e + 1) + c * c) + 2 * (e * e_tail + c * c_tail) + (e_tail * e_tail + c_tail * c_tail);
 }
 
-/// The one of two numbers that a condition tells. Types that stand for several numbers choose lane by lane,
-/// by a function of this name beside them.
+/// `yes` if `which` is true, else `no`. Types that hold several numbers overload this function element by
+/// element.
 template <typename T>
 [[nodiscard]] T select(bool which, const T& yes, const T& no) {
   return which ? yes : no;

@@ -6,23 +6,24 @@
 
 namespace abbe {
 
-/// A sheet of clear or tinted matter with the same outside on both sides, hit at cos_i in [0, 1]: `eta` is
-/// its index relative to the outside, `depth` the -ln a of the passage along its normal. The reflections
-/// between its faces are summed without interference, s and p apart,
+/// Reflectance and transmittance of a plane sheet with the same medium on both sides, cos_i in [0, 1]. The
+/// sheet is transparent or absorbs. `eta` is its index relative to the medium outside, `depth` its optical
+/// depth -ln a along the normal. The reflections between the faces add up without interference, for s and p
+/// separately:
 ///
 ///   R = r + t^2 r a^2/(1 - r^2 a^2),  T = t^2 a/(1 - r^2 a^2),
 ///
-/// with r + t = 1 of one face and a what is left after one passage inside. What passes goes straight on.
-/// [Stokes1862]
+/// where r + t = 1 at one face, and a is the transmittance of one passage inside. Transmitted light is not
+/// deflected. [Stokes1862]
 template <typename T>
 [[nodiscard]] FresnelPower<T> sheet_power(const T& cos_i, const T& eta, const T& depth);
 
-/// What it does to polarisation: r_s r_p* and t_s t_p* of the faces add up as their powers do, since each
-/// order is a passage of its own.
+/// Mueller matrices of the same sheet. The products r_s r_p* and t_s t_p* of the faces add up like their
+/// powers, because the orders do not interfere.
 template <typename T>
-[[nodiscard]] MuellerBothWays<T> sheet_mueller(const T& cos_i, const T& eta, const T& depth);
+[[nodiscard]] InterfaceMueller<T> sheet_mueller(const T& cos_i, const T& eta, const T& depth);
 
-/// R and T of the sheet, by r and t of its faces and a of the passage.
+/// R and T of the sheet from r and t of its faces and the transmittance a of one passage.
 template <typename T>
 struct SheetOrders {
   T reflected, passed;
@@ -44,7 +45,7 @@ FresnelPower<T> sheet_power(const T& cos_i, const T& eta, const T& depth) {
 }
 
 template <typename T>
-MuellerBothWays<T> sheet_mueller(const T& cos_i, const T& eta, const T& depth) {
+InterfaceMueller<T> sheet_mueller(const T& cos_i, const T& eta, const T& depth) {
   using std::exp;
   using std::sqrt;
   const FresnelPower<T> f = fresnel_dielectric(cos_i, eta);

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// A line in the grid's own coordinates, in which nodes have whole numbers, and the cell it is in.
+// A ray in grid coordinates, in which nodes are at integers, with its current cell.
 class GridLine {
  public:
   GridLine(const PlacedGrid& placed, const Imath::V3d& origin, const Imath::V3d& direction)
@@ -21,7 +21,7 @@ class GridLine {
     }
   }
 
-  // Shortens [t, end] to what lies within the grid: whether anything does.
+  // Clips [t, end] to the grid; false if nothing is left.
   bool clip(double& t, double& end) const {
     for (int axis = 0; axis < 3; ++axis) {
       const double last = nodes(axis) - 1;
@@ -45,9 +45,9 @@ class GridLine {
     }
     load();
   }
-  // Where the line leaves the cell.
+  // The ray parameter at which the ray leaves the cell.
   [[nodiscard]] double leaves() const { return leaves_[next_axis_]; }
-  // Into the cell after; false outside the grid.
+  // Moves to the next cell; false outside the grid.
   bool step() {
     const int axis = next_axis_;
     cell_[axis] += slope_[axis] > 0 ? 1 : -1;
@@ -57,12 +57,12 @@ class GridLine {
     return true;
   }
 
-  // Rounding takes it no further than 0: b - a is rounded to no less than -a, where both are 0 or more.
+  // Rounding cannot make the result negative: b - a is rounded to no less than -a if both are 0 or more.
   [[nodiscard]] double density(double t) const {
     Imath::V3d f;
     for (int axis = 0; axis < 3; ++axis)
       f[axis] = std::min(std::max(start_in_cell_[axis] + t * slope_[axis], 0.0), 1.0);
-    const auto between = [](double a, double b, double share) { return a + share * (b - a); };
+    const auto between = [](double a, double b, double fraction) { return a + fraction * (b - a); };
     std::array<double, 4> rows{};
     for (std::size_t i = 0; i < rows.size(); ++i) rows[i] = low_x_[i] + f.x * rise_x_[i];
     return between(between(rows[0], rows[1], f.y), between(rows[2], rows[3], f.y), f.z);
@@ -95,19 +95,19 @@ class GridLine {
   Imath::V3i cell_{0, 0, 0};
   Imath::V3d start_in_cell_{0, 0, 0};
   Imath::V3d leaves_{0, 0, 0};
-  int next_axis_ = 0;  // across which it leaves
-  // Densities at the ends of the cell with the lower x, y running faster than z, and by how much those at the
-  // other ends are above them.
+  int next_axis_ = 0;  // the axis along which the ray leaves the cell
+  // Densities at the cell corners of lower x, with y running faster than z, and their increase towards higher
+  // x.
   std::array<double, 4> low_x_{};
   std::array<double, 4> rise_x_{};
 };
 
-double simpson(double length, double first, double middle, double last) {
-  return length / 6 * (first + 4 * middle + last);
+double simpson(double length, double first, double center, double last) {
+  return length / 6 * (first + 4 * center + last);
 }
 
-// Where within [a, b] of one cell the integral from a is `column`: Newton's steps, halving where they leave
-// the bracket.
+// The parameter in [a, b], within one cell, at which the integral of density from a is `column`: Newton's
+// method, with bisection outside its bracket.
 double solve(const GridLine& line, double a, double b, double column) {
   const double at_a = line.density(a);
   double low = a;
@@ -127,7 +127,7 @@ double solve(const GridLine& line, double a, double b, double column) {
 
 }  // namespace
 
-GridStretch PlacedGrid::march(const Imath::V3d& origin, const Imath::V3d& direction, float distance,
+GridSegment PlacedGrid::march(const Imath::V3d& origin, const Imath::V3d& direction, float distance,
                               float column) const {
   GridLine line(*this, origin, direction);
   double t = 0;

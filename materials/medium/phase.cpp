@@ -8,14 +8,14 @@
 namespace abbe {
 namespace {
 
-// Densities are functions of 1 - cos, which keeps its digits at the narrowest of turns; `versine` here and
-// below. Turns by an obtuse angle count theirs from the opposite direction where that is the sharper end.
+// Pdfs are functions of the versine 1 - cos, which stays accurate for the smallest deflections. Phase
+// functions that peak backwards measure it from the opposite direction.
 
 float density(const IsotropicPhase& /*phase*/, float /*versine*/) {
   return 1 / (4 * std::numbers::pi_v<float>);
 }
 
-// (1 - g^2)/(4 pi (1 + g^2 - 2 g cos)^(3/2)), whose bracket is (1 - g)^2 + 2 g (1 - cos).
+// The pdf (1 - g^2)/(4 pi (1 + g^2 - 2 g cos)^(3/2)), whose bracket is (1 - g)^2 + 2 g (1 - cos).
 float density(const HenyeyGreensteinPhase& phase, float versine) {
   const float g = std::abs(phase.g);
   const float squared = (1 - g) * (1 - g) + 2 * g * versine;
@@ -31,35 +31,35 @@ float draw_versine(const IsotropicPhase& /*phase*/, float u) {
   return 2 * u;
 }
 
-// The cumulative distribution solved for 1 - cos, without the difference that loses it for |g| near 1.
+// The inverse cumulative distribution, solved for 1 - cos. It has no cancellation for |g| near 1.
 float draw_versine(const HenyeyGreensteinPhase& phase, float u) {
   const float g = std::abs(phase.g);
   const float d = 1 - g + 2 * g * (1 - u);
   return 2 * (1 - g) * (1 - g) * u * (1 + g * (1 - u)) / (d * d);
 }
 
-// cos^3 + 3 cos = 2 q with q in [-2, 2), whose one real root is 2 sinh(asinh(q)/3).
+// The equation cos^3 + 3 cos = 2 q, q in [-2, 2), has one real root, 2 sinh(asinh(q)/3).
 float draw_versine(const RayleighPhase& /*phase*/, float u) {
   return 1 - 2 * std::sinh(std::asinh(2 - 4 * u) / 3);
 }
 
-bool turns_back(const IsotropicPhase& /*phase*/) {
+bool is_backward(const IsotropicPhase& /*phase*/) {
   return false;
 }
-bool turns_back(const HenyeyGreensteinPhase& phase) {
+bool is_backward(const HenyeyGreensteinPhase& phase) {
   return phase.g < 0;
 }
-bool turns_back(const RayleighPhase& /*phase*/) {
+bool is_backward(const RayleighPhase& /*phase*/) {
   return false;
 }
 
-// What each phase function has: a density and the distribution solved for 1 - cos, and whether both count
-// from the opposite direction.
+// Interface of the phase functions: the pdf, the inverse cumulative distribution, and true if both measure
+// the versine from the opposite direction.
 template <typename Phase>
 concept PhaseModel = requires(const Phase& phase, float x) {
   { density(phase, x) } -> std::same_as<float>;
   { draw_versine(phase, x) } -> std::same_as<float>;
-  { turns_back(phase) } -> std::same_as<bool>;
+  { is_backward(phase) } -> std::same_as<bool>;
 };
 template <typename List>
 constexpr bool kAllPhaseModels = false;
@@ -67,8 +67,8 @@ template <typename... Phases>
 constexpr bool kAllPhaseModels<std::variant<Phases...>> = (PhaseModel<Phases> && ...);
 static_assert(kAllPhaseModels<PhaseFunction>);
 
-bool turns_back(const PhaseFunction& phase) {
-  return std::visit([](const auto& p) { return turns_back(p); }, phase);
+bool is_backward(const PhaseFunction& phase) {
+  return std::visit([](const auto& p) { return is_backward(p); }, phase);
 }
 
 }  // namespace
@@ -78,16 +78,16 @@ PhaseSample sample(const PhaseFunction& phase, const Imath::V2f& u) {
   const float pdf = std::visit([versine](const auto& p) { return density(p, versine); }, phase);
   const float sine = std::sqrt(std::max(0.0F, versine * (2 - versine)));
   const float phi = 2 * std::numbers::pi_v<float> * u.y;
-  return {{sine * std::cos(phi), sine * std::sin(phi), turns_back(phase) ? versine - 1 : 1 - versine}, pdf};
+  return {{sine * std::cos(phi), sine * std::sin(phi), is_backward(phase) ? versine - 1 : 1 - versine}, pdf};
 }
 
 float pdf(const PhaseFunction& phase, const Imath::V3f& from, const Imath::V3f& to) {
-  const float versine = (turns_back(phase) ? from + to : from - to).length2() / 2;
+  const float versine = (is_backward(phase) ? from + to : from - to).length2() / 2;
   return std::visit([versine](const auto& p) { return density(p, versine); }, phase);
 }
 
-// Fields across the plane of both directions scatter alike into all of it, those in it by the cosine.
-// [Chandrasekhar1960, sec. 16]
+// Fields perpendicular to the scattering plane scatter equally into all directions of it, fields in the plane
+// in proportion to the cosine. [Chandrasekhar1960, sec. 16]
 std::optional<MuellerMatrix> mueller(const PhaseFunction& phase, const Imath::V3f& from,
                                      const Imath::V3f& to) {
   if (!std::holds_alternative<RayleighPhase>(phase)) return std::nullopt;

@@ -9,35 +9,35 @@
 
 namespace abbe {
 
-/// How matter scatters light: the density of the new direction over the sphere [1/sr], the same for all
-/// wavelengths.
+/// Phase functions: the pdf of the scattered direction over the sphere [1/sr], the same for all wavelengths.
 
-/// Scatters into all directions alike.
+/// Isotropic scattering.
 struct IsotropicPhase {};
-/// Forwards for g > 0, backwards for g < 0; g in (-1, 1) is the mean cosine of the angle turned by.
-/// [HenyeyGreenstein1941, eq. 2]
+/// The Henyey-Greenstein phase function. g in (-1, 1) is the mean cosine of the deflection: g > 0 scatters
+/// forwards, g < 0 backwards. [HenyeyGreenstein1941, eq. 2]
 struct HenyeyGreensteinPhase {
   float g;
 };
-/// Scattering by what is small against the wavelength: 3/(16 pi) (1 + cos^2). [Chandrasekhar1960, sec. 3]
+/// Rayleigh scattering by particles small against the wavelength: 3/(16 pi) (1 + cos^2). [Chandrasekhar1960,
+/// sec. 3]
 struct RayleighPhase {};
 
-/// The closed list.
+/// The closed list of phase functions.
 using PhaseFunction = std::variant<IsotropicPhase, HenyeyGreensteinPhase, RayleighPhase>;
 
-/// A drawn direction, z along the way light came, and its density [1/sr].
+/// A sampled direction in a frame with z along the direction of the arriving light, and its pdf [1/sr].
 struct PhaseSample {
   Imath::V3f direction;
   float pdf;
 };
-/// Drawn exactly by the phase function, so that scattering keeps the lanes as they are. `u` in [0, 1)^2.
+/// Samples exactly from the phase function, so the throughput is unchanged. `u` is in [0, 1)^2.
 [[nodiscard]] PhaseSample sample(const PhaseFunction& phase, const Imath::V2f& u);
 
-/// Density with which light that travels along the unit vector `from` is turned to the unit vector `to`
-/// [1/sr].
+/// Pdf [1/sr] of scattering light from the unit vector `from`, its direction of travel, to the unit vector
+/// `to`.
 [[nodiscard]] float pdf(const PhaseFunction& phase, const Imath::V3f& from, const Imath::V3f& to);
 
-/// What that does to polarisation; nothing where it depolarises, as all but Rayleigh scattering are taken to.
+/// Mueller matrix of the scattering. Empty if it depolarises, as all but Rayleigh scattering are assumed to.
 [[nodiscard]] std::optional<MuellerMatrix> mueller(const PhaseFunction& phase, const Imath::V3f& from,
                                                    const Imath::V3f& to);
 

@@ -6,36 +6,37 @@
 
 namespace abbe {
 
-/// The ideal mirror, which reflects `reflectance` at every angle.
+/// The ideal mirror with the same `reflectance` at every angle.
 struct MirrorMaterial : OpaqueSurface {
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const { return MirrorBsdf{reflectance(at)}; }
   [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }
 };
 
-/// A mirror by Schlick's approximation; `reflectance` is that along the normal.
+/// A mirror by Schlick's approximation; `reflectance` is its value along the normal.
 struct SchlickMaterial : OpaqueSurface {
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const { return SchlickBsdf{reflectance(at)}; }
   [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }
 };
 
-/// Rough diffuse matter; `reflectance` is that of its facets.
+/// A rough diffuse surface; `reflectance` is that of its facets.
 struct OrenNayarMaterial : OpaqueSurface {
-  double sigma_deg;  ///< Standard deviation of the facets' slopes, in [0, 90].
+  double sigma_deg;  ///< Standard deviation of the facets' slopes [degrees], in [0, 90].
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
 };
 
-/// The exercises' cos^a, of the light's direction alone or of both; `reflectance` is that along the normal.
+/// A power of the cosine of the light's direction, or of the cosines of both directions; `reflectance` is its
+/// value along the normal.
 struct CosinePowerMaterial : OpaqueSurface {
   double exponent;  ///< In [0, 1e4].
-  bool reciprocal;  ///< Of both.
+  bool reciprocal;  ///< True if the cosines of both directions count.
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
 };
 
-/// Phong's highlight.
+/// Phong's highlight as a BRDF.
 struct PhongMaterial : OpaqueSurface {
   double exponent;  ///< In [0, 1e4].
 
@@ -43,7 +44,7 @@ struct PhongMaterial : OpaqueSurface {
   [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
 };
 
-/// What throws light back to where it comes from; `reflectance` is that along the normal.
+/// A retroreflector; `reflectance` is its value along the normal.
 struct RetroreflectorMaterial : OpaqueSurface {
   double exponent;  ///< In [0, 1e4].
 

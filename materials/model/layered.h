@@ -10,14 +10,14 @@
 
 namespace abbe {
 
-/// What a clear smooth coat of `index` throws back of diffuse light from within, over all wavelengths.
+/// Internal diffuse reflectance of a transparent smooth coat of `index`, for all wavelengths.
 [[nodiscard]] Curve inner_reflectance(const RefractiveIndex& index);
 
-/// A Lambertian ground under a smooth clear coat, such as glazed or varnished paint.
+/// A Lambertian ground under a smooth transparent coat, such as glazed or varnished paint.
 struct CoatedDiffuseMaterial {
   std::string index_name;
-  RefractiveIndex index;        ///< Of the coat: n in [1, 100), no k.
-  SpectralTexture reflectance;  ///< Of the bare ground, in [0, 1].
+  RefractiveIndex index;        ///< Index of the coat: n in [1, 100), without k.
+  SpectralTexture reflectance;  ///< Reflectance of the uncoated ground, in [0, 1].
   Curve inner = inner_reflectance(index);
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
@@ -25,24 +25,24 @@ struct CoatedDiffuseMaterial {
   [[nodiscard]] bool needs_coordinates() const { return reflectance.textured(); }
   [[nodiscard]] static constexpr bool depends_on_outside() { return true; }
   [[nodiscard]] static constexpr bool opaque() { return true; }
-  [[nodiscard]] static constexpr const RefractiveIndex* interior() { return nullptr; }
+  [[nodiscard]] static constexpr const RefractiveIndex* interior_index() { return nullptr; }
   [[nodiscard]] static constexpr const Medium* medium() { return nullptr; }
   [[nodiscard]] std::vector<IndexUse> indices() const { return {{&index_name, &index}}; }
   [[nodiscard]] std::size_t texture_bytes() const { return reflectance.memory_bytes(); }
 };
 
-/// A pane of glass modelled as one surface, which light crosses without being bent.
+/// A pane of glass modelled as one surface that does not deflect light.
 struct ThinGlassMaterial {
   std::string index_name;
-  RefractiveIndex index;  ///< Its k absorbs.
-  double thickness = 0;   ///< [m]
+  RefractiveIndex index;  ///< k makes the pane absorb.
+  double thickness = 0;   ///< Thickness of the pane [m].
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }
   [[nodiscard]] static constexpr bool needs_coordinates() { return false; }
   [[nodiscard]] static constexpr bool depends_on_outside() { return true; }
   [[nodiscard]] static constexpr bool opaque() { return false; }
-  [[nodiscard]] static constexpr const RefractiveIndex* interior() { return nullptr; }
+  [[nodiscard]] static constexpr const RefractiveIndex* interior_index() { return nullptr; }
   [[nodiscard]] static constexpr const Medium* medium() { return nullptr; }
   [[nodiscard]] std::vector<IndexUse> indices() const { return {{&index_name, &index}}; }
   [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }

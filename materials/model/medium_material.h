@@ -7,21 +7,21 @@
 
 namespace abbe {
 
-/// Matter without an interface, such as fog or smoke: light passes the surface as if it were not there.
+/// The boundary of a medium without an interface, such as fog or smoke. Light passes it unchanged.
 struct MediumMaterial {
-  Medium filling;
+  Medium interior_medium;
 
-  /// Scatters as an interface between like and like does: not at all.
+  /// The interface between equal media, which changes nothing.
   [[nodiscard]] static Bsdf bsdf(const SurfaceLookup& /*at*/) {
     return DielectricBsdf{SampledSpectrum(1.0F), false};
   }
-  /// The surface is no event, so light leaves it in no lobe.
+  /// The surface is no scattering event, so it has no lobes.
   [[nodiscard]] static constexpr Lobes lobes() { return {}; }
   [[nodiscard]] static constexpr bool needs_coordinates() { return false; }
   [[nodiscard]] static constexpr bool depends_on_outside() { return false; }
   [[nodiscard]] static constexpr bool opaque() { return false; }
-  [[nodiscard]] static constexpr const RefractiveIndex* interior() { return nullptr; }
-  [[nodiscard]] const Medium* medium() const { return &filling; }
+  [[nodiscard]] static constexpr const RefractiveIndex* interior_index() { return nullptr; }
+  [[nodiscard]] const Medium* medium() const { return &interior_medium; }
   [[nodiscard]] static std::vector<IndexUse> indices() { return {}; }
   [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }
 };

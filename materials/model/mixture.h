@@ -13,9 +13,10 @@ namespace abbe {
 
 struct Material;
 
-/// Several materials side by side, too fine to be told apart: f = sum_i w_i f_i. None of them is a mixture,
-/// and light enters none.
+/// Several materials side by side, too fine to be resolved: f = sum_i w_i f_i. No component is a mixture, and
+/// light enters none.
 struct MixtureMaterial {
+  /// A material with its weight.
   struct Component {
     Curve weight;  ///< In [0, 1]; the sum over the components is at most 1 at every wavelength.
     std::shared_ptr<const Material> material;
@@ -27,9 +28,9 @@ struct MixtureMaterial {
   [[nodiscard]] bool needs_coordinates() const;
   [[nodiscard]] bool depends_on_outside() const;
   [[nodiscard]] bool opaque() const;
-  [[nodiscard]] static constexpr const RefractiveIndex* interior() { return nullptr; }
+  [[nodiscard]] static constexpr const RefractiveIndex* interior_index() { return nullptr; }
   [[nodiscard]] static constexpr const Medium* medium() { return nullptr; }
-  /// None, and no textures: the scene lists the components as materials of their own.
+  /// Empty, as is `texture_bytes`: the scene lists the components as materials of their own.
   [[nodiscard]] static std::vector<IndexUse> indices() { return {}; }
   [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }
 };

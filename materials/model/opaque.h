@@ -9,14 +9,14 @@
 
 namespace abbe {
 
-/// What all opaque surfaces without an index answer alike: a texture alone says how much they reflect.
+/// The part common to all opaque surfaces without an index: a texture of reflectance.
 struct OpaqueSurface {
-  SpectralTexture reflectance;  ///< In [0, 1]; of which light, the model says.
+  SpectralTexture reflectance;  ///< In [0, 1]; the model defines for which light.
 
   [[nodiscard]] bool needs_coordinates() const { return reflectance.textured(); }
   [[nodiscard]] static constexpr bool depends_on_outside() { return false; }
   [[nodiscard]] static constexpr bool opaque() { return true; }
-  [[nodiscard]] static constexpr const RefractiveIndex* interior() { return nullptr; }
+  [[nodiscard]] static constexpr const RefractiveIndex* interior_index() { return nullptr; }
   [[nodiscard]] static constexpr const Medium* medium() { return nullptr; }
   [[nodiscard]] static std::vector<IndexUse> indices() { return {}; }
   [[nodiscard]] std::size_t texture_bytes() const { return reflectance.memory_bytes(); }

@@ -8,9 +8,11 @@ namespace abbe {
 
 /// Burley's principled model; `reflectance` is its base colour.
 struct PrincipledMaterial : OpaqueSurface {
-  Principled look;
+  Principled principled;
 
-  [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const { return PrincipledBsdf{reflectance(at), &look}; }
+  [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const {
+    return PrincipledBsdf{reflectance(at), &principled};
+  }
   [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
 };
 

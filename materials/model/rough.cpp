@@ -11,12 +11,12 @@
 namespace abbe {
 namespace {
 
-float apart_from_one(float n) {
-  constexpr float kLeastContrast = 1e-3F;
-  return std::abs(n - 1) < kLeastContrast ? 1 + std::copysign(kLeastContrast, n - 1) : n;
+float with_min_contrast(float n) {
+  constexpr float kMinContrast = 1e-3F;
+  return std::abs(n - 1) < kMinContrast ? 1 + std::copysign(kMinContrast, n - 1) : n;
 }
 
-// The least and greatest relative index of a material, against a medium or, for nullptr, air.
+// Smallest and largest relative index of a material, relative to a medium or, for nullptr, to air.
 struct IndexRange {
   float low, high;
 };
@@ -30,7 +30,7 @@ IndexRange range_of(const RefractiveIndex& index, const RefractiveIndex* medium)
     const float n = relative(nm);
     range = {std::min(range.low, n), std::max(range.high, n)};
   }
-  return {apart_from_one(range.low), apart_from_one(range.high)};
+  return {with_min_contrast(range.low), with_min_contrast(range.high)};
 }
 
 std::shared_ptr<const RoughInterface> make_interface(const Microfacets<float>& facets,
@@ -52,7 +52,7 @@ RoughDielectricMaterial::RoughDielectricMaterial(std::string name, RefractiveInd
                                                  std::optional<Medium> scattering)
     : index_name(std::move(name)),
       index(std::move(inside)),
-      filling(std::move(scattering)),
+      interior_medium(std::move(scattering)),
       surface(make_interface(facets, range_of(index, nullptr))) {}
 
 const RoughInterface& RoughDielectricMaterial::nearest_surface(float low_n, float high_n) const {
@@ -70,7 +70,7 @@ void RoughDielectricMaterial::tabulate_in(const RefractiveIndex& medium) {
 
 Bsdf RoughDielectricMaterial::bsdf(const SurfaceLookup& at) const {
   const SampledSpectrum n =
-      SampledSpectrum::map(relative_index(index, at.outside, at.wavelengths_nm).n, apart_from_one);
+      SampledSpectrum::map(relative_index(index, at.outside, at.wavelengths_nm).n, with_min_contrast);
   if (at.outside == nullptr) return RoughDielectricBsdf{n, surface.get()};
   return RoughDielectricBsdf{n, &nearest_surface(n.min(), n.max())};
 }

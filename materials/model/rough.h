@@ -12,17 +12,17 @@
 
 namespace abbe {
 
-/// Rough interface to matter; slopes along u and across it. A surface of both alphas
-/// below `kLeastAlpha` is a `DielectricMaterial`. Its matter differs from air by 1e-3 or more: an index
-/// closer to 1 is taken as that far away.
+/// A rough dielectric interface, with slopes along u and perpendicular to it. If both alphas are below
+/// `kMinAlpha`, the scene uses a `DielectricMaterial` instead. A relative index within 1e-3 of 1 is replaced
+/// by the nearest one that differs by 1e-3.
 class RoughDielectricMaterial {
  public:
-  /// Tabulates multiple scattering in air, within some tens of ms.
+  /// Tabulates multiple scattering in air, which takes some tens of milliseconds.
   RoughDielectricMaterial(std::string index_name, RefractiveIndex index, const Microfacets<float>& facets,
-                          std::optional<Medium> filling = {});
+                          std::optional<Medium> interior_medium = {});
 
-  /// Tabulates multiple scattering in a medium of that index too, unless a table holds for it. A medium for
-  /// which this was not called takes the table of the nearest relative index.
+  /// Tabulates multiple scattering also in a medium of that index, unless an existing table covers it. In
+  /// other media `bsdf` uses the table of the nearest relative index.
   void tabulate_in(const RefractiveIndex& medium);
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
@@ -30,22 +30,22 @@ class RoughDielectricMaterial {
   [[nodiscard]] bool needs_coordinates() const { return surface->facets.brushed(); }
   [[nodiscard]] static constexpr bool depends_on_outside() { return true; }
   [[nodiscard]] static constexpr bool opaque() { return false; }
-  [[nodiscard]] const RefractiveIndex* interior() const { return &index; }
-  [[nodiscard]] const Medium* medium() const { return filling ? &*filling : nullptr; }
+  [[nodiscard]] const RefractiveIndex* interior_index() const { return &index; }
+  [[nodiscard]] const Medium* medium() const { return interior_medium ? &*interior_medium : nullptr; }
   [[nodiscard]] std::vector<IndexUse> indices() const { return {{&index_name, &index}}; }
   [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }
 
   std::string index_name;
   RefractiveIndex index;
-  std::optional<Medium> filling;                  ///< Scatters inside.
-  std::shared_ptr<const RoughInterface> surface;  ///< In air.
+  std::optional<Medium> interior_medium;          ///< Medium inside; empty if it does not scatter.
+  std::shared_ptr<const RoughInterface> surface;  ///< Tables in air.
   std::vector<std::shared_ptr<const RoughInterface>> surfaces_in_media;
 
  private:
   [[nodiscard]] const RoughInterface& nearest_surface(float low_n, float high_n) const;
 };
 
-/// Rough conductor, in the same way.
+/// A rough conductor, with slopes along u and perpendicular to it.
 class RoughConductorMaterial {
  public:
   RoughConductorMaterial(std::string index_name, RefractiveIndex index, const Microfacets<float>& facets);
@@ -55,14 +55,14 @@ class RoughConductorMaterial {
   [[nodiscard]] bool needs_coordinates() const { return surface->facets.brushed(); }
   [[nodiscard]] static constexpr bool depends_on_outside() { return true; }
   [[nodiscard]] static constexpr bool opaque() { return true; }
-  [[nodiscard]] static constexpr const RefractiveIndex* interior() { return nullptr; }
+  [[nodiscard]] static constexpr const RefractiveIndex* interior_index() { return nullptr; }
   [[nodiscard]] static constexpr const Medium* medium() { return nullptr; }
   [[nodiscard]] std::vector<IndexUse> indices() const { return {{&index_name, &index}}; }
   [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }
 
   std::string index_name;
   RefractiveIndex index;
-  Curve mean_reflectance;  ///< In air, by `diffuse_reflectance`.
+  Curve mean_reflectance;  ///< Diffuse reflectance in air.
   std::shared_ptr<const RoughMetal> surface;
 };
 

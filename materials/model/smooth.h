@@ -10,29 +10,29 @@
 
 namespace abbe {
 
-/// Lambert's surface.
+/// A Lambertian surface.
 struct DiffuseMaterial : OpaqueSurface {
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
 };
-/// A smooth interface to clear or tinted matter, perhaps under thin films.
+/// A smooth interface to a transparent or absorbing medium, optionally under thin films.
 struct DielectricMaterial {
   std::string index_name;
   RefractiveIndex index;
   Coating coating = {};
-  std::optional<Medium> filling = {};  ///< Scatters inside.
+  std::optional<Medium> interior_medium = {};  ///< Medium inside; empty if it does not scatter.
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }
   [[nodiscard]] static constexpr bool needs_coordinates() { return false; }
   [[nodiscard]] static constexpr bool depends_on_outside() { return true; }
   [[nodiscard]] static constexpr bool opaque() { return false; }
-  [[nodiscard]] const RefractiveIndex* interior() const { return &index; }
-  [[nodiscard]] const Medium* medium() const { return filling ? &*filling : nullptr; }
+  [[nodiscard]] const RefractiveIndex* interior_index() const { return &index; }
+  [[nodiscard]] const Medium* medium() const { return interior_medium ? &*interior_medium : nullptr; }
   [[nodiscard]] std::vector<IndexUse> indices() const { return indices_of(index_name, index, coating); }
   [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }
 };
-/// Thin films with the same matter on both sides, such as a soap bubble's, which light crosses straight on.
+/// Thin films with the same medium on both sides, such as a soap bubble. Light crosses them undeflected.
 struct FilmMaterial {
   Coating layers;
 
@@ -41,12 +41,12 @@ struct FilmMaterial {
   [[nodiscard]] static constexpr bool needs_coordinates() { return false; }
   [[nodiscard]] static constexpr bool depends_on_outside() { return true; }
   [[nodiscard]] static constexpr bool opaque() { return false; }
-  [[nodiscard]] static constexpr const RefractiveIndex* interior() { return nullptr; }
+  [[nodiscard]] static constexpr const RefractiveIndex* interior_index() { return nullptr; }
   [[nodiscard]] static constexpr const Medium* medium() { return nullptr; }
   [[nodiscard]] std::vector<IndexUse> indices() const { return indices_of(layers); }
   [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }
 };
-/// A smooth metal, perhaps under thin films.
+/// A smooth metal, optionally under thin films.
 struct ConductorMaterial {
   std::string index_name;
   RefractiveIndex index;
@@ -57,7 +57,7 @@ struct ConductorMaterial {
   [[nodiscard]] static constexpr bool needs_coordinates() { return false; }
   [[nodiscard]] static constexpr bool depends_on_outside() { return true; }
   [[nodiscard]] static constexpr bool opaque() { return true; }
-  [[nodiscard]] static constexpr const RefractiveIndex* interior() { return nullptr; }
+  [[nodiscard]] static constexpr const RefractiveIndex* interior_index() { return nullptr; }
   [[nodiscard]] static constexpr const Medium* medium() { return nullptr; }
   [[nodiscard]] std::vector<IndexUse> indices() const { return indices_of(index_name, index, coating); }
   [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }

@@ -23,7 +23,7 @@ double WavePlateMaterial::retardance(double wavelength_nm) const {
          (wavelength_nm * 1e-9);
 }
 
-// In double, as plates of high order are many turns thick.
+// The retardance of plates of high order is many times 2 pi, so it is reduced in double.
 Bsdf WavePlateMaterial::bsdf(const SurfaceLookup& at) const {
   return WavePlateBsdf{
       {transmittance(at.wavelengths_nm)},

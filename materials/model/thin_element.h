@@ -10,28 +10,29 @@
 
 namespace abbe {
 
-/// What all thin elements answer alike.
+/// The part common to all thin elements.
 struct ThinElementMaterial {
-  Curve transmittance;  ///< In [0, 1]; of which light, the model says.
+  Curve transmittance;  ///< In [0, 1]; the model defines for which light.
 
   [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }
   [[nodiscard]] static constexpr bool depends_on_outside() { return false; }
   [[nodiscard]] static constexpr bool opaque() { return false; }
-  [[nodiscard]] static constexpr const RefractiveIndex* interior() { return nullptr; }
+  [[nodiscard]] static constexpr const RefractiveIndex* interior_index() { return nullptr; }
   [[nodiscard]] static constexpr const Medium* medium() { return nullptr; }
   [[nodiscard]] static std::vector<IndexUse> indices() { return {}; }
   [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }
 };
 
-/// A unit vector in a surface, x being along u, at an angle [rad] counterclockwise as seen from outside.
+/// A unit vector in the surface at an angle [rad] from u, counterclockwise as seen from outside.
 [[nodiscard]] Imath::V2d surface_axis(double angle);
 
-/// A linear polariser. `transmittance` is that of light polarised along its axis.
+/// A linear polariser; `transmittance` is that of light polarised along its axis.
 struct PolariserMaterial : ThinElementMaterial {
-  Curve blocked;  ///< Transmittance across the axis over that along it, in [0, 1]; 0 is ideal.
-  double angle;   ///< Of the axis along which fields pass [rad].
+  Curve
+      blocked;   ///< Transmittance perpendicular to the axis divided by that along it, in [0, 1]; 0 is ideal.
+  double angle;  ///< Angle of the transmission axis [rad].
 
-  /// Of light that is not polarised.
+  /// Transmittance for unpolarised light.
   [[nodiscard]] double mean_transmittance(double wavelength_nm) const {
     return transmittance(wavelength_nm) * (1 + blocked(wavelength_nm)) / 2;
   }
@@ -39,26 +40,26 @@ struct PolariserMaterial : ThinElementMaterial {
   [[nodiscard]] static constexpr bool needs_coordinates() { return true; }
 };
 
-/// A wave plate: ideal, or a plate of birefringent matter between perfect coatings.
+/// A wave plate: ideal, or a birefringent plate with perfect antireflection coatings.
 struct WavePlateMaterial : ThinElementMaterial {
   struct Ideal {
-    double retardance;  ///< [rad], at all wavelengths.
+    double retardance;  ///< Retardance at all wavelengths [rad].
   };
   struct Crystal {
-    double thickness;     ///< [m]
-    Curve birefringence;  ///< The slow axis's index less the fast one's, relative to air; 0 or more.
+    double thickness;     ///< Thickness of the plate [m].
+    Curve birefringence;  ///< Index of the slow axis minus that of the fast axis, relative to air; 0 or more.
   };
   std::variant<Ideal, Crystal> kind;
-  double angle;  ///< Of its fast axis [rad].
+  double angle;  ///< Angle of the fast axis [rad].
 
-  /// By how much fields across the fast axis lag behind [rad]: 2 pi Delta n d/lambda, for light along the
-  /// normal and, as the plate is taken to be thin, for all other too.
+  /// Phase lag of fields perpendicular to the fast axis [rad]: 2 pi Delta n d/lambda along the normal. The
+  /// plate is treated as thin, so the value holds for all directions.
   [[nodiscard]] double retardance(double wavelength_nm) const;
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr bool needs_coordinates() { return true; }
 };
 
-/// What makes unpolarised light of any.
+/// A sheet that depolarises light.
 struct DepolariserMaterial : ThinElementMaterial {
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr bool needs_coordinates() { return false; }

@@ -8,25 +8,25 @@
 
 namespace abbe {
 
-/// Normals of a surface by an image: three channels from 0 to 1 that stand for components from -1 to 1 along
-/// dp/du, along dp/dv ("green is up") and along the outward normal.
+/// An image of surface normals. Its three channels in [0, 1] encode the components from -1 to 1 along dp/du,
+/// along dp/dv ("green is up") and along the outward normal.
 struct NormalMap {
   TextureImage image;
 
-  /// The unit normal at `uv`, in the axes dp/du, dp/dv and outward normal.
+  /// The unit normal at `uv`, in the axes dp/du, dp/dv and the outward normal.
   [[nodiscard]] Imath::V3d normal(const Imath::V2f& uv) const;
 };
 
-/// Heights above a surface by an image: `height_m` [m] times its one channel.
+/// An image of heights above the surface: `height_m` [m] times its one channel.
 struct BumpMap {
   TextureImage image;
   double height_m;
 
-  /// How the height [m] changes with u and with v.
+  /// Derivatives of the height [m] with respect to u and v.
   [[nodiscard]] Imath::V2d slope(const Imath::V2f& uv) const;
 };
 
-/// What makes a smooth surface scatter as if it had small shapes. They throw no shadows and hide nothing.
+/// A map that perturbs the shading normal. It neither casts shadows nor occludes.
 using Relief = std::variant<NormalMap, BumpMap>;
 
 }  // namespace abbe

@@ -11,26 +11,26 @@
 
 namespace abbe {
 
-/// A quantity in [0, 1] over wavelength and the surface: one curve everywhere, or a sum of spectra whose
-/// weights are the channels of an image.
+/// A quantity in [0, 1] over wavelength and surface: one curve everywhere, or a sum of spectra weighted by
+/// the channels of an image.
 class SpectralTexture {
  public:
-  /// A quantity that is the same everywhere.
+  /// A quantity that is uniform over the surface.
   SpectralTexture(Curve curve) : curve_(std::move(curve)) {}
-  /// The sum over channels c of (value of c) * spectra[c]. Throws Error{internal} unless there is a spectrum
-  /// for each.
+  /// The sum over channels c of (value of c) * spectra[c]. Throws Error{internal} unless each channel has a
+  /// spectrum.
   SpectralTexture(TextureImage image, std::vector<Curve> spectra);
 
-  /// The sum is held in [0, 1], which rounding may leave.
+  /// The value at each wavelength, clamped to [0, 1] against rounding errors.
   [[nodiscard]] SampledSpectrum operator()(const SurfaceLookup& at) const {
     return image_ ? of_image(at) : curve_(at.wavelengths_nm);
   }
 
-  /// Whether it differs from place to place.
+  /// True if the quantity varies over the surface.
   [[nodiscard]] bool textured() const { return image_ != nullptr; }
-  /// What it is everywhere; zero if it is `textured`.
+  /// The uniform value; zero if `textured`.
   [[nodiscard]] const Curve& curve() const { return curve_; }
-  /// Bytes of the image, 0 if there is none.
+  /// Size of the image in bytes; 0 without an image.
   [[nodiscard]] std::size_t memory_bytes() const { return image_ ? image_->image.memory_bytes() : 0; }
 
  private:

@@ -9,7 +9,7 @@
 namespace abbe {
 namespace {
 
-/// Two neighbours along an axis, and the share of the second.
+/// Two neighbouring texels along an axis, and the weight of the second.
 struct Neighbours {
   std::array<std::size_t, 2> index;
   float second;
@@ -18,10 +18,10 @@ struct Neighbours {
 std::size_t wrapped(double index, double count, TextureWrap wrap) {
   const double inside = wrap == TextureWrap::repeat ? index - count * std::floor(index / count)
                                                     : std::clamp(index, 0.0, count - 1);
-  return static_cast<std::size_t>(std::min(inside, count - 1));  // rounding may reach the count itself
+  return static_cast<std::size_t>(std::min(inside, count - 1));  // rounding may give the count itself
 }
 
-// `x` counts from one edge of the image to the other as 0 to 1.
+// `x` runs from 0 to 1 between the edges of the image.
 Neighbours neighbours(double x, std::size_t size, const TextureMapping& mapping) {
   const auto count = static_cast<double>(size);
   if (mapping.filter == TextureFilter::nearest) {

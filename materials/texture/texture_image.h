@@ -8,12 +8,12 @@
 
 namespace abbe {
 
-/// Between texel centres the value is bilinear, or that of the nearest.
+/// Interpolation between texel centres: bilinear, or the nearest texel.
 enum class TextureFilter { bilinear, nearest };
-/// Beyond its edges an image repeats, or holds the values of its edge.
+/// Extension of the image outside its edges: repeated, or the values of the edge.
 enum class TextureWrap { repeat, clamp };
 
-/// How an image lies on surface coordinates (u, v): at scale * (u, v) + offset, in widths and heights of the
+/// Position of an image on surface coordinates (u, v): scale * (u, v) + offset, in widths and heights of the
 /// image.
 struct TextureMapping {
   TextureFilter filter = TextureFilter::bilinear;
@@ -22,21 +22,23 @@ struct TextureMapping {
   Imath::V2d offset{0, 0};
 };
 
-/// Channels of an image, looked up by surface coordinates. (0, 0) is its lower left corner and (1, 1) its
-/// upper right one, as the image is seen; the centre of a texel is half a texel from its edges.
+/// Channels of an image, looked up by surface coordinates. (0, 0) is the lower left corner and (1, 1) the
+/// upper right corner of the displayed image. Texel centres are half a texel from the edges.
 class TextureImage {
  public:
-  /// `texels` row by row from the top left, the channels of a texel together. Throws Error{internal} unless
-  /// there are width * height * channels of them, and at least one.
+  /// `texels` are in rows from the top left, with the channels of a texel together. Throws Error{internal}
+  /// unless there are width * height * channels of them, and at least one.
   TextureImage(std::size_t width, std::size_t height, std::size_t channels, std::vector<float> texels,
                const TextureMapping& mapping);
 
-  /// The texels that make a value, and their weights, which add up to 1.
+  /// Texels that contribute to a value, with weights that sum to 1.
   struct Blend {
     std::array<std::size_t, 4> texel;
     std::array<float, 4> weight;
   };
+  /// The blend at surface coordinates.
   [[nodiscard]] Blend blend(const Imath::V2f& uv) const { return blend_at(on_image(uv)); }
+  /// Interpolated value of a channel.
   [[nodiscard]] float value(const Blend& blend, std::size_t channel) const {
     float sum = 0;
     for (std::size_t i = 0; i < blend.texel.size(); ++i)
@@ -44,8 +46,8 @@ class TextureImage {
     return sum;
   }
 
-  /// How a channel changes with u and v: by differences across a texel, which bilinear values make
-  /// continuous.
+  /// Derivatives of a channel with respect to u and v, from differences across a texel. They are continuous
+  /// with bilinear interpolation.
   [[nodiscard]] Imath::V2d gradient(const Imath::V2f& uv, std::size_t channel) const;
 
   [[nodiscard]] std::size_t channels() const { return channels_; }

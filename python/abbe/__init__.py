@@ -1,4 +1,4 @@
-"""Abbe, a spectral renderer validated against measured colour science: scenes, renders, films, and what their matter does, as arrays."""
+"""Abbe, a spectral renderer validated against measured colour science: scenes, renders, films and data of materials, as arrays."""
 import os as _os
 import pathlib as _pathlib
 
@@ -10,11 +10,11 @@ from .plots import plot_spectrum  # noqa: F401
 
 
 def _data_directory():
-    """The tables: inside the package, as pip puts them, else `share/abbe/data` of the prefix or build folder that the package is in."""
+    """The folder of the tables: inside the package if pip installed it, otherwise `share/abbe/data` of the prefix or build folder."""
     here = _pathlib.Path(__file__).parent
-    for place in (here / "data", *(folder / "share" / "abbe" / "data" for folder in here.parents)):
-        if place.is_dir():
-            return place
+    for candidate in (here / "data", *(folder / "share" / "abbe" / "data" for folder in here.parents)):
+        if candidate.is_dir():
+            return candidate
     return None
 
 

@@ -1,11 +1,11 @@
-"""What Abbe raises."""
+"""The exceptions and warnings that Abbe raises."""
 
 
 class Error(Exception):
-    """Anything that Abbe refuses; its text is that of the command line.
+    """The base of all exceptions of Abbe; its text is that of the command line.
 
-    `diagnostics` lists every complaint about the inputs, each with `file`, `pointer`, `message` and `severity`; it is empty where the
-    trouble has no place in an input.
+    `diagnostics` lists all errors and warnings about the inputs, each with `file`, `pointer`, `message` and `severity`. It is empty if the
+    error does not concern an input.
     """
 
     def __init__(self, message, diagnostics=()):
@@ -22,7 +22,7 @@ class SceneError(Error, ValueError):
 
 
 class InputError(Error):
-    """An input file, or a table of that name, is missing or corrupt."""
+    """An input file or a named table is missing or corrupt."""
 
 
 class OutputError(Error):
@@ -30,19 +30,19 @@ class OutputError(Error):
 
 
 class ResourceError(Error, MemoryError):
-    """More memory would be taken than there is, or than is allowed."""
+    """The operation needs more memory than is available or allowed."""
 
 
 class InternalError(Error):
-    """A bug of Abbe's own."""
+    """A bug in Abbe."""
 
 
 class SceneWarning(UserWarning):
-    """What is used as it is, but hardly gives what was meant."""
+    """A warning about valid input that probably does not give the intended result."""
 
 
 def _diagnostic(*state):
-    """A diagnostic as it was in another process."""
+    """Restores a diagnostic from another process."""
     from ._abbe import Diagnostic
 
     return Diagnostic._of(state)

@@ -1,18 +1,18 @@
-"""What matplotlib shows of films, where it is installed."""
+"""Plots of films by matplotlib, if it is installed."""
 import numpy as _numpy
 
 
-def _band_widths(middles):
-    """The widths of bands, whose edges lie halfway between their middles, the outermost as far out as in."""
-    edges = (middles[1:] + middles[:-1]) / 2
-    return _numpy.diff([2 * middles[0] - edges[0], *edges, 2 * middles[-1] - edges[-1]])
+def _band_widths(centers):
+    """Widths of bands with edges halfway between their centers. The outermost bands are symmetric about their centers."""
+    edges = (centers[1:] + centers[:-1]) / 2
+    return _numpy.diff([2 * centers[0] - edges[0], *edges, 2 * centers[-1] - edges[-1]])
 
 
 def plot_spectrum(film, *pixels, axes=None):
-    """Draws the radiance of a spectral film over wavelength at pixels (x, y), and returns the axes it drew on.
+    """Plots the radiance of a spectral film over wavelength at pixels (x, y), and returns the axes.
 
-    Radiance is per nm of each band, whose edges lie halfway between the middles of neighbours. Raises UsageError for a film whose sensor
-    is not spectral, and InputError where `film.wavelengths` does.
+    Radiance is per nm of each band, with edges halfway between the centers of adjacent bands. Raises UsageError for a film whose sensor
+    is not spectral, and InputError as `film.wavelengths` does.
     """
     import matplotlib.pyplot
 

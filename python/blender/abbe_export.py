@@ -1,7 +1,7 @@
 """Exports Blender scenes to Abbe: an add-on (File > Export > Abbe), and a script for the background, `blender -b scene.blend -P abbe_export.py -- scene.json`.
 
-The scene file gets a folder of meshes and images beside it, scene_files. What is approximated or dropped is told on standard output, each once with
-how often it occurs, and at the head of the scene file. docs/doors.md of Abbe has the mapping.
+Meshes and images go to a folder next to the scene file, scene_files. Standard output and the head of the scene file list what is approximated or
+dropped, each once with the number of occurrences. docs/importers.md of Abbe describes the mapping.
 """
 import json
 import math
@@ -20,21 +20,21 @@ from mathutils import Vector
 bl_info = {"name": "Abbe scene", "description": "Exports scenes to the spectral renderer Abbe", "version": (0, 1, 0), "blender": (3, 4, 0),
            "location": "File > Export > Abbe (.json)", "category": "Import-Export"}
 
-# Lumens of a watt of D65 on 300-1100 nm; shares of the linear Rec.709 colours in Y; and the quadratics in x = (nm - 580)/200 whose exponentials, over
-# their sum with 1, are the spectra that stand for red and blue [Mallett2019]. Tests compare them with what Abbe measures, and writes of colours.
+# Lumens per watt of D65 on 300-1100 nm; weights of the linear Rec.709 components in Y; and quadratics in x = (nm - 580)/200. The exponentials of these,
+# divided by their sum plus 1, are the spectra of red and blue [Mallett2019]. Tests compare them with Abbe's measurements and spectra of colours.
 LUMENS_PER_WATT = 176.799762
-SHARES_OF_Y = (0.212663651, 0.715178325, 0.072158024)
+LUMINANCE_WEIGHTS = (0.212663651, 0.715178325, 0.072158024)
 RED, BLUE = (-1.83692275, 27.93408994, 51.38553635), (-3.54247104, 8.85485252, 35.69893127)
-ROUGHEST = 0.7767  # of diffuse surfaces: what slopes that deviate by 90 degrees have
-PINHOLE_F_NUMBER = 4  # by which Abbe exposes a pinhole that says none
-FASTEST_F_NUMBER = 0.5  # of a lens in air, whose cone of light then fills the hemisphere
+MAX_ROUGHNESS = 0.7767  # of diffuse surfaces, for slopes that deviate by 90 degrees
+PINHOLE_F_NUMBER = 4  # Abbe's default for the exposure of a pinhole
+MIN_F_NUMBER = 0.5  # of a lens in air, whose cone of light then fills the hemisphere
 PHOTOMETRIC = {"radiant_flux_W": "luminous_flux_lm", "radiance": "luminance", "intensity": "luminous_intensity", "irradiance": "illuminance"}
-DROPPED = {"VOLUME": "volumes", "GPENCIL": "grease pencil", "CURVES": "hair", "POINTCLOUD": "clouds of points"}
+DROPPED = {"VOLUME": "volumes", "GPENCIL": "grease pencil", "CURVES": "hair", "POINTCLOUD": "point clouds"}
 BLACK = np.zeros(3)
 
 
 class ExportError(Exception):
-    """What is wrong, in a sentence, with the exit code of a command: 3 of a scene, 4 of a file it names."""
+    """An error message with the exit code of the command: 3 for a scene, 4 for a file that it names."""
 
     def __init__(self, text, code=3):
         super().__init__(text)
@@ -42,7 +42,7 @@ class ExportError(Exception):
 
 
 class Notes:
-    """What is approximated or dropped: each text once, with where it occurred first and how often."""
+    """Notes on what is approximated or dropped: each text once, with its first location and the number of occurrences."""
 
     def __init__(self):
         self.found = {}
@@ -53,14 +53,14 @@ class Notes:
             self.found[text] = (first, count + 1)
 
     def add_colour(self, where):
-        self.add(where, "a colour has no spectrum: the smooth one that looks so under D65 stands in; name a measured one")
+        self.add(where, "a colour has no spectrum: replaced by a smooth one of that colour under D65; name a measured spectrum for accuracy")
 
     def lines(self):
         return [f"{where}: warning: {text}" + (f" ({count} times)" if count > 1 else "") for text, (where, count) in self.found.items()]
 
 
 def tidy(value):
-    """The number, or numbers, without the digits that single precision only seems to have."""
+    """A number, or numbers, rounded to the digits of single precision."""
     return [tidy(item) for item in value] if hasattr(value, "__len__") else float(f"{value:.7g}")
 
 
@@ -69,7 +69,7 @@ def is_grey(rgb):
 
 
 def spectrum_of(rgb):
-    """The curve of a colour: a number of a grey, else the mixture of three smooth spectra."""
+    """The curve of a colour: a number for a grey, otherwise a mixture of three smooth spectra."""
     if is_grey(rgb):
         return tidy(rgb[0])
     nm = np.arange(380, 781, 5)
@@ -79,18 +79,20 @@ def spectrum_of(rgb):
 
 
 def slopes_of(roughness):
-    """The deviation [degrees] of slopes for which Abbe's rough diffuse surface has Blender's roughness, up to ROUGHEST. Both have Fujii's model, of
-    B = roughness A; here x, the deviation squared, tells it by 0.45 x/(x + 0.09) = roughness (1 - 0.5 x/(x + 0.33)), which is solved. [OrenNayar1994]"""
+    """The standard deviation of slopes [degrees] for which Abbe's rough diffuse surface has Blender's roughness, up to MAX_ROUGHNESS.
+
+    Both use Fujii's model, with B = roughness A. The squared deviation x solves 0.45 x/(x + 0.09) = roughness (1 - 0.5 x/(x + 0.33)). [OrenNayar1994]
+    """
     a, b, c = 0.45 - 0.5 * roughness, 0.45 * 0.33 - (0.5 * 0.09 + 0.33) * roughness, 0.09 * 0.33 * roughness
     return math.degrees(math.sqrt(2 * c / (b + math.sqrt(b * b + 4 * a * c))))
 
 
 def emission_of(rgb, kind, amount, where, notes):
-    """An emission of so many W or W per unit on 300-1100 nm for white, which is D65; a colour takes its share of that through its spectrum."""
+    """An emission. `amount` is the radiometric quantity on 300-1100 nm for white, which is D65; a colour reduces it by its spectrum."""
     if is_grey(rgb):
         return {"illuminant": "D65", kind: tidy(amount * rgb[0])}
     notes.add_colour(where)
-    luminous = amount * LUMENS_PER_WATT * float(np.dot(SHARES_OF_Y, rgb))
+    luminous = amount * LUMENS_PER_WATT * float(np.dot(LUMINANCE_WEIGHTS, rgb))
     return {"spectrum": {"product": ["D65", spectrum_of([component / max(rgb) for component in rgb])]}, PHOTOMETRIC[kind]: tidy(luminous)}
 
 
@@ -106,7 +108,7 @@ def free_name(name, taken, extension=""):
 
 
 def source(socket):
-    """The output that an input is linked to, or nothing, and the type of its node."""
+    """The output that an input is linked to, or None, and the type of its node."""
     while socket is not None and socket.is_linked:
         output = socket.links[0].from_socket
         if output.node.type != "REROUTE":
@@ -115,12 +117,12 @@ def source(socket):
     return None, None
 
 
-def is_matter(material):
+def is_medium(material):
     return "dielectric" in material or "medium" in material
 
 
 class Shading:
-    """Materials by name, made of Blender's nodes. A surface is a pair: its parts, as (weight, material), and the radiance it sends out [W/(m2 sr)]."""
+    """Materials by name, converted from Blender's nodes. A surface is a pair: its parts as (weight, material), and its emitted radiance [W/(m2 sr)]."""
 
     def __init__(self, folder, scale, notes):
         self.folder, self.scale, self.notes = folder, scale, notes
@@ -130,36 +132,36 @@ class Shading:
         self.notes.add(self.where, text, given)
 
     def add(self, material):
-        """The name of a material, of Blender's or None; nothing where it has no surface."""
+        """The name of a Blender material, or of the default for None; None if it has no surface."""
         name = material.name_full if material else "default"
         if name not in self.emissions:
             self.where = f'material "{name}"'
-            said = self.said_by_user(material)
-            nodes = self if said is None else Shading(self.folder, self.scale, Notes())  # of which only what shines counts then
+            user_material = self.user_material(material)
+            nodes = self if user_material is None else Shading(self.folder, self.scale, Notes())  # then only the emission of the nodes counts
             nodes.where = self.where
             parts, self.emissions[name] = nodes.surface_of(material)
-            if said is not None or parts is not None:
-                self.materials[name] = self.joined(parts, name) if said is None else said
-            self.note("what has no surface, such as a volume, has no counterpart here: dropped", name not in self.materials)
+            if user_material is not None or parts is not None:
+                self.materials[name] = self.joined(parts, name) if user_material is None else user_material
+            self.note("materials without a surface, such as volumes, are not supported: dropped", name not in self.materials)
         return name if name in self.materials else None
 
-    def said_by_user(self, material):
-        """What the property `abbe` says: a material as scene files have it, or the name of a glass."""
-        said = material.get("abbe") if material else None
-        if said is None or hasattr(said, "to_dict"):
-            return said and said.to_dict()
-        if not str(said).lstrip().startswith("{"):
-            return {"dielectric": {"ior": str(said)}}
+    def user_material(self, material):
+        """The material in the property `abbe`, in the format of scene files or as the name of a glass; None without the property."""
+        value = material.get("abbe") if material else None
+        if value is None or hasattr(value, "to_dict"):
+            return value and value.to_dict()
+        if not str(value).lstrip().startswith("{"):
+            return {"dielectric": {"ior": str(value)}}
         try:
-            return json.loads(said)
+            return json.loads(value)
         except ValueError as error:
-            raise ExportError(f"{self.where}: its property abbe is no JSON ({error}; expected a material or the name of a glass).")
+            raise ExportError(f"{self.where}: the property abbe is not JSON ({error}; expected a material or the name of a glass).")
 
     def joined(self, parts, name):
         if not parts or parts[0][0] == 1:
             return parts[0][1] if parts else {"diffuse": {"reflectance": 0}}
-        if any(is_matter(part) for _, part in parts):
-            self.note("what light enters is not mixed here: the part with the most weight")
+        if any(is_medium(part) for _, part in parts):
+            self.note("materials that transmit light cannot be mixed: replaced by the part with the largest weight")
             return max(parts, key=lambda part: part[0])[1]
         names = [free_name(f"{name} part {number}", self.materials) for number in range(1, len(parts) + 1)]
         self.materials.update({part_name: part for part_name, (_, part) in zip(names, parts)})
@@ -182,8 +184,8 @@ class Shading:
             density = self.value(inside.node, "Density") / self.scale
             glass[0]["absorption_per_m"] = self.curve([density * (1 - component) for component in self.value(inside.node, "Color")])
         else:
-            self.note("a volume within a surface has no counterpart here, but absorption within glass: dropped", inside)
-        self.note("displacement by a material has no counterpart here: dropped", output.inputs["Displacement"].is_linked)
+            self.note("volumes inside a surface are supported only as absorption in glass: dropped", inside)
+        self.note("displacement by a material is not supported: dropped", output.inputs["Displacement"].is_linked)
         return parts, emission
 
     def shader(self, node):
@@ -191,38 +193,38 @@ class Shading:
                 "EMISSION": self.emitter, "MIX_SHADER": self.mix}.get(node.type)
         if make:
             return make(node)
-        self.note(f"the node {node.bl_label} has no counterpart here: a diffuse surface")
+        self.note(f"the node {node.bl_label} is not supported: replaced by a diffuse surface")
         return [(1, {"diffuse": {"reflectance": self.reflectance(node, "Color") if "Color" in node.inputs else 0.8}})], BLACK
 
     def principled(self, node):
         emission = np.array(self.value(node, "Emission")) * self.value(node, "Emission Strength")
         for name in ["Subsurface", "Specular Tint", "Anisotropic", "Transmission Roughness"] + ["Sheen Tint"] * (self.value(node, "Sheen") > 0):
-            self.note(f"{name} of a Principled BSDF has no counterpart here: dropped", self.value(node, name) != 0)
-        self.note("surfaces have no holes here: alpha is dropped", node.inputs["Alpha"].is_linked or node.inputs["Alpha"].default_value != 1)
+            self.note(f"{name} of a Principled BSDF is not supported: dropped", self.value(node, name) != 0)
+        self.note("transparency by alpha is not supported: alpha is dropped", node.inputs["Alpha"].is_linked or node.inputs["Alpha"].default_value != 1)
         metallic, transmission = (min(max(self.value(node, name), 0), 1) for name in ("Metallic", "Transmission"))
-        share = transmission * (1 - metallic)  # as Cycles weighs them, with (1 - transmission)(1 - metallic) of the diffuse surface and its sheen
-        if share > 0:
-            self.note("what transmits in part transmits all here", share != 1)
+        weight = transmission * (1 - metallic)  # as in Cycles, with (1 - transmission)(1 - metallic) for the diffuse surface and its sheen
+        if weight > 0:
+            self.note("partial transmission is not supported: full transmission", weight != 1)
             dropped = {"Metallic": metallic, "Sheen": (1 - transmission) * self.value(node, "Sheen"), "Clearcoat": self.value(node, "Clearcoat")}
-            for name, weight in dropped.items():
-                self.note(f"{name} of a Principled BSDF that transmits has no counterpart here: dropped", weight > 0)
+            for name, weight_dropped in dropped.items():
+                self.note(f"{name} of a Principled BSDF that transmits is not supported: dropped", weight_dropped > 0)
             return self.glass(node, "Base Color", "GGX")[0], emission
-        self.note("a reflectance along the normal above 0.08 is cut to that", self.value(node, "Specular") > 1)
+        self.note("a reflectance at normal incidence above 0.08 is clamped to that", self.value(node, "Specular") > 1)
         model = {"metallic": tidy(metallic)}
         model.update({key: tidy(min(self.value(node, key.capitalize()), 1)) for key in ("roughness", "specular", "sheen", "clearcoat")})
         if model["clearcoat"] > 0:
             width = self.value(node, "Clearcoat Roughness") ** 2
-            self.note("a width of a clear coat's facets above 0.1 is cut to that", width > 0.1)
+            self.note("a facet width of a clear coat above 0.1 is clamped to that", width > 0.1)
             model["clearcoat_gloss"] = tidy(min(max((0.1 - width) / 0.099, 0), 1))
         return self.in_relief(node, {"principled": {"base_color": self.reflectance(node, "Base Color"), **model}}), emission
 
     def glass(self, node, colour="Color", distribution=None):
-        self.note("the colour of a clear surface has no counterpart here: dropped", node.inputs[colour].is_linked or self.value(node, colour) != [1, 1, 1])
+        self.note("the colour of a clear surface is not supported: dropped", node.inputs[colour].is_linked or self.value(node, colour) != [1, 1, 1])
         model = {"ior": tidy(self.value(node, "IOR")), **self.facets(node, distribution or node.distribution)}
         return self.in_relief(node, {"dielectric": model}), BLACK
 
     def facets(self, node, distribution):
-        self.note("facets as of Ashikhmin and Shirley have no counterpart here: GGX", distribution == "ASHIKHMIN_SHIRLEY")
+        self.note("the Ashikhmin-Shirley facet distribution is not supported: replaced by GGX", distribution == "ASHIKHMIN_SHIRLEY")
         alpha = 0 if distribution == "SHARP" else tidy(self.value(node, "Roughness") ** 2)
         return {"roughness": {"alpha": alpha, "distribution": "beckmann" if distribution == "BECKMANN" else "ggx"}} if alpha > 0 else {}
 
@@ -230,18 +232,18 @@ class Shading:
         reflectance, roughness = self.reflectance(node, "Color"), self.value(node, "Roughness")
         if roughness == 0:
             return self.in_relief(node, {"diffuse": {"reflectance": reflectance}}), BLACK
-        self.note("light that a rough diffuse surface scatters on among its facets is sent back here, and lost there")
-        self.note(f"a roughness of a diffuse surface above {ROUGHEST} is cut to that", roughness > ROUGHEST)
-        return self.in_relief(node, {"oren_nayar": {"reflectance": reflectance, "sigma_deg": tidy(slopes_of(min(roughness, ROUGHEST)))}}), BLACK
+        self.note("interreflections between the facets of a rough diffuse surface are included here, unlike in Blender")
+        self.note(f"a roughness of a diffuse surface above {MAX_ROUGHNESS} is clamped to that", roughness > MAX_ROUGHNESS)
+        return self.in_relief(node, {"oren_nayar": {"reflectance": reflectance, "sigma_deg": tidy(slopes_of(min(roughness, MAX_ROUGHNESS)))}}), BLACK
 
     def glossy(self, node):
         facets = self.facets(node, node.distribution)
         if not facets:
             return self.in_relief(node, {"mirror": {"reflectance": self.reflectance(node, "Color")}}), BLACK
-        self.note("a metal's colour has no index: one with n = 1 that reflects it along the normal")
-        kept = self.curve(self.value(node, "Color"), 0.9996)  # what an extinction of 100 reflects, the most there is
-        nm = [] if isinstance(kept, float) else kept["table"]["wavelength_nm"]
-        extinction = [tidy(2 * math.sqrt(r / (1 - r))) for r in (kept["table"]["values"] if nm else [kept])]
+        self.note("a metal's colour has no refractive index: replaced by n = 1 with a k that gives the colour at normal incidence")
+        reflectance = self.curve(self.value(node, "Color"), 0.9996)  # the reflectance for the maximum extinction of 100
+        nm = [] if isinstance(reflectance, float) else reflectance["table"]["wavelength_nm"]
+        extinction = [tidy(2 * math.sqrt(r / (1 - r))) for r in (reflectance["table"]["values"] if nm else [reflectance])]
         index = {"wavelength_nm": nm, "n": [1] * len(nm), "k": extinction} if nm else {"n": 1, "k": extinction[0]}
         return self.in_relief(node, {"conductor": {"ior": index, **facets}}), BLACK
 
@@ -258,19 +260,19 @@ class Shading:
         return all_parts, all_emission
 
     def in_relief(self, node, material):
-        """The material as the one part of a surface, with the normal map that the node has."""
+        """The material as the only part of a surface, with the node's normal map."""
         relief, kind = source(node.inputs["Normal"])
         image, image_kind = source(relief.node.inputs["Color"]) if kind == "NORMAL_MAP" else (None, None)
         if image_kind == "TEX_IMAGE" and image.node.image and relief.node.space == "TANGENT":
-            self.note("the strength of a normal map has no counterpart here: 1", self.value(relief.node, "Strength") != 1)
+            self.note("the strength of a normal map is not supported: 1", self.value(relief.node, "Strength") != 1)
             return [(1, {**material, "normal_map": self.texture(image.node)})]
-        self.note("what turns normals has no counterpart here, but a normal map by an image of tangent space: dropped", relief)
+        self.note("normals can be changed only by tangent-space normal maps from images: dropped", relief)
         return [(1, material)]
 
     def value(self, node, name):
         """The number or colour of an input."""
         output, kind = source(node.inputs[name])
-        self.note(f"{name} does not vary over a surface here: the value of its socket", kind not in (None, "VALUE", "RGB"))
+        self.note(f"{name} cannot vary over a surface: replaced by the value of its socket", kind not in (None, "VALUE", "RGB"))
         value = (output if kind in ("VALUE", "RGB") else node.inputs[name]).default_value
         return value if isinstance(value, (float, int)) else list(value)[:3]
 
@@ -280,34 +282,34 @@ class Shading:
             return self.curve(self.value(node, name), 1)
         self.notes.add_colour(self.where)
         settings = image.node.image.colorspace_settings.name
-        self.note("the colours of an image are sRGB in files of integers, else linear, here", settings != ("Linear" if image.node.image.is_float else "sRGB"))
+        self.note("image colours are sRGB in integer files, otherwise linear", settings != ("Linear" if image.node.image.is_float else "sRGB"))
         return {**self.texture(image.node), "rgb": True}
 
-    def curve(self, rgb, most=math.inf):
-        rgb = [min(max(component, 0), most) for component in rgb]
+    def curve(self, rgb, maximum=math.inf):
+        rgb = [min(max(component, 0), maximum) for component in rgb]
         if not is_grey(rgb):
             self.notes.add_colour(self.where)
         return spectrum_of(rgb)
 
     def texture(self, node):
-        """An image as it lies on surfaces."""
-        said = {"image": self.image(node.image), "filter": "nearest" if node.interpolation == "Closest" else "bilinear",
+        """An image texture with its mapping."""
+        spec = {"image": self.image(node.image), "filter": "nearest" if node.interpolation == "Closest" else "bilinear",
                 "wrap": "repeat" if node.extension == "REPEAT" else "clamp"}
-        place, kind = source(node.inputs["Vector"])
+        mapping, kind = source(node.inputs["Vector"])
         if kind == "MAPPING":
-            location, turn, scale = (tidy(place.node.inputs[name].default_value) for name in ("Location", "Rotation", "Scale"))
-            self.note("an image is not turned on a surface here", place.node.vector_type != "POINT" or any(turn))
-            said.update(scale=scale[:2], offset=location[:2])
-            place, kind = source(place.node.inputs["Vector"])
-        self.note("an image lies on a surface by UV here", node.projection != "FLAT" or (place and kind != "UVMAP" and place.name != "UV"))
-        self.note("beyond its edges an image is repeated or held here", node.extension not in ("REPEAT", "EXTEND"))
-        return said
+            location, turn, scale = (tidy(mapping.node.inputs[name].default_value) for name in ("Location", "Rotation", "Scale"))
+            self.note("rotated image textures are not supported", mapping.node.vector_type != "POINT" or any(turn))
+            spec.update(scale=scale[:2], offset=location[:2])
+            mapping, kind = source(mapping.node.inputs["Vector"])
+        self.note("image textures are mapped by UV only", node.projection != "FLAT" or (mapping and kind != "UVMAP" and mapping.name != "UV"))
+        self.note("outside its edges an image can only be repeated or extended", node.extension not in ("REPEAT", "EXTEND"))
+        return spec
 
     def image(self, image):
-        """The path of an image beside the scene; an error where it cannot be read."""
+        """The path of an image relative to the scene. Raises ExportError if the image cannot be read."""
         path = bpy.path.abspath(image.filepath, library=image.library)
-        if image.source != "FILE" or image.size[0] == 0:  # which has it read
-            raise ExportError(f'{self.where}: the image "{image.name}" cannot be read (got "{path}", expected a file, or one that is packed).', 4)
+        if image.source != "FILE" or image.size[0] == 0:  # reading the size loads the image
+            raise ExportError(f'{self.where}: the image "{image.name}" cannot be read (got "{path}", expected a file or a packed image).', 4)
         others = [name for name, known in self.images.items() if known != image]
         name = free_name(file_name(pathlib.Path(image.name).stem), others, pathlib.Path(path).suffix)
         self.images[name] = image
@@ -324,7 +326,7 @@ def write_images(images, folder):
 
 
 def surfaces_of(mesh):
-    """The triangles of each material slot: corners' positions, normals where any is smooth, and texture coordinates."""
+    """The triangles of each material slot: positions, normals and texture coordinates of corners, and True if any triangle is smooth."""
     mesh.calc_loop_triangles()
     mesh.calc_normals_split()
 
@@ -344,7 +346,7 @@ def surfaces_of(mesh):
 
 
 def moved(surface, matrix, scale):
-    """The surface where the matrix puts it, in metres; its front stays its front in a mirror."""
+    """The surface transformed by the matrix, in metres. Its front remains its front if the matrix mirrors."""
     positions, normals, uv = surface
     linear = np.array(matrix.to_3x3())
     positions = (positions @ linear.T + np.array(matrix.translation)) * scale
@@ -357,11 +359,11 @@ def moved(surface, matrix, scale):
 
 
 def write_mesh(path, surface):
-    """Binary PLY; or OBJ, which has texture coordinates here."""
+    """Writes binary PLY, or OBJ for surfaces with texture coordinates."""
     positions, normals, uv = surface
     shaded = normals is not None
     rows = np.hstack([positions] + [normals] * shaded + [uv] * (path.suffix == ".obj"))
-    order = np.lexsort(rows.T)  # corners that are alike are one vertex; np.unique takes ten times as long
+    order = np.lexsort(rows.T)  # equal corners become one vertex; np.unique takes ten times as long
     is_new = np.concatenate([[True], (rows[order][1:] != rows[order][:-1]).any(axis=1)])
     faces = np.empty(len(rows), np.int64)
     faces[order] = np.cumsum(is_new) - 1
@@ -382,7 +384,7 @@ def write_mesh(path, surface):
 
 
 class Exporter:
-    """Makes a scene of what a depsgraph evaluates, in metres: `said`, and the `files` of its meshes."""
+    """Converts an evaluated depsgraph to a scene in metres: its description `spec`, and the `files` of its meshes."""
 
     def __init__(self, depsgraph, folder):
         self.depsgraph, self.scene, self.folder = depsgraph, depsgraph.scene, folder
@@ -390,41 +392,42 @@ class Exporter:
         self.notes = Notes()
         self.shading = Shading(folder, self.scale, self.notes)
         self.files = {}
-        self.said = {"abbe": 1, "units": "m", **self.view(), "materials": self.shading.materials, "objects": {}, "shapes": [], "lights": []}
+        self.spec = {"abbe": 1, "units": "m", **self.view(), "materials": self.shading.materials, "objects": {}, "shapes": [], "lights": []}
         self.walk()
         self.add_world()
-        if not self.said["shapes"]:
+        if not self.spec["shapes"]:
             raise ExportError("the scene has no surface to render (got none, expected a mesh with faces and a material).")
-        self.notes.add("scene", "nothing moves during an exposure here: motion blur is dropped", self.scene.render.use_motion_blur)
-        self.notes.add("scene", "the whole picture is rendered here: its border is dropped", self.scene.render.use_border)
-        lit = self.said["lights"] or any("emission" in shape for shape in self.said["shapes"])
-        self.notes.add("scene", "nothing shines in this scene", not lit)
+        self.notes.add("scene", "motion blur is not supported: dropped", self.scene.render.use_motion_blur)
+        self.notes.add("scene", "render borders are not supported: dropped", self.scene.render.use_border)
+        has_light = self.spec["lights"] or any("emission" in shape for shape in self.spec["shapes"])
+        self.notes.add("scene", "the scene has no light", not has_light)
 
     def view(self):
-        """Camera, sensor and what is shown as white: where Blender's view is a plain one, as there, a radiance of 1 over 2^exposure."""
-        seen, render, look = self.scene.camera.evaluated_get(self.depsgraph), self.scene.render, self.scene.view_settings
-        camera, at, axes, where = seen.data, seen.matrix_world.translation, seen.matrix_world.to_3x3().normalized(), f'camera "{seen.name}"'
-        self.notes.add(where, "a camera that is not perspective has no counterpart here: perspective", camera.type != "PERSP")
-        self.notes.add(where, "the shift of a lens has no counterpart here: its axis meets the middle of the picture", camera.shift_x or camera.shift_y)
-        self.notes.add(where, "pixels are square here", render.pixel_aspect_x != render.pixel_aspect_y)
+        """Camera, sensor, and the exposure shown as white. For a plain view in Blender it is the same: a radiance of 1 divided by 2^exposure."""
+        instance, render, look = self.scene.camera.evaluated_get(self.depsgraph), self.scene.render, self.scene.view_settings
+        camera, at, axes = instance.data, instance.matrix_world.translation, instance.matrix_world.to_3x3().normalized()
+        where = f'camera "{instance.name}"'
+        self.notes.add(where, "only perspective cameras are supported: perspective", camera.type != "PERSP")
+        self.notes.add(where, "lens shift is not supported: the axis passes through the center of the picture", camera.shift_x or camera.shift_y)
+        self.notes.add(where, "only square pixels are supported", render.pixel_aspect_x != render.pixel_aspect_y)
         resolution = [max(int(size * render.resolution_percentage / 100), 1) for size in (render.resolution_x, render.resolution_y)]
         upright = camera.sensor_fit == "VERTICAL" or (camera.sensor_fit == "AUTO" and resolution[1] > resolution[0])
         pitch_mm = (camera.sensor_height if camera.sensor_fit == "VERTICAL" else camera.sensor_width) / resolution[upright]
-        focal_length, kind, aperture = camera.lens / 1000, "pinhole", 1 / PINHOLE_F_NUMBER  # seen from the film
+        focal_length, kind, aperture = camera.lens / 1000, "pinhole", 1 / PINHOLE_F_NUMBER  # as seen from the film
         lens = {"focal_length": tidy(focal_length)}
         if camera.dof.use_dof:
             target = camera.dof.focus_object and camera.dof.focus_object.evaluated_get(self.depsgraph).matrix_world.translation
             distance = (abs(axes.col[2].dot(target - at)) if target else camera.dof.focus_distance) * self.scale
-            self.notes.add(where, "the blades and the ratio of an opening are left out: it is round", camera.dof.aperture_blades > 2 or camera.dof.aperture_ratio != 1)
-            self.notes.add(where, "no lens is in focus within its focal length: a pinhole", distance <= focal_length)
-            self.notes.add(where, "no lens in air is faster than f/0.5: f/0.5", camera.dof.aperture_fstop < FASTEST_F_NUMBER)
+            self.notes.add(where, "aperture blades and ratio are not supported: round", camera.dof.aperture_blades > 2 or camera.dof.aperture_ratio != 1)
+            self.notes.add(where, "a lens cannot focus within its focal length: replaced by a pinhole", distance <= focal_length)
+            self.notes.add(where, "a lens in air cannot be faster than f/0.5: clamped to that", camera.dof.aperture_fstop < MIN_F_NUMBER)
             if distance > focal_length:
-                f_number = max(camera.dof.aperture_fstop, FASTEST_F_NUMBER)
-                extension = distance / (distance - focal_length)  # of the film's distance, and so of the film that has Blender's view
+                f_number = max(camera.dof.aperture_fstop, MIN_F_NUMBER)
+                extension = distance / (distance - focal_length)  # of the image distance, and therefore of a film with Blender's field of view
                 kind, pitch_mm, aperture = "thin_lens", pitch_mm * extension, 1 / (f_number * extension)
                 lens.update(f_number=tidy(f_number), focus_distance=tidy(distance))
         is_plain = look.view_transform == "Standard" and look.look == "None" and look.gamma == 1 and not look.use_curve_mapping
-        self.notes.add("scene", f'the view "{look.view_transform}" has no counterpart here: the picture\'s white is chosen from it', not is_plain)
+        self.notes.add("scene", f'the view "{look.view_transform}" is not supported: the white of the picture is chosen from its content', not is_plain)
         white = math.pi / 4 * aperture**2 * LUMENS_PER_WATT / 2**look.exposure
         at = at * self.scale
         return {"camera": {kind: lens, "from": tidy(at), "to": tidy(at - axes.col[2]), "up": tidy(axes.col[1])},
@@ -432,30 +435,30 @@ class Exporter:
                 "output": {"exposure": tidy(white)} if is_plain else {}}
 
     def walk(self):
-        """Adds all lamps and shapes; meshes that several objects or instances show are read once."""
-        shown = {}
+        """Adds all lights and shapes; a mesh that several objects or instances share is read once."""
+        meshes = {}
         for instance in self.depsgraph.object_instances:
-            seen, matrix = instance.object, instance.matrix_world.copy()
-            where = f'object "{seen.name}"'
-            if instance.show_self and seen.type == "LIGHT":
-                self.add_light(seen, matrix)
-            elif instance.show_self and seen.type == "MESH":
-                visible = seen.visible_camera, seen.visible_diffuse, seen.visible_glossy, seen.visible_transmission, seen.visible_shadow
-                self.notes.add(where, "what some rays do not see is seen by all here", not all(visible))
-                self.notes.add(where, "holdouts and shadow catchers are plain shapes here", seen.is_holdout or seen.is_shadow_catcher)
-                slots = [slot.material for slot in seen.material_slots] or list(seen.data.materials) or [None]
-                key = (seen.data.as_pointer(), *(slot.name_full if slot else None for slot in slots))
-                if key not in shown:
-                    shown[key] = (self.parts_of(seen.data, slots, where), [])
-                shown[key][1].append((seen.name, matrix))
-            self.notes.add(where, f"{DROPPED.get(seen.type)} have no counterpart here: dropped", seen.type in DROPPED)
-            hair = [system for system in seen.particle_systems if system.settings.type == "HAIR" and system.settings.render_type == "PATH"]
-            self.notes.add(where, "hair has no counterpart here: dropped", hair)
-        for parts, places in shown.values():
-            self.add_shapes(parts, places)
+            obj, matrix = instance.object, instance.matrix_world.copy()
+            where = f'object "{obj.name}"'
+            if instance.show_self and obj.type == "LIGHT":
+                self.add_light(obj, matrix)
+            elif instance.show_self and obj.type == "MESH":
+                visible = obj.visible_camera, obj.visible_diffuse, obj.visible_glossy, obj.visible_transmission, obj.visible_shadow
+                self.notes.add(where, "visibility to only some kinds of rays is not supported: visible to all", not all(visible))
+                self.notes.add(where, "holdouts and shadow catchers are not supported: plain shapes", obj.is_holdout or obj.is_shadow_catcher)
+                slots = [slot.material for slot in obj.material_slots] or list(obj.data.materials) or [None]
+                key = (obj.data.as_pointer(), *(slot.name_full if slot else None for slot in slots))
+                if key not in meshes:
+                    meshes[key] = (self.parts_of(obj.data, slots, where), [])
+                meshes[key][1].append((obj.name, matrix))
+            self.notes.add(where, f"{DROPPED.get(obj.type)} have no counterpart here: dropped", obj.type in DROPPED)
+            hair = [system for system in obj.particle_systems if system.settings.type == "HAIR" and system.settings.render_type == "PATH"]
+            self.notes.add(where, "hair is not supported: dropped", hair)
+        for parts, instances in meshes.values():
+            self.add_shapes(parts, instances)
 
     def parts_of(self, mesh, slots, where):
-        """Material, format of the file and surface of each slot that has triangles."""
+        """Material, file format and surface of each slot that has triangles."""
         parts = []
         self.notes.add(where, "points and lines have no surface: dropped", len(mesh.vertices) > 0 and len(mesh.polygons) == 0)
         for slot, (positions, normals, uv), smooth in surfaces_of(mesh):
@@ -463,79 +466,79 @@ class Exporter:
             if name is None:
                 continue
             material = self.shading.materials[name]
-            self.notes.add(where, "light is refracted by the triangles of a smooth body as they are: it needs many", smooth and is_matter(material))
+            self.notes.add(where, "light refracts at the flat triangles of a smooth body: use a fine mesh", smooth and is_medium(material))
             text = json.dumps([material] + [self.shading.materials.get(part.get("material")) for part in material.get("mixture", [])])
-            parts.append((name, ".obj" if '"image"' in text else ".ply", [positions, normals if smooth and not is_matter(material) else None, uv]))
+            parts.append((name, ".obj" if '"image"' in text else ".ply", [positions, normals if smooth and not is_medium(material) else None, uv]))
         return parts
 
-    def add_shapes(self, parts, places):
-        """Parts that stand once or emit become shapes of their own; the others an object that instances place."""
-        shared, first = [], places[0][0]
+    def add_shapes(self, parts, instances):
+        """Adds parts that occur once or emit as shapes of their own, and the others as an object with instances."""
+        shared, first = [], instances[0][0]
         for material, extension, surface in parts:
             radiance = self.shading.emissions[material]
             part = "" if len(parts) == 1 else f"/{material}"
-            if len(places) > 1 and not radiance.any():
+            if len(instances) > 1 and not radiance.any():
                 mesh = self.add_mesh(first + part, extension, [surface[0] * self.scale, *surface[1:]])
                 shared.append({"name": first + part, "mesh": mesh, "material": material})
                 continue
-            for name, matrix in places:
-                said = {"name": name + part, "mesh": self.add_mesh(name + part, extension, moved(surface, matrix, self.scale)), "material": material}
+            for name, matrix in instances:
+                spec = {"name": name + part, "mesh": self.add_mesh(name + part, extension, moved(surface, matrix, self.scale)), "material": material}
                 if radiance.any():
-                    said.update(emission=emission_of(list(radiance), "radiance", 1, f'material "{material}"', self.notes), two_sided=True)
-                self.said["shapes"].append(said)
+                    spec.update(emission=emission_of(list(radiance), "radiance", 1, f'material "{material}"', self.notes), two_sided=True)
+                self.spec["shapes"].append(spec)
         if shared:
-            of = free_name(first, self.said["objects"])
-            self.said["objects"][of] = {"shapes": shared}
-            for name, matrix in places:
+            of = free_name(first, self.spec["objects"])
+            self.spec["objects"][of] = {"shapes": shared}
+            for name, matrix in instances:
                 matrix.translation *= self.scale
                 rows = [number for row in matrix[:3] for number in row]
-                self.said["shapes"].append({"name": name, "instance": {"of": of, "transform": {"matrix": tidy(rows)}}})
+                self.spec["shapes"].append({"name": name, "instance": {"of": of, "transform": {"matrix": tidy(rows)}}})
 
     def add_mesh(self, name, extension, surface):
         name = free_name(file_name(name), self.files, extension)
         self.files[name] = surface
         return f"{self.folder}/{name}"
 
-    def add_light(self, seen, matrix):
-        lamp, where, power = seen.data, f'light "{seen.name}"', seen.data.energy
+    def add_light(self, obj, matrix):
+        light, where, power = obj.data, f'light "{obj.name}"', obj.data.energy
         at, towards = tidy(matrix.translation * self.scale), matrix.to_3x3().col[2].normalized()
-        self.notes.add(where, "nodes of lamps are not read here: power and colour are the lamp's own", lamp.use_nodes)
-        self.notes.add(where, "lamps have shadows here", not lamp.use_shadow)
-        self.notes.add(where, "a lamp that takes light away has no counterpart here: dropped", power < 0)
-        self.notes.add(where, "watts are those of lengths in metres: next to sun and world they give another brightness than in Blender",
-                       self.scale != 1 and lamp.type != "SUN")
-        if power <= 0 or not any(lamp.color):
+        self.notes.add(where, "nodes of lights are not supported: power and colour are those of the light itself", light.use_nodes)
+        self.notes.add(where, "lights always cast shadows", not light.use_shadow)
+        self.notes.add(where, "lights of negative power are not supported: dropped", power < 0)
+        self.notes.add(where, "power in watts refers to lengths in metres: its ratio to sun and world differs from Blender's",
+                       self.scale != 1 and light.type != "SUN")
+        if power <= 0 or not any(light.color):
             return
         kind, amount = "radiant_flux_W", power
-        if lamp.type == "SUN":
-            degrees, kind = math.degrees(lamp.angle), "irradiance"
+        if light.type == "SUN":
+            degrees, kind = math.degrees(light.angle), "irradiance"
             body = {"sun": {"angular_diameter_deg": tidy(min(degrees, 60))}} if degrees >= 0.01 else {"directional": {}}
             next(iter(body.values()))["towards"] = tidy(towards)
-        elif lamp.type == "AREA":
-            body, area = self.area(lamp, matrix, where)
+        elif light.type == "AREA":
+            body, area = self.area(light, matrix, where)
             kind, amount = "radiance", power / (4 * area)
-        elif lamp.type == "SPOT":
-            edge, kind, amount = math.cos(lamp.spot_size / 2), "intensity", power / (4 * math.pi)
-            self.notes.add(where, "a spot shines evenly within its cone, as on its axis, and from a point")
-            self.notes.add(where, "a spot's soft edge becomes a hard one that sends out as much", lamp.spot_blend > 0)
-            middle = math.acos(edge + (1 - edge) * lamp.spot_blend / 2)  # of the cosines between which Blender's edge is soft
-            body = {"spot": {"at": at, "direction": tidy(-towards), "half_angle_deg": tidy(math.degrees(middle))}}
-        elif lamp.shadow_soft_size > 0:
-            body = {"sphere": {"center": at, "radius": tidy(lamp.shadow_soft_size * self.scale)}}
+        elif light.type == "SPOT":
+            edge, kind, amount = math.cos(light.spot_size / 2), "intensity", power / (4 * math.pi)
+            self.notes.add(where, "a spot emits uniformly within its cone, as on its axis, and from a point")
+            self.notes.add(where, "a spot's soft edge becomes a hard one with the same power", light.spot_blend > 0)
+            half_angle = math.acos(edge + (1 - edge) * light.spot_blend / 2)  # mean of the cosines that bound Blender's soft edge
+            body = {"spot": {"at": at, "direction": tidy(-towards), "half_angle_deg": tidy(math.degrees(half_angle))}}
+        elif light.shadow_soft_size > 0:
+            body = {"sphere": {"center": at, "radius": tidy(light.shadow_soft_size * self.scale)}}
         else:
             body = {"point": {"at": at}}
-        self.notes.add(where, "what a lamp's surface sends out is seen by the camera too", not {"point", "spot", "directional"} & body.keys())
-        self.said["lights"].append({"name": seen.name, **body, "emission": emission_of(list(lamp.color), kind, amount, where, self.notes)})
+        self.notes.add(where, "the camera also sees the surface of the light", not {"point", "spot", "directional"} & body.keys())
+        self.spec["lights"].append({"name": obj.name, **body, "emission": emission_of(list(light.color), kind, amount, where, self.notes)})
 
-    def area(self, lamp, matrix, where):
+    def area(self, light, matrix, where):
         """A quad or disc that faces -z, and its area."""
         at, linear = matrix.translation * self.scale, matrix.to_3x3() * self.scale
-        u, v = linear.col[0] * lamp.size, -linear.col[1] * (lamp.size_y if lamp.shape in ("RECTANGLE", "ELLIPSE") else lamp.size)
+        u, v = linear.col[0] * light.size, -linear.col[1] * (light.size_y if light.shape in ("RECTANGLE", "ELLIPSE") else light.size)
         area = u.cross(v).length
-        self.notes.add(where, "the spread of an area lamp has no counterpart here: it shines in all directions", lamp.spread < 3.1415)
-        if lamp.shape in ("SQUARE", "RECTANGLE"):
+        self.notes.add(where, "the spread of an area light is not supported: it emits in all directions", light.spread < 3.1415)
+        if light.shape in ("SQUARE", "RECTANGLE"):
             return {"quad": {"corner": tidy(at - (u + v) / 2), "edge_u": tidy(u), "edge_v": tidy(v)}}, area
-        self.notes.add(where, "an elliptic lamp becomes a round one of the same area", abs(u.length - v.length) > 1e-6 * u.length)
+        self.notes.add(where, "an elliptic light becomes a round one of the same area", abs(u.length - v.length) > 1e-6 * u.length)
         return {"disc": {"center": tidy(at), "normal": tidy(u.cross(v).normalized()), "radius": tidy(math.sqrt(area) / 2)}}, math.pi / 4 * area
 
     def add_world(self):
@@ -546,8 +549,8 @@ class Exporter:
             rgb, strength, body = list(world.color) if world and not world.use_nodes else [0, 0, 0], 1, {}
         else:
             shader, kind = source(output.inputs["Surface"])
-            self.notes.add(where, "the world's volume has no counterpart here: dropped", output.inputs["Volume"].is_linked)
-            self.notes.add(where, "a world has nothing but a background here: it is black", shader and kind != "BACKGROUND")
+            self.notes.add(where, "the world's volume is not supported: dropped", output.inputs["Volume"].is_linked)
+            self.notes.add(where, "only background shaders are supported for the world: it is black", shader and kind != "BACKGROUND")
             if kind != "BACKGROUND":
                 return
             strength = shading.value(shader.node, "Strength")
@@ -557,55 +560,55 @@ class Exporter:
             else:
                 rgb, body = shading.value(shader.node, "Color"), {}
         if strength > 0 and any(rgb):
-            self.said["lights"].append({"name": world.name, "environment": body, "emission": emission_of(rgb, "radiance", strength, where, self.notes)})
+            self.spec["lights"].append({"name": world.name, "environment": body, "emission": emission_of(rgb, "radiance", strength, where, self.notes)})
 
     def panorama(self, node, where):
-        """The image and how it is turned: its middle column looks along +x there, along +y made horizontal here."""
-        self.notes.add(where, "an environment is equirectangular here", node.projection != "EQUIRECTANGULAR")
+        """The image and its rotation. Its center column looks along +x in Blender, and along +y made horizontal in Abbe."""
+        self.notes.add(where, "only equirectangular environments are supported", node.projection != "EQUIRECTANGULAR")
         image = self.shading.image(node.image)
         if pathlib.Path(image).suffix.lower() not in (".exr", ".hdr"):
-            raise ExportError(f'{where}: its image is no environment (got "{node.image.name}", expected an .exr or .hdr file).', 4)
+            raise ExportError(f'{where}: its image is not an environment (got "{node.image.name}", expected an .exr or .hdr file).', 4)
         mapping, kind = source(node.inputs["Vector"])
-        up, middle = Vector((0, 0, 1)), Vector((1, 0, 0))
+        up, center = Vector((0, 0, 1)), Vector((1, 0, 0))
         if kind == "MAPPING":
             inputs = mapping.node.inputs
             turn = inputs["Rotation"].default_value.to_matrix()
             turn = turn if mapping.node.vector_type == "TEXTURE" else turn.transposed()
-            up, middle = turn @ up, turn @ middle
-            self.notes.add(where, "the scale of an environment has no counterpart here: dropped", tidy(inputs["Scale"].default_value) != [1, 1, 1])
+            up, center = turn @ up, turn @ center
+            self.notes.add(where, "the scale of an environment is not supported: dropped", tidy(inputs["Scale"].default_value) != [1, 1, 1])
         forward = Vector((1, 0, 0)) if abs(up.y) > 0.999999 else Vector((0, 1, 0))
         forward = (forward - up * forward.dot(up)).normalized()
-        degrees = math.degrees(math.atan2(up.dot(forward.cross(middle)), forward.dot(middle)))
+        degrees = math.degrees(math.atan2(up.dot(forward.cross(center)), forward.dot(center)))
         return {"image": image, "up": tidy(up), "rotate_deg": tidy(degrees)}
 
 
 class ExportEngine(bpy.types.RenderEngine):
-    """Renders nothing: Blender gives what it evaluates for renders, with the modifiers of those, to render engines alone."""
+    """A render engine that only exports. Blender gives the scene evaluated for renders, with their modifiers, to render engines alone."""
 
     bl_idname, bl_label, folder, made = "ABBE_EXPORT", "Abbe export", None, None
 
     def render(self, depsgraph):
         try:
             ExportEngine.made = Exporter(depsgraph, ExportEngine.folder)
-        except Exception as error:  # which Blender would print and forget
+        except Exception as error:  # Blender would print and discard it
             ExportEngine.made = error
 
 
 def exported(context, folder):
-    """What the context's scene becomes."""
-    if bpy.app.version >= (4, 0, 0):  # whose Principled BSDF says other things
+    """Exports the context's scene in memory."""
+    if bpy.app.version >= (4, 0, 0):  # its Principled BSDF has other inputs
         raise ExportError(f"this exporter is for Blender 3 (got {bpy.app.version_string}, expected 3.4 to 3.6).")
-    if context.scene.camera is None:  # without one nothing is evaluated
+    if context.scene.camera is None:  # Blender evaluates nothing without one
         raise ExportError("the scene has no camera (got none, expected an object as the scene's Camera).")
     render = context.scene.render
-    kept = {name: getattr(render, name) for name in ("engine", "use_compositing", "use_sequencer")}
+    saved = {name: getattr(render, name) for name in ("engine", "use_compositing", "use_sequencer")}
     ExportEngine.folder, ExportEngine.made = folder, None
     bpy.utils.register_class(ExportEngine)
     try:
         render.engine, render.use_compositing, render.use_sequencer = ExportEngine.bl_idname, False, False
         bpy.ops.render.render(scene=context.scene.name, layer=context.view_layer.name)
     finally:
-        for name, value in kept.items():
+        for name, value in saved.items():
             setattr(render, name, value)
         bpy.utils.unregister_class(ExportEngine)
     if isinstance(ExportEngine.made, Exception):
@@ -613,10 +616,10 @@ def exported(context, folder):
     return ExportEngine.made
 
 
-def scene_text(said):
-    """The scene as JSON, an entry of its lists in each line."""
+def scene_text(spec):
+    """The scene as JSON with one list entry per line."""
     blocks = []
-    for key, value in said.items():
+    for key, value in spec.items():
         entries = [("", item) for item in value] if isinstance(value, list) else [(json.dumps(name) + ": ", item) for name, item in value.items()] \
             if key in ("materials", "objects") else []
         text = ",".join("\n    " + name + json.dumps(item) for name, item in entries)
@@ -625,7 +628,7 @@ def scene_text(said):
 
 
 def export(context, path):
-    """Writes the context's scene to that file and gives the lines that tell what was approximated or dropped. Raises ExportError and OSError."""
+    """Writes the context's scene to a file and returns the notes on what was approximated or dropped. Raises ExportError and OSError."""
     path = pathlib.Path(path)
     folder = path.with_name(path.stem + "_files")
     scene = exported(context, folder.name)
@@ -636,9 +639,9 @@ def export(context, path):
     lines = scene.notes.lines()
     head = f"// Exported from {pathlib.Path(bpy.data.filepath).name or 'a new scene'} by Blender {bpy.app.version_string}."
     head += (" Approximated or dropped:" if lines else "") + "".join("\n//   " + " ".join(line.split()) for line in lines) + "\n"
-    scene.said["output"].update(image=path.stem + ".exr", display=path.stem + ".png")
+    scene.spec["output"].update(image=path.stem + ".exr", display=path.stem + ".png")
     unfinished = path.with_name(path.name + ".new")
-    unfinished.write_text(head + scene_text(scene.said), "utf-8")
+    unfinished.write_text(head + scene_text(scene.spec), "utf-8")
     os.replace(unfinished, path)
     return lines
 
@@ -674,10 +677,10 @@ def unregister():
 
 
 def main(arguments):
-    """Exports in the background and gives the exit code, as Abbe's commands have them."""
+    """Exports in the background and returns an exit code like those of Abbe's commands."""
     text, code = "", 0
     if len(arguments) != 1 or not arguments[0].endswith(".json"):
-        text, code = f"one argument stands behind -- (got {' '.join(arguments) or 'none'}, expected OUT.json).", 2
+        text, code = f"exactly one argument follows -- (got {' '.join(arguments) or 'none'}, expected OUT.json).", 2
     else:
         try:
             print("".join(line + "\n" for line in export(bpy.context, os.path.abspath(arguments[0]))), end="", flush=True)
@@ -685,9 +688,9 @@ def main(arguments):
             text, code = error, error.code
         except OSError as error:
             text, code = f"{error.filename}: {error.strerror} (expected a file that can be written).", 5
-        except Exception as error:  # without which Blender would end as if all were well
+        except Exception as error:  # otherwise Blender would end successfully
             traceback.print_exc()
-            text, code = f"a fault of the exporter ({type(error).__name__}: {error}).", 70
+            text, code = f"internal error of the exporter ({type(error).__name__}: {error}).", 70
     if code:
         print(f"abbe_export: {text}", file=sys.stderr)
     return code

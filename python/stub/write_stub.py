@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints the types of the module `abbe._abbe` as a stub, from the signatures that its docstrings begin with. The target `stub` does."""
+"""Prints a type stub of the module `abbe._abbe`, from the signatures at the start of its docstrings. The target `stub` runs it."""
 import inspect
 import re
 
@@ -14,25 +14,25 @@ import typing
 import numpy
 from numpy.typing import ArrayLike, NDArray
 '''
-# What pybind11 calls types, as checkers know them.
+# Names of types in pybind11, and in type checkers.
 TYPES = ((r"abbe\._abbe\.", ""), (r"numpy\.ndarray\[numpy\.float64\]", "ArrayLike"), (r"os\.PathLike", "str | os.PathLike[str]"), (r"\bobject\b", "typing.Any"),
          (r"\bhandle\b", "typing.Any"), (r"\bSequence\b", "typing.Sequence[typing.Any]"), (r"\b(List|Dict|Tuple|Optional|Union)\[", r"typing.\1["),
          (r"\bsequence\b", "typing.Sequence[typing.Any]"), (r": (Scene|Film) = None", r": \1 | None = None"), (r"\*\*kwargs", "**keywords: typing.Any"))
-# What is returned where pybind11 knows no more than `object`.
+# Return types of functions for which pybind11 declares only `object`.
 RESULTS = {"array": "NDArray[numpy.float32]", "variance": "NDArray[numpy.float32] | None", "wavelengths": "NDArray[numpy.float64] | None",
            **{name: "NDArray[numpy.float32] | None" for name in ("exposure", "electrons", "codes", "saturated", "calibrated")},
            "to_dict": "dict[str, typing.Any]", "spectrum": "NDArray[numpy.float32]", "picture": "NDArray[numpy.float32]", "stats": "dict[str, typing.Any] | None",
            "channels": "list[str]", "metadata": "dict[str, str]"}
 
 
-def known(signature):
+def translated(signature):
     for pattern, name in TYPES:
         signature = re.sub(pattern, name, signature)
     return signature
 
 
 def split(text):
-    """The signature and the words of a docstring."""
+    """The signature and the text of a docstring."""
     signature, _, words = text.partition("\n\n")
     return signature.strip(), words.strip()
 
@@ -44,7 +44,7 @@ def docstring(words, indent):
 
 def function(name, text, indent=""):
     signature, words = split(text)
-    signature = known(signature)
+    signature = translated(signature)
     if name in RESULTS:
         signature = re.sub(r"->.*", f"-> {RESULTS[name]}", signature)
     return f"{indent}def {signature}:\n" + (docstring(words, indent + "    ") if words else f"{indent}    ...\n")
@@ -52,7 +52,7 @@ def function(name, text, indent=""):
 
 def property_of(name, member, indent):
     signature, words = split(member.fget.__doc__ or "")
-    result = RESULTS.get(name) or known(re.sub(r".*->\s*", "", signature)) or "typing.Any"
+    result = RESULTS.get(name) or translated(re.sub(r".*->\s*", "", signature)) or "typing.Any"
     return f"{indent}@property\n{indent}def {name}(self) -> {result}:\n" + docstring(member.__doc__.strip() or words, indent + "    ")
 
 

@@ -20,7 +20,7 @@ Ray moved_ray(const Ray& ray, const Imath::M44d& by) {
           ray.time};
 }
 
-void turn(std::optional<LaneImages>& images, const Imath::M44d& by) {
+void turn(std::optional<WavelengthImages>& images, const Imath::M44d& by) {
   if (images) images->jones.axis = Imath::V3f(turned_direction(Imath::V3d(images->jones.axis), by));
 }
 
@@ -34,10 +34,10 @@ void move(CameraRay& ray, const Camera& camera, float time) {
   turn(ray.images, since_opening);
 }
 
-// Where a ray that leaves the meter begins, whatever the meter lies on.
-Imath::V3f off_meter(const Camera& meter, const Ray& ray) {
-  const Imath::V3f at_rest = meter_normal(meter, seen_at_rest(meter, ray).origin);
-  const Imath::V3f normal(direction_at(meter, Imath::V3d(at_rest), ray.time));
+// Origin of a ray that leaves the probe, offset from whatever the probe lies on.
+Imath::V3f probe_ray_origin(const Camera& probe, const Ray& ray) {
+  const Imath::V3f at_rest = probe_normal(probe, ray_in_rest_frame(probe, ray).origin);
+  const Imath::V3f normal(direction_at(probe, Imath::V3d(at_rest), ray.time));
   return offset_point(ray.origin, normal, normal);
 }
 
@@ -70,53 +70,54 @@ void sample_rays(const Camera& camera, std::span<const CameraSample> samples, st
 
 std::optional<CameraConnection> sample_towards(const Camera& camera, const Imath::V3f& point, Imath::V2f lens,
                                                const SampledSpectrum& wavelengths_nm, float time) {
-  const auto connect = [&](const Imath::V3f& seen) {
+  const auto connect = [&](const Imath::V3f& at_rest) {
     return std::visit(
         [&](const auto& kind) {
-          return kind.sample_towards(camera.film(), seen, lens, wavelengths_nm, time);
+          return kind.sample_towards(camera.film(), at_rest, lens, wavelengths_nm, time);
         },
         camera.kind);
   };
   if (!camera.motion) return connect(point);
   const Imath::M44d since_opening = motion_until(camera, time);
-  std::optional<CameraConnection> found = connect(moved_point(point, rigid_inverse(since_opening)));
-  if (!found) return found;
-  found->lens_point = moved_point(found->lens_point, since_opening);
-  turn(found->images, since_opening);
-  return found;
+  std::optional<CameraConnection> connection = connect(moved_point(point, rigid_inverse(since_opening)));
+  if (!connection) return connection;
+  connection->lens_point = moved_point(connection->lens_point, since_opening);
+  turn(connection->images, since_opening);
+  return connection;
 }
 
 std::optional<CameraDensity> density(const Camera& camera, const Ray& ray,
                                      const SampledSpectrum& wavelengths_nm, LensRoute route) {
-  const Ray& seen = camera.motion ? seen_at_rest(camera, ray) : ray;
-  std::optional<CameraDensity> of =
-      std::visit([&](const auto& kind) { return kind.density(camera.film(), seen, wavelengths_nm, route); },
-                 camera.kind);
+  const Ray& at_rest = camera.motion ? ray_in_rest_frame(camera, ray) : ray;
+  std::optional<CameraDensity> of = std::visit(
+      [&](const auto& kind) { return kind.density(camera.film(), at_rest, wavelengths_nm, route); },
+      camera.kind);
   if (camera.motion && of) turn(of->images, motion_until(camera, ray.time));
   return of;
 }
 
 std::optional<CameraConnection> connection_through(const Camera& camera, const Opening& opening,
                                                    const Ray& light, const SampledSpectrum& wavelengths_nm) {
-  const std::optional<double> distance = crossing(opening, seen_at_rest(camera, light));
+  const std::optional<double> distance = crossing(opening, ray_in_rest_frame(camera, light));
   if (!distance) return std::nullopt;
   const Imath::V3f point(Imath::V3d(light.origin) + Imath::V3d(light.direction) * *distance);
   const Ray back = ray_at(point, -light.direction, light.time);
-  const auto seen = density(camera, back, wavelengths_nm);
-  if (!seen) return std::nullopt;
-  return CameraConnection{seen->film,         is_meter(camera) ? off_meter(camera, back) : point,
-                          seen->pdf_position, seen->importance,
-                          seen->cos_film,     seen->images};
+  const auto camera_density = density(camera, back, wavelengths_nm);
+  if (!camera_density) return std::nullopt;
+  return CameraConnection{
+      camera_density->film,         is_probe(camera) ? probe_ray_origin(camera, back) : point,
+      camera_density->pdf_position, camera_density->importance,
+      camera_density->cos_film,     camera_density->images};
 }
 
 std::optional<GhostEntrance> sample_ghost(const Camera& camera, Imath::V2f lens, float time) {
   const auto* kind = std::get_if<LensSystem>(&camera.kind);
-  auto found = kind != nullptr ? kind->sample_ghost(lens) : std::nullopt;
-  if (!camera.motion || !found) return found;
+  auto entrance = kind != nullptr ? kind->sample_ghost(lens) : std::nullopt;
+  if (!camera.motion || !entrance) return entrance;
   const Imath::M44d since_opening = motion_until(camera, time);
-  found->point = moved_point(found->point, since_opening);
-  found->normal = Imath::V3f(turned_direction(Imath::V3d(found->normal), since_opening));
-  return found;
+  entrance->point = moved_point(entrance->point, since_opening);
+  entrance->normal = Imath::V3f(turned_direction(Imath::V3d(entrance->normal), since_opening));
+  return entrance;
 }
 
 Camera without_ghosts(Camera camera) {
@@ -124,7 +125,7 @@ Camera without_ghosts(Camera camera) {
   return camera;
 }
 
-Ray seen_at_rest(const Camera& camera, const Ray& ray) {
+Ray ray_in_rest_frame(const Camera& camera, const Ray& ray) {
   return camera.motion ? moved_ray(ray, rigid_inverse(motion_until(camera, ray.time))) : ray;
 }
 
@@ -132,8 +133,8 @@ Imath::V3d direction_at(const Camera& camera, const Imath::V3d& direction, float
   return camera.motion ? turned_direction(direction, motion_until(camera, time)) : direction;
 }
 
-double least_film_cosine(const Camera& camera) {
-  return std::visit([&](const auto& kind) { return kind.least_film_cosine(camera.film()); }, camera.kind);
+double min_film_cosine(const Camera& camera) {
+  return std::visit([&](const auto& kind) { return kind.min_film_cosine(camera.film()); }, camera.kind);
 }
 
 CameraTraits traits(const Camera& camera) {
@@ -144,37 +145,37 @@ const Imath::V3d& position(const Camera& camera) {
   return std::visit([](const auto& kind) -> const Imath::V3d& { return kind.position(); }, camera.kind);
 }
 
-Imath::V3d middle(const Camera& camera) {
-  return std::visit([](const auto& kind) { return kind.middle(); }, camera.kind);
+Imath::V3d center(const Camera& camera) {
+  return std::visit([](const auto& kind) { return kind.center(); }, camera.kind);
 }
 
 void translate(Camera& camera, const Imath::V3d& by) {
   std::visit([&](auto& kind) { kind.translate(by); }, camera.kind);
 }
 
-bool is_meter(const Camera& camera) {
-  return std::holds_alternative<Probe>(camera.kind);
+bool is_probe(const Camera& camera) {
+  return std::holds_alternative<IrradianceProbe>(camera.kind);
 }
 
-Imath::V3f meter_normal(const Camera& meter, const Imath::V3f& point) {
-  return std::get<Probe>(meter.kind).normal_at(point);
+Imath::V3f probe_normal(const Camera& probe, const Imath::V3f& point) {
+  return std::get<IrradianceProbe>(probe.kind).normal_at(point);
 }
 
 Imath::Box3d bounds(const Camera& camera) {
-  const Imath::V3d center = middle(camera);
+  const Imath::V3d at = center(camera);
   const std::optional<Opening> opening = traits(camera).opening;
-  constexpr double kBeside = 1.01;  // where rays begin
-  const double reach = opening ? kBeside * extent(*opening) : (center - position(camera)).length();
-  Imath::Box3d box(center - Imath::V3d(reach), center + Imath::V3d(reach));
+  constexpr double kMargin = 1.01;  // rays start off the surface
+  const double radius = opening ? kMargin * opening_radius(*opening) : (at - position(camera)).length();
+  Imath::Box3d box(at - Imath::V3d(radius), at + Imath::V3d(radius));
   if (!camera.motion) return box;
-  const Imath::Box3d path = camera.motion->sweep({center}, 0, 1);
-  return {path.min - Imath::V3d(reach), path.max + Imath::V3d(reach)};
+  const Imath::Box3d path = camera.motion->sweep({at}, 0, 1);
+  return {path.min - Imath::V3d(radius), path.max + Imath::V3d(radius)};
 }
 
-Imath::V3f meter_point(const Camera& meter, Imath::V2f place) {
-  const FilmGrid film = meter.film();
-  const Imath::V2f at(place.x * static_cast<float>(film.width), place.y * static_cast<float>(film.height));
-  return std::get<Probe>(meter.kind).sample_ray(film, at, {0.5F, 0.5F}, {}, 0, 0).ray.origin;
+Imath::V3f probe_point(const Camera& probe, Imath::V2f uv) {
+  const FilmGrid film = probe.film();
+  const Imath::V2f at(uv.x * static_cast<float>(film.width), uv.y * static_cast<float>(film.height));
+  return std::get<IrradianceProbe>(probe.kind).sample_ray(film, at, {0.5F, 0.5F}, {}, 0, 0).ray.origin;
 }
 
 std::optional<Imath::V3f> film_right(const Camera& camera, float time) {
@@ -188,9 +189,9 @@ std::optional<Imath::V3f> film_right(const Camera& camera, float time) {
 }
 
 double central_weight(const Camera& camera, Imath::V2f film) {
-  constexpr float kMiddleNm = 550;
+  constexpr float kReferenceNm = 550;
   return static_cast<double>(
-      sample_ray(without_ghosts(camera), film, {0.5F, 0.5F}, SampledSpectrum(kMiddleNm), 0, 0).weight[0]);
+      sample_ray(without_ghosts(camera), film, {0.5F, 0.5F}, SampledSpectrum(kReferenceNm), 0, 0).weight[0]);
 }
 
 }  // namespace abbe

@@ -15,10 +15,10 @@
 
 namespace abbe {
 
-/// What turns film positions into rays: the closed list of kinds, each a `CameraModel`, and the pixels. The
-/// kind says how a camera that moves stands at time 0.
+/// A camera: one of the closed list of kinds, each a `CameraModel`, and its pixels. `kind` holds the pose of
+/// a moving camera at time 0.
 struct Camera {
-  std::variant<Pinhole, ThinLens, Probe, LensSystem> kind;
+  std::variant<Pinhole, ThinLens, IrradianceProbe, LensSystem> kind;
   int width = 1;
   int height = 1;
   double pixel_pitch = 1;  ///< [m]
@@ -27,8 +27,8 @@ struct Camera {
   [[nodiscard]] FilmGrid film() const { return {width, height, pixel_pitch}; }
 };
 
-// What `CameraModel` says of each; what has a time finds the camera where it is then, all else where it is at
-// time 0.
+// The functions of `CameraModel` for the kind of the camera. Functions with a time use the camera's pose at
+// that time, all others that at time 0.
 [[nodiscard]] CameraRay sample_ray(const Camera& camera, Imath::V2f film, Imath::V2f lens,
                                    const SampledSpectrum& wavelengths_nm, int hero, float time);
 [[nodiscard]] std::optional<CameraConnection> sample_towards(const Camera& camera, const Imath::V3f& point,
@@ -38,45 +38,45 @@ struct Camera {
 [[nodiscard]] std::optional<CameraDensity> density(const Camera& camera, const Ray& ray,
                                                    const SampledSpectrum& wavelengths_nm,
                                                    LensRoute route = 0);
-[[nodiscard]] double least_film_cosine(const Camera& camera);
+[[nodiscard]] double min_film_cosine(const Camera& camera);
 [[nodiscard]] CameraTraits traits(const Camera& camera);
 [[nodiscard]] const Imath::V3d& position(const Camera& camera);
-[[nodiscard]] Imath::V3d middle(const Camera& camera);
+[[nodiscard]] Imath::V3d center(const Camera& camera);
 void translate(Camera& camera, const Imath::V3d& by);
 
-/// Whether the camera is a meter; see `CameraTraits::meter_acceptance`.
-[[nodiscard]] bool is_meter(const Camera& camera);
-/// The outward unit normal of a meter at one of its points.
-[[nodiscard]] Imath::V3f meter_normal(const Camera& meter, const Imath::V3f& point);
+/// True if the camera is an irradiance probe; see `CameraTraits::probe_acceptance`.
+[[nodiscard]] bool is_probe(const Camera& camera);
+/// Outward unit normal of a probe at one of its points.
+[[nodiscard]] Imath::V3f probe_normal(const Camera& probe, const Imath::V3f& point);
 
-/// Around where rays leave the camera, at all times.
+/// Box around the points at which rays leave the camera, at all times.
 [[nodiscard]] Imath::Box3d bounds(const Camera& camera);
-/// Where the ray of a meter begins, just off its surface, at a place of its film within [0, 1]^2.
-[[nodiscard]] Imath::V3f meter_point(const Camera& meter, Imath::V2f place);
+/// Origin of a probe's ray, just off its surface, for film coordinates `uv` in [0, 1]^2.
+[[nodiscard]] Imath::V3f probe_point(const Camera& probe, Imath::V2f uv);
 
-/// A ray of light that by itself runs into the camera's opening (see `CameraTraits`), as a connection: power
-/// along it adds `weight` times that to the irradiance of the pixel at `film`. Nothing of one that misses the
-/// opening, or whose image is beyond the film.
+/// Connection for a light ray that hits the camera's opening by itself (see `CameraTraits`). Flux along the
+/// ray adds `weight` times the flux to the irradiance of the pixel at `film`. Nothing if the ray misses the
+/// opening or its image falls outside the film.
 [[nodiscard]] std::optional<CameraConnection> connection_through(const Camera& camera, const Opening& opening,
                                                                  const Ray& light,
                                                                  const SampledSpectrum& wavelengths_nm);
 
-/// Draws a point where light comes in by way of a ghost; nothing of a camera without any.
+/// Samples a point at which light enters the lens on the way of a ghost; nothing if the camera has no ghosts.
 [[nodiscard]] std::optional<GhostEntrance> sample_ghost(const Camera& camera, Imath::V2f lens, float time);
-/// The camera, seeing by way of the image alone.
+/// A copy of the camera without ghosts.
 [[nodiscard]] Camera without_ghosts(Camera camera);
 
-/// The ray as it runs beside a camera that moves, seen from where that is at time 0.
-[[nodiscard]] Ray seen_at_rest(const Camera& camera, const Ray& ray);
-/// The direction in the world, at that time, of one that the camera has at time 0.
+/// A world ray in the rest frame of a moving camera, which is its pose at time 0.
+[[nodiscard]] Ray ray_in_rest_frame(const Camera& camera, const Ray& ray);
+/// World direction, at that time, of a direction that the camera has at time 0.
 [[nodiscard]] Imath::V3d direction_at(const Camera& camera, const Imath::V3d& direction, float time);
 
-/// The unit direction in the world, at that time, of what is the right of the picture; a meter has none. With
-/// the way k of light that comes in, and it made perpendicular to k, k x right is up in the picture.
+/// World unit direction, at that time, of the picture's right; nothing for a probe. Let k be the propagation
+/// direction of incoming light. With the result made perpendicular to k, k x right points up in the picture.
 [[nodiscard]] std::optional<Imath::V3f> film_right(const Camera& camera, float time);
 
-/// The weight [sr] of the ray from the middle of the lens to a film position, at 550 nm when the shutter
-/// opens: what stands for a pixel's exposure by radiance where nothing is drawn.
+/// Weight [sr] of the ray from the center of the lens to a film position, at 550 nm and time 0. It represents
+/// the exposure of a pixel per radiance without sampling.
 [[nodiscard]] double central_weight(const Camera& camera, Imath::V2f film);
 
 }  // namespace abbe

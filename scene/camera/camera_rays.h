@@ -6,7 +6,7 @@
 
 namespace abbe {
 
-/// What a camera's ray is asked for by: see `CameraModel`.
+/// Arguments of `CameraModel::sample_ray`.
 struct CameraSample {
   Imath::V2f film;
   Imath::V2f lens;
@@ -15,10 +15,10 @@ struct CameraSample {
   float time = 0;
 };
 
-/// `sample_ray` for many samples, at less cost where a lens is traced; as many rays. Those that weigh nothing
-/// are any.
+/// Calls `sample_ray` for each sample, at lower cost for a lens system. `rays` has as many elements as
+/// `samples`. A ray of zero weight is arbitrary.
 void sample_rays(const Camera& camera, std::span<const CameraSample> samples, std::span<CameraRay> rays);
-/// Those of a lens at rest.
+/// The overload for a lens system at rest.
 void sample_rays(const LensSystem& camera, const FilmGrid& grid, std::span<const CameraSample> samples,
                  std::span<CameraRay> rays);
 

@@ -4,7 +4,7 @@
 
 namespace abbe {
 
-/// Where a camera stands: `right`, `up` and `forward` are orthonormal.
+/// Position and orientation of a camera: `right`, `up` and `forward` are orthonormal.
 struct CameraFrame {
   Imath::V3d position{0, 0, 0};
   Imath::V3d right{1, 0, 0};

@@ -8,18 +8,18 @@ namespace abbe {
 namespace {
 
 constexpr std::uint32_t kRays = 4096;
-constexpr std::size_t kGroups = 32;  // of rays with neighbouring angles
-constexpr double kSameSine2 = 1e-9;  // angles that differ by less count as one
+constexpr std::size_t kGroups = 32;  // groups of rays with similar angles
+constexpr double kSameSine2 = 1e-9;  // smaller differences count as one angle
 constexpr float kReferenceNm = 550;
 
-// The square of the sine of a ray's angle of incidence, by which filters shift, and its irradiance.
+// Squared sine of a ray's angle of incidence, on which filter shifts depend, and its irradiance.
 struct WeightedAngle {
   double sine2;
   double weight;
 };
 
-// Point i of Hammersley's set of `kRays` points in the unit square: (i + 1/2)/kRays, and the binary digits of
-// i mirrored at the point [Pharr2023, sec. 8.6].
+// Point i of Hammersley's set of `kRays` points in the unit square: (i + 1/2)/kRays, and the radical inverse
+// of i in base 2 [Pharr2023, sec. 8.6].
 Imath::V2f hammersley(std::uint32_t i) {
   float mirrored = 0.5F / kRays;
   float digit = 0.5F;
@@ -29,10 +29,10 @@ Imath::V2f hammersley(std::uint32_t i) {
 }
 
 std::vector<WeightedAngle> angles_over_lens(const Camera& camera, Imath::V2f film) {
-  const Camera seen = without_ghosts(camera);
+  const Camera image_camera = without_ghosts(camera);
   std::vector<WeightedAngle> angles;
   for (std::uint32_t i = 0; i < kRays; ++i) {
-    const CameraRay ray = sample_ray(seen, film, hammersley(i), SampledSpectrum(kReferenceNm), 0, 0);
+    const CameraRay ray = sample_ray(image_camera, film, hammersley(i), SampledSpectrum(kReferenceNm), 0, 0);
     const auto weight = static_cast<double>(ray.weight[0]);
     const auto cos_film = static_cast<double>(ray.cos_film);
     if (weight > 0) angles.push_back({(1 - cos_film) * (1 + cos_film), weight});
@@ -47,10 +47,10 @@ std::vector<Incidence> incidence_angles(const Camera& camera, Imath::V2f film) {
   if (rays.empty()) return {};
   std::sort(rays.begin(), rays.end(),
             [](const WeightedAngle& a, const WeightedAngle& b) { return a.sine2 < b.sine2; });
-  const bool is_one = rays.back().sine2 - rays.front().sine2 < kSameSine2;
-  const std::size_t groups = is_one ? 1 : std::min(kGroups, rays.size());
+  const bool is_single_angle = rays.back().sine2 - rays.front().sine2 < kSameSine2;
+  const std::size_t groups = is_single_angle ? 1 : std::min(kGroups, rays.size());
   std::vector<Incidence> angles;
-  double all = 0;
+  double total_weight = 0;
   for (std::size_t group = 0; group < groups; ++group) {
     double weight = 0;
     double sine2 = 0;
@@ -59,9 +59,9 @@ std::vector<Incidence> incidence_angles(const Camera& camera, Imath::V2f film) {
       sine2 += rays[i].weight * rays[i].sine2;
     }
     angles.push_back({std::sqrt(1 - sine2 / weight), weight});
-    all += weight;
+    total_weight += weight;
   }
-  for (Incidence& angle : angles) angle.fraction /= all;
+  for (Incidence& angle : angles) angle.fraction /= total_weight;
   return angles;
 }
 

@@ -17,14 +17,15 @@ V2d half_size_mm(const FilmGrid& grid) {
   return V2d(grid.width, grid.height) * (grid.pixel_pitch * lens::kMmPerM / 2);
 }
 
-// From the far corner of the film to the edge of the last surface, wherever displacement moves that.
+// Cosine from the far corner of the film to the edge of the last surface, for any displacement of that
+// surface.
 double steepest_cosine(const lens::SpectralSystem& system, const V2d& half_film_mm) {
   const lens::Surface& last = system.system().surfaces.back();
-  const double reach = *last.semi_aperture_mm;
+  const double rim = *last.semi_aperture_mm;
   const double tilt = (std::abs(last.tilt_deg.x) + std::abs(last.tilt_deg.y)) * std::numbers::pi / 180;
-  const double edge = std::max(0.0, last.profile.sag(reach * reach)) + reach * std::sin(tilt);
+  const double edge = std::max(0.0, last.profile.sag(rim * rim)) + rim * std::sin(tilt);
   const double depth = std::max(0.0, system.image_z() - system.last_z() - edge);
-  const double across = half_film_mm.length() + reach + last.decenter_mm.length();
+  const double across = half_film_mm.length() + rim + last.decenter_mm.length();
   return depth / std::hypot(depth, across);
 }
 
@@ -32,7 +33,7 @@ std::optional<double> finite(double mm) {
   return std::isfinite(mm) ? std::optional(mm) : std::nullopt;
 }
 
-// Of near objects the image is as large as by a pinhole at the first vertex.
+// The image of a near object is as large as that of a pinhole at the first vertex.
 std::optional<double> pinhole_distance(const lens::SystemAt& at) {
   const lens::FirstOrder first = lens::first_order(at);
   const auto& object_mm = at.system->object_distance_mm;
@@ -46,10 +47,10 @@ LensOptics::LensOptics(lens::System lens, double stop_radius_mm, const FilmGrid&
     : system(std::move(lens), stop_radius_mm),
       pupil(system, half_size_mm(grid), low_nm, high_nm),
       routes{system.direct()},
-      route_share{1},
-      least_cosine(pupil.least_cosine()) {
+      route_probability{1},
+      least_cosine(pupil.min_cosine()) {
   const lens::System& of = system.system();
-  constexpr int kSpeedCells = 64;  // across the axial beam
+  constexpr int kSpeedCells = 64;  // cells across the axial beam
   const lens::SystemAt at(of, of.primary_nm());
   pinhole_distance_mm = pinhole_distance(at);
   image_distance_mm =
@@ -66,11 +67,11 @@ void LensOptics::enumerate_ghosts(const V2d& half_film_mm, double low_nm, double
                                 system.stop_radius_mm());
   double sum = 0;
   for (const lens::Ghost& ghost : all) sum += ghost.reflectance;
-  route_share = {1 - kGhostShare};
+  route_probability = {1 - kGhostProbability};
   for (const lens::Ghost& ghost : all) {
     routes.push_back(lens::route_of(ghost, system.system().surfaces.size()));
-    const double even = 1 / static_cast<double>(all.size());
-    route_share.push_back(kGhostShare * (ghost.reflectance / sum + even) / 2);
+    const double uniform = 1 / static_cast<double>(all.size());
+    route_probability.push_back(kGhostProbability * (ghost.reflectance / sum + uniform) / 2);
   }
   least_cosine = std::min(least_cosine, steepest_cosine(system, half_film_mm));
 }

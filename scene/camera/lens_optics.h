@@ -11,30 +11,33 @@
 
 namespace abbe {
 
-/// A lens system ready to look through, all lengths in mm.
+/// A lens system prepared for rendering; all lengths in mm.
 struct LensOptics {
-  /// Whether light that surfaces reflect twice is looked for.
+  /// Treatment of light that two surfaces reflect.
   enum class Ghosts { left_out, enumerated };
 
   lens::SpectralSystem system;
-  lens::ExitPupil pupil;  ///< For a film, and wavelengths, of which nothing else may be asked.
-  /// Film of the pinhole whose image is as large, paraxially, at the primary wavelength, to it; none where
-  /// what the lens is to see has no image.
+  lens::ExitPupil pupil;  ///< Valid only for the film and the wavelengths of the constructor.
+  /// Distance from the film to the pinhole that would give an image of the same size, paraxially and at the
+  /// primary wavelength. Nothing if the object has no image.
   std::optional<double> pinhole_distance_mm;
-  /// Film to the principal plane of image space, likewise; of lenses without power that to the pinhole.
+  /// Paraxial distance from the film to the rear principal plane at the primary wavelength. For a lens
+  /// without power it is the distance of the pinhole.
   std::optional<double> image_distance_mm;
-  std::optional<lens::Speed>
-      speed;  ///< On the axis at the primary wavelength; none where its beam does not get there.
-  std::vector<lens::Route> routes;  ///< By `LensRoute`.
-  std::vector<double> route_share;  ///< Of the rays; those of all ghosts are `kGhostShare`, if there are any.
-  double least_cosine;              ///< Of the angle of incidence on the film, by all routes.
+  /// Speed on the axis at the primary wavelength; nothing if the axial beam does not arrive.
+  std::optional<lens::Speed> speed;
+  std::vector<lens::Route> routes;  ///< Indexed by `LensRoute`.
+  /// Probability of each route; those of all ghosts sum to `kGhostProbability`, if there are any.
+  std::vector<double> route_probability;
+  double least_cosine;  ///< Minimum cosine of the angle of incidence on the film, over all routes.
 
-  /// Half of it is drawn by the reflectances of their surfaces, half evenly.
-  static constexpr double kGhostShare = 0.25;
+  /// Probability of all ghosts. Half of it is distributed in proportion to the reflectances of their
+  /// surfaces, half uniformly.
+  static constexpr double kGhostProbability = 0.25;
 
-  /// For a film of this grid, in the plane of the image about the axis, and the wavelengths between the ends
-  /// of a range. With ghosts, surfaces without a clear aperture have that of `with_clear_apertures`. Throws
-  /// what `lens::ExitPupil` does.
+  /// Prepares a lens for a film of this grid, centred on the axis in the image plane, and for wavelengths
+  /// from `low_nm` to `high_nm`. With ghosts, surfaces without a clear aperture get that of
+  /// `with_clear_apertures`. Throws the exceptions of `lens::ExitPupil`.
   LensOptics(lens::System lens, double stop_radius_mm, const FilmGrid& grid, double low_nm, double high_nm,
              Ghosts ghosts = Ghosts::left_out);
 

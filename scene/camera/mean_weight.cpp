@@ -8,8 +8,8 @@
 namespace abbe {
 namespace {
 
-// Of the points of an opening in the unit circle, twice over: 1 of the disc. The square of a point of the
-// iris grows with that of its point of the disc, so that their rims tell.
+// Twice the mean squared radius of an opening in the unit circle, which is 1 for the disc. The squared radius
+// of an iris point is proportional to that of its disc point, so that the rim suffices.
 double mean_square(const std::optional<lens::Iris>& iris) {
   if (!iris) return 1;
   constexpr int kAngles = 7200;
@@ -21,8 +21,8 @@ double mean_square(const std::optional<lens::Iris>& iris) {
   return sum / kAngles;
 }
 
-// The mean of cos^4 = 1/(1 + t^2)^2 over the tangents t of a disc of radius k about the tangent u. By that is
-// the solid angle of a disc which an element of a parallel plane sees, projected on it, over the disc's area:
+// Mean of cos^4 = 1/(1 + t^2)^2 over the tangents t in a disc of radius k about the tangent u. It is the
+// projected solid angle of a disc seen from an element of a parallel plane, divided by the disc's area:
 //     2/(B (A + B)),  A = 1 + u^2 - k^2,  B^2 = A^2 + 4 k^2.
 double mean_cos4(double u, double k) {
   const double a = 1 + u * u - k * k;

@@ -25,7 +25,7 @@ std::optional<double> crossing_of(const FlatOpening& opening, const Ray& ray) {
   return passes ? std::optional(t) : std::nullopt;
 }
 
-// From within a ray comes to it where it leaves the sphere.
+// A ray from inside crosses the opening where it leaves the sphere.
 std::optional<double> crossing_of(const SphereSide& side, const Ray& ray) {
   const BasicRay<double> light{Imath::V3d(ray.origin), Imath::V3d(ray.direction),
                                std::numeric_limits<double>::infinity(), ray.time};
@@ -35,11 +35,11 @@ std::optional<double> crossing_of(const SphereSide& side, const Ray& ray) {
   return hit && leaves(*hit) == side.inwards ? std::optional(hit->t) : std::nullopt;
 }
 
-double extent_of(const FlatOpening& opening) {
+double radius_of(const FlatOpening& opening) {
   return opening.u.length() + opening.v.length();
 }
 
-double extent_of(const SphereSide& side) {
+double radius_of(const SphereSide& side) {
   return side.sphere.radius;
 }
 
@@ -49,8 +49,8 @@ std::optional<double> crossing(const Opening& opening, const Ray& ray) {
   return std::visit([&](const auto& of) { return crossing_of(of, ray); }, opening);
 }
 
-double extent(const Opening& opening) {
-  return std::visit([](const auto& of) { return extent_of(of); }, opening);
+double opening_radius(const Opening& opening) {
+  return std::visit([](const auto& of) { return radius_of(of); }, opening);
 }
 
 }  // namespace abbe

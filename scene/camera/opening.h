@@ -11,8 +11,8 @@
 
 namespace abbe {
 
-/// The points center + a u + b v, of a round one with a^2 + b^2 <= 1, else with |a|, |b| <= 1; of one with an
-/// iris those of them that this has at (a, b).
+/// A planar opening: the points center + a u + b v. A round one has a^2 + b^2 <= 1, otherwise |a|, |b| <= 1.
+/// An iris restricts them to the points that contain (a, b).
 struct FlatOpening {
   Imath::V3d center;
   Imath::V3d u, v;    ///< Not parallel.
@@ -21,19 +21,18 @@ struct FlatOpening {
   std::optional<lens::Iris> iris = {};
 };
 
-/// A side of a sphere, which takes light from without or from within.
+/// One side of a sphere, which receives light from outside or from inside.
 struct SphereSide {
   Sphere sphere;
   bool inwards = false;
 };
 
-/// What light comes in through, or falls on.
+/// A surface through which light enters a camera or on which it is received.
 using Opening = std::variant<FlatOpening, SphereSide>;
 
-/// Distance along a ray to where it comes to the opening from the side that takes light; nothing where it
-/// does not.
+/// Distance along a ray to its intersection with the opening from the receiving side; nothing if it misses.
 [[nodiscard]] std::optional<double> crossing(const Opening& opening, const Ray& ray);
-/// A length that no point of the opening is farther than from its centre.
-[[nodiscard]] double extent(const Opening& opening);
+/// Upper bound of the distance [m] of the opening's points from its center.
+[[nodiscard]] double opening_radius(const Opening& opening);
 
 }  // namespace abbe

@@ -33,7 +33,7 @@ CameraRay ray_through(const Perspective& view, const LensCrossing& at, float tim
           static_cast<float>(at.cos_film)};
 }
 
-SeenPoint seen_from(const CameraFrame& frame, const Imath::V3f& point) {
+CameraPoint to_camera_space(const CameraFrame& frame, const Imath::V3f& point) {
   const Imath::V3d d = Imath::V3d(point) - frame.position;
   return {{d.dot(frame.right), d.dot(frame.up)}, d.dot(frame.forward)};
 }

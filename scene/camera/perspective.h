@@ -9,69 +9,70 @@
 
 namespace abbe {
 
-/// Coordinates [m] along right and up: on the film as it is seen through the centre of the lens, upright, or
-/// on the lens; or the tangent of a direction, per unit of depth.
+/// Coordinates [m] along right and up: on the film as seen through the center of the lens, upright, or on the
+/// lens. For a direction they are its tangents, per unit of depth.
 using PlanePoint = Imath::V2d;
 
 [[nodiscard]] inline PlanePoint film_plane(const FilmGrid& grid, Imath::V2f film) {
   return {(static_cast<double>(film.x) - grid.width * 0.5) * grid.pixel_pitch,
           (grid.height * 0.5 - static_cast<double>(film.y)) * grid.pixel_pitch};
 }
-/// The film position of a point of the plane; nothing beyond the film.
+/// Film position of a point of the film plane; nothing outside the film.
 [[nodiscard]] std::optional<Imath::V2f> film_position(const FilmGrid& grid, const PlanePoint& point);
 
-/// Cosine with the axis of the direction of that tangent.
+/// Cosine between the axis and the direction with that tangent.
 [[nodiscard]] inline double cosine(const PlanePoint& tangent) {
   return 1 / std::sqrt(1 + tangent.dot(tangent));
 }
-/// Tangent of the angle to the axis of the direction from the lens centre to a corner of the film.
+/// Tangent of the angle between the axis and the direction from the lens center to a corner of the film.
 [[nodiscard]] double corner_tangent(const FilmGrid& grid, double image_distance);
-/// A cosine computed as a double, lowered by the rounding of cosines stored as floats.
+/// Lowers a cosine computed in double by the rounding of cosines stored as floats.
 [[nodiscard]] inline double below_rounding(double cosine) {
   constexpr double kRounding = 1e-6;
   return cosine * (1 - kRounding);
 }
 
-/// What images a plane without distortion: the film behind an opening.
+/// Imaging of a plane without distortion, onto a film behind an opening.
 struct Perspective {
   const CameraFrame& frame;
   double image_distance;  ///< [m]
-  double exposing_area;   ///< Of an opening without losses that exposes as much [m^2].
+  double exposing_area;   ///< Area of the lossless opening that gives the same exposure [m^2].
 };
 [[nodiscard]] inline double exposing_area(double aperture_radius, double transmittance) {
   return std::numbers::pi * aperture_radius * aperture_radius * transmittance;
 }
 
-/// Where a ray crosses the lens, in which direction of the scene, and its angles there and with the film.
+/// The intersection of a ray with the lens, its direction in the scene, and its angles with the axis and at
+/// the film.
 struct LensCrossing {
   PlanePoint on_lens;
   PlanePoint tangent;
-  double cos_theta;  ///< That of the tangent.
+  double cos_theta;  ///< Cosine of the tangent's direction.
   double cos_film;
 };
 
-/// A film element dA sees through the lens element the solid angle dA cos^3/v^2 of the scene, v the image
-/// distance; the lens element presents a share cos of its area. Hence the cos^4 law, with the angle on the
-/// side of the scene.
+/// The camera ray through a point of the lens. A film element dA sees through a lens element the solid angle
+/// dA cos^3/v^2 of the scene, v being the image distance. The lens element's projected area is proportional
+/// to cos. This gives the cos^4 law, with the angle on the scene side.
 [[nodiscard]] CameraRay ray_through(const Perspective& view, const LensCrossing& at, float time);
 
-/// A point as a camera sees it: coordinates along right and up, from the centre of the lens, and its depth.
-struct SeenPoint {
+/// A point in camera coordinates: along right and up from the lens center, and its depth.
+struct CameraPoint {
   PlanePoint across;
   double depth;
 };
-[[nodiscard]] SeenPoint seen_from(const CameraFrame& frame, const Imath::V3f& point);
+[[nodiscard]] CameraPoint to_camera_space(const CameraFrame& frame, const Imath::V3f& point);
 
-/// Of a point at that depth, the lens point being drawn with `pdf_position`.
+/// The connection of a point at that depth to the film, if the lens point has the density `pdf_position`.
 [[nodiscard]] CameraConnection connection_through(const Perspective& view, const FilmGrid& grid,
                                                   Imath::V2f film, const LensCrossing& at, double depth,
                                                   double pdf_position);
 
-/// The tangent of a direction of the scene; nothing backwards.
+/// The tangent of a scene direction; nothing for backward directions.
 [[nodiscard]] std::optional<PlanePoint> tangent_of(const CameraFrame& frame, const Imath::V3f& direction);
 
-/// Of a ray there, its lens point being drawn with `pdf_position`: a pixel of area p^2 is seen with the
-/// density v^2/(p^2 cos^3) of directions, and takes all flux that comes to it, over its area.
+/// The density of a ray, if its lens point has the density `pdf_position`. A pixel of area p^2 has the
+/// density v^2/(p^2 cos^3) in directions. It receives the whole flux along the ray, divided by its area.
 [[nodiscard]] CameraDensity density_through(const Perspective& view, const FilmGrid& grid, Imath::V2f film,
                                             const LensCrossing& at, double pdf_position);
 

@@ -9,7 +9,7 @@ Perspective view_of(const Pinhole& camera) {
   return {camera.frame, camera.image_distance, exposing_area(camera.aperture_radius, camera.transmittance)};
 }
 
-// Light goes straight on through a pinhole.
+// Light passes a pinhole without deviation.
 LensCrossing crossing(const PlanePoint& tangent) {
   const double cos_theta = cosine(tangent);
   return {{0, 0}, tangent, cos_theta, cos_theta};
@@ -26,12 +26,12 @@ std::optional<CameraConnection> Pinhole::sample_towards(const FilmGrid& grid, co
                                                         Imath::V2f /*lens*/,
                                                         const SampledSpectrum& /*wavelengths_nm*/,
                                                         float /*time*/) const {
-  const SeenPoint seen = seen_from(frame, point);
-  if (!(seen.depth > 0)) return std::nullopt;
-  const PlanePoint tangent = seen.across / seen.depth;
+  const CameraPoint local = to_camera_space(frame, point);
+  if (!(local.depth > 0)) return std::nullopt;
+  const PlanePoint tangent = local.across / local.depth;
   const std::optional<Imath::V2f> film = film_position(grid, tangent * image_distance);
   if (!film) return std::nullopt;
-  return connection_through(view_of(*this), grid, *film, crossing(tangent), seen.depth, 1);
+  return connection_through(view_of(*this), grid, *film, crossing(tangent), local.depth, 1);
 }
 
 std::optional<CameraDensity> Pinhole::density(const FilmGrid& grid, const Ray& ray,
@@ -44,7 +44,7 @@ std::optional<CameraDensity> Pinhole::density(const FilmGrid& grid, const Ray& r
   return density_through(view_of(*this), grid, *film, crossing(*tangent), 1);
 }
 
-double Pinhole::least_film_cosine(const FilmGrid& grid) const {
+double Pinhole::min_film_cosine(const FilmGrid& grid) const {
   return below_rounding(cosine(PlanePoint(corner_tangent(grid, image_distance), 0)));
 }
 

@@ -5,12 +5,12 @@
 
 namespace abbe {
 
-/// The film behind a point, which sees everything sharp. It exposes as an opening of its nominal size would.
+/// A pinhole camera, in which everything is in focus. Its exposure is that of an opening of the nominal size.
 struct Pinhole {
   CameraFrame frame;
   double image_distance = 0;   ///< Opening to film [m].
-  double aperture_radius = 0;  ///< Of the nominal opening [m].
-  double transmittance = 1;    ///< Share of the light that passes, at all wavelengths.
+  double aperture_radius = 0;  ///< Radius of the nominal opening [m].
+  double transmittance = 1;    ///< Fraction of the light that is transmitted, at all wavelengths.
 
   [[nodiscard]] CameraRay sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f lens,
                                      const SampledSpectrum& wavelengths_nm, int hero, float time) const;
@@ -21,10 +21,10 @@ struct Pinhole {
   [[nodiscard]] std::optional<CameraDensity> density(const FilmGrid& grid, const Ray& ray,
                                                      const SampledSpectrum& wavelengths_nm,
                                                      LensRoute route) const;
-  [[nodiscard]] double least_film_cosine(const FilmGrid& grid) const;
+  [[nodiscard]] double min_film_cosine(const FilmGrid& grid) const;
   [[nodiscard]] CameraTraits traits() const;
   [[nodiscard]] const Imath::V3d& position() const { return frame.position; }
-  [[nodiscard]] Imath::V3d middle() const { return frame.position; }
+  [[nodiscard]] Imath::V3d center() const { return frame.position; }
   void translate(const Imath::V3d& by) { frame.position += by; }
 };
 static_assert(CameraModel<Pinhole>);

@@ -11,7 +11,7 @@ namespace {
 
 Perspective view_of(const ThinLens& camera) {
   return {camera.frame, camera.image_distance,
-          exposing_area(camera.aperture_radius, camera.transmittance) * camera.open_share()};
+          exposing_area(camera.aperture_radius, camera.transmittance) * camera.open_fraction()};
 }
 
 PlanePoint lens_plane(const ThinLens& camera, Imath::V2f lens) {
@@ -20,11 +20,11 @@ PlanePoint lens_plane(const ThinLens& camera, Imath::V2f lens) {
 }
 
 double pdf_on_lens(const ThinLens& camera) {
-  return 1 / (exposing_area(camera.aperture_radius, 1) * camera.open_share());
+  return 1 / (exposing_area(camera.aperture_radius, 1) * camera.open_fraction());
 }
 
-// Through any lens point the scene ray aims at the point in focus that the ray through the centre of the lens
-// shows; and back, where on the film that centre ray comes from.
+// Tangent of the scene ray through a lens point. It points to the in-focus point that the ray through the
+// lens center hits. `film_from` is the inverse: the film point of that central ray.
 PlanePoint tangent_from(const ThinLens& camera, const PlanePoint& film, const PlanePoint& lens) {
   return film / camera.image_distance - lens / camera.focus_distance;
 }
@@ -32,18 +32,18 @@ PlanePoint film_from(const ThinLens& camera, const PlanePoint& tangent, const Pl
   return (tangent + lens / camera.focus_distance) * camera.image_distance;
 }
 
-// Cosine of the angle of incidence on the film. A sharp image of magnification m = v/s fixes the direction
-// cosines p' at the film: p' = p0 - (p - p0)/m. Those of the ray in the scene are p, and p0 are those of the
-// undeviated ray through the lens centre. On the axis this is Abbe's sine condition [Born1999, sec. 4.5].
-// The film point x and the lens point l give the tangents t0 = x/v and t = t0 - l/s, with the cosines c0 and
-// c. Then -s (p - p0) = c (l - t0 c0 (t + t0).l/(1/c + 1/c0)), which is finite for s = infinity too.
+// Cosine of the angle of incidence on the film. A sharp image of magnification m = v/s determines the
+// direction cosines p' at the film: p' = p0 - (p - p0)/m. The ray in the scene has p, and the undeviated ray
+// through the lens center has p0. On the axis this is Abbe's sine condition [Born1999, sec. 4.5]. The film
+// point x and the lens point l give the tangents t0 = x/v and t = t0 - l/s, with the cosines c0 and c. Then
+// -s (p - p0) = c (l - t0 c0 (t + t0).l/(1/c + 1/c0)), which is finite for s = infinity too.
 double film_cosine(const ThinLens& camera, const PlanePoint& film, const PlanePoint& lens,
                    const PlanePoint& tangent) {
   const PlanePoint center = film / camera.image_distance;
   const double c = cosine(tangent);
   const double c0 = cosine(center);
-  const PlanePoint turned = (lens - center * (c0 * (tangent + center).dot(lens) / (1 / c + 1 / c0))) * c;
-  const PlanePoint sines = center * c0 + turned / camera.image_distance;
+  const PlanePoint deflection = (lens - center * (c0 * (tangent + center).dot(lens) / (1 / c + 1 / c0))) * c;
+  const PlanePoint sines = center * c0 + deflection / camera.image_distance;
   return std::sqrt(std::max(0.0, 1 - sines.dot(sines)));
 }
 
@@ -66,15 +66,15 @@ std::optional<CameraConnection> ThinLens::sample_towards(const FilmGrid& grid, c
                                                          Imath::V2f lens,
                                                          const SampledSpectrum& /*wavelengths_nm*/,
                                                          float /*time*/) const {
-  const SeenPoint seen = seen_from(frame, point);
-  if (!(seen.depth > 0)) return std::nullopt;
+  const CameraPoint local = to_camera_space(frame, point);
+  if (!(local.depth > 0)) return std::nullopt;
   const PlanePoint on_lens = lens_plane(*this, lens);
-  const PlanePoint tangent = (seen.across - on_lens) / seen.depth;
+  const PlanePoint tangent = (local.across - on_lens) / local.depth;
   const PlanePoint on_film = film_from(*this, tangent, on_lens);
   const std::optional<Imath::V2f> film = film_position(grid, on_film);
   if (!film) return std::nullopt;
   return connection_through(view_of(*this), grid, *film, crossing(*this, on_film, on_lens, tangent),
-                            seen.depth, pdf_on_lens(*this));
+                            local.depth, pdf_on_lens(*this));
 }
 
 std::optional<CameraDensity> ThinLens::density(const FilmGrid& grid, const Ray& ray,
@@ -82,7 +82,7 @@ std::optional<CameraDensity> ThinLens::density(const FilmGrid& grid, const Ray& 
                                                LensRoute /*route*/) const {
   const std::optional<PlanePoint> tangent = tangent_of(frame, ray.direction);
   if (!tangent) return std::nullopt;
-  const PlanePoint on_lens = seen_from(frame, ray.origin).across;
+  const PlanePoint on_lens = to_camera_space(frame, ray.origin).across;
   const PlanePoint on_film = film_from(*this, *tangent, on_lens);
   const std::optional<Imath::V2f> film = film_position(grid, on_film);
   if (!film) return std::nullopt;
@@ -90,7 +90,7 @@ std::optional<CameraDensity> ThinLens::density(const FilmGrid& grid, const Ray& 
                          pdf_on_lens(*this));
 }
 
-double ThinLens::least_film_cosine(const FilmGrid& grid) const {
+double ThinLens::min_film_cosine(const FilmGrid& grid) const {
   const double tangent = corner_tangent(grid, image_distance);
   const double sine = tangent * cosine(PlanePoint(tangent, 0)) + aperture_radius / image_distance;
   return below_rounding(std::sqrt(std::max(0.0, (1 - sine) * (1 + sine))));

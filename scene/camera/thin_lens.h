@@ -6,14 +6,14 @@
 
 namespace abbe {
 
-/// The film behind an ideal lens: what lies in the plane in focus is sharp.
+/// A camera with an ideal thin lens, which images the plane in focus sharply.
 struct ThinLens {
   CameraFrame frame;
-  double image_distance = 0;            ///< Lens to film [m].
-  double focus_distance = 0;            ///< Lens to the plane in focus [m], perhaps infinite.
-  double aperture_radius = 0;           ///< Of the opening [m].
-  double transmittance = 1;             ///< Share of the light that the lens passes, at all wavelengths.
-  std::optional<lens::Iris> iris = {};  ///< Blades that leave a polygon of the opening.
+  double image_distance = 0;   ///< From lens to film [m].
+  double focus_distance = 0;   ///< From lens to the plane in focus [m]; may be infinite.
+  double aperture_radius = 0;  ///< Radius of the opening [m].
+  double transmittance = 1;    ///< Fraction of the light that the lens transmits, at all wavelengths.
+  std::optional<lens::Iris> iris = {};  ///< Blades that reduce the opening to a polygon.
 
   [[nodiscard]] CameraRay sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f lens,
                                      const SampledSpectrum& wavelengths_nm, int hero, float time) const;
@@ -24,14 +24,14 @@ struct ThinLens {
   [[nodiscard]] std::optional<CameraDensity> density(const FilmGrid& grid, const Ray& ray,
                                                      const SampledSpectrum& wavelengths_nm,
                                                      LensRoute route) const;
-  [[nodiscard]] double least_film_cosine(const FilmGrid& grid) const;
+  [[nodiscard]] double min_film_cosine(const FilmGrid& grid) const;
   [[nodiscard]] CameraTraits traits() const;
   [[nodiscard]] const Imath::V3d& position() const { return frame.position; }
-  [[nodiscard]] Imath::V3d middle() const { return frame.position; }
+  [[nodiscard]] Imath::V3d center() const { return frame.position; }
   void translate(const Imath::V3d& by) { frame.position += by; }
 
-  /// Area of the opening, between its blades if it has some, over that of the circle.
-  [[nodiscard]] double open_share() const { return iris ? iris->share() : 1; }
+  /// Area of the opening between its blades, relative to the full circle.
+  [[nodiscard]] double open_fraction() const { return iris ? iris->area_fraction() : 1; }
 };
 static_assert(CameraModel<ThinLens>);
 

@@ -13,22 +13,22 @@
 namespace abbe {
 namespace {
 
-// Of a patch's edges; what is nearer to its rim may be blurred by the lens.
-constexpr double kMiddle = 0.7;
-constexpr float kMiddleNm = 550;  // at which a patch is looked for
-constexpr int kLensPoints = 32;   // along a side of what lens points are picked by
-constexpr Imath::V2f kLensCentre{0.5F, 0.5F};
+// Inner fraction of a patch's edges; the lens may blur what is nearer to the rim.
+constexpr double kInnerFraction = 0.7;
+constexpr float kPatchNm = 550;  // wavelength at which patches are located
+constexpr int kLensPoints = 32;  // lens points along each side of the sampling grid
+constexpr Imath::V2f kLensCenter{0.5F, 0.5F};
 
-// Where light from a point comes to the film through one of the lens's points.
-std::optional<Imath::V2f> seen_through(const Camera& camera, const Imath::V3d& point,
-                                       const Imath::V2f& lens) {
-  const auto seen = sample_towards(camera, Imath::V3f(point), lens, SampledSpectrum(kMiddleNm), 0);
-  return seen ? std::optional(seen->film) : std::nullopt;
+// Film position of a point's light through one point of the lens.
+std::optional<Imath::V2f> image_through(const Camera& camera, const Imath::V3d& point,
+                                        const Imath::V2f& lens) {
+  const auto connection = sample_towards(camera, Imath::V3f(point), lens, SampledSpectrum(kPatchNm), 0);
+  return connection ? std::optional(connection->film) : std::nullopt;
 }
 
-// The mean of where light from a point comes to through all of the lens.
+// Mean film position of a point's light over the whole lens.
 std::optional<Imath::V2d> mean_image(const Camera& camera, const Imath::V3d& point) {
-  // Thrice as wide each way, so that what is beside the film counts, too.
+  // Three times as wide and high, so that light outside the film counts too.
   const Imath::V2d size(camera.width, camera.height);
   Camera wider = camera;
   wider.width *= 3;
@@ -37,7 +37,7 @@ std::optional<Imath::V2d> mean_image(const Camera& camera, const Imath::V3d& poi
   int passed = 0;
   for (int j = 0; j < kLensPoints; ++j)
     for (int i = 0; i < kLensPoints; ++i) {
-      const auto film = seen_through(wider, point, Imath::V2f(Imath::V2d(i + 0.5, j + 0.5) / kLensPoints));
+      const auto film = image_through(wider, point, Imath::V2f(Imath::V2d(i + 0.5, j + 0.5) / kLensPoints));
       if (!film) continue;
       sum += Imath::V2d(*film) - size;
       ++passed;
@@ -47,17 +47,17 @@ std::optional<Imath::V2d> mean_image(const Camera& camera, const Imath::V3d& poi
   return Imath::Box2d({0, 0}, size).intersects(mean) ? std::optional(mean) : std::nullopt;
 }
 
-// The image of a point: through the middle of the lens, or, of one that light through this does not come
-// from, as off the axis of a fisheye whose pupil moves with the field, the mean. Nothing for what the camera
-// does not see.
+// Image of a point: by the ray through the center of the lens, otherwise the mean over the lens. The latter
+// applies off the axis of a fisheye, whose pupil moves with the field. Nothing if the camera does not see the
+// point.
 std::optional<Imath::V2d> image_of(const Camera& camera, const Imath::V3d& point) {
-  if (const auto middle = seen_through(camera, point, kLensCentre)) return Imath::V2d(*middle);
+  if (const auto image = image_through(camera, point, kLensCenter)) return Imath::V2d(*image);
   return mean_image(camera, point);
 }
 
-// The corners of a patch's middle on the film; nothing for what the camera does not see.
+// The corners on the film of a patch's inner part; nothing if the camera does not see them.
 std::optional<PatchOutline> project(const Camera& camera, const std::string& name, const Quad& quad) {
-  constexpr double kLow = (1 - kMiddle) / 2;
+  constexpr double kLow = (1 - kInnerFraction) / 2;
   constexpr double kHigh = 1 - kLow;
   constexpr std::array<std::array<double, 2>, 4> kCorners{
       {{kLow, kLow}, {kHigh, kLow}, {kHigh, kHigh}, {kLow, kHigh}}};
@@ -76,11 +76,11 @@ const ImageChannel& channel_of(const Image& film, const std::string& name) {
   throw Error(ErrorCode::input, "", fmt::format("the film has no channel {}", name));
 }
 
-// The channels of a film, which under a mosaic are all in one plane.
+// The channels of a film; under a mosaic they share one plane.
 MeasuredPlanes planes_of(const Image& film, const std::vector<std::string>& channels) {
   MeasuredPlanes planes{{}, channels, {}, {}, recorded_areas(film)};
-  if (const auto told = recorded_mosaic(film.metadata); told && told->channels == channels) {
-    planes.mosaic = told->pattern;
+  if (const auto mosaic = recorded_mosaic(film.metadata); mosaic && mosaic->channels == channels) {
+    planes.mosaic = mosaic->pattern;
     planes.planes.push_back(&channel_of(film, kRawPlane));
     return planes;
   }
@@ -96,7 +96,7 @@ std::vector<PatchOutline> chart_outlines(const Scene& scene, const ChartInstance
   for (std::uint32_t i = chart.first; i < chart.first + chart.patches; ++i) {
     const ShapeInstance& shape = scene.shapes.at(i);
     auto outline = project(camera, shape.name, std::get<Quad>(shape.shape));
-    if (!outline) throw Error(ErrorCode::input, shape.name, "its middle is beyond the film");
+    if (!outline) throw Error(ErrorCode::input, shape.name, "its inner part is outside the film");
     outlines.push_back(*std::move(outline));
   }
   return outlines;
@@ -122,9 +122,10 @@ std::vector<PatchReading> read_patches(const Scene& scene, const ChartInstance& 
 
 void require_film_of(const Scene& scene, const ChartInstance& chart, const Image& film) {
   if (film.width == scene.camera.width && film.height == scene.camera.height) return;
-  throw Error(ErrorCode::input, chart.name,
-              fmt::format("the film is none of this scene's camera (got {} x {}, needed {} x {})", film.width,
-                          film.height, scene.camera.width, scene.camera.height));
+  throw Error(
+      ErrorCode::input, chart.name,
+      fmt::format("the film does not have the size of this scene's camera (got {} x {}, expected {} x {})",
+                  film.width, film.height, scene.camera.width, scene.camera.height));
 }
 
 }  // namespace abbe

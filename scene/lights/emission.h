@@ -4,22 +4,23 @@
 
 namespace abbe {
 
-/// How densely light leaves a light by itself, which is how photons start where nothing aims them.
+/// Densities with which a light emits photons without a photon guide.
 struct EmissionDensity {
-  /// Of the point [1/m^2]; 1 of a light that is a point. Of light from infinity, of where its way crosses the
-  /// disc of the scene's radius that faces it.
+  /// Density of the point [1/m^2]; 1 for a point. For light from infinity, the density on the disc of the
+  /// scene's radius that is perpendicular to the direction.
   float pdf_position;
-  /// Of the direction from there [1/sr]; 1 of a beam, which has a single one, and 0 where no light goes.
+  /// Density of the direction there [1/sr]; 1 for a directional light, 0 where the light does not emit.
   float pdf_direction;
 };
 
-/// The density of light that leaves in the unit direction `wo`, from a point of an area light whose outward
-/// normal is `normal`: uniform by area and by the cosine on the side or sides that emit, uniform in the
-/// directions of point and spot lights, and from infinity as `sample_light` draws it. All at that time.
+/// Density of emission in the unit direction `wo` at that time, from a point of an area light with outward
+/// `normal`. It is uniform over area and proportional to the cosine on the emitting sides. Point and spot
+/// lights emit uniformly in direction, lights at infinity as `sample_light` samples them.
 [[nodiscard]] EmissionDensity emission_density(const Light& light, const Imath::V3f& normal,
                                                const Imath::V3f& wo, float scene_radius_m, float time);
 
-/// A direction of that density, by `u` in [0, 1)^2, of a light that has a place; Error{internal} of others.
+/// Samples a direction with that density by `u` in [0, 1)^2, for lights with a position. Throws
+/// Error{internal} for lights at infinity.
 [[nodiscard]] Imath::V3f emission_direction(const Light& light, const Imath::V3f& normal, Imath::V2f u,
                                             float time);
 

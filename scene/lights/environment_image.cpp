@@ -12,7 +12,7 @@
 namespace abbe {
 namespace {
 
-// What a unit of each primary exposes, over all channels; a response may be negative.
+// Exposure by one unit of each primary, over all channels; responses may be negative.
 LinearRgb exposures(const std::array<Curve, 3>& primaries, std::span<const Channel> channels) {
   LinearRgb exposed{};
   for (std::size_t c = 0; c < 3; ++c)
@@ -28,11 +28,11 @@ std::span<const double> row_of(const std::vector<double>& texels, std::size_t ro
 }  // namespace
 
 EnvironmentFrame environment_frame(const Imath::V3d& up, double rotate_deg) {
-  const Imath::V3d ahead =
+  const Imath::V3d reference =
       up.cross(Imath::V3d(0, 1, 0)).length() > 1e-6 ? Imath::V3d(0, 1, 0) : Imath::V3d(1, 0, 0);
-  const Imath::V3d level = (ahead - up * ahead.dot(up)).normalized();
+  const Imath::V3d horizontal = (reference - up * reference.dot(up)).normalized();
   const double angle = rotate_deg * std::numbers::pi / 180;
-  return {up, level * std::cos(angle) + up.cross(level) * std::sin(angle)};
+  return {up, horizontal * std::cos(angle) + up.cross(horizontal) * std::sin(angle)};
 }
 
 EnvironmentImage::EnvironmentImage(int width, int height, std::vector<std::array<float, 3>> texels,
@@ -72,20 +72,22 @@ double EnvironmentImage::row_top(std::size_t row) const {
   return std::cos(std::numbers::pi * static_cast<double>(row) / static_cast<double>(height_));
 }
 
-// Of one texel: the difference of the cosines at its edges, written as a product, times its azimuth.
+// Solid angle of one texel: the difference of the cosines at its edges, written as a product, times its
+// azimuth.
 double EnvironmentImage::solid_angle(std::size_t row) const {
-  const double middle = std::numbers::pi * (static_cast<double>(row) + 0.5) / static_cast<double>(height_);
-  return 2 * std::sin(middle) * std::sin(std::numbers::pi / (2 * static_cast<double>(height_))) * 2 *
+  const double center_theta =
+      std::numbers::pi * (static_cast<double>(row) + 0.5) / static_cast<double>(height_);
+  return 2 * std::sin(center_theta) * std::sin(std::numbers::pi / (2 * static_cast<double>(height_))) * 2 *
          std::numbers::pi / static_cast<double>(width_);
 }
 
 std::size_t EnvironmentImage::texel_at(const Imath::V3f& wi) const {
   const Imath::V3d d = Imath::V3d(wi).normalized();
-  const double across = std::hypot(d.dot(forward_), d.dot(right_));
-  const double theta = std::atan2(across, d.dot(up_));
-  const double turn = std::atan2(d.dot(right_), d.dot(forward_)) / (2 * std::numbers::pi) + 0.5;
+  const double radial = std::hypot(d.dot(forward_), d.dot(right_));
+  const double theta = std::atan2(radial, d.dot(up_));
+  const double azimuth_fraction = std::atan2(d.dot(right_), d.dot(forward_)) / (2 * std::numbers::pi) + 0.5;
   const auto row = static_cast<std::size_t>(theta / std::numbers::pi * static_cast<double>(height_));
-  const auto column = static_cast<std::size_t>(turn * static_cast<double>(width_));
+  const auto column = static_cast<std::size_t>(azimuth_fraction * static_cast<double>(width_));
   return std::min(row, height_ - 1) * width_ + std::min(column, width_ - 1);
 }
 
@@ -100,7 +102,7 @@ std::optional<Imath::V3f> EnvironmentImage::sample(Imath::V2f u) const {
   if (row_cdf_.empty()) return std::nullopt;
   const auto row = invert_cdf(std::span(row_cdf_), static_cast<double>(u.y));
   const auto column = invert_cdf(row_of(column_cdf_, row.index, width_), static_cast<double>(u.x));
-  // Uniform by solid angle within the texel: in azimuth, and in the cosine.
+  // Uniform by solid angle within the texel, hence in azimuth and in the cosine.
   const double azimuth = (static_cast<double>(column.index) + column.within) / static_cast<double>(width_);
   const double phi = 2 * std::numbers::pi * (azimuth - 0.5);
   const double cosine = row_top(row.index) * (1 - row.within) + row_top(row.index + 1) * row.within;

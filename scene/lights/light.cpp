@@ -18,21 +18,22 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// A point of a light, with its density per solid angle where it was not drawn by area.
+// A point on a light, and its density in solid angle unless it was sampled by area.
 struct AreaSample {
   SurfacePoint at;
   std::optional<double> pdf = {};
 };
 
-// `d` is the way from the point to the light, `distance` its length.
+// Pdf [1/sr] of a point sampled by area. `d` is the vector from the shaded point to the light, `distance` its
+// length.
 double density_by_area(const AreaLight& light, const Imath::V3d& d, double distance,
                        const Imath::V3d& normal) {
   const double facing = std::abs(d.dot(normal));
   return facing > 0 ? distance * distance * distance / (facing * light.area) : 0;
 }
 
-// 1 - cos of the half angle a sphere is seen under from outside. A point on the sphere itself, up to
-// rounding, is not outside: the whole sphere may lie before it.
+// 1 - cos of the half angle that a sphere subtends, for a point outside. A point on the sphere, up to
+// rounding, is not outside: the whole sphere may lie in front of it.
 [[gnu::always_inline]] inline std::optional<double> cone_height(const Sphere& sphere,
                                                                 const Imath::V3d& point) {
   const double distance = (point - sphere.center).length();
@@ -51,7 +52,7 @@ AreaSample sample_cone(const Sphere& sphere, double height, const Imath::V3d& po
   const Basis<double> axes((sphere.center - point).normalized());
   const Imath::V3d direction = axes.to_world({sine * std::cos(phi), sine * std::sin(phi), 1 - descent});
   const auto hit = intersect(sphere, BasicRay<double>{point, direction}, 0.0);
-  // A tangent may miss by rounding; the point nearest to it on the rim is as good.
+  // A tangential ray may miss by rounding; then the point on the rim nearest to it is used.
   const Imath::V3d normal =
       hit ? hit->normal
           : (point + direction * (sphere.center - point).dot(direction) - sphere.center).normalized();
@@ -59,13 +60,12 @@ AreaSample sample_cone(const Sphere& sphere, double height, const Imath::V3d& po
           1 / (2 * std::numbers::pi * height)};
 }
 
-// How a point sees a light whose shape allows better than sampling by area.
+// The solid angle of a rectangular or spherical light, where sampling by solid angle is better than by area.
 std::optional<SphericalRectangle> wide_rectangle(const AreaLight& light, const Imath::V3d& point) {
   if (!light.flat || !light.flat->rectangle) return std::nullopt;
-  return SphericalRectangle::seen_from(*light.flat->rectangle, point);
+  return SphericalRectangle::project(*light.flat->rectangle, point);
 }
-// In line, as an optional number that is returned is stored in pieces and loaded as a whole, which waits for
-// memory.
+// Inlined: a returned optional number is stored in parts and loaded as a whole, which stalls.
 [[gnu::always_inline]] inline std::optional<double> wide_cone(const Shape& shape, const Imath::V3d& point) {
   const auto* sphere = plain<Sphere>(shape);
   if (sphere == nullptr) return std::nullopt;
@@ -76,18 +76,18 @@ SurfacePoint sample_area(const AreaLight& light, const Shape& shape, Imath::V2f 
   return light.flat ? sample_area(light.flat->quad, u) : sample_area(shape, light.triangle_cdf, u);
 }
 
-// Where the shape of a light that moves stands at some time.
+// Placement of a moving light's shape at some time.
 Placement pose_of(const Shape& shape, float time) {
   return placement_at(*std::get<PlacedShape>(shape).at, static_cast<double>(time));
 }
 
-// A point of a light that moves, drawn in its prototype's coordinates, in the world.
+// Converts a sampled point of a moving light from its prototype's coordinates to the world.
 SurfacePoint to_world(const Placement& placement, const SurfacePoint& at) {
   return {Imath::V3f(Imath::V3d(at.point) * placement.to_world),
           Imath::V3f(normal_to_world(placement, Imath::V3d(at.normal)))};
 }
 
-// Of a light that moves, in its prototype's coordinates.
+// Samples an area light; for a moving light in its prototype's coordinates.
 AreaSample sample_area_light(const AreaLight& light, const Shape& shape, const Imath::V3d& point,
                              Imath::V2f u) {
   if (const auto height = wide_cone(shape, point))
@@ -109,21 +109,23 @@ AreaSample sample_area_light_at(float time, const AreaLight& light, const Shape&
   return sample;
 }
 
-// What is asked of a light: towards which place, by which numbers and when.
+// Arguments of `sample_light` for one kind of light.
 struct SampleRequest {
-  const LightSampleContext& place;
+  const LightSampleContext& context;
   Imath::V2f u;
   float time;
 };
 
 std::optional<LightSample> sample_kind(const Light& light, const AreaLight& emitter,
-                                       const std::vector<ShapeInstance>& shapes, const SampleRequest& asked) {
-  const Imath::V3f& point = asked.place.point;
-  const auto [at, drawn] =
-      sample_area_light_at(asked.time, emitter, shapes[emitter.shape].shape, Imath::V3d(point), asked.u);
+                                       const std::vector<ShapeInstance>& shapes,
+                                       const SampleRequest& request) {
+  const Imath::V3f& point = request.context.point;
+  const auto [at, solid_angle_pdf] =
+      sample_area_light_at(request.time, emitter, shapes[emitter.shape].shape, Imath::V3d(point), request.u);
   const Imath::V3d d = Imath::V3d(at.point) - Imath::V3d(point);
   const double distance = d.length();
-  const double pdf = drawn ? *drawn : density_by_area(emitter, d, distance, Imath::V3d(at.normal));
+  const double pdf =
+      solid_angle_pdf ? *solid_angle_pdf : density_by_area(emitter, d, distance, Imath::V3d(at.normal));
   const Imath::V3f wi(d * (1 / distance));
   if (!(pdf > 0) || !emits_towards(light, at.normal, -wi)) return std::nullopt;
   return LightSample{wi,
@@ -134,7 +136,7 @@ std::optional<LightSample> sample_kind(const Light& light, const AreaLight& emit
                      at.normal};
 }
 
-// Intensity falls off with the square of the distance, worked out in double: a lamp may be very near.
+// Inverse-square falloff, computed in double because the light may be very close.
 std::optional<LightSample> from_point(const Imath::V3f& position, const Imath::V3f& point) {
   const Imath::V3d d = Imath::V3d(position) - Imath::V3d(point);
   const double distance2 = d.length2();
@@ -143,93 +145,93 @@ std::optional<LightSample> from_point(const Imath::V3f& position, const Imath::V
                      static_cast<float>(1 / distance2), 1, position};
 }
 
-std::optional<LightSample> sample_kind(const Light&, const PointLight& lamp,
-                                       const std::vector<ShapeInstance>&, const SampleRequest& asked) {
-  return from_point(place_at(lamp, asked.time), asked.place.point);
+std::optional<LightSample> sample_kind(const Light&, const PointLight& emitter,
+                                       const std::vector<ShapeInstance>&, const SampleRequest& request) {
+  return from_point(position_at(emitter, request.time), request.context.point);
 }
 
-std::optional<LightSample> sample_kind(const Light&, const SpotLight& lamp, const std::vector<ShapeInstance>&,
-                                       const SampleRequest& asked) {
-  std::optional<LightSample> sample = from_point(place_at(lamp, asked.time), asked.place.point);
-  if (!sample || !lamp.lights(-sample->wi, asked.time)) return std::nullopt;
+std::optional<LightSample> sample_kind(const Light&, const SpotLight& emitter,
+                                       const std::vector<ShapeInstance>&, const SampleRequest& request) {
+  std::optional<LightSample> sample = from_point(position_at(emitter, request.time), request.context.point);
+  if (!sample || !emitter.illuminates(-sample->wi, request.time)) return std::nullopt;
   return sample;
 }
 
-std::optional<Imath::V3f> sample_direction(const EnvironmentLight& environment, const SampleRequest& asked) {
-  if (environment.image) return environment.image->sample(asked.u);
-  if (!asked.place.side) return sample_area(Sphere{{0, 0, 0}, 1}, asked.u).normal;
-  return Basis<float>(*asked.place.side).to_world(cosine_hemisphere(asked.u));
+std::optional<Imath::V3f> sample_direction(const EnvironmentLight& environment,
+                                           const SampleRequest& request) {
+  if (environment.image) return environment.image->sample(request.u);
+  if (!request.context.side) return sample_area(Sphere{{0, 0, 0}, 1}, request.u).normal;
+  return Basis<float>(*request.context.side).to_world(cosine_hemisphere(request.u));
 }
 
 std::optional<LightSample> sample_kind(const Light&, const EnvironmentLight& environment,
-                                       const std::vector<ShapeInstance>&, const SampleRequest& asked) {
-  const auto wi = sample_direction(environment, asked);
+                                       const std::vector<ShapeInstance>&, const SampleRequest& request) {
+  const auto wi = sample_direction(environment, request);
   if (!wi) return std::nullopt;
-  // Rounded, the direction may meet the next texel; then that one's density goes with that one's radiance.
-  const float pdf = environment.pdf(asked.place, *wi);
+  // The rounded direction may fall into the next texel. Density and radiance then both belong to that texel.
+  const float pdf = environment.pdf(request.context, *wi);
   if (!(pdf > 0)) return std::nullopt;
-  return LightSample{*wi, kInfinity, 1, pdf, asked.place.point};
+  return LightSample{*wi, kInfinity, 1, pdf, request.context.point};
 }
 
-std::optional<LightSample> sample_kind(const Light&, const DirectionalLight& beam,
-                                       const std::vector<ShapeInstance>&, const SampleRequest& asked) {
-  return LightSample{beam.towards, kInfinity, 1, 1, asked.place.point};
+std::optional<LightSample> sample_kind(const Light&, const DirectionalLight& directional,
+                                       const std::vector<ShapeInstance>&, const SampleRequest& request) {
+  return LightSample{directional.towards, kInfinity, 1, 1, request.context.point};
 }
 
 std::optional<LightSample> sample_kind(const Light&, const SunLight& sun, const std::vector<ShapeInstance>&,
-                                       const SampleRequest& asked) {
-  const float phi = 2 * std::numbers::pi_v<float> * asked.u.y;
-  return LightSample{direction_about(sun.towards, asked.u.x * sun.cap, phi), kInfinity, 1, cone_pdf(sun.cap),
-                     asked.place.point};
+                                       const SampleRequest& request) {
+  const float phi = 2 * std::numbers::pi_v<float> * request.u.y;
+  return LightSample{direction_about(sun.towards, request.u.x * sun.cap, phi), kInfinity, 1,
+                     cone_pdf(sun.cap), request.context.point};
 }
 
-// Light that arrives at a place from the unit direction `wi`, of a light hit at `hit` with that normal, at
-// some time.
-struct Arrival {
-  const LightSampleContext& place;
+// Light that arrives from the unit direction `wi`, of a light hit at `hit` with that normal, at some time.
+struct LightHit {
+  const LightSampleContext& context;
   const Imath::V3f& wi;
   const Imath::V3f& hit;
   const Imath::V3f& normal;
   float time;
 };
 
-float pdf_of(const AreaLight& emitter, const std::vector<ShapeInstance>& shapes, const Arrival& at) {
+float pdf_of(const AreaLight& emitter, const std::vector<ShapeInstance>& shapes, const LightHit& at) {
   const Shape& shape = shapes[emitter.shape].shape;
-  const Imath::V3d from(at.place.point);
-  const Imath::V3d seen_from =
+  const Imath::V3d from(at.context.point);
+  const Imath::V3d local_point =
       motion_of(shape) == nullptr ? from : from * pose_of(shape, at.time).to_prototype;
-  if (const auto height = wide_cone(shape, seen_from))
+  if (const auto height = wide_cone(shape, local_point))
     return static_cast<float>(1 / (2 * std::numbers::pi * *height));
-  if (const auto rectangle = wide_rectangle(emitter, seen_from))
+  if (const auto rectangle = wide_rectangle(emitter, local_point))
     return static_cast<float>(1 / rectangle->solid_angle());
   const Imath::V3d d = Imath::V3d(at.hit) - from;
   return static_cast<float>(density_by_area(emitter, d, d.length(), Imath::V3d(at.normal)));
 }
-float pdf_of(const PointLight&, const std::vector<ShapeInstance>&, const Arrival&) {
+float pdf_of(const PointLight&, const std::vector<ShapeInstance>&, const LightHit&) {
   return 0;
 }
-float pdf_of(const SpotLight&, const std::vector<ShapeInstance>&, const Arrival&) {
+float pdf_of(const SpotLight&, const std::vector<ShapeInstance>&, const LightHit&) {
   return 0;
 }
-float pdf_of(const EnvironmentLight& environment, const std::vector<ShapeInstance>&, const Arrival& at) {
-  return environment.pdf(at.place, at.wi);
+float pdf_of(const EnvironmentLight& environment, const std::vector<ShapeInstance>&, const LightHit& at) {
+  return environment.pdf(at.context, at.wi);
 }
-float pdf_of(const DirectionalLight&, const std::vector<ShapeInstance>&, const Arrival&) {
+float pdf_of(const DirectionalLight&, const std::vector<ShapeInstance>&, const LightHit&) {
   return 0;
 }
-float pdf_of(const SunLight& sun, const std::vector<ShapeInstance>&, const Arrival& at) {
-  return sun.shows(at.wi) ? cone_pdf(sun.cap) : 0.0F;
+float pdf_of(const SunLight& sun, const std::vector<ShapeInstance>&, const LightHit& at) {
+  return sun.contains(at.wi) ? cone_pdf(sun.cap) : 0.0F;
 }
 
-// `across` is the area [m^2] that light from infinity comes through.
+// Etendue of each kind; `across` is the cross-section [m^2] for light from infinity.
 double etendue_of(const AreaLight& emitter, double /*across*/) {
   return std::numbers::pi * emitter.area * (emitter.two_sided ? 2 : 1);
 }
-double etendue_of(const PointLight& /*lamp*/, double /*across*/) {
+double etendue_of(const PointLight& /*light*/, double /*across*/) {
   return 4 * std::numbers::pi;
 }
-double etendue_of(const SpotLight& lamp, double /*across*/) {
-  return 2 * std::numbers::pi * static_cast<double>(lamp.cap);
+double etendue_of(const SpotLight& emitter, double /*across*/) {
+  return 2 * std::numbers::pi * static_cast<double>(emitter.cap);
 }
 double etendue_of(const EnvironmentLight& /*environment*/, double across) {
   return 4 * std::numbers::pi * across;
@@ -241,19 +243,19 @@ double etendue_of(const SunLight& sun, double across) {
   return sun.projected_solid_angle() * across;
 }
 
-// What each kind of light answers.
+// Functions that each kind of light implements.
 template <typename Kind>
-concept LightKind = requires(const Light& light, const Kind& kind, const std::vector<ShapeInstance>& shapes,
-                             const SampleRequest& asked, const Arrival& at) {
-  { sample_kind(light, kind, shapes, asked) } -> std::same_as<std::optional<LightSample>>;
+concept LightModel = requires(const Light& light, const Kind& kind, const std::vector<ShapeInstance>& shapes,
+                              const SampleRequest& request, const LightHit& at) {
+  { sample_kind(light, kind, shapes, request) } -> std::same_as<std::optional<LightSample>>;
   { pdf_of(kind, shapes, at) } -> std::same_as<float>;
   { etendue_of(kind, 1.0) } -> std::same_as<double>;
 };
 template <typename List>
-constexpr bool kAllLightKinds = false;
+constexpr bool kAllLightModels = false;
 template <typename... Kinds>
-constexpr bool kAllLightKinds<std::variant<Kinds...>> = (LightKind<Kinds> && ...);
-static_assert(kAllLightKinds<decltype(Light::kind)>);
+constexpr bool kAllLightModels<std::variant<Kinds...>> = (LightModel<Kinds> && ...);
+static_assert(kAllLightModels<decltype(Light::kind)>);
 
 }  // namespace
 
@@ -269,42 +271,42 @@ double SunLight::projected_solid_angle() const {
   return std::numbers::pi * height * (2 - height);
 }
 
-const Imath::V3f* place(const Light& light) {
-  if (const auto* lamp = std::get_if<PointLight>(&light.kind)) return &lamp->position;
-  if (const auto* lamp = std::get_if<SpotLight>(&light.kind)) return &lamp->position;
+const Imath::V3f* light_position(const Light& light) {
+  if (const auto* emitter = std::get_if<PointLight>(&light.kind)) return &emitter->position;
+  if (const auto* emitter = std::get_if<SpotLight>(&light.kind)) return &emitter->position;
   return nullptr;
 }
 
-template <typename Lamp>
-static Imath::V3f moved_place(const Lamp& lamp, float time) {
-  if (!lamp.motion) return lamp.position;
-  return Imath::V3f(Imath::V3d(lamp.position) * lamp.motion->since_opening(static_cast<double>(time)));
+template <typename Emitter>
+static Imath::V3f moved_position(const Emitter& emitter, float time) {
+  if (!emitter.motion) return emitter.position;
+  return Imath::V3f(Imath::V3d(emitter.position) * emitter.motion->since_opening(static_cast<double>(time)));
 }
-Imath::V3f place_at(const PointLight& lamp, float time) {
-  return moved_place(lamp, time);
+Imath::V3f position_at(const PointLight& emitter, float time) {
+  return moved_position(emitter, time);
 }
-Imath::V3f place_at(const SpotLight& lamp, float time) {
-  return moved_place(lamp, time);
+Imath::V3f position_at(const SpotLight& emitter, float time) {
+  return moved_position(emitter, time);
 }
 
 Imath::V3f SpotLight::axis_at(float time) const {
   if (!motion) return axis;
-  Imath::V3d turned;
-  motion->since_opening(static_cast<double>(time)).multDirMatrix(Imath::V3d(axis), turned);
-  return Imath::V3f(turned);
+  Imath::V3d rotated;
+  motion->since_opening(static_cast<double>(time)).multDirMatrix(Imath::V3d(axis), rotated);
+  return Imath::V3f(rotated);
 }
 
 const Motion* motion_of(const Light& light, const std::vector<ShapeInstance>& shapes) {
-  if (const auto* lamp = std::get_if<PointLight>(&light.kind)) return lamp->motion.get();
-  if (const auto* lamp = std::get_if<SpotLight>(&light.kind)) return lamp->motion.get();
+  if (const auto* emitter = std::get_if<PointLight>(&light.kind)) return emitter->motion.get();
+  if (const auto* emitter = std::get_if<SpotLight>(&light.kind)) return emitter->motion.get();
   const auto* emitter = std::get_if<AreaLight>(&light.kind);
   return emitter != nullptr ? motion_of(shapes[emitter->shape].shape) : nullptr;
 }
 
-float EnvironmentLight::pdf(const LightSampleContext& place, const Imath::V3f& wi) const {
+float EnvironmentLight::pdf(const LightSampleContext& context, const Imath::V3f& wi) const {
   if (image) return image->pdf(wi);
-  return place.side ? std::max(0.0F, place.side->dot(wi)) / std::numbers::pi_v<float>
-                    : 1 / (4 * std::numbers::pi_v<float>);
+  return context.side ? std::max(0.0F, context.side->dot(wi)) / std::numbers::pi_v<float>
+                      : 1 / (4 * std::numbers::pi_v<float>);
 }
 
 SampledSpectrum emission_from(const Light& light, const Imath::V3f& wi,
@@ -315,17 +317,18 @@ SampledSpectrum emission_from(const Light& light, const Imath::V3f& wi,
 }
 
 std::optional<LightSample> sample_light(const Light& light, const std::vector<ShapeInstance>& shapes,
-                                        const LightSampleContext& place, Imath::V2f u, float time) {
-  const SampleRequest asked{place, u, time};
-  return std::visit([&](const auto& kind) { return sample_kind(light, kind, shapes, asked); }, light.kind);
+                                        const LightSampleContext& context, Imath::V2f u, float time) {
+  const SampleRequest request{context, u, time};
+  return std::visit([&](const auto& kind) { return sample_kind(light, kind, shapes, request); }, light.kind);
 }
 
-float light_pdf(const Light& light, const std::vector<ShapeInstance>& shapes, const LightSampleContext& place,
-                const Imath::V3f& wi, const Imath::V3f& hit_point, const Imath::V3f& hit_normal, float time) {
+float light_pdf(const Light& light, const std::vector<ShapeInstance>& shapes,
+                const LightSampleContext& context, const Imath::V3f& wi, const Imath::V3f& hit_point,
+                const Imath::V3f& hit_normal, float time) {
   if (!emits_towards(light, hit_normal, -wi)) return 0;
   return std::visit(
       [&](const auto& kind) {
-        return pdf_of(kind, shapes, {place, wi, hit_point, hit_normal, time});
+        return pdf_of(kind, shapes, {context, wi, hit_point, hit_normal, time});
       },
       light.kind);
 }
@@ -337,10 +340,10 @@ bool emits_towards(const Light& light, const Imath::V3f& normal, const Imath::V3
 
 EmissionPoint sample_emission_point(const Light& light, const std::vector<ShapeInstance>& shapes,
                                     Imath::V2f u, float time) {
-  if (const auto* lamp = std::get_if<PointLight>(&light.kind))
-    return {place_at(*lamp, time), Imath::V3f(0), 1};
-  if (const auto* lamp = std::get_if<SpotLight>(&light.kind))
-    return {place_at(*lamp, time), Imath::V3f(0), 1};
+  if (const auto* emitter = std::get_if<PointLight>(&light.kind))
+    return {position_at(*emitter, time), Imath::V3f(0), 1};
+  if (const auto* emitter = std::get_if<SpotLight>(&light.kind))
+    return {position_at(*emitter, time), Imath::V3f(0), 1};
   const auto* emitter = std::get_if<AreaLight>(&light.kind);
   if (emitter == nullptr)
     throw Error(ErrorCode::internal, "light \"" + light.name + "\"",
@@ -369,8 +372,8 @@ Curve power(const Light& light, double scene_radius_m) {
 std::size_t memory_bytes(const Light& light) {
   std::size_t bytes = sizeof(Light);
   if (light.name.capacity() > std::string().capacity()) bytes += light.name.capacity() + 1;
-  if (const auto* sky = std::get_if<EnvironmentLight>(&light.kind); sky && sky->image)
-    bytes += sky->image->memory_bytes();
+  if (const auto* environment = std::get_if<EnvironmentLight>(&light.kind); environment && environment->image)
+    bytes += environment->image->memory_bytes();
   if (const auto* emitter = std::get_if<AreaLight>(&light.kind))
     bytes += emitter->triangle_cdf.size() * sizeof(float) + (emitter->flat ? sizeof(EmittingQuad) : 0);
   return bytes;

@@ -23,171 +23,172 @@ namespace abbe {
 
 struct ShapeInstance;
 
-/// Where light arrives to be scattered: at a point, on the side of a surface that a unit normal says, or from
-/// everywhere.
+/// The point for which light is sampled. `side` is the unit normal of the side of a surface that receives the
+/// light, if it receives it from one side only.
 struct LightSampleContext {
   Imath::V3f point{0, 0, 0};
   std::optional<Imath::V3f> side = {};
-  bool glossy = false;  ///< Whether it is scattered in lobes, by which light from everywhere is found.
+  bool glossy = false;  ///< True if the BSDF has glossy lobes, which sample environment light better.
 };
 
-/// Density [1/sr] of directions drawn uniformly from a cone, `cap` being 1 - cos of its half angle.
+/// Density [1/sr] of directions uniform in a cone; `cap` is 1 - cos of its half angle.
 [[nodiscard]] inline float cone_pdf(float cap) {
   return 1 / (2 * std::numbers::pi_v<float> * cap);
 }
 
-/// A quad that emits, as points are drawn on it.
+/// An emitting quad, in the form that is used to sample points.
 struct EmittingQuad {
   RenderedQuad quad;
-  std::optional<Rectangle> rectangle;  ///< Of one with right angles.
+  std::optional<Rectangle> rectangle;  ///< Present if the quad has right angles.
 };
 
-/// A surface that emits the same radiance in all directions from its outer side, or from both.
+/// A surface that emits uniform radiance in all directions, from its outer side or from both sides.
 struct AreaLight {
   std::uint32_t shape = 0;  ///< Index into `Scene::shapes`.
   bool two_sided = false;
-  double area = 0;                       ///< Of one side [m^2]; `measure` works out this and the next.
-  std::vector<float> triangle_cdf = {};  ///< For meshes: cumulative share of area.
-  std::shared_ptr<const EmittingQuad> flat = nullptr;  ///< For quads; apart, since other lights have none.
+  double area = 0;                       ///< Of one side [m^2]; set by `measure`, as is the next.
+  std::vector<float> triangle_cdf = {};  ///< Cumulative fraction of the area, for meshes.
+  std::shared_ptr<const EmittingQuad> flat =
+      nullptr;  ///< For quads; stored separately, because other lights have none.
 
-  /// Works out what depends on the shape.
+  /// Computes the members that depend on the shape.
   void measure(const Shape& of);
 };
-/// Emits equally in all directions from one point.
+/// A point that emits equally in all directions.
 struct PointLight {
-  Imath::V3f position{0, 0, 0};  ///< Of one that moves, at time 0.
+  Imath::V3f position{0, 0, 0};  ///< At time 0 if it moves.
   std::shared_ptr<const Motion> motion = nullptr;
 };
-/// Emits equally within a cone around `axis`, nothing outside.
+/// A point that emits equally within a cone around `axis`.
 struct SpotLight {
-  Imath::V3f position{0, 0, 0};  ///< Of one that moves, this and the axis at time 0.
+  Imath::V3f position{0, 0, 0};  ///< At time 0 if it moves, as is the axis.
   Imath::V3f axis{0, 0, 1};
-  float cap = 2;  ///< 1 - cos of the half angle, which keeps its digits however narrow the cone.
+  float cap = 2;  ///< 1 - cos of the half angle, which is precise for narrow cones.
   std::shared_ptr<const Motion> motion = nullptr;
 
   [[nodiscard]] Imath::V3f axis_at(float time) const;
-  /// Whether the unit direction `wi` from the lamp is within the cone: |wi - axis|^2 = 2 (1 - cos).
-  [[nodiscard]] bool lights(const Imath::V3f& wi, float time) const {
+  /// True if the unit direction `wi` from the light lies in the cone: |wi - axis|^2 <= 2 (1 - cos).
+  [[nodiscard]] bool illuminates(const Imath::V3f& wi, float time) const {
     return (wi - (motion ? axis_at(time) : axis)).length2() <= 2 * cap;
   }
 };
-/// Light from infinity: the same radiance from all directions, or as an image says.
+/// Light from infinity: uniform radiance, or that of an image.
 struct EnvironmentLight {
   std::shared_ptr<const EnvironmentImage> image = nullptr;
 
-  /// Density [1/sr] of the unit direction `wi` as drawn for a place: by the image, or without one by the
-  /// cosine on the side that light can come to, evenly where that is everywhere.
-  [[nodiscard]] float pdf(const LightSampleContext& place, const Imath::V3f& wi) const;
+  /// Density [1/sr] of the unit direction `wi` as sampled for that point. With an image it follows the image.
+  /// Otherwise it is proportional to the cosine on the receiving side, or uniform if there is no such side.
+  [[nodiscard]] float pdf(const LightSampleContext& context, const Imath::V3f& wi) const;
 };
-/// A parallel beam from infinity. `towards` is the unit direction from the scene to where it comes from.
+/// Parallel light from infinity. `towards` is the unit direction from the scene towards the source.
 struct DirectionalLight {
   Imath::V3f towards{0, 0, 1};
 };
-/// A disc at infinity around the unit direction `towards`, of the same radiance all over, which cameras see.
+/// A disc at infinity around the unit direction `towards`, with uniform radiance and visible to cameras.
 struct SunLight {
   Imath::V3f towards{0, 0, 1};
-  float cap = 1;  ///< 1 - cos of the half angle it is seen under, as of a spot.
+  float cap = 1;  ///< 1 - cos of its angular radius.
 
-  /// Whether the unit direction `wi` meets it.
-  [[nodiscard]] bool shows(const Imath::V3f& wi) const { return (wi - towards).length2() <= 2 * cap; }
-  /// Irradiance of a surface that faces it, over its radiance [sr]: pi sin^2 of the half angle.
+  /// True if the unit direction `wi` points to the disc.
+  [[nodiscard]] bool contains(const Imath::V3f& wi) const { return (wi - towards).length2() <= 2 * cap; }
+  /// Irradiance of a perpendicular surface divided by the radiance [sr]: pi sin^2 of the angular radius.
   [[nodiscard]] double projected_solid_angle() const;
 };
 
-/// A light: where it is, and its emission: spectral radiance [W m^-2 sr^-1 nm^-1] of an area or environment
-/// light or a sun, spectral intensity [W sr^-1 nm^-1] of a point or spot light, spectral irradiance
-/// [W m^-2 nm^-1], of a surface that faces it, of a directional light. With an image, that of a texel (1, 1,
-/// 1).
+/// A light: its kind with its position, and its emission spectrum. The emission is
+/// - spectral radiance [W m^-2 sr^-1 nm^-1] for an area light, environment light or sun; with an image that
+/// of a texel (1, 1, 1);
+/// - spectral intensity [W sr^-1 nm^-1] for a point or spot light;
+/// - spectral irradiance [W m^-2 nm^-1] of a perpendicular surface for a directional light.
 struct Light {
   std::string name;
   std::variant<AreaLight, PointLight, SpotLight, EnvironmentLight, DirectionalLight, SunLight> kind;
   ScaledCurve emission;
-  std::optional<LampPolarisation> polarisation = {};
+  std::optional<LightPolarisation> polarisation = {};
 
   template <typename... Kinds>
   [[nodiscard]] bool is() const {
     return (std::holds_alternative<Kinds>(kind) || ...);
   }
-  /// Comes from a single direction at every point, so that no scattering finds it.
+  /// True if it arrives from a single direction at every point, so that BSDF sampling cannot hit it.
   [[nodiscard]] bool is_delta() const { return is<PointLight, SpotLight, DirectionalLight>(); }
   [[nodiscard]] bool is_environment() const { return is<EnvironmentLight>(); }
-  /// Has no place.
+  /// True if it has no position.
   [[nodiscard]] bool at_infinity() const { return is<EnvironmentLight, DirectionalLight, SunLight>(); }
 };
 
-/// Where a point or spot light is, of one that moves at time 0; nullptr for the others.
-[[nodiscard]] const Imath::V3f* place(const Light& light);
-/// Where it is at that time.
-[[nodiscard]] Imath::V3f place_at(const PointLight& lamp, float time);
-[[nodiscard]] Imath::V3f place_at(const SpotLight& lamp, float time);
-/// How a light moves; nullptr of one that stands still.
+/// Position of a point or spot light, at time 0 if it moves; nullptr for other lights.
+[[nodiscard]] const Imath::V3f* light_position(const Light& light);
+/// Position of a light at that time.
+[[nodiscard]] Imath::V3f position_at(const PointLight& light, float time);
+[[nodiscard]] Imath::V3f position_at(const SpotLight& light, float time);
+/// Motion of a light; nullptr if it does not move.
 [[nodiscard]] const Motion* motion_of(const Light& light, const std::vector<ShapeInstance>& shapes);
 
-/// The emission at these wavelengths of light arriving from the unit direction `wi`, which only an
-/// environment image asks for.
+/// Emission at these wavelengths of light that arrives from the unit direction `wi`. Only an environment
+/// image depends on the direction.
 [[nodiscard]] SampledSpectrum emission_from(const Light& light, const Imath::V3f& wi,
                                             const SampledSpectrum& wavelengths_nm);
 
-/// How light of it is polarised that travels in that unit direction; nothing of an ordinary lamp, and of a
-/// linearly polarised one along its very axis.
-[[nodiscard]] std::optional<Polarised> polarisation_of(const Light& light, const Imath::V3f& travels);
+/// Polarisation state of the light's emission along the propagation direction `travels`. Nothing for
+/// unpolarised lights, and for a linearly polarised one along its own axis.
+[[nodiscard]] std::optional<PolarisationState> polarisation_of(const Light& light, const Imath::V3f& travels);
 
-/// Light arriving at a point at some time, without its spectrum: `factor` times `emission_from` is the
-/// incident radiance (area, environment, sun) or irradiance per unit cosine (point, spot, directional), and
-/// `pdf` the density of `wi` [1/sr] (1 for delta lights, whose direction is no choice).
+/// A sampled direction towards a light. `factor` times `emission_from` is the incident radiance (area,
+/// environment, sun) or the irradiance per unit cosine (point, spot, directional). `pdf` is the density of
+/// `wi` [1/sr], or 1 for delta lights.
 struct LightSample {
   Imath::V3f wi;
-  float distance;  ///< infinity for lights there
+  float distance;  ///< Infinite for lights at infinity.
   float factor;
   float pdf;
-  Imath::V3f end;  ///< Where a shadow ray ends: the point of the light, moved off its surface; meaningless
-                   ///< at infinity.
-  Imath::V3f normal{0, 0, 0};  ///< Outward, of an area light there; zero for the others.
+  /// End of the shadow ray: the point of the light, offset from its surface. Undefined for lights at
+  /// infinity.
+  Imath::V3f end;
+  Imath::V3f normal{0, 0, 0};  ///< Outward normal of an area light there; zero for the others.
 };
 
-/// Draws a direction from a place towards the light at that time; nothing if the light cannot reach it.
-/// Spheres seen from outside are drawn by solid angle [Pharr2023, sec. 6.2.4], rectangles that look large too
-/// [Urena2013], environments as they say, all else by area.
+/// Samples a direction from a point towards the light at that time; nothing if the light cannot illuminate
+/// the point. Spheres seen from outside are sampled by solid angle [Pharr2023, sec. 6.2.4], as are large
+/// rectangles [Urena2013]. Environment lights are sampled by their own density, all else by area.
 [[nodiscard]] std::optional<LightSample> sample_light(const Light& light,
                                                       const std::vector<ShapeInstance>& shapes,
-                                                      const LightSampleContext& place, Imath::V2f u,
+                                                      const LightSampleContext& context, Imath::V2f u,
                                                       float time);
 
-/// Density [1/sr] with which `sample_light` draws the direction from a place that hits the light at
-/// `hit_point` with outward normal `hit_normal`; for lights at infinity pass the direction in `wi` only. 0
-/// for delta lights.
+/// Density [1/sr] with which `sample_light` samples the direction that hits the light at `hit_point` with
+/// outward normal `hit_normal`. For lights at infinity only `wi` matters. 0 for delta lights.
 [[nodiscard]] float light_pdf(const Light& light, const std::vector<ShapeInstance>& shapes,
-                              const LightSampleContext& place, const Imath::V3f& wi,
+                              const LightSampleContext& context, const Imath::V3f& wi,
                               const Imath::V3f& hit_point, const Imath::V3f& hit_normal, float time);
 
-/// Whether the light emits from a surface point with outward `normal` into direction `wo` (away from the
-/// surface).
+/// True if the light emits from a surface point with outward `normal` in the direction `wo`, which points
+/// away from the surface.
 [[nodiscard]] bool emits_towards(const Light& light, const Imath::V3f& normal, const Imath::V3f& wo);
 
-/// A starting point of photons of some time: the surface position and outward normal of an area light, or the
-/// point itself with a zero normal. Lights at infinity have none: Error{internal}.
+/// A starting point of photons at that time: position and outward normal on an area light, or the point
+/// itself with a zero normal.
 struct EmissionPoint {
   Imath::V3f point;
   Imath::V3f normal;
-  float pdf_area;  ///< [1/m^2]; 1 for point and spot lights.
+  float pdf_area;  ///< Density by area [1/m^2]; 1 for point and spot lights.
 };
 [[nodiscard]] EmissionPoint sample_emission_point(const Light& light,
                                                   const std::vector<ShapeInstance>& shapes, Imath::V2f u,
                                                   float time);
-/// Numbers for `sample_emission_point` that are spread over a light, its middle first: where all of a light
-/// is to be looked at.
-inline constexpr std::array<std::array<float, 2>, 5> kSpreadOverLight{
+/// Random numbers for `sample_emission_point` that represent a whole light; its center comes first.
+inline constexpr std::array<std::array<float, 2>, 5> kRepresentativePoints{
     {{0.5F, 0.5F}, {0.05F, 0.05F}, {0.95F, 0.05F}, {0.05F, 0.95F}, {0.95F, 0.95F}}};
 
-/// What the mean emission of a light is multiplied by to give its power: [m^2 sr], [sr] for point and spot
-/// lights, [m^2] for directional ones; of lights at infinity, through the sphere of radius `scene_radius_m`
+/// Factor from the mean emission of a light to its power: [m^2 sr], [sr] for point and spot lights, [m^2] for
+/// directional ones. For lights at infinity it counts the power through the sphere of radius `scene_radius_m`
 /// [m].
 [[nodiscard]] double etendue(const Light& light, double scene_radius_m);
-/// Emission averaged over directions: that of the light, or of the mean texel of an environment image.
+/// Emission averaged over directions; for an environment image that of its mean texel.
 [[nodiscard]] ScaledCurve mean_emission(const Light& light);
 /// Spectral power of a light [W/nm]: its mean emission times its `etendue`.
 [[nodiscard]] Curve power(const Light& light, double scene_radius_m);
-/// Bytes of the light itself and all it holds, but for its emission, which others may share.
+/// Memory in bytes of the light and all its data except the emission, which other lights may share.
 [[nodiscard]] std::size_t memory_bytes(const Light& light);
 
 }  // namespace abbe

@@ -7,33 +7,35 @@
 
 namespace abbe {
 
-/// The field swings along a unit axis of the scene, as far as that lies across the way of the light.
+/// The electric field oscillates along a unit axis of the scene, projected perpendicular to the propagation
+/// direction.
 struct LinearPolarisation {
   Imath::V3f axis{0, 0, 1};
 };
-/// The field turns: clockwise as the receiver sees it, which is right-handed, or the other way.
+/// The electric field rotates: clockwise as seen by the receiver if right-handed, otherwise
+/// counter-clockwise.
 struct CircularPolarisation {
   bool right = true;
 };
 
-/// How all light of a lamp is polarised.
-struct LampPolarisation {
-  float degree = 1;  ///< Share of the light that is polarised, in [0, 1].
+/// Polarisation of all light that a light emits.
+struct LightPolarisation {
+  float degree = 1;  ///< Degree of polarisation, in [0, 1].
   std::variant<LinearPolarisation, CircularPolarisation> kind;
 };
 
-/// The Stokes vector (1, q, u, v) of light over its intensity, told in the frame whose first axis is this
-/// unit vector, which lies across the way of the light. `docs/physics/conventions.md` says what the signs
-/// mean.
-struct Polarised {
+/// Normalised Stokes vector (1, q, u, v), in the frame whose first axis is the unit vector `axis`,
+/// perpendicular to the propagation direction. `docs/physics/conventions.md` defines the signs.
+struct PolarisationState {
   Imath::V3f axis;
   float q = 0;
   float u = 0;
   float v = 0;
 };
 
-/// The same for light that travels in that unit direction; nothing where the axis of a linear one lies along
-/// it.
-[[nodiscard]] std::optional<Polarised> polarised(const LampPolarisation& of, const Imath::V3f& travels);
+/// Polarisation state of light that propagates along the unit direction `travels`. Nothing if it is linear
+/// and its axis is parallel to that direction.
+[[nodiscard]] std::optional<PolarisationState> polarised(const LightPolarisation& of,
+                                                         const Imath::V3f& travels);
 
 }  // namespace abbe

@@ -7,10 +7,10 @@
 namespace abbe {
 namespace {
 
-// Area over squared distance below which a rectangle looks small: the cosine and distance over it vary little
-// enough for the cheaper sampling by area to reach an error sooner.
+// Area over squared distance below which a rectangle is small. Cosine and distance then vary little, and the
+// cheaper sampling by area has the lower error per time.
 constexpr double kSmall = 0.5;
-// Height over size below which it is seen edge-on, and the sum of angles cancels.
+// Ratio of height to size below which a rectangle is seen edge-on and the sum of angles cancels.
 constexpr double kEdgeOn = 1e-4;
 
 }  // namespace
@@ -27,8 +27,8 @@ std::optional<Rectangle> Rectangle::of(const Quad& quad) {
                    size_v};
 }
 
-std::optional<SphericalRectangle> SphericalRectangle::seen_from(const Rectangle& rectangle,
-                                                                const Imath::V3d& point) {
+std::optional<SphericalRectangle> SphericalRectangle::project(const Rectangle& rectangle,
+                                                              const Imath::V3d& point) {
   const auto& [corner, center, x, y, size_u, size_v] = rectangle;
   const double distance2 = (center - point).length2();
   if (size_u * size_v < kSmall * distance2) return std::nullopt;
@@ -47,9 +47,9 @@ std::optional<SphericalRectangle> SphericalRectangle::seen_from(const Rectangle&
   return r;
 }
 
-// The solid angle between (0, 0) and (x, y) in a plane at height h is atan(x y/(h r)), r the distance of that
-// corner; the difference for y1 and y0 is the argument of (h r1 + i x y1)(h r0 - i x y0), the magnitude of
-// which is (x^2 + h^2) sqrt((h^2 + y0^2)(h^2 + y1^2)).
+// The solid angle between (0, 0) and (x, y) in a plane at height h is atan(x y/(h r)), where r is the
+// distance of that corner. The difference for y1 and y0 is the argument of (h r1 + i x y1)(h r0 - i x y0).
+// Its magnitude is (x^2 + h^2) sqrt((h^2 + y0^2)(h^2 + y1^2)).
 Imath::V2d SphericalRectangle::turn_at(double x) const {
   const double d2 = x * x + height_ * height_;
   const double r0 = std::sqrt(d2 + y0_ * y0_);
@@ -58,12 +58,12 @@ Imath::V2d SphericalRectangle::turn_at(double x) const {
 }
 
 Imath::V2d SphericalRectangle::sample(Imath::V2f u) const {
-  // Normals of the planes through the point and the edges y = y0 and y = y1, by their z.
+  // The z components of the normals of the planes through the point and the edges y = y0 and y = y1.
   const double far0 = std::sqrt(height_ * height_ + y0_ * y0_);
   const double far1 = std::sqrt(height_ * height_ + y1_ * y1_);
   const double b0 = -y0_ / far0;
   const double b1 = y1_ / far1;
-  // The plane x = const through the point that has the share u.x of the solid angle on its left.
+  // The plane x = const through the point that has the fraction u.x of the solid angle on its left.
   const double angle = static_cast<double>(u.x) * solid_angle_;
   const Imath::V2d turn(std::cos(angle), std::sin(angle));
   const double real = start_.x * turn.x - start_.y * turn.y;
@@ -72,7 +72,7 @@ Imath::V2d SphericalRectangle::sample(Imath::V2f u) const {
   const double f = (real * b0 + magnitude * b1) / imaginary;
   const double c = std::clamp(std::copysign(1 / std::sqrt(f * f + b0 * b0), f), -1.0, 1.0);
   const double x = std::clamp(c * height_ / std::sqrt(std::max((1 - c) * (1 + c), 1e-300)), x0_, x1_);
-  // On that line equal steps of sine are equal solid angles.
+  // On that line, equal steps of the sine are equal solid angles.
   const double d2 = x * x + height_ * height_;
   const double h0 = y0_ / std::sqrt(d2 + y0_ * y0_);
   const double h1 = y1_ / std::sqrt(d2 + y1_ * y1_);

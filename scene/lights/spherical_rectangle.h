@@ -8,36 +8,37 @@
 
 namespace abbe {
 
-/// A rectangle by its local axes, worked out once.
+/// A rectangle in its local axes.
 struct Rectangle {
   Imath::V3d corner;
   Imath::V3d center;
-  Imath::V3d x, y;  ///< Along the edges, of unit length.
+  Imath::V3d x, y;  ///< Unit vectors along the edges.
   double size_u, size_v;
 
-  /// Nothing for a parallelogram that is no rectangle.
+  /// The rectangle of a quad; nothing for a parallelogram without right angles.
   [[nodiscard]] static std::optional<Rectangle> of(const Quad& quad);
 };
 
-/// A rectangle projected onto the unit sphere around a point, sampled uniformly by solid angle. [Urena2013]
+/// A rectangle projected onto the unit sphere around a point and sampled uniformly by solid angle.
+/// [Urena2013]
 class SphericalRectangle {
  public:
-  /// Nothing for one that looks small or is seen edge-on: there sampling by area is as good and loses no
-  /// digits.
-  [[nodiscard]] static std::optional<SphericalRectangle> seen_from(const Rectangle& rectangle,
-                                                                   const Imath::V3d& point);
+  /// Projects a rectangle. Nothing if it looks small or is seen edge-on, where sampling by area is as good
+  /// and more precise.
+  [[nodiscard]] static std::optional<SphericalRectangle> project(const Rectangle& rectangle,
+                                                                 const Imath::V3d& point);
 
   [[nodiscard]] double solid_angle() const { return solid_angle_; }
-  /// Parameters (u, v) of the quad at a direction uniform in the solid angle.
+  /// Parameters (u, v) of the quad for a direction uniform in the solid angle.
   [[nodiscard]] Imath::V2d sample(Imath::V2f u) const;
 
  private:
   SphericalRectangle() = default;
-  // A complex number for the line x = const between the edges y0_ and y1_: the arguments of those of two
-  // lines differ by the solid angle between them.
+  // A complex number for the line x = const between the edges y0_ and y1_. The arguments of two such numbers
+  // differ by the solid angle between the lines.
   [[nodiscard]] Imath::V2d turn_at(double x) const;
 
-  // Local axes along the edges, origin at the point: the rectangle is [x0_, x1_] x [y0_, y1_] at distance
+  // Local axes along the edges with the point as origin: the rectangle is [x0_, x1_] x [y0_, y1_] at distance
   // height_.
   double x0_, x1_, y0_, y1_, height_;
   Imath::V2d start_;  // turn_at(x0_)

@@ -19,7 +19,7 @@ struct Basis {
     x = {T(1) + sign * n.x * n.x * a, sign * b, -sign * n.x};
     y = {b, sign + n.y * n.y * a, -n.y};
   }
-  /// x along what of `along` is perpendicular to `n`, wherever that is anything.
+  /// Axes with x along the component of `along` perpendicular to `n`, unless that component vanishes.
   Basis(const Imath::Vec3<T>& n, const Imath::Vec3<T>& along) : Basis(n) {
     const Imath::Vec3<T> across = along - n * along.dot(n);
     if (!(across.length2() > std::numeric_limits<T>::epsilon() * along.length2())) return;
@@ -32,7 +32,7 @@ struct Basis {
   [[nodiscard]] Imath::Vec3<T> to_world(const Imath::Vec3<T>& v) const { return x * v.x + y * v.y + z * v.z; }
 };
 
-/// The direction at azimuth `phi` [rad] around a unit `axis`, `cap` being 1 - cos of the angle between them.
+/// Direction at azimuth `phi` [rad] around a unit `axis`. `cap` is 1 - cos of the angle between them.
 [[nodiscard]] inline Imath::V3f direction_about(const Imath::V3f& axis, float cap, float phi) {
   const float sin_theta = std::sqrt(cap * (2 - cap));
   return Basis<float>(axis).to_world({sin_theta * std::cos(phi), sin_theta * std::sin(phi), 1 - cap});

@@ -11,12 +11,12 @@ namespace {
 
 constexpr double kTau = 2 * std::numbers::pi;
 
-/// A vector of a plane, as shares of two edges that span it.
-struct PlaneShares {
+/// Coordinates of a vector in a plane, with respect to two edges that span it.
+struct PlaneCoordinates {
   double first;
   double second;
 
-  PlaneShares(const Imath::V3d& vector, const Imath::V3d& edge_a, const Imath::V3d& edge_b) {
+  PlaneCoordinates(const Imath::V3d& vector, const Imath::V3d& edge_a, const Imath::V3d& edge_b) {
     const Imath::V3d normal = edge_a.cross(edge_b);
     first = vector.cross(edge_b).dot(normal) / normal.length2();
     second = edge_a.cross(vector).dot(normal) / normal.length2();
@@ -24,7 +24,7 @@ struct PlaneShares {
 };
 
 SurfaceCoordinates coordinates_on(const Quad& quad, const Imath::V3d& point, std::size_t /*triangle*/) {
-  const PlaneShares at(point - quad.corner, quad.edge_u, quad.edge_v);
+  const PlaneCoordinates at(point - quad.corner, quad.edge_u, quad.edge_v);
   return {{at.first, at.second}, quad.edge_u, quad.edge_v};
 }
 
@@ -59,9 +59,9 @@ SurfaceCoordinates coordinates_on(const Mesh& mesh, const Imath::V3d& point, std
   const auto& [uv_a, uv_b, uv_c] = mesh.coordinates[triangle];
   const Imath::V2d along_b = Imath::V2d(uv_b) - Imath::V2d(uv_a);
   const Imath::V2d along_c = Imath::V2d(uv_c) - Imath::V2d(uv_a);
-  const PlaneShares share(point - origin, edge_b, edge_c);
+  const PlaneCoordinates weights(point - origin, edge_b, edge_c);
   SurfaceCoordinates at;
-  at.uv = Imath::V2d(uv_a) + along_b * share.first + along_c * share.second;
+  at.uv = Imath::V2d(uv_a) + along_b * weights.first + along_c * weights.second;
   const double area = along_b.cross(along_c);
   if (area == 0) return at;
   at.dp_du = (edge_b * along_c.y - edge_c * along_b.y) / area;
@@ -69,8 +69,8 @@ SurfaceCoordinates coordinates_on(const Mesh& mesh, const Imath::V3d& point, std
   return at;
 }
 
-// Where an instance stands at that time.
-const Placement& stands_at(const PlacedShape& placed, float time, std::optional<Placement>& moved) {
+// The placement of an instance at that time.
+const Placement& current_placement(const PlacedShape& placed, float time, std::optional<Placement>& moved) {
   if (!placed.at->motion) return *placed.at;
   return moved.emplace(placement_at(*placed.at, static_cast<double>(time)));
 }
@@ -95,18 +95,18 @@ std::optional<Imath::V3d> interpolated_normal(const Shape& shape, const Imath::V
   if (mesh == nullptr || mesh->normals.empty()) return std::nullopt;
   const auto* placed = std::get_if<PlacedShape>(&shape);
   std::optional<Placement> moved;
-  const Placement* now = placed != nullptr ? &stands_at(*placed, time, moved) : nullptr;
+  const Placement* now = placed != nullptr ? &current_placement(*placed, time, moved) : nullptr;
   const auto& [a, b, c] = mesh->triangles[triangle];
   const Imath::V3d& origin = mesh->vertices[a];
-  const PlaneShares share((now ? point * now->to_prototype : point) - origin, mesh->vertices[b] - origin,
-                          mesh->vertices[c] - origin);
+  const PlaneCoordinates weights((now ? point * now->to_prototype : point) - origin,
+                                 mesh->vertices[b] - origin, mesh->vertices[c] - origin);
   const auto& [at_a, at_b, at_c] = mesh->normals[triangle];
-  Imath::V3d normal = Imath::V3d(at_a) * (1 - share.first - share.second) + Imath::V3d(at_b) * share.first +
-                      Imath::V3d(at_c) * share.second;
+  Imath::V3d normal = Imath::V3d(at_a) * (1 - weights.first - weights.second) +
+                      Imath::V3d(at_b) * weights.first + Imath::V3d(at_c) * weights.second;
   if (now) normal = normal_to_world(*now, normal);
   normal.normalize();
   const double side = normal.dot(geometric);
-  if (side == 0) return geometric;  // normals that cancel out
+  if (side == 0) return geometric;  // the interpolated normals cancel
   return side < 0 ? -normal : normal;
 }
 
@@ -115,7 +115,7 @@ SurfaceCoordinates coordinates(const Shape& shape, const Imath::V3d& point, std:
   const auto on = [&](const auto& s) {
     if constexpr (std::is_same_v<std::decay_t<decltype(s)>, PlacedShape>) {
       std::optional<Placement> moved;
-      return coordinates_on(s, stands_at(s, time, moved), point, triangle);
+      return coordinates_on(s, current_placement(s, time, moved), point, triangle);
     } else {
       return coordinates_on(s, point, triangle);
     }

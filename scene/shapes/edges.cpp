@@ -13,13 +13,13 @@ using Corners = std::array<std::uint32_t, 3>;
 std::size_t hash(const Imath::V3d& v) {
   std::uint64_t mixed = 0;
   for (const double x : {v.x, v.y, v.z}) {
-    mixed = (mixed ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9E3779B97F4A7C15U;  // -0 is 0
+    mixed = (mixed ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9E3779B97F4A7C15U;  // maps -0 to 0
     mixed ^= mixed >> 32;
   }
   return mixed;
 }
 
-// For each vertex the first one at its place.
+// Returns for each vertex the index of the first one at the same position.
 std::vector<std::uint32_t> welded(const std::vector<Imath::V3d>& vertices) {
   constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> table(std::bit_ceil(2 * vertices.size() + 1), kFree);

@@ -10,21 +10,20 @@
 
 namespace abbe {
 
-/// A triangle at one of its edges. Vertices are named by the first one at the same place.
+/// A triangle at one of its edges. A vertex is identified by the first vertex at its position.
 struct EdgeSide {
-  std::uint32_t high;      ///< The end of the edge with the higher number.
-  std::uint32_t opposite;  ///< The triangle's third vertex.
+  std::uint32_t high;      ///< End of the edge with the higher index.
+  std::uint32_t opposite;  ///< Third vertex of the triangle.
   std::uint32_t triangle;
-  bool forward;  ///< The triangle winds from the lower end to the higher.
+  bool forward;  ///< True if the triangle's winding runs from the lower end to the higher.
 };
 
-/// The edges of a mesh's triangles; its slivers, which join edges too, have the numbers after the last
-/// triangle.
+/// The edges of a mesh's triangles. Slivers join edges too; their indices follow those of the triangles.
 class EdgeTable {
  public:
   explicit EdgeTable(const Mesh& mesh);
 
-  /// Calls `visit` with the sides of each edge, those with the same third vertex beside each other.
+  /// Calls `visit` with the sides of each edge. Sides with the same third vertex are adjacent.
   template <typename Visit>
   void for_each(Visit&& visit) const {
     for (std::size_t low = 0; low + 1 < first_.size(); ++low)
@@ -38,7 +37,8 @@ class EdgeTable {
 
  private:
   std::vector<std::size_t>
-      first_;  // of the sides of edges by their lower end, and of what is beyond the last
+      // first side of each edge by its lower end, and an end marker
+      first_;
   std::vector<EdgeSide> sides_;
 };
 

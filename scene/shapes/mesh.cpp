@@ -67,7 +67,7 @@ std::vector<float> triangle_cdf(const Shape& shape) {
 
 SurfacePoint sample_area(const Mesh& mesh, const std::vector<float>& triangle_cdf, Imath::V2f u) {
   const auto [index, within] = invert_cdf(std::span(triangle_cdf), static_cast<double>(u.x));
-  // Uniform over the triangle: the square root spreads rows of equal area. [Pharr2023, sec. A.5.1]
+  // Uniform over the triangle: the square root makes the rows equal in area. [Pharr2023, sec. A.5.1]
   const double root = std::sqrt(within);
   const double weight_c = static_cast<double>(u.y) * root;
   const auto& [a, b, c] = mesh.triangles[index];

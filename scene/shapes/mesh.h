@@ -6,12 +6,12 @@
 
 namespace abbe {
 
-/// The nearest hit by trying every triangle, edges included: exact but slow, for single rays. Triangles
-/// without area are never hit.
+/// Nearest hit by a test of every triangle, edges included: exact but slow, for single rays. Triangles of
+/// zero area are never hit.
 template <typename T>
 [[nodiscard]] std::optional<ShapeHit<T>> intersect(const Mesh& mesh, const BasicRay<T>& ray, T t_min);
 
-/// Half the cross product of two edges: the normal times the area.
+/// Half the cross product of two edges: the unit normal times the area.
 [[nodiscard]] Imath::V3d area_vector(const Mesh& mesh, std::size_t triangle);
 
 [[nodiscard]] std::size_t memory_bytes(const Mesh& mesh);

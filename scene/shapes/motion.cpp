@@ -19,7 +19,7 @@ struct Turn {
   double angle;
 };
 
-// From one rotation to another about the same axis: nothing where their axes differ.
+// The rotation between two keyframes about a common axis; nothing if their axes differ.
 std::optional<Turn> turn_about_one_axis(const Motion::Keyframe& a, const Motion::Keyframe& b) {
   constexpr double kSameAxis = 1e-9;  // sine of the angle between them
   if (a.angle == 0) return Turn{b.axis, b.angle};
@@ -28,7 +28,7 @@ std::optional<Turn> turn_about_one_axis(const Motion::Keyframe& a, const Motion:
   return Turn{a.axis, std::copysign(b.angle, b.angle * a.axis.dot(b.axis)) - a.angle};
 }
 
-// The shorter way from one rotation to another.
+// The shortest rotation between two orientations.
 Turn shortest_turn(const Imath::M44d& from, const Imath::M44d& to) {
   const Imath::Quatd q = Imath::extractQuat(from.transposed() * to).normalized();
   const double angle = q.angle();
@@ -49,7 +49,7 @@ Motion::Motion(const std::vector<Keyframe>& keyframes) {
   recentre(Imath::V3d(0));
 }
 
-// The last one has no length.
+// The last segment has zero length.
 const Motion::Segment& Motion::segment_at(double time) const {
   const auto next = std::upper_bound(segments_.begin(), segments_.end(), time,
                                      [](double t, const Segment& segment) { return t < segment.from; });
@@ -58,9 +58,9 @@ const Motion::Segment& Motion::segment_at(double time) const {
 
 Imath::M44d Motion::pose_in(const Segment& segment, double time) {
   const double length = segment.to - segment.from;
-  const double share = length > 0 ? std::clamp((time - segment.from) / length, 0.0, 1.0) : 0;
-  Imath::M44d pose = segment.start * rotation(segment.axis, share * segment.angle);
-  const Imath::V3d at = segment.first + (segment.last - segment.first) * share;
+  const double fraction = length > 0 ? std::clamp((time - segment.from) / length, 0.0, 1.0) : 0;
+  Imath::M44d pose = segment.start * rotation(segment.axis, fraction * segment.angle);
+  const Imath::V3d at = segment.first + (segment.last - segment.first) * fraction;
   for (int i = 0; i < 3; ++i) pose[3][i] = at[i];
   return pose;
 }
@@ -69,7 +69,7 @@ Imath::M44d Motion::pose(double time) const {
   return pose_in(segment_at(time), time);
 }
 
-bool Motion::still() const {
+bool Motion::is_static() const {
   return std::none_of(segments_.begin(), segments_.end(), [](const Segment& segment) {
     return segment.from < 1 && segment.to > 0 && (segment.angle != 0 || segment.first != segment.last);
   });
@@ -87,34 +87,33 @@ Imath::M44d Motion::since_opening(double time) const {
 }
 
 Imath::Box3d Motion::sweep(const std::vector<Imath::V3d>& points, double from, double to) const {
-  std::vector<Imath::V3d> held;  // as the poses are applied to them
-  for (const Imath::V3d& point : points) held.push_back(point * to_keyframes_);
+  std::vector<Imath::V3d> rest_points;  // the points in the coordinates that poses transform
+  for (const Imath::V3d& point : points) rest_points.push_back(point * to_keyframes_);
   Imath::Box3d box;
   const Segment* first = &segment_at(from);
   const Segment* last = &segment_at(to);
   for (const Segment* segment = first; segment <= last; ++segment)
-    sweep_piece(*segment, held, segment == first ? from : segment->from, segment == last ? to : segment->to,
-                box);
+    sweep_segment(*segment, rest_points, segment == first ? from : segment->from,
+                  segment == last ? to : segment->to, box);
   return box;
 }
 
-// Over a step that turns by theta, a point at the distance r from the axis is off the line between its ends
-// by no more than r theta^2 / 8: the most that linear interpolation errs by where the second derivative is r
-// theta^2.
-void Motion::sweep_piece(const Segment& segment, const std::vector<Imath::V3d>& points, double from,
-                         double to, Imath::Box3d& box) const {
-  constexpr double kMostTurn = std::numbers::pi / 16;
+// During a step by the angle theta, a point at the distance r from the axis deviates from the chord by at
+// most r theta^2 / 8. This is the maximum error of linear interpolation for a second derivative of r theta^2.
+void Motion::sweep_segment(const Segment& segment, const std::vector<Imath::V3d>& points, double from,
+                           double to, Imath::Box3d& box) const {
+  constexpr double kMaxTurn = std::numbers::pi / 16;
   const double length = segment.to - segment.from;
   const double turned = length > 0 ? std::abs(segment.angle) * std::min(1.0, (to - from) / length) : 0;
-  const int steps = 1 + static_cast<int>(std::min(turned / kMostTurn, 1e4));
-  const double theta = std::min(turned / steps, 4.0);  // beyond, off by no more than twice the distance
+  const int steps = 1 + static_cast<int>(std::min(turned / kMaxTurn, 1e4));
+  const double theta = std::min(turned / steps, 4.0);  // above 4, the deviation is at most twice the distance
   for (int i = 0; i <= steps; ++i) {
     const Imath::M44d pose = pose_in(segment, from + (to - from) * i / steps);
     for (const Imath::V3d& point : points) {
       const Imath::V3d at = point * pose - origin_;
-      const auto off = Imath::V3d(point.length() * theta * theta / 8);
-      box.extendBy(at - off);
-      box.extendBy(at + off);
+      const auto slack = Imath::V3d(point.length() * theta * theta / 8);
+      box.extendBy(at - slack);
+      box.extendBy(at + slack);
     }
   }
 }

@@ -8,39 +8,39 @@
 
 namespace abbe {
 
-/// A rigid motion through keyframes, in time as rays have it: 0 when the shutter opens, 1 when it closes for
-/// the last time. Between two keyframes the translation is linear, and the rotation runs about one axis at a
-/// constant rate: from one angle to the other where both turn about the same axis, whole turns included, and
-/// else the shorter way, as slerp does [Shoemake1985]. Before the first and after the last keyframe nothing
-/// moves.
+/// A rigid motion through keyframes. Time is that of rays: 0 when the shutter opens, 1 when it closes for the
+/// last row. Between two keyframes the translation is linear and the rotation turns about one axis at a
+/// constant rate. If both keyframes have the same axis, it runs from one angle to the other, whole turns
+/// included. Otherwise it takes the shortest rotation, as slerp does [Shoemake1985]. Nothing moves before the
+/// first keyframe and after the last.
 class Motion {
  public:
   /// A pose: a right-handed rotation about an axis through the scene file's origin, then a translation [m].
   struct Keyframe {
     double time = 0;
-    Imath::V3d axis{0, 0, 0};  ///< Unit; zero where nothing is turned.
+    Imath::V3d axis{0, 0, 0};  ///< Unit; zero without rotation.
     double angle = 0;          ///< [radians]
     Imath::V3d translation{0, 0, 0};
   };
 
-  /// At least one keyframe; times increase.
+  /// Requires at least one keyframe; times increase.
   explicit Motion(const std::vector<Keyframe>& keyframes);
 
-  /// The pose at that time as a matrix for row vectors, in the coordinates of the scene file.
+  /// Pose at that time, as a matrix for row vectors in scene-file coordinates.
   [[nodiscard]] Imath::M44d pose(double time) const;
-  /// Whether the pose is the same at all times from 0 to 1.
-  [[nodiscard]] bool still() const;
+  /// True if the pose is the same at all times from 0 to 1.
+  [[nodiscard]] bool is_static() const;
 
-  /// Takes the scene file's point `origin` [m] for (0, 0, 0) from now on, in what follows.
+  /// Makes the position `origin` [m] of the scene file the origin of the coordinates of the functions below.
   void recentre(const Imath::V3d& origin);
-  /// What has happened since time 0 to what moves: the rigid map from where it was then.
+  /// Rigid map from the pose at time 0 to that at `time`.
   [[nodiscard]] Imath::M44d since_opening(double time) const;
-  /// A box around all that is, at time 0, within the convex hull of `points`, at all times from `from` to
-  /// `to`.
+  /// Box around the convex hull of `points`, given at time 0, at all times from `from` to `to`.
   [[nodiscard]] Imath::Box3d sweep(const std::vector<Imath::V3d>& points, double from, double to) const;
 
  private:
-  // From one keyframe to the next: the rotation is `start`, then a share of a turn about the axis.
+  // The motion between two keyframes: the rotation is `start`, followed by a fraction of a turn about the
+  // axis.
   struct Segment {
     double from, to;
     Imath::M44d start;
@@ -51,11 +51,11 @@ class Motion {
 
   [[nodiscard]] const Segment& segment_at(double time) const;
   [[nodiscard]] static Imath::M44d pose_in(const Segment& segment, double time);
-  void sweep_piece(const Segment& segment, const std::vector<Imath::V3d>& points, double from, double to,
-                   Imath::Box3d& box) const;
+  void sweep_segment(const Segment& segment, const std::vector<Imath::V3d>& points, double from, double to,
+                     Imath::Box3d& box) const;
 
   std::vector<Segment> segments_;
-  Imath::M44d to_keyframes_;  // from the place at time 0 to what the poses are applied to
+  Imath::M44d to_keyframes_;  // from the pose at time 0 to the coordinates that poses transform
   Imath::V3d origin_{0, 0, 0};
 };
 

@@ -15,12 +15,12 @@
 
 namespace abbe {
 
-/// The placement of a matrix that has an inverse.
+/// The placement of an invertible matrix.
 [[nodiscard]] inline Placement placement(const Imath::M44d& to_world) {
   return {to_world, to_world.inverse()};
 }
 
-/// Where something stands at that time.
+/// The placement at that time.
 [[nodiscard]] inline Placement placement_at(const Placement& placement, double time) {
   if (!placement.motion) return placement;
   const Imath::M44d since_opening = placement.motion->since_opening(time);
@@ -28,8 +28,8 @@ namespace abbe {
           placement.described_origin};
 }
 
-/// The ray in the prototype's coordinates. Its direction keeps what the map does to lengths, so that t means
-/// the same on both sides.
+/// The ray in the prototype's coordinates. Its direction is not normalised, so that t is the same in both
+/// coordinate systems.
 template <typename T>
 [[nodiscard]] BasicRay<T> to_prototype(const Placement& placement, const BasicRay<T>& ray) {
   const Imath::Matrix44<T> map(placement.to_prototype);
@@ -38,8 +38,8 @@ template <typename T>
   return moved;
 }
 
-/// The ray in the coordinates that the scene file describes the shape in, recentred as the scene is, at the
-/// ray's time. Its t means the same distance in the world.
+/// The ray in the coordinates in which the scene file describes the shape, recentred as the scene is, at the
+/// ray's time. Its t is the distance in the world.
 [[nodiscard]] inline BasicRay<double> to_description(const Shape& shape, const BasicRay<double>& ray) {
   const auto* placed = std::get_if<PlacedShape>(&shape);
   if (placed == nullptr) return ray;
@@ -48,8 +48,8 @@ template <typename T>
   return described;
 }
 
-/// A prototype's normal in the world, by the inverse transpose, which turns an outward normal into an outward
-/// one whatever the map's handedness. Of unit length.
+/// World normal of a prototype's normal, by the inverse transpose. It keeps outward normals outward whatever
+/// the handedness of the map. Unit length.
 template <typename T>
 [[nodiscard]] Imath::Vec3<T> normal_to_world(const Placement& placement, const Imath::Vec3<T>& normal) {
   Imath::Vec3<T> moved;
@@ -57,7 +57,7 @@ template <typename T>
   return moved.normalized();
 }
 
-/// Nearest hit with an instance of a plain shape.
+/// Nearest hit with an instance of a shape.
 template <typename T, typename S>
 [[nodiscard]] std::optional<ShapeHit<T>> intersect_placed(const S& shape, const Placement& placement,
                                                           const BasicRay<T>& ray, T t_min) {
@@ -67,7 +67,7 @@ template <typename T, typename S>
                      normal_to_world(placement, hit->normal)};
 }
 
-/// Whether the ray comes near the box, beyond doubt from rounding when it says no.
+/// True if the ray comes near the box. Rounding never makes it false for a ray that hits.
 template <typename T>
 [[nodiscard]] bool passes(const BasicRay<T>& ray, const Imath::Box3d& box) {
   const Imath::V3d origin(ray.origin);
@@ -80,7 +80,7 @@ template <typename T>
     double enter = (box.min[i] - slack - origin[i]) / step;
     double leave = (box.max[i] + slack - origin[i]) / step;
     if (enter > leave) std::swap(enter, leave);
-    near = std::max(near, enter);  // NaN, from a ray within a face, changes nothing
+    near = std::max(near, enter);  // NaN, for a ray in the plane of a face, has no effect
     far = std::min(far, leave);
   }
   return near <= far * (1 + 1e-9);
@@ -99,7 +99,7 @@ template <typename T>
                     placed.of->shape);
 }
 
-/// The corners of the prototype's box, in the world at time 0.
+/// World positions at time 0 of the corners of the prototype's box.
 [[nodiscard]] inline std::vector<Imath::V3d> corners(const Prototype& prototype, const Placement& placement) {
   const std::array<Imath::V3d, 2> ends{prototype.bounds.min, prototype.bounds.max};
   std::vector<Imath::V3d> points;

@@ -31,14 +31,14 @@ template <typename T>
           Imath::V3f(c + quad.edge_u + quad.edge_v)};
 }
 
-/// The two triangles a quad is rendered as, in indices of `corners`.
+/// The two triangles that represent a quad, as indices of `corners`.
 inline constexpr std::array<std::array<std::uint32_t, 3>, 2> kQuadTriangles{{{0, 1, 2}, {3, 2, 1}}};
 
 [[nodiscard]] inline Imath::V3d normal_of(const Quad& quad) {
   return quad.edge_u.cross(quad.edge_v).normalized();
 }
 
-/// A quad as points are drawn on it, worked out once: the halves are those triangles.
+/// A quad prepared for sampling: its halves are those two triangles.
 class RenderedQuad {
  public:
   explicit RenderedQuad(const Quad& quad) : normal_(normal_of(quad)) {

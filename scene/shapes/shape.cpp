@@ -16,11 +16,11 @@
 namespace abbe {
 namespace {
 
-[[noreturn]] void refuse_to_emit() {
+[[noreturn]] void throw_cannot_emit() {
   throw Error(ErrorCode::internal, "instance", "an instance has no area to emit from");
 }
 
-// Of all shapes, meshes alone are drawn from by a table.
+// Only meshes are sampled by a table.
 SurfacePoint sample_shape(const Mesh& mesh, const std::vector<float>& triangle_cdf, Imath::V2f u) {
   return sample_area(mesh, triangle_cdf, u);
 }
@@ -31,21 +31,21 @@ SurfacePoint sample_shape(const S& shape, const std::vector<float>& /*triangle_c
 
 }  // namespace
 
-// What moves is rigid, and as large as its prototype.
+// A moving shape is rigid, so that its prototype has the same area.
 static double area(const PlacedShape& placed) {
-  if (!placed.at->motion) refuse_to_emit();
+  if (!placed.at->motion) throw_cannot_emit();
   return std::visit([](const auto& s) { return area(s); }, placed.of->shape);
 }
 static SurfacePoint sample_area(const PlacedShape& /*placed*/, Imath::V2f /*u*/) {
-  refuse_to_emit();
+  throw_cannot_emit();
 }
 
 template <typename S>
 concept SampledByArea = std::same_as<S, Mesh> || requires {
   static_cast<SurfacePoint (*)(const S&, Imath::V2f)>(sample_area);
 };
-// What each shape answers, by functions of its own and exactly that type: a shape turns into the variant by
-// itself, whose functions would ask it in vain.
+// Functions that each shape implements, with exactly these signatures. A plain call would not check them,
+// because a shape converts implicitly to the variant, whose function would be found instead.
 template <typename S>
 concept ShapeModel = SampledByArea<S> && requires {
   static_cast<std::optional<ShapeHit<float>> (*)(const S&, const BasicRay<float>&, float)>(intersect);
@@ -75,10 +75,10 @@ Imath::Box3d bounds(const Shape& shape) {
   return std::visit([](const auto& s) { return bounds(s); }, shape);
 }
 
-bool may_meet(const Shape& shape, const Imath::Box3d& box) {
+bool may_intersect(const Shape& shape, const Imath::Box3d& box) {
   if (!bounds(shape).intersects(box)) return false;
   if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-    Imath::V3d furthest;  // corner from the centre
+    Imath::V3d furthest;  // corner relative to the center
     for (int k = 0; k < 3; ++k)
       furthest[k] =
           std::max(std::abs(box.min[k] - sphere->center[k]), std::abs(box.max[k] - sphere->center[k]));

@@ -16,7 +16,7 @@
 
 namespace abbe {
 
-/// Where a ray meets a shape. The normal is geometric, of unit length, pointing outward.
+/// The intersection of a ray and a shape. The normal is the outward geometric unit normal.
 template <typename T>
 struct ShapeHit {
   T t;
@@ -24,24 +24,24 @@ struct ShapeHit {
   Imath::Vec3<T> normal;
 };
 
-/// Triangles with shared vertices, normals by winding (counter-clockwise seen from outside). Prisms become
-/// meshes too.
+/// Triangles with shared vertices. The winding determines the normals: counter-clockwise as seen from
+/// outside. Prisms become meshes too.
 struct Mesh {
   std::vector<Imath::V3d> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
   /// Texture coordinates of the corners of each triangle; none, or as many as triangles.
   std::vector<std::array<Imath::V2f, 3>> coordinates = {};
-  /// Unit normals at the corners of each triangle: what a smooth surface would have there, of which the
-  /// triangle is a piece. None, or as many as triangles.
+  /// Unit vertex normals of each triangle: the normals of the smooth surface that it approximates. None, or
+  /// as many as triangles.
   std::vector<std::array<Imath::V3f, 3>> normals = {};
-  /// Triangles of no area: nothing meets them, but those beside them meet along their edges.
+  /// Triangles of zero area. No ray hits them, but adjacent triangles are connected through them.
   std::vector<std::array<std::uint32_t, 3>> slivers = {};
 };
 struct Sphere {
   Imath::V3d center;
   double radius;
 };
-/// The normal is of unit length.
+/// `normal` has unit length.
 struct Disc {
   Imath::V3d center;
   Imath::V3d normal;
@@ -54,36 +54,36 @@ struct Quad {
   Imath::V3d edge_v;
 };
 
-/// The closed list of shapes that stand by themselves, each with its formulas in a file of its name.
+/// The closed list of shapes that are not instances. Each has its formulas in a file of its name.
 using PlainShape = std::variant<Mesh, Sphere, Disc, Quad>;
 
-/// What all instances of a shape share: the shape in coordinates of its own, and the box around it.
+/// The shape that instances share, in its own coordinates, and its bounding box.
 struct Prototype {
   PlainShape shape;
   Imath::Box3d bounds;
 };
 [[nodiscard]] std::shared_ptr<const Prototype> make_prototype(PlainShape shape);
-/// An invertible affine map between a prototype's coordinates and the world, for row vectors. A mirror is one
-/// too: normals stay outward. Of what moves, the maps are those of time 0, and `placement_at` tells others.
+/// An invertible affine map between a prototype's coordinates and the world, for row vectors. It may mirror;
+/// normals stay outward. The maps of a moving shape are those of time 0, and `placement_at` gives the others.
 struct Placement {
   Imath::M44d to_world;
   Imath::M44d to_prototype;
-  std::shared_ptr<const Motion> motion = nullptr;  ///< Of what moves.
-  /// Position of the prototype's origin in the coordinates that the scene file describes the shape in, those
-  /// of the scene or of an object, recentred as the scene is.
+  std::shared_ptr<const Motion> motion = nullptr;  ///< Present if the shape moves.
+  /// Position of the prototype's origin in the coordinates in which the scene file describes the shape,
+  /// recentred as the scene is. These are the coordinates of the scene or of an object.
   Imath::V3d described_origin{0, 0, 0};
 };
-/// One instance: a prototype, and where it stands. A shape that moves is one too.
+/// One instance: a prototype and its placement. Moving shapes are instances too.
 struct PlacedShape {
   std::shared_ptr<const Prototype> of;
   std::shared_ptr<const Placement> at;
 };
 
-/// Each shape gives its nearest hit at t in (t_min, ray.t_max) by its own code in the scalar asked for, float
-/// or double; `ray.direction` may have any length, and t counts in that length.
+/// Any shape. Each kind computes its nearest hit at t in (t_min, ray.t_max) in float or double.
+/// `ray.direction` may have any length; t is in units of that length.
 using Shape = std::variant<Mesh, Sphere, Disc, Quad, PlacedShape>;
 
-/// The shape, or what it is an instance of, if that is an S; else nullptr.
+/// The shape, or the prototype of an instance, if it is an S; otherwise nullptr.
 template <typename S>
 [[nodiscard]] const S* plain(const Shape& shape) {
   if (const auto* placed = std::get_if<PlacedShape>(&shape)) return std::get_if<S>(&placed->of->shape);
@@ -93,40 +93,41 @@ template <typename S>
 template <typename T>
 [[nodiscard]] std::optional<ShapeHit<T>> intersect(const Shape& shape, const BasicRay<T>& ray, T t_min);
 
-/// How the shape moves; nullptr of one that stands still.
+/// Motion of the shape; nullptr if it does not move.
 [[nodiscard]] inline const Motion* motion_of(const Shape& shape) {
   const auto* placed = std::get_if<PlacedShape>(&shape);
   return placed != nullptr ? placed->at->motion.get() : nullptr;
 }
 
-/// A right prism with an isosceles cross-section: apex angle [degrees] in (0, 180) between its two equal
-/// faces of width `side`. The apex edge is towards +z, the third face lies in a plane z = const, the edges of
-/// length `length` run along y. The origin is the centroid. On the three faces the texture coordinate u runs
-/// along the length and v around it, 0 to 1 on each; on the ends they are shares of the cross-section.
+/// A right prism with an isosceles cross-section. The apex angle [degrees], in (0, 180), is between its two
+/// equal faces of width `side`. The apex edge points to +z, the third face is a plane z = const, and the
+/// edges of length `length` run along y. The origin is the centroid. On the three faces the texture
+/// coordinate u runs along the length and v around the prism, each from 0 to 1. On the ends they are
+/// fractions of the cross-section's box.
 [[nodiscard]] Mesh make_prism(double apex_deg, double side, double length);
 
-/// A box around the shape; of an instance, that around its prototype's box. Of a shape that moves, it holds
-/// the shape at all times.
+/// Bounding box of the shape; for an instance that of its prototype's box, for a moving shape that over all
+/// times.
 [[nodiscard]] Imath::Box3d bounds(const Shape& shape);
-/// Whether the surface of a shape that stands still may meet the box: no box that it is far from or that lies
-/// wholly within a sphere, or within a mesh and away from its triangles.
-[[nodiscard]] bool may_meet(const Shape& shape, const Imath::Box3d& box);
-/// Area of the outer side of a shape [m^2]. Instances that stand still do not emit and have no use for it:
-/// Error{internal}, here and below.
+/// True if the surface of a static shape may intersect the box. False if they are separate, and if the box
+/// lies entirely inside a sphere, or inside a mesh away from its triangles.
+[[nodiscard]] bool may_intersect(const Shape& shape, const Imath::Box3d& box);
+/// Area of the outer side of a shape [m^2]. Throws Error{internal}, as does `sample_area`, for static
+/// instances, which do not emit.
 [[nodiscard]] double area(const Shape& shape);
 
-/// A point drawn uniformly by area, on the surface as the render holds it: corners rounded to float, curves
-/// exact.
+/// A point sampled uniformly by area on the surface as rendered: with corners rounded to float, and exact
+/// curved surfaces.
 struct SurfacePoint {
   Imath::V3f point;
   Imath::V3f normal;
 };
-/// Draws a point of the shape by two numbers in [0, 1), of one that moves in its prototype's coordinates;
-/// `triangle_cdf` is what the function below makes of the shape.
+/// Samples a point of the shape by two random numbers in [0, 1); for a moving shape in its prototype's
+/// coordinates. `triangle_cdf` is the result of the function below.
 [[nodiscard]] SurfacePoint sample_area(const Shape& shape, const std::vector<float>& triangle_cdf,
                                        Imath::V2f u);
 
-/// Cumulative share of the area over the triangles of a mesh, ending in 1; empty for other shapes.
+/// Cumulative fraction of the area over the triangles of a mesh, ending in 1; empty for other shapes.
 [[nodiscard]] std::vector<float> triangle_cdf(const Shape& shape);
 
 }  // namespace abbe

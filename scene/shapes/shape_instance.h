@@ -8,19 +8,22 @@
 
 namespace abbe {
 
-/// A shape made of a material, perhaps emitting.
+/// A shape with its material, and its light if it emits.
 struct ShapeInstance {
   std::string name;
   Shape shape;
   std::uint32_t material;
   std::int32_t light = -1;  ///< Index into `Scene::lights`, or -1.
-  // Worked out by `Scene::commit`:
-  bool far = false;     ///< Wholly beyond `Scene::far_from_m`.
-  double rounding = 0;  ///< Largest coordinate of its vertices [m], which are kept in float; 0 of curves.
-  double volume = 0;    ///< Of matter [m^3], see `enclosed_volume`; 0 where no other shape holds any.
-  Imath::Box3f at_walls = {};  ///< Where it lets light on and anything opaque may be as near as floats tell.
-  /// Where another surface may touch it, by `touching_regions`; nothing where that is not looked for.
-  std::optional<Imath::Box3f> at_touching = {};
+  // Set by `Scene::commit`:
+  bool distant = false;  ///< Entirely farther than `Scene::far_threshold_m`.
+  double rounding = 0;   ///< Largest coordinate of its float vertices [m]; 0 for curved shapes.
+  /// Volume of the enclosed medium [m^3], see `enclosed_volume`; 0 if no other shape encloses a medium.
+  double volume = 0;
+  /// Region where it transmits light and an opaque surface is within float resolution.
+  Imath::Box3f near_wall_bounds = {};
+  /// Region where another surface may coincide with it, by `coincidence_regions`; nothing if that was not
+  /// examined.
+  std::optional<Imath::Box3f> coincidence_bounds = {};
 };
 
 }  // namespace abbe

@@ -1,4 +1,4 @@
-// CGAL's Polygon_mesh_processing orients and mends meshes too, under a licence that would pass to Abbe.
+// CGAL's Polygon_mesh_processing also orients and repairs meshes, but its licence would extend to Abbe.
 #include "scene/shapes/solid.h"
 
 #include <algorithm>
@@ -18,13 +18,13 @@
 namespace abbe {
 namespace {
 
-/// Sets of triangles, each of which winds like the first of its set or against it.
+/// Union-find over triangles. Each triangle winds with or against the first triangle of its set.
 class Windings {
  public:
   explicit Windings(std::size_t count) : parent_(count), against_(count, false) {
     std::iota(parent_.begin(), parent_.end(), 0U);
   }
-  /// The first of the set, and whether the triangle winds against it.
+  /// The first triangle of the set, and true if `triangle` winds against it.
   std::pair<std::uint32_t, bool> find(std::uint32_t triangle) {
     std::uint32_t first = triangle;
     bool against = false;
@@ -40,7 +40,7 @@ class Windings {
     }
     return {first, found};
   }
-  /// Makes one set of two, unless they are.
+  /// Merges two sets; `opposed` tells that the two triangles wind against each other.
   void join(std::uint32_t a, std::uint32_t b, bool opposed) {
     const auto [first, a_against] = find(a);
     const auto [other, b_against] = find(b);
@@ -54,7 +54,7 @@ class Windings {
   std::vector<std::uint8_t> against_;
 };
 
-/// What hangs together by edges of two triangles, and has no open edge.
+/// Triangles connected by edges of two triangles, without an open edge.
 struct Component {
   std::vector<std::uint32_t> triangles;
   Imath::Box3d box = {};
@@ -62,7 +62,7 @@ struct Component {
   bool turned = false;
 };
 
-/// A mesh whose triangles are turned; those that were are known, slivers after the others.
+/// A mesh whose triangles can be flipped. `turned` records the flipped ones, slivers after the others.
 struct Turning {
   Mesh& mesh;
   std::vector<bool> turned;
@@ -79,8 +79,8 @@ struct Turning {
   }
 };
 
-// Marks the triangles with the corners and the winding of an earlier one. Each is met at three edges, and
-// looked at where its third corner is the last.
+// Marks triangles with the corners and the winding of an earlier one. A triangle has three edges; it is
+// tested at the edge opposite its last corner.
 std::vector<bool> repeated_triangles(const Mesh& mesh, const EdgeTable& edges) {
   std::vector<bool> repeated(mesh.triangles.size() + mesh.slivers.size(), false);
   edges.for_each([&](std::span<const EdgeSide> sides) {
@@ -96,14 +96,14 @@ std::vector<bool> repeated_triangles(const Mesh& mesh, const EdgeTable& edges) {
   return repeated;
 }
 
-// Takes triangles out, and says how many.
-std::size_t take_out(Mesh& mesh, const std::vector<bool>& marked) {
+// Removes the marked triangles and returns their number.
+std::size_t remove_triangles(Mesh& mesh, const std::vector<bool>& marked) {
   const std::size_t before = mesh.triangles.size();
   const auto keep = [&marked](auto& list, std::size_t first) {
-    std::size_t kept = 0;
+    std::size_t count = 0;
     for (std::size_t i = 0; i < list.size(); ++i)
-      if (!marked[first + i]) list[kept++] = list[i];
-    list.resize(kept);
+      if (!marked[first + i]) list[count++] = list[i];
+    list.resize(count);
   };
   keep(mesh.slivers, before);
   keep(mesh.coordinates, 0);
@@ -112,8 +112,8 @@ std::size_t take_out(Mesh& mesh, const std::vector<bool>& marked) {
   return before - mesh.triangles.size();
 }
 
-// Which sets cannot face one way all over: by the first of each. Where more than two triangles meet, those of
-// a set must pair off.
+// Marks the sets that cannot be oriented consistently, by their first triangles. At edges with more than two
+// triangles, the windings within a set must cancel.
 std::vector<bool> flawed_sets(const EdgeTable& edges, Windings& sets, std::size_t triangles) {
   std::vector<bool> flawed(triangles, false);
   std::vector<std::pair<std::uint32_t, int>> ends;
@@ -134,7 +134,7 @@ std::vector<bool> flawed_sets(const EdgeTable& edges, Windings& sets, std::size_
   return flawed;
 }
 
-/// The closed components, and of each the triangles that wind against its first.
+/// The closed components, and for each the triangles that wind against its first triangle.
 struct ClosedComponents {
   std::vector<Component> all;
   std::vector<std::vector<std::uint32_t>> against;
@@ -147,7 +147,8 @@ ClosedComponents closed_components(const EdgeTable& edges, std::uint32_t count) 
       sets.join(sides[0].triangle, sides[1].triangle, sides[0].forward == sides[1].forward);
   });
   const std::vector<bool> flawed = flawed_sets(edges, sets, count);
-  std::vector<std::uint32_t> number(count, count);  // of the component, by the first of its set
+  // index of the component, by the first triangle of its set
+  std::vector<std::uint32_t> number(count, count);
   ClosedComponents found;
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto [first, opposed] = sets.find(i);
@@ -163,7 +164,8 @@ ClosedComponents closed_components(const EdgeTable& edges, std::uint32_t count) 
   return found;
 }
 
-// The closed components of which no triangle is wound against the others any more, and how many were.
+// Flips triangles until each closed component is consistent. Returns the components and the number of flipped
+// triangles.
 std::pair<std::vector<Component>, std::size_t> rewound_components(const EdgeTable& edges, Turning& turning) {
   auto [components, against] = closed_components(edges, static_cast<std::uint32_t>(turning.turned.size()));
   std::size_t rewound = 0;
@@ -184,7 +186,7 @@ std::pair<std::vector<Component>, std::size_t> rewound_components(const EdgeTabl
 }
 
 void measure(const Mesh& mesh, Component& component) {
-  // Slivers, at the end, add nothing.
+  // Slivers, at the end, have no volume.
   while (!component.triangles.empty() && component.triangles.back() >= mesh.triangles.size())
     component.triangles.pop_back();
   for (const std::uint32_t triangle : component.triangles) {
@@ -195,18 +197,19 @@ void measure(const Mesh& mesh, Component& component) {
   }
 }
 
-// How often an edge goes round p in the xy plane, as half a turn each way: the count of those that pass it on
-// the side of +x. It is decided from the lower end, so that the triangles on both sides of an edge agree.
-int passes(const Imath::V3d& from, const Imath::V3d& to, const Imath::V3d& p) {
+// Contribution of an edge to the winding number of the projection around p in the xy plane: +1 or -1 if the
+// edge crosses the ray from p towards +x. It is evaluated from the lower end, so that the triangles on both
+// sides of an edge agree.
+int winding_step(const Imath::V3d& from, const Imath::V3d& to, const Imath::V3d& p) {
   if ((from.y <= p.y) == (to.y <= p.y)) return 0;
   const bool up = from.y < to.y;
   const Imath::V3d& low = up ? from : to;
   const Imath::V3d& high = up ? to : from;
-  const bool beyond = (high.x - low.x) * (p.y - low.y) > (p.x - low.x) * (high.y - low.y);
-  return !beyond ? 0 : up ? 1 : -1;
+  const bool is_right = (high.x - low.x) * (p.y - low.y) > (p.x - low.x) * (high.y - low.y);
+  return !is_right ? 0 : up ? 1 : -1;
 }
 
-// A point of each component; of one that is slivers alone, none that counts.
+// One point of each component; arbitrary for components of slivers alone.
 std::vector<Imath::V3d> points_of(const Mesh& mesh, const std::vector<Component>& components) {
   std::vector<Imath::V3d> points;
   for (const Component& component : components) {
@@ -218,8 +221,8 @@ std::vector<Imath::V3d> points_of(const Mesh& mesh, const std::vector<Component>
   return points;
 }
 
-// For each component those before it whose boxes its point lies in, in order. Points and boxes are met from
-// low x to high.
+// Returns for each component the preceding components whose boxes contain its point, in order. Points and
+// boxes are swept in order of x.
 std::vector<std::vector<std::uint32_t>> boxes_around(const std::vector<Imath::V3d>& points,
                                                      const std::vector<Component>& components) {
   std::vector<std::uint32_t> by_point(components.size());
@@ -229,37 +232,38 @@ std::vector<std::vector<std::uint32_t>> boxes_around(const std::vector<Imath::V3
   std::sort(by_box.begin(), by_box.end(), [&](auto a, auto b) { return low(a) < low(b); });
   std::sort(by_point.begin(), by_point.end(), [&](auto a, auto b) { return points[a].x < points[b].x; });
   std::vector<std::vector<std::uint32_t>> around(components.size());
-  std::vector<std::uint32_t> met;
+  std::vector<std::uint32_t> open_boxes;
   auto next = by_box.begin();
   for (const std::uint32_t i : by_point) {
     const Imath::V3d& point = points[i];
-    for (; next != by_box.end() && low(*next) <= point.x; ++next) met.push_back(*next);
-    std::erase_if(met, [&](std::uint32_t box) { return components[box].box.max.x < point.x; });
-    for (const std::uint32_t box : met)
+    for (; next != by_box.end() && low(*next) <= point.x; ++next) open_boxes.push_back(*next);
+    std::erase_if(open_boxes, [&](std::uint32_t box) { return components[box].box.max.x < point.x; });
+    for (const std::uint32_t box : open_boxes)
       if (box < i && components[box].box.intersects(point)) around[i].push_back(box);
     std::sort(around[i].begin(), around[i].end());
   }
   return around;
 }
 
-// How often the component goes round a point: 1 for one within it where it faces outward, -1 where it faces
-// inward, 0 outside. That is how often the line from the point towards +z leaves it less how often it enters.
-int turns_around(const Imath::V3d& point, const Mesh& mesh, const Component& component) {
-  int turns = 0;
+// Winding number of a component around a point: 1 inside if it faces outward, -1 inside if it faces inward, 0
+// outside. It is computed along the ray from the point towards +z as the number of exits minus that of
+// entries.
+int winding_number(const Imath::V3d& point, const Mesh& mesh, const Component& component) {
+  int windings = 0;
   for (const std::uint32_t triangle : component.triangles) {
     const auto& [first, second, third] = mesh.triangles[triangle];
     const Imath::V3d& a = mesh.vertices[first];
     const Imath::V3d& b = mesh.vertices[second];
     const Imath::V3d& c = mesh.vertices[third];
-    const int leaving = passes(a, b, point) + passes(b, c, point) + passes(c, a, point);
+    const int leaving = winding_step(a, b, point) + winding_step(b, c, point) + winding_step(c, a, point);
     const Imath::V3d normal = (b - a).cross(c - a);
-    if (leaving != 0 && (a - point).dot(normal) * normal.z > 0) turns += leaving;
+    if (leaving != 0 && (a - point).dot(normal) * normal.z > 0) windings += leaving;
   }
-  return turns;
+  return windings;
 }
 
-// From the largest to the smallest, as only a larger one can be around: whether it is to be turned, which a
-// smaller one within is told by.
+// Processes components in order of decreasing volume, because only a larger one can enclose a smaller one.
+// The orientation of the inner one depends on that of the outer.
 void turn_outward(std::vector<Component>& components, Turning& turning, SolidReport& report) {
   const Mesh& mesh = turning.mesh;
   std::sort(components.begin(), components.end(),
@@ -269,17 +273,17 @@ void turn_outward(std::vector<Component>& components, Turning& turning, SolidRep
   for (std::size_t i = 0; i < components.size(); ++i) {
     Component& component = components[i];
     if (component.triangles.empty()) continue;
-    int matter = 0;
-    bool within_turned = false;
+    int winding = 0;
+    bool is_in_turned = false;
     for (const std::uint32_t other : around[i])
-      if (const int turns = turns_around(points[i], mesh, components[other]); turns != 0) {
-        matter += turns;
-        within_turned = components[other].turned;
+      if (const int windings = winding_number(points[i], mesh, components[other]); windings != 0) {
+        winding += windings;
+        is_in_turned = components[other].turned;
       }
     const bool inward = component.volume < 0;
-    component.turned = inward ? matter <= 0 : within_turned && matter > 0;
+    component.turned = inward ? winding <= 0 : is_in_turned && winding > 0;
     if (component.turned) ++report.inverted;
-    if (!inward && !component.turned && matter > 0) ++report.buried;
+    if (!inward && !component.turned && winding > 0) ++report.buried;
     if (component.turned)
       for (const std::uint32_t triangle : component.triangles) turning.turn(triangle);
   }
@@ -307,7 +311,7 @@ void count_faults(const EdgeTable& edges, const Turning& turning, SolidReport& r
 SolidReport make_solid(Mesh& mesh) {
   SolidReport report;
   std::optional<EdgeTable> edges(mesh);
-  report.repeated = take_out(mesh, repeated_triangles(mesh, *edges));
+  report.repeated = remove_triangles(mesh, repeated_triangles(mesh, *edges));
   if (report.repeated > 0) edges.emplace(mesh);
   Turning turning(mesh);
   auto [components, rewound] = rewound_components(*edges, turning);
@@ -318,7 +322,7 @@ SolidReport make_solid(Mesh& mesh) {
   return report;
 }
 
-bool has_doubled_triangles(const Mesh& mesh) {
+bool has_duplicate_triangles(const Mesh& mesh) {
   bool doubled = false;
   EdgeTable(mesh).for_each([&](std::span<const EdgeSide> sides) {
     for (std::size_t i = 1; i < sides.size(); ++i)

@@ -9,9 +9,9 @@
 
 namespace abbe {
 
-/// Roots of |o + t d - c| = r. The discriminant is taken from the distance between centre and line, and the
-/// smaller root from the product of both, so that neither a far nor a large sphere cancels. The point is put
-/// back on the sphere. [Haines2019]
+/// Roots of |o + t d - c| = r. The discriminant uses the distance between center and line, and the smaller
+/// root follows from the product of both. This avoids cancellation for distant and large spheres. The point
+/// is projected back to the sphere. [Haines2019]
 template <typename T>
 [[nodiscard]] std::optional<ShapeHit<T>> intersect(const Sphere& sphere, const BasicRay<T>& ray, T t_min) {
   const Imath::Vec3<T> center(sphere.center);

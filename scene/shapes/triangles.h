@@ -9,12 +9,13 @@
 
 namespace abbe {
 
-/// What is rendered as triangles, in float as Embree sees them.
+/// Triangles that represent a shape, in float as Embree uses them.
 struct TriangleSet {
   std::vector<Imath::V3f> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  std::vector<Imath::V3f> normals;  ///< Per triangle, from the unrounded vertices; none in a prototype.
-  bool is_quad = false;             ///< Its triangles are the halves of a parallelogram.
+  /// One per triangle, from the unrounded vertices; empty in a prototype.
+  std::vector<Imath::V3f> normals;
+  bool is_quad = false;  ///< True if the two triangles are halves of a parallelogram.
 };
 
 [[nodiscard]] TriangleSet triangles_of(const Mesh& mesh);
@@ -25,7 +26,8 @@ struct TriangleSet {
 [[nodiscard]] TriangleSet with_normals(const Mesh& mesh);
 [[nodiscard]] TriangleSet with_normals(const Quad& quad);
 
-/// Where a ray crosses the plane of a triangle, in its lengths; NaN or infinite when it does not.
+/// Distance along a ray, in units of its direction, to the plane of a triangle; NaN or infinite if it is
+/// parallel.
 [[nodiscard]] inline double plane_crossing(const TriangleSet& set, std::uint32_t triangle,
                                            const BasicRay<double>& ray) {
   const auto& [a, b, c] = set.triangles[triangle];
@@ -37,10 +39,11 @@ struct TriangleSet {
 
 [[nodiscard]] std::size_t memory_bytes_of(const TriangleSet& set);
 
-/// How a point of a triangle is to be moved within it to be `clear` of its edges, as far as that goes:
-/// nowhere, unless it is nearer. Beside an edge rounding may put a point beyond the other face that ends
-/// there, and a path that goes on from it would have left a closed mesh. The diagonal of a quad is no edge:
-/// beside it Embree takes the one half for the other, as far off as floats tell places on a large quad apart.
+/// Displacement that moves a point within its triangle to the distance `clear` from its edges, as far as
+/// possible; zero if the point is farther. Near an edge, rounding may put a point behind the other face
+/// there. A path that continues from it would have left a closed mesh. The diagonal of a quad does not count
+/// as an edge. Near it Embree confuses the halves over distances that float resolution on a large quad
+/// allows.
 [[nodiscard]] Imath::V3d shift_off_edges(const TriangleSet& set, std::uint32_t triangle,
                                          const Imath::V3d& point, double clear);
 

@@ -2,13 +2,14 @@
 
 namespace abbe {
 
-/// The share of pixels up to which those at an end of the scale are taken for defective, as hot, stuck and
-/// dead ones are whatever the light: more are there by the light.
-inline constexpr double kMostDefective = 0.01;
+/// Largest fraction of black or saturated pixels that counts as defective. Hot, stuck and dead pixels occur
+/// at any light; a larger fraction is due to the light.
+inline constexpr double kMaxDefectiveFraction = 0.01;
 
-/// Whether so many of `pixels` are at an end of the scale by the light.
+/// True if `at_end` of `pixels` black or saturated pixels are too many to be defective, so that the light
+/// causes them.
 [[nodiscard]] constexpr bool exceeds_defects(double at_end, double pixels) {
-  return at_end > kMostDefective * pixels;
+  return at_end > kMaxDefectiveFraction * pixels;
 }
 
 }  // namespace abbe

@@ -36,7 +36,7 @@ std::vector<std::string> planes_of(Feature feature, std::span<const std::string>
   return planes;
 }
 
-FilmShape shape_beside(const FilmShape& film, std::size_t planes) {
+FilmShape feature_shape(const FilmShape& film, std::size_t planes) {
   return {.width = film.width,
           .height = film.height,
           .channels = static_cast<int>(planes),
@@ -45,15 +45,14 @@ FilmShape shape_beside(const FilmShape& film, std::size_t planes) {
           .crop = film.crop};
 }
 
-// What a pixel shows of a feature that samples have the sum `sum` of, `met` of `samples` having met a
-// surface.
-double shown(std::optional<Feature> feature, double sum, double met, double samples) {
+// Value of a feature in a pixel from the sum over its samples, `hits` of which hit a surface.
+double pixel_value(std::optional<Feature> feature, double sum, double hits, double samples) {
   if (!feature) return samples > 0 ? sum / samples : 0;
   switch (*feature) {
     case Feature::depth:
-      return met > 0 ? sum / met : static_cast<double>(kFeatureDepthOfNothing);
+      return hits > 0 ? sum / hits : static_cast<double>(kFeatureDepthOfNothing);
     case Feature::position:
-      return met > 0 ? sum / met : 0;
+      return hits > 0 ? sum / hits : 0;
     case Feature::normal:
     case Feature::shading_normal:
     case Feature::albedo:
@@ -91,25 +90,26 @@ std::vector<FeaturePlane> feature_planes(std::span<const Feature> features,
     for (std::string& name : planes_of(feature, film_planes)) planes.push_back({std::move(name), feature});
   for (const FeaturePlane& plane : planes)
     if (std::find(film_planes.begin(), film_planes.end(), plane.name) != film_planes.end())
-      throw Error(ErrorCode::scene, "sensor/channels",
-                  fmt::format("a channel has the name that a feature goes by (got \"{}\")", plane.name));
+      throw Error(
+          ErrorCode::scene, "sensor/channels",
+          fmt::format("a channel has the name of a feature plane (got \"{}\"); rename it", plane.name));
   return planes;
 }
 
 FeatureFilm::FeatureFilm(std::vector<Feature> features, std::vector<FeaturePlane> planes, Film sums)
     : features_(std::move(features)), planes_(std::move(planes)), sums_(std::move(sums)) {}
 
-FeatureFilm::FeatureFilm(std::vector<Feature> features, const FilmShape& beside,
+FeatureFilm::FeatureFilm(std::vector<Feature> features, const FilmShape& film,
                          std::span<const std::string> film_planes)
     : features_(std::move(features)),
       planes_(feature_planes(features_, film_planes)),
-      sums_(shape_beside(beside, planes_.size())) {}
+      sums_(feature_shape(film, planes_.size())) {}
 
-std::optional<FeatureFilm> FeatureFilm::from_bytes(std::vector<Feature> features, const FilmShape& beside,
+std::optional<FeatureFilm> FeatureFilm::from_bytes(std::vector<Feature> features, const FilmShape& film,
                                                    std::span<const std::string> film_planes,
                                                    std::string_view bytes) {
   std::vector<FeaturePlane> planes = feature_planes(features, film_planes);
-  std::optional<Film> sums = Film::from_bytes(shape_beside(beside, planes.size()), bytes);
+  std::optional<Film> sums = Film::from_bytes(feature_shape(film, planes.size()), bytes);
   if (!sums) return std::nullopt;
   return FeatureFilm(std::move(features), std::move(planes), *std::move(sums));
 }
@@ -133,16 +133,16 @@ void FeatureFilm::develop(Image& image, const Crop& area, double samples) const 
     for (int y = area.y0; y < area.y1; ++y)
       for (int x = area.x0; x < area.x1; ++x) {
         const std::size_t pixel = sums_.pixel_at(x, y);
-        values[pixel] = static_cast<float>(shown(planes_[i].feature, sums_.total(pixel, static_cast<int>(i)),
-                                                 sums_.total(pixel, 0), samples));
+        values[pixel] = static_cast<float>(pixel_value(
+            planes_[i].feature, sums_.total(pixel, static_cast<int>(i)), sums_.total(pixel, 0), samples));
       }
   }
 }
 
-std::size_t bytes_of_features(std::span<const Feature> features, const FilmShape& beside,
+std::size_t bytes_of_features(std::span<const Feature> features, const FilmShape& film,
                               std::span<const std::string> film_planes) {
   if (features.empty()) return 0;
-  return bytes_of_sums(shape_beside(beside, feature_planes(features, film_planes).size()));
+  return bytes_of_sums(feature_shape(film, feature_planes(features, film_planes).size()));
 }
 
 }  // namespace abbe

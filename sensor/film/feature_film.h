@@ -11,45 +11,47 @@
 
 namespace abbe {
 
-/// What a film may tell, beside its exposure, of the first surface that a pixel's camera paths meet.
+/// Features that a film can record besides its exposure: properties of the first surface that the camera
+/// paths of a pixel hit.
 enum class Feature { depth, position, normal, shading_normal, albedo, id };
-/// Their words in commands and files, in that order.
+/// Names of the features in commands and files, in the order of `Feature`.
 inline constexpr std::array kFeatureNames{"depth", "position", "normal", "shading-normal", "albedo", "id"};
 
-/// The key under which a film tells its features, as words separated by commas; absent where it has none.
+/// Attribute with the features of a film, separated by commas; absent if it has none.
 inline constexpr const char* kFeaturesKey = "aov";
-/// The key of the names of the scene's shapes, a JSON array: of `id` i the (i - 1)-th.
+/// Attribute with the names of the shapes of the scene, a JSON array. Shape `id` i has the name i - 1.
 inline constexpr const char* kShapeNamesKey = "shapes";
 
-/// Features as words separated by commas, and back: each once and in their order. Nothing for any other word.
+/// Conversion between features and their names, separated by commas. Parsing sorts them and removes
+/// duplicates; it gives nothing for any other name.
 [[nodiscard]] std::string to_text(std::span<const Feature> features);
 [[nodiscard]] std::optional<std::vector<Feature>> parse_features(std::string_view text);
 
-/// A plane beside those of a film. Coverage, the share of samples that meet a surface, is of no feature.
+/// A feature plane of a film. Coverage, the fraction of samples that hit a surface, belongs to no feature.
 struct FeaturePlane {
   std::string name;
   std::optional<Feature> feature;
 };
-/// The planes of features beside a film of such planes: first `Coverage`, then of each feature its own, under
-/// the names that denoisers and compositors read: `depth.Z`, `P.X` to `P.Z`, `N` and `Ns` likewise,
-/// `Albedo.<plane of the film>` for those of intensities, `Id`. Throws Error{scene} where a plane of the film
+/// Feature planes for a film with the planes `film_planes`: `Coverage`, then those of each feature. Their
+/// names are those that denoisers and compositors expect: `depth.Z`, `P.X` to `P.Z`, `N.X` to `N.Z`, `Ns.X`
+/// to `Ns.Z`, `Id`, and `Albedo.<plane>` for each intensity plane. Throws Error{scene} if a plane of the film
 /// has such a name.
 [[nodiscard]] std::vector<FeaturePlane> feature_planes(std::span<const Feature> features,
                                                        std::span<const std::string> film_planes);
 
-/// The depth of pixels whose samples meet no surface.
+/// Depth of pixels whose samples hit no surface.
 inline constexpr float kFeatureDepthOfNothing = 1e10F;
 
-/// Exact sums of what samples have met, one plane each. They have one replicate, since no variance is asked
-/// of them, and a unit of their own, in which lengths and directions are kept to 2^-60.
+/// Exact sums of the features of first hits, one plane each. They have a single replicate, since they need no
+/// variance. Their own unit resolves lengths and directions to 2^-60.
 class FeatureFilm {
  public:
-  /// Beside a film of that shape and planes. Throws Error{resource} when there is no memory for the sums.
-  FeatureFilm(std::vector<Feature> features, const FilmShape& beside,
-              std::span<const std::string> film_planes);
-  /// The film whose sums had these bytes, or nothing if there are more or fewer than its shape needs.
+  /// Creates feature sums for a film of this shape with these planes. Throws Error{resource} if memory does
+  /// not suffice.
+  FeatureFilm(std::vector<Feature> features, const FilmShape& film, std::span<const std::string> film_planes);
+  /// Feature film whose sums have these bytes, or nothing if their number does not fit the shape.
   [[nodiscard]] static std::optional<FeatureFilm> from_bytes(std::vector<Feature> features,
-                                                             const FilmShape& beside,
+                                                             const FilmShape& film,
                                                              std::span<const std::string> film_planes,
                                                              std::string_view bytes);
 
@@ -57,15 +59,16 @@ class FeatureFilm {
   [[nodiscard]] Film& sums() { return sums_; }
   [[nodiscard]] const Film& sums() const { return sums_; }
 
-  /// Adds what a sample of a pixel of the crop has met, a value per plane, or nothing met where a value is
-  /// more than sums can hold; any thread may, at any time.
+  /// Adds the feature values of one sample, one per plane, to a pixel of the crop. Adds nothing if a value
+  /// exceeds what the sums can hold. Thread-safe.
   void add(std::size_t pixel, std::span<const double> values);
 
-  /// Adds a channel per plane to the image, 0 everywhere but for the depth of nothing.
+  /// Appends a channel per plane to the image: 0, or `kFeatureDepthOfNothing` for depth.
   void add_channels(Image& image) const;
-  /// Sets these channels, the image's last, in an area whose pixels have so many samples: depth and position
-  /// are means over the samples that have met a surface; normals and albedo over all, those that have met
-  /// none counting as 0, and Id is what the first sample of the render has met.
+  /// Writes the planes to the last channels of the image, in an area whose pixels have `samples` samples
+  /// each. Depth and position are means over the samples that hit a surface. Normals and albedo are means
+  /// over all samples, where the others count as 0. `Id` is the shape that the first sample of the render
+  /// hit.
   void develop(Image& image, const Crop& area, double samples) const;
 
  private:
@@ -76,9 +79,9 @@ class FeatureFilm {
   Film sums_;
 };
 
-/// Memory of those sums beside a film of that shape and planes; of no features, none. Throws as
+/// Memory of the feature sums for a film of this shape with these planes; 0 without features. Throws like
 /// `feature_planes`.
-[[nodiscard]] std::size_t bytes_of_features(std::span<const Feature> features, const FilmShape& beside,
+[[nodiscard]] std::size_t bytes_of_features(std::span<const Feature> features, const FilmShape& film,
                                             std::span<const std::string> film_planes);
 
 }  // namespace abbe

@@ -11,7 +11,8 @@
 namespace abbe {
 namespace {
 
-// Of the 127 bits beside the sign: below the nominal value, above it, and for as many values as those.
+// Division of the 127 bits of a sum: above the nominal value, for the number of values, and below the nominal
+// value.
 constexpr int kHeadroomBits = 44;
 constexpr int kCountBits = 16;
 constexpr int kFractionBits = 127 - kHeadroomBits - kCountBits;
@@ -26,7 +27,7 @@ FilmShape without_needless_crop(FilmShape shape) {
   return shape;
 }
 
-/// Holds a lock for as long as it lives.
+/// Holds a spin lock during its lifetime.
 class Locked {
  public:
   explicit Locked(std::atomic_flag& lock) : lock_(lock) {
@@ -41,11 +42,11 @@ class Locked {
   std::atomic_flag& lock_;
 };
 
-// As exact as a sum of doubles can be told, and of no bound, where the integers of many pixels have one.
-// [Kahan1965]
+// Compensated summation [Kahan1965]: as accurate as a double, and without the limit that integer sums over
+// many pixels have.
 struct CompensatedSum {
   double value = 0;
-  double lost = 0;  // what was added too much
+  double lost = 0;  // amount that was added in excess
 
   void add(double term) {
     const double rest = term - lost;
@@ -57,10 +58,9 @@ struct CompensatedSum {
 
 void add_to(Int128& sum, Int128 more) {
   if (!add_exactly(sum, more))
-    throw Error(
-        ErrorCode::scene, "film",
-        "a pixel is far brighter than the lights of the scene let expect, and its samples add up to more "
-        "than a film can hold: is a lamp next to a surface or a meter?");
+    throw Error(ErrorCode::scene, "film",
+                "a pixel is far brighter than the lights of the scene suggest, and the sum of its samples "
+                "exceeds the range of the film: check for a light very close to a surface or a meter");
 }
 
 template <typename SumOf>
@@ -70,7 +70,8 @@ double total_of(std::size_t replicates, SumOf sum_of) {
   return total;
 }
 
-// Mean, and its variance, of what has the sums `sum_of(replicate)` of so many samples each.
+// Mean, or variance of the mean, of replicates with the sums `sum_of(replicate)` over `samples[replicate]`
+// samples.
 template <typename SumOf>
 double mean_of(std::span<const std::uint64_t> samples, SumOf sum_of) {
   const double total = total_of(samples.size(), sum_of);
@@ -117,7 +118,7 @@ Int128 to_fixed(double value, int unit_exponent) {
   return mantissa >= 0 ? (mantissa + half) >> -shift : -((-mantissa + half) >> -shift);
 }
 
-// The power of two is written into a number's bits where it has them: films ask for millions of values.
+// Writes a normal power of two directly into the exponent bits, because films convert millions of values.
 double from_fixed(Int128 fixed, int unit_exponent) {
   const auto mantissa = static_cast<double>(fixed);
   if (unit_exponent < -1022 || unit_exponent > 1023) return std::ldexp(mantissa, unit_exponent);
@@ -164,7 +165,7 @@ void Film::add(std::size_t pixel, int replicate, std::span<const double> values,
   const Locked locked(locks_[pixel % kLocks]);
   Int128* sum = &sums_[index(pixel, replicate) + first];
   for (const double value : values) {
-    if (value != 0) add_to(*sum, to_fixed(value, shape_.unit_exponent));  // most of a dark pixel are 0
+    if (value != 0) add_to(*sum, to_fixed(value, shape_.unit_exponent));  // most values of a dark pixel are 0
     ++sum;
   }
 }
@@ -198,8 +199,8 @@ Film Film::only(std::span<const int> replicates) const {
   return some;
 }
 
-void Film::put_back(std::span<const int> replicates, const Film& kept) {
-  auto from = kept.sums_.begin();
+void Film::put_back(std::span<const int> replicates, const Film& saved) {
+  auto from = saved.sums_.begin();
   const std::ptrdiff_t pixel = std::ptrdiff_t{shape_.replicates} * shape_.channels;
   for (auto to = sums_.begin(); to != sums_.end(); to += pixel)
     for (const int r : replicates) {
@@ -274,8 +275,8 @@ Film::Average Film::average(int channel, int x0, int y0, int x1, int y1,
     variances = sample_variance(samples_, sum_of);
     squares = variances * variances;
   }
-  // The sum's variance squared is to that of its estimate as half its degrees are to 1; an estimate of f
-  // degrees squared is 1 + 2/f times too large in the mean.
+  // The variance of a variance estimate V with d degrees of freedom is 2 V^2/d. The square of an estimate
+  // with f degrees is too large by the factor 1 + 2/f on average.
   const double degrees = squares > 0 ? (f + 2) * variances * variances / squares - 2 : std::max(f, 0.0);
   return {mean_of(samples_, sum_of) / pixels, std::sqrt(variances) / pixels, degrees};
 }

@@ -27,9 +27,9 @@ std::vector<std::string> plane_names(const Image& film) {
   return names;
 }
 
-bool tells_tristimulus_values(const Image& film) {
-  const auto told = film.metadata.find("channel.X");
-  return told == film.metadata.end() || told->second.starts_with("photometric");
+bool may_hold_tristimulus_values(const Image& film) {
+  const auto unit = film.metadata.find("channel.X");
+  return unit == film.metadata.end() || unit->second.starts_with("photometric");
 }
 
 }  // namespace abbe

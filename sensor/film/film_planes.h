@@ -7,13 +7,15 @@
 
 namespace abbe {
 
-/// The names of the planes of a film's file, without what stands beside them, such as variances, layers and
-/// features of the first surface: of a spectral film its bands by Stokes component and wavelength, of another
-/// what `sensor_channels` lists, in that order, and of any other image all channels that are no variances, in
-/// the order of the file. Throws Error{input} for a name that begins as a spectral one and is none.
+/// Names of the main planes in a film's file, without variances, layers and features. Throws Error{input} for
+/// a malformed name of a spectral band. The planes are
+/// - of a spectral film its bands, by Stokes component and wavelength;
+/// - otherwise those that the attribute `sensor_channels` lists, in its order;
+/// - without that attribute all channels except variances, in the order of the file.
 [[nodiscard]] std::vector<std::string> plane_names(const Image& film);
 
-/// Whether X, Y, Z may be tristimulus values: those that are not, their film tells to be of another unit.
-[[nodiscard]] bool tells_tristimulus_values(const Image& film);
+/// True unless the film declares a unit of X, Y and Z that is not photometric, so that they are no
+/// tristimulus values.
+[[nodiscard]] bool may_hold_tristimulus_values(const Image& film);
 
 }  // namespace abbe

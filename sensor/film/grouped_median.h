@@ -4,10 +4,10 @@
 
 namespace abbe {
 
-/// The median of `values`, of which there is one at least. Equal ones, as codes are, stand for a step that
-/// reaches halfway to their neighbours, to both sides alike where there is but one, and are spread over it
-/// evenly: so the median of codes is finer than their steps, as is their mean. Where as few lie to one side
-/// as may be defective (`exceeds_defects`), they are no neighbours.
+/// Median of grouped data. `values` must not be empty. Equal values, such as codes, are spread evenly over a
+/// step that extends halfway to the neighbouring values. With a neighbour on one side only, the step is
+/// symmetric. The median of codes is therefore finer than one code, like their mean. A side with so few
+/// values that they may be defective (`exceeds_defects`) has no neighbour.
 [[nodiscard]] double grouped_median(std::vector<double> values);
 
 }  // namespace abbe

@@ -15,7 +15,7 @@
 namespace abbe {
 namespace {
 
-// Whether a point is on the inner side of every edge.
+// True if a point is on the inner side of every edge.
 bool contains(const PatchOutline& outline, const Imath::V2d& point) {
   int left = 0;
   for (std::size_t i = 0; i < outline.corners.size(); ++i) {
@@ -25,7 +25,7 @@ bool contains(const PatchOutline& outline, const Imath::V2d& point) {
   return left == 0 || left == static_cast<int>(outline.corners.size());
 }
 
-bool holds_pixel(const PatchOutline& outline, int x, int y) {
+bool contains_pixel(const PatchOutline& outline, int x, int y) {
   const Imath::V2d corner(x, y);
   return contains(outline, corner) && contains(outline, corner + Imath::V2d(1, 0)) &&
          contains(outline, corner + Imath::V2d(0, 1)) && contains(outline, corner + Imath::V2d(1, 1));
@@ -35,8 +35,8 @@ struct Pixel {
   int x, y;
 };
 
-// Whether disjoint areas hold all pixels of a box.
-bool hold(const std::vector<Crop>& areas, const Imath::V2d& low, const Imath::V2d& high) {
+// True if disjoint areas cover all pixels of a box.
+bool cover(const std::vector<Crop>& areas, const Imath::V2d& low, const Imath::V2d& high) {
   const auto common = [](double from, double to, int first, int last) {
     return std::max(0.0, std::min<double>(to, last) - std::max<double>(from, first));
   };
@@ -54,53 +54,53 @@ std::string edges_of(const std::vector<Crop>& areas) {
   return text;
 }
 
-std::vector<Pixel> pixels_in(const PatchOutline& outline, const std::vector<Crop>& held,
-                             const char* held_by) {
+std::vector<Pixel> pixels_in(const PatchOutline& outline, const std::vector<Crop>& areas,
+                             const char* area_name) {
   const auto by_x = [](const Imath::V2d& a, const Imath::V2d& b) { return a.x < b.x; };
   const auto by_y = [](const Imath::V2d& a, const Imath::V2d& b) { return a.y < b.y; };
   const auto [left, right] = std::minmax_element(outline.corners.begin(), outline.corners.end(), by_x);
   const auto [top, bottom] = std::minmax_element(outline.corners.begin(), outline.corners.end(), by_y);
-  if (!hold(held, {std::floor(left->x), std::floor(top->y)}, {std::ceil(right->x), std::ceil(bottom->y)}))
-    throw Error(
-        ErrorCode::input, outline.name,
-        fmt::format("its middle is beyond {} (got x in [{:.5g}, {:.5g}], y in [{:.5g}, {:.5g}], allowed {})",
-                    held_by, left->x, right->x, top->y, bottom->y, edges_of(held)));
+  if (!cover(areas, {std::floor(left->x), std::floor(top->y)}, {std::ceil(right->x), std::ceil(bottom->y)}))
+    throw Error(ErrorCode::input, outline.name,
+                fmt::format("its measured area extends outside {} (got x in [{:.5g}, {:.5g}], y in [{:.5g}, "
+                            "{:.5g}], allowed {})",
+                            area_name, left->x, right->x, top->y, bottom->y, edges_of(areas)));
   std::vector<Pixel> pixels;
   for (int y = static_cast<int>(top->y); y < static_cast<int>(std::ceil(bottom->y)); ++y)
     for (int x = static_cast<int>(left->x); x < static_cast<int>(std::ceil(right->x)); ++x)
-      if (holds_pixel(outline, x, y)) pixels.push_back({x, y});
+      if (contains_pixel(outline, x, y)) pixels.push_back({x, y});
   return pixels;
 }
 
-// Mean and deviation of values, of which there is one at least.
-void average(const std::vector<double>& values, PatchChannel& found) {
+// Sets mean and deviation of `values`, which must not be empty.
+void average(const std::vector<double>& values, PatchChannel& channel) {
   const auto count = static_cast<double>(values.size());
-  found.mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
+  channel.mean = std::accumulate(values.begin(), values.end(), 0.0) / count;
   double squares = 0;
-  for (const double value : values) squares += (value - found.mean) * (value - found.mean);
-  if (count > 1) found.deviation = std::sqrt(squares / (count - 1));
+  for (const double value : values) squares += (value - channel.mean) * (value - channel.mean);
+  if (count > 1) channel.deviation = std::sqrt(squares / (count - 1));
 }
 
-// Describes the highest values and the middle half of the pixels.
-void describe_spread(std::vector<double> values, PatchChannel& found) {
+// Sets the highest value and the number of distinct values in the central half of the pixels.
+void describe_spread(std::vector<double> values, PatchChannel& channel) {
   std::sort(values.begin(), values.end());
-  found.highest = values.back();
-  found.at_highest =
-      static_cast<std::size_t>(values.end() - std::lower_bound(values.begin(), values.end(), found.highest));
+  channel.highest = values.back();
+  channel.at_highest = static_cast<std::size_t>(
+      values.end() - std::lower_bound(values.begin(), values.end(), channel.highest));
   const auto quarter = static_cast<std::ptrdiff_t>(values.size() / 4);
-  const auto middle = std::unique(values.begin() + quarter, values.end() - quarter);
-  found.middle_levels = static_cast<std::size_t>(middle - (values.begin() + quarter));
+  const auto central_end = std::unique(values.begin() + quarter, values.end() - quarter);
+  channel.interquartile_levels = static_cast<std::size_t>(central_end - (values.begin() + quarter));
 }
 
-// True if all pixels but defective ones have one value, and the pixels are so many that noise wider than a
-// step is unlikely to make them equal.
+// True if all pixels have the same value, except for defective ones. Requires so many pixels that noise wider
+// than a step is unlikely to make them equal.
 bool is_even(const PatchChannel& patch) {
   constexpr std::size_t kMinPixels = 16;
   return patch.pixels >= kMinPixels && !exceeds_defects(static_cast<double>(patch.pixels - patch.at_highest),
                                                         static_cast<double>(patch.pixels));
 }
 
-// Of the pixels that a channel has, in its plane.
+// Measures the given pixels of a channel in its plane.
 PatchChannel measure(int width, const MeasuredPlanes& planes, std::size_t channel,
                      const std::vector<Pixel>& pixels) {
   const std::size_t plane = planes.mosaic ? 0 : channel;
@@ -118,21 +118,21 @@ PatchChannel measure(int width, const MeasuredPlanes& planes, std::size_t channe
   const auto is_saturated = [&](const Pixel& pixel) {
     return saturation && value(exposed, pixel) >= *saturation;
   };
-  PatchChannel found{.pixels = pixels.size()};
-  found.black = static_cast<std::size_t>(std::count_if(pixels.begin(), pixels.end(), is_black));
-  found.saturated = static_cast<std::size_t>(std::count_if(pixels.begin(), pixels.end(), is_saturated));
+  PatchChannel result{.pixels = pixels.size()};
+  result.black = static_cast<std::size_t>(std::count_if(pixels.begin(), pixels.end(), is_black));
+  result.saturated = static_cast<std::size_t>(std::count_if(pixels.begin(), pixels.end(), is_saturated));
   std::vector<double> sound;
   std::vector<double> all;
   for (const Pixel& pixel : pixels) all.push_back(value(exposed, pixel));
-  describe_spread(std::move(all), found);
+  describe_spread(std::move(all), result);
   for (const Pixel& pixel : pixels) {
     const bool is_defective =
-        (is_black(pixel) && !found.is_black()) || (is_saturated(pixel) && !found.is_saturated());
+        (is_black(pixel) && !result.is_black()) || (is_saturated(pixel) && !result.is_saturated());
     if (!is_defective) sound.push_back(value(measured, pixel));
   }
-  average(sound, found);
-  found.median = grouped_median(std::move(sound));
-  return found;
+  average(sound, result);
+  result.median = grouped_median(std::move(sound));
+  return result;
 }
 
 double highest_of(std::span<const PatchChannel> patches) {
@@ -141,14 +141,14 @@ double highest_of(std::span<const PatchChannel> patches) {
   return highest;
 }
 
-// The highest value of a channel, where all pixels of a patch have it and lower patches have noise: the
-// brightest of them of more than a step of the codes, or else most of them some.
+// Highest value of a channel that clips: all pixels of one patch have it, while lower patches have noise.
+// Either the noise of the brightest of these is wider than a step of the codes, or most of them have noise.
 struct EvenTop {
   std::optional<double> level;
-  bool is_wide = false;  // True for noise of more than a step.
+  bool is_wide = false;  // True if the noise is wider than a step.
 };
 EvenTop even_top(std::span<const PatchChannel> patches, std::optional<double> saturation) {
-  constexpr std::size_t kWideLevels = 3;  // of half of all pixels: a deviation of .75 steps or more
+  constexpr std::size_t kWideLevels = 3;  // in half of the pixels: a deviation of at least 0.75 steps
   const double highest = highest_of(patches);
   if (saturation && highest >= *saturation) return {};
   bool is_even_there = false;
@@ -162,7 +162,7 @@ EvenTop even_top(std::span<const PatchChannel> patches, std::optional<double> sa
     if (below == nullptr || patch.highest > below->highest) below = &patch;
   }
   if (!is_even_there || below == nullptr) return {};
-  const bool is_wide = below->middle_levels >= kWideLevels;
+  const bool is_wide = below->interquartile_levels >= kWideLevels;
   return is_wide || uneven > even ? EvenTop{highest, is_wide} : EvenTop{};
 }
 
@@ -171,11 +171,11 @@ EvenTop even_top(std::span<const PatchChannel> patches, std::optional<double> sa
 std::vector<PatchValues> measure_patches(const Image& image, const MeasuredPlanes& planes,
                                          std::span<const PatchOutline> outlines) {
   const Crop all{0, 0, image.width, image.height};
-  const std::vector<Crop> held = planes.rendered.empty() ? std::vector{all} : planes.rendered;
-  const char* held_by = held.front() == all ? "the film" : "the pixels that were rendered";
+  const std::vector<Crop> areas = planes.rendered.empty() ? std::vector{all} : planes.rendered;
+  const char* area_name = areas.front() == all ? "the film" : "the rendered pixels";
   std::vector<PatchValues> patches;
   for (const PatchOutline& outline : outlines) {
-    const std::vector<Pixel> pixels = pixels_in(outline, held, held_by);
+    const std::vector<Pixel> pixels = pixels_in(outline, areas, area_name);
     PatchValues patch{outline.name, {}};
     for (std::size_t k = 0; k < planes.channels.size(); ++k) {
       std::vector<Pixel> own;
@@ -183,9 +183,10 @@ std::vector<PatchValues> measure_patches(const Image& image, const MeasuredPlane
         return !planes.mosaic || planes.mosaic->at(pixel.x, pixel.y) == static_cast<int>(k);
       });
       if (own.empty())
-        throw Error(ErrorCode::input, outline.name,
-                    fmt::format("its middle holds no whole pixel{}: the film is too coarse",
-                                planes.mosaic ? " of channel " + planes.channels[k] : ""));
+        throw Error(
+            ErrorCode::input, outline.name,
+            fmt::format("its measured area contains no whole pixel{}: increase the resolution of the film",
+                        planes.mosaic ? " of channel " + planes.channels[k] : ""));
       patch.channels.push_back(measure(image.width, planes, k, own));
     }
     patches.push_back(std::move(patch));

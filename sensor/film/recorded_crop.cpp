@@ -7,25 +7,25 @@
 namespace abbe {
 
 std::optional<Crop> recorded_crop(const Image& film) {
-  const auto found = film.metadata.find(kCropKey);
-  if (found == film.metadata.end()) return std::nullopt;
-  const std::optional<Crop> crop = parse_crop(found->second);
+  const auto entry = film.metadata.find(kCropKey);
+  if (entry == film.metadata.end()) return std::nullopt;
+  const std::optional<Crop> crop = parse_crop(entry->second);
   return crop && crop->x1 <= film.width && crop->y1 <= film.height ? crop : std::nullopt;
 }
 
 std::vector<Crop> recorded_areas(const Image& film) {
   const Crop around = recorded_crop(film).value_or(Crop{0, 0, film.width, film.height});
-  const auto found = film.metadata.find(kAreasKey);
-  if (found == film.metadata.end()) return {around};
+  const auto entry = film.metadata.find(kAreasKey);
+  if (entry == film.metadata.end()) return {around};
   std::vector<Crop> areas;
-  std::size_t held = 0;
-  for (const std::string& area : split(found->second, ' ')) {
+  std::size_t recorded = 0;
+  for (const std::string& area : split(entry->second, ' ')) {
     const std::optional<Crop> pixels = parse_crop(area.substr(0, area.find('=')));
     if (!pixels || common_pixels(*pixels, around) != pixels) return {around};
     areas.push_back(*pixels);
-    held += pixel_count(*pixels);
+    recorded += pixel_count(*pixels);
   }
-  return held < pixel_count(around) ? areas : std::vector<Crop>{around};
+  return recorded < pixel_count(around) ? areas : std::vector<Crop>{around};
 }
 
 std::vector<std::size_t> recorded_pixels(const Image& film) {

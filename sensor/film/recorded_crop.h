@@ -9,14 +9,14 @@
 
 namespace abbe {
 
-/// The pixels that a film, or what was developed of it, tells to have; nothing where it has all.
+/// Crop that a film or a file developed from it records; nothing if it has all pixels.
 [[nodiscard]] std::optional<Crop> recorded_crop(const Image& film);
 
-/// The same as disjoint rectangles, of which a film that is merged of some parts may tell several: one of all
-/// pixels where it has all.
+/// Recorded pixels of a film as disjoint rectangles. A film merged from parts can have several; without a
+/// crop, one rectangle contains all pixels.
 [[nodiscard]] std::vector<Crop> recorded_areas(const Image& film);
 
-/// The same as numbers of pixels, area by area and row by row.
+/// Indices of the recorded pixels, area by area and row by row.
 [[nodiscard]] std::vector<std::size_t> recorded_pixels(const Image& film);
 
 }  // namespace abbe

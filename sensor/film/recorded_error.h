@@ -5,30 +5,30 @@
 
 namespace abbe {
 
-/// The attribute of a film with the relative error of the mean over all of it. It is infinite where nothing
-/// is known of that error, as with samples of some pixels in fewer than two replicates: the variances of
-/// these are 0 then.
+/// Attribute of a film with the relative error of its mean over the frame. It is infinite if the error is
+/// unknown, for example if some pixels have samples in fewer than two replicates, so that their variances are
+/// 0.
 inline constexpr const char* kFrameMeanErrorKey = "frame_mean_error";
 
-/// The attribute of a film whose error is not yet known: how many samples carry half of the variance of its
-/// mean.
+/// Attribute of a film whose error is not yet known: the number of samples that carry half of the variance of
+/// its mean.
 inline constexpr const char* kHalfNoiseSamplesKey = "half_noise_samples";
 
-/// Whether the attributes of a film, or of what was developed of it, say that nothing is known of its error.
-[[nodiscard]] inline bool has_unknown_error(const std::map<std::string, std::string>& told) {
-  const auto error = told.find(kFrameMeanErrorKey);
-  return error != told.end() && error->second == "inf";
+/// True if the attributes of a film or of a file developed from it record an unknown error.
+[[nodiscard]] inline bool has_unknown_error(const std::map<std::string, std::string>& attributes) {
+  const auto error = attributes.find(kFrameMeanErrorKey);
+  return error != attributes.end() && error->second == "inf";
 }
 
-/// Says that nothing is known of a film's error.
-inline void tell_unknown_error(std::map<std::string, std::string>& told) {
-  told[kFrameMeanErrorKey] = "inf";
+/// Records that the error of a film is unknown.
+inline void record_unknown_error(std::map<std::string, std::string>& attributes) {
+  attributes[kFrameMeanErrorKey] = "inf";
 }
 
-/// Drops what is said of the error of a film that is another now; that nothing is known of it stays true.
-inline void forget_error(std::map<std::string, std::string>& told) {
-  told.erase(kHalfNoiseSamplesKey);
-  if (!has_unknown_error(told)) told.erase(kFrameMeanErrorKey);
+/// Removes the recorded error after a film has changed; an unknown error stays unknown.
+inline void erase_error(std::map<std::string, std::string>& attributes) {
+  attributes.erase(kHalfNoiseSamplesKey);
+  if (!has_unknown_error(attributes)) attributes.erase(kFrameMeanErrorKey);
 }
 
 }  // namespace abbe

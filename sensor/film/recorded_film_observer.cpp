@@ -8,7 +8,7 @@
 namespace abbe {
 namespace {
 
-// Nothing for one band, whose width no other tells.
+// Edges of the bands, or nothing for a single band, whose width is unknown.
 std::vector<double> edges_of_bands(const Image& film) {
   std::vector<SpectralBand> bands;
   for (const ImageChannel& channel : film.channels)

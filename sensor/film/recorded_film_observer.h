@@ -5,11 +5,11 @@
 
 namespace abbe {
 
-/// What films tell of the unit of an observer's channels.
+/// Unit that films record for the channels of an observer.
 [[nodiscard]] const char* photometric_unit(Observer observer);
 
-/// Who sees a film's colours, by what it tells: the observer whose X it has, else that of 1931, who sees of a
-/// spectral film its bands.
+/// Observer of a film's colours: the one whose X channel it records, otherwise the CIE 1931 observer, with
+/// the bands of a spectral film.
 [[nodiscard]] FilmObserver recorded_film_observer(const Image& film);
 
 }  // namespace abbe

@@ -7,13 +7,13 @@
 
 namespace abbe {
 
-/// The key under which a film lists the layers it is the sum of, separated by commas; absent where it has
-/// none. Each has channels `<layer>.<plane>` beside the film's.
+/// Attribute with the layers that add up to a film, separated by commas; absent if it has none. Each layer
+/// has channels `<layer>.<plane>` in the same file.
 inline constexpr const char* kLayersKey = "layers";
-/// What the names of layers of lights begin with.
+/// Prefix of the names of light-group layers.
 inline constexpr const char* kLightLayer = "light.";
 
-/// The layers that this key lists.
+/// Parses the value of `kLayersKey`.
 [[nodiscard]] inline std::vector<std::string> parse_layers(const std::string& text) {
   return split(text, ',');
 }

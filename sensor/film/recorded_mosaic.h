@@ -9,14 +9,14 @@
 
 namespace abbe {
 
-/// A mosaic with the names of its channels, in their order.
+/// A mosaic, and the names of its channels in their order.
 struct RecordedMosaic {
   Mosaic pattern;
   std::vector<std::string> channels;
 };
 
-/// The mosaic that the attributes of a film, or of what was developed of it, tell; nothing where they tell of
-/// none or make no sense.
+/// Mosaic that the attributes of a film or of a file developed from it record. Nothing if they record none or
+/// are malformed.
 [[nodiscard]] std::optional<RecordedMosaic> recorded_mosaic(
     const std::map<std::string, std::string>& attributes);
 

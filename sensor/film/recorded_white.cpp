@@ -11,26 +11,27 @@
 
 namespace abbe {
 
-void record_white(const std::string& name, const Chromaticity& xy, bool asked,
+void record_white(const std::string& name, const Chromaticity& xy, bool requested,
                   std::map<std::string, std::string>& metadata) {
-  std::string& told = metadata[kWhiteKey] = name;
-  std::replace(told.begin(), told.end(), '\n', '?');  // headers have a line per entry
+  std::string& recorded = metadata[kWhiteKey] = name;
+  std::replace(recorded.begin(), recorded.end(), '\n', '?');  // file headers have one line per entry
   metadata[kWhiteXyKey] = fmt::format("{} {}", xy[0], xy[1]);
-  if (asked)
-    metadata[kWhiteAskedKey] = "yes";
+  if (requested)
+    metadata[kWhiteRequestedKey] = "yes";
   else
-    metadata.erase(kWhiteAskedKey);
+    metadata.erase(kWhiteRequestedKey);
 }
 
 std::optional<Chromaticity> recorded_white(const Image& film) {
-  const auto found = film.metadata.find(kWhiteXyKey);
-  if (found == film.metadata.end() || !film.metadata.contains(kWhiteKey)) return std::nullopt;
-  const std::vector<std::string> words = split(found->second, ' ');
+  const auto entry = film.metadata.find(kWhiteXyKey);
+  if (entry == film.metadata.end() || !film.metadata.contains(kWhiteKey)) return std::nullopt;
+  const std::vector<std::string> words = split(entry->second, ' ');
   const auto x = parse_number(words.front());
   const auto y = parse_number(words.back());
   if (words.size() == 2 && x && y && *x > 0 && *y > 0) return Chromaticity{*x, *y};
   throw Error(ErrorCode::input, "film",
-              fmt::format("attribute \"{}\" makes no sense (got \"{}\")", kWhiteXyKey, found->second));
+              fmt::format("attribute \"{}\" is malformed (got \"{}\", allowed two positive numbers)",
+                          kWhiteXyKey, entry->second));
 }
 
 }  // namespace abbe

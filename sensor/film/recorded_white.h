@@ -9,26 +9,25 @@
 
 namespace abbe {
 
-/// Where a scene asks for a white, as does who develops its film.
+/// JSON pointer of the requested white, in a scene and in the options of development.
 inline constexpr const char* kWhitePointer = "/output/white";
-/// Attributes of a film that name its white and tell its chromaticity, x and y with a blank between them.
+/// Attributes with the name of a film's white and with its chromaticity x, y, separated by a blank.
 inline constexpr const char* kWhiteKey = "white";
 inline constexpr const char* kWhiteXyKey = "white_xy";
-/// The attribute of a film whose scene asks for its white, "yes"; others show their main light as white, or
-/// what they are developed for.
-inline constexpr const char* kWhiteAskedKey = "white_asked";
-/// The attribute with the chromaticities of the scene's lights: a JSON object of [x, y] by name, null for a
+/// Attribute of a film whose scene requests its white, "yes". Other films are displayed with their main light
+/// as white, or with the white that development requests.
+inline constexpr const char* kWhiteRequestedKey = "white_asked";
+/// Attribute with the chromaticities of the lights of the scene: a JSON object of [x, y] by name, null for a
 /// name that several lights have.
 inline constexpr const char* kLightsXyKey = "lights_xy";
-/// The attribute that says why no picture can be made of a film, in place of the matrix of its pictures.
+/// Attribute with the reason why a film cannot be displayed, instead of its display matrix.
 inline constexpr const char* kNoPictureKey = "no_picture";
 
-/// Adds a white to what a film tells, in the place of another, and whether the scene asks for it.
-void record_white(const std::string& name, const Chromaticity& xy, bool asked,
+/// Records a white and if the scene requests it. Replaces an earlier one.
+void record_white(const std::string& name, const Chromaticity& xy, bool requested,
                   std::map<std::string, std::string>& metadata);
 
-/// The chromaticity of the white that a film tells; nothing for a film that does not tell its name too.
-/// Throws Error{input} when it makes no sense.
+/// Recorded chromaticity of a film's white; nothing without its name. Throws Error{input} if it is malformed.
 [[nodiscard]] std::optional<Chromaticity> recorded_white(const Image& film);
 
 }  // namespace abbe

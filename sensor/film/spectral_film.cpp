@@ -26,12 +26,12 @@ std::vector<float> divided(const std::vector<float>& values, std::span<const dou
   return quotients;
 }
 
-// The bands that an image holds of a Stokes component.
+// Bands of a Stokes component of an image.
 auto& bands_of(auto& image, int component) {
   return component == 0 ? image.bands : image.polarised.at(static_cast<std::size_t>(component) - 1);
 }
 
-// Adds the bins of a film's Stokes component to the image as radiances.
+// Adds the bins of a Stokes component of a film to the image as radiances.
 void add_component(const Image& film, const SpectralBins& bins, int component,
                    std::span<const double> exposure_per_radiance, SpectralImage& image) {
   for (int bin = 0; bin < bins.count; ++bin) {
@@ -47,20 +47,20 @@ void add_component(const Image& film, const SpectralBins& bins, int component,
   }
 }
 
-// The image's variance of each band of a component, or nothing.
+// Variance channel of each band of a component; empty if the image has none.
 std::vector<const ImageChannel*> variances(const SpectralImage& image, int component) {
-  std::vector<const ImageChannel*> found;
+  std::vector<const ImageChannel*> matches;
   for (const SpectralBand& band : image.bands) {
     const std::string name = variance_of(spectral_channel(band.center_nm, component));
     for (const ImageChannel& channel : image.others)
-      if (channel.name == name) found.push_back(&channel);
+      if (channel.name == name) matches.push_back(&channel);
   }
-  if (!found.empty() && found.size() != image.bands.size())
-    throw Error(ErrorCode::input, "film", "has variances for some of its bands only");
-  return found;
+  if (!matches.empty() && matches.size() != image.bands.size())
+    throw Error(ErrorCode::input, "film", "has variances for only some of its bands");
+  return matches;
 }
 
-// Mean of a response over each band, its wavelengths alike.
+// Mean of a response over each band.
 std::vector<double> mean_weights(const Curve& response, const std::vector<double>& edges) {
   std::vector<double> weights;
   for (std::size_t i = 0; i + 1 < edges.size(); ++i)
@@ -68,7 +68,7 @@ std::vector<double> mean_weights(const Curve& response, const std::vector<double
   return weights;
 }
 
-// What a band of a Stokes component counts in a channel.
+// Contribution of one band of a Stokes component to a channel.
 struct Term {
   double weight;
   const std::vector<float>& radiance;
@@ -89,7 +89,7 @@ std::vector<Term> terms_of(const SpectralImage& image, const Channel& channel) {
   if (!channel.analyser) return terms;
   if (!image.is_polarised())
     throw Error(ErrorCode::usage, channel.name,
-                "tells polarised light, which a spectral image without S1, S2 and S3 does not");
+                "depends on polarisation, which a spectral image without S1, S2 and S3 does not record");
   const Analyser& row = *channel.analyser;
   const std::array rows{row.q, row.u, row.v};
   for (int component = 1; component < 4; ++component)
@@ -132,7 +132,7 @@ Image expose(const SpectralImage& image, std::span<const Channel> channels,
   for (const Channel& channel : channels) {
     if (channel.angular)
       throw Error(ErrorCode::usage, channel.name,
-                  "responds by the angle of the light, which a spectral image does not tell");
+                  "depends on the angle of incidence, which a spectral image does not record");
     const std::vector<Term> terms = terms_of(image, channel);
     std::vector<float> values;
     std::vector<float> bounds;
@@ -141,7 +141,7 @@ Image expose(const SpectralImage& image, std::span<const Channel> channels,
       double deviation = 0;
       for (const Term& term : terms) {
         value += term.weight * term.radiance[pixel];
-        if (term.variance != nullptr && term.weight != 0)  // else it may be infinite
+        if (term.variance != nullptr && term.weight != 0)  // otherwise it may be infinite
           deviation += std::abs(term.weight) * std::sqrt(term.variance->values[pixel]);
       }
       values.push_back(static_cast<float>(value * exposure_per_radiance[pixel]));

@@ -9,8 +9,7 @@
 
 namespace abbe {
 
-/// Bins of one width that cover a range of wavelengths without gaps: bin i is [from + i step, from + (i + 1)
-/// step) nm.
+/// Adjacent bins of equal width: bin i is [from + i step, from + (i + 1) step) nm.
 struct SpectralBins {
   double from_nm = 0;
   double step_nm = 0;
@@ -19,24 +18,25 @@ struct SpectralBins {
   [[nodiscard]] double center_nm(int bin) const { return from_nm + (bin + 0.5) * step_nm; }
 };
 
-/// The ends of the bins, one more than there are [nm].
+/// Edges of the bins [nm], one more than bins.
 [[nodiscard]] std::vector<double> edges_nm(const SpectralBins& bins);
 
-/// A channel for each bin that weighs energy by 1 within it: its film value is the radiant exposure that
-/// arrives in the bin [J/m^2]. Named by their centres, as "545nm".
+/// One energy channel for each bin, with weight 1 inside it. Its film value is the radiant exposure in the
+/// bin [J/m^2]. The channels are named by their centers, such as "545nm".
 [[nodiscard]] std::vector<Channel> spectral_channels(const SpectralBins& bins);
 
-/// The film of those channels, or of theirs `with_stokes`, as radiances. `exposure_per_radiance` [s sr] is,
-/// pixel by pixel, what a radiance is multiplied by to give the radiant exposure. `Variance.` channels, where
-/// there are any, are divided by its square. Of the film's metadata and channels all others are kept.
+/// Converts the film of `spectral_channels`, or of these `with_stokes`, to radiances. `exposure_per_radiance`
+/// [s sr] is the ratio of radiant exposure to radiance of each pixel. `Variance.` channels are divided by its
+/// square. Metadata are copied.
 [[nodiscard]] SpectralImage spectral_film(const Image& film, const SpectralBins& bins,
                                           std::span<const double> exposure_per_radiance);
 
-/// The film of a sensor that looks at a spectral image: the light of a band is spread evenly over it, and
-/// what lies beyond 300-1100 nm is not seen. Variances are upper bounds, as if the errors of all bands were
-/// one. Metadata are left out. Throws Error{usage} for a channel whose response depends on the angle, which
-/// an image has lost, and for one with an analyser where the image is not polarised, Error{input} for
-/// variances of some bands only.
+/// Exposes a sensor to a spectral image. The light of a band is spread evenly over it; light outside 300-1100
+/// nm is ignored. Variances are upper bounds that assume fully correlated errors of the bands. Metadata are
+/// not copied. Throws
+/// - Error{usage} for a channel that depends on the angle of incidence, which an image does not record;
+/// - Error{usage} for a channel with an analyser if the image is not polarised;
+/// - Error{input} if only some bands have variances.
 [[nodiscard]] Image expose(const SpectralImage& image, std::span<const Channel> channels,
                            std::span<const double> exposure_per_radiance);
 

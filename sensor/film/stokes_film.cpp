@@ -12,7 +12,7 @@
 namespace abbe {
 namespace {
 
-// Spectral files name intensities after their component too.
+// Name of a component. In spectral files, the names of intensities have the prefix of their component too.
 std::string component_of(const std::string& intensity, int component) {
   if (intensity.starts_with("S0.")) return name_of({component, intensity.substr(3)});
   return name_of({component, intensity});
@@ -29,15 +29,17 @@ StokesVector StokesPlanes::at(std::size_t pixel) const {
 
 std::vector<StokesPlanes> stokes_planes(const Image& film) {
   const std::vector<std::string> planes = plane_names(film);
-  const std::vector<std::string> counting = intensities(planes);
+  const std::vector<std::string> intensity_names = intensities(planes);
   std::vector<StokesPlanes> all;
-  if (counting.empty() || counting.size() == planes.size()) return all;
-  const bool circular = film.find(component_of(counting.front(), 3)) != nullptr;
-  for (const std::string& channel : counting) {
-    StokesPlanes& of = all.emplace_back(StokesPlanes{channel, {film.find(channel)}});
+  if (intensity_names.empty() || intensity_names.size() == planes.size()) return all;
+  const bool circular = film.find(component_of(intensity_names.front(), 3)) != nullptr;
+  for (const std::string& channel : intensity_names) {
+    StokesPlanes& planes_of_channel = all.emplace_back(StokesPlanes{channel, {film.find(channel)}});
     for (int component = 1; component < 4; ++component)
-      of.component.at(static_cast<std::size_t>(component)) = film.find(component_of(channel, component));
-    if (of.component[1] == nullptr || of.component[2] == nullptr || of.tells_circular() != circular)
+      planes_of_channel.component.at(static_cast<std::size_t>(component)) =
+          film.find(component_of(channel, component));
+    if (planes_of_channel.component[1] == nullptr || planes_of_channel.component[2] == nullptr ||
+        planes_of_channel.has_circular() != circular)
       throw Error(ErrorCode::input, "film",
                   fmt::format("lacks a component of the Stokes vector of channel \"{}\"", channel));
   }
@@ -49,7 +51,8 @@ PolarisationFigures polarisation_of(const StokesVector& stokes) {
   const double linear = std::hypot(q, u);
   const double half = std::atan2(u, q) * 90 / std::numbers::pi;
   double angle_deg = half < 0 ? half + 180 : half;
-  if (static_cast<float>(angle_deg) >= 180) angle_deg = 0;  // from below 0 by less than a float tells
+  if (static_cast<float>(angle_deg) >= 180)
+    angle_deg = 0;  // from below 0 by less than the resolution of a float
   if (!(i > 0)) return {0, 0, angle_deg};
   return {std::hypot(linear, v) / i, linear / i, angle_deg};
 }

@@ -8,27 +8,28 @@
 
 namespace abbe {
 
-/// A Stokes vector (I, Q, U, V) in the frame of the film.
+/// Stokes vector (I, Q, U, V) in the frame of the film.
 using StokesVector = std::array<double, 4>;
 
-/// The planes of a film that tell the Stokes vector which one channel, or one band, sees in each pixel.
+/// Planes of a film with the Stokes vectors of one channel or band.
 struct StokesPlanes {
-  std::string channel;                           ///< Name of the plane of its intensity.
-  std::array<const ImageChannel*, 4> component;  ///< That of V is nullptr where linear polarisers measured.
+  std::string channel;  ///< Name of the intensity plane.
+  std::array<const ImageChannel*, 4>
+      component;  ///< Plane of V is nullptr if only linear polarisation was measured.
 
-  [[nodiscard]] bool tells_circular() const { return component[3] != nullptr; }
-  /// V is 0 where it is not told.
+  [[nodiscard]] bool has_circular() const { return component[3] != nullptr; }
+  /// Stokes vector of a pixel; V is 0 without its plane.
   [[nodiscard]] StokesVector at(std::size_t pixel) const;
 };
-/// Those of all channels of a film, which must outlive them; none for a film that does not measure
-/// polarisation. Throws Error{input} where Q or U of a channel is missing, or V of some channels alone.
+/// Stokes planes of all channels of a film, which must outlive them. Empty for a film that does not measure
+/// polarisation. Throws Error{input} if Q or U of a channel is missing, or if only some channels have V.
 [[nodiscard]] std::vector<StokesPlanes> stokes_planes(const Image& film);
 
-/// How light is polarised. Noise may make the degrees exceed 1.
+/// State of polarisation. Noise can make the degrees exceed 1.
 struct PolarisationFigures {
-  double degree;         ///< sqrt(Q^2 + U^2 + V^2)/I; 0 where there is no light.
-  double linear_degree;  ///< sqrt(Q^2 + U^2)/I; likewise.
-  double angle_deg;      ///< Of the plane in which the field swings, atan2(U, Q)/2 in [0, 180).
+  double degree;         ///< sqrt(Q^2 + U^2 + V^2)/I; 0 without light.
+  double linear_degree;  ///< sqrt(Q^2 + U^2)/I; 0 without light.
+  double angle_deg;      ///< Plane of oscillation of the electric field, atan2(U, Q)/2 in [0, 180).
 };
 [[nodiscard]] PolarisationFigures polarisation_of(const StokesVector& stokes);
 

@@ -4,7 +4,7 @@
 
 namespace abbe {
 
-/// The name of the channel of a film that holds the variance of the values of another.
+/// Name of the channel of a film with the variance of another channel.
 [[nodiscard]] inline std::string variance_of(const std::string& channel) {
   return "Variance." + channel;
 }

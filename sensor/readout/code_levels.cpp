@@ -7,8 +7,8 @@
 
 namespace abbe {
 
-// Widths that differ from code to code do no harm: where the noise is wider than they are, the code of
-// a signal y of the converter is y + q, q even on [-1/2, 1/2] and independent of y.
+// Widths may differ from code to code. If the noise is wider than they are, a signal y of the converter gives
+// the code y + q, with q uniform on [-1/2, 1/2] and independent of y.
 std::vector<CodeLevel> code_levels(const Readout& readout) {
   constexpr std::size_t kCodes = 1U << 16U;
   std::vector<CodeLevel> levels;
@@ -22,7 +22,7 @@ std::vector<CodeLevel> code_levels(const Readout& readout) {
     auto first = next;
     next = std::upper_bound(first, straight.end(), *first);
     const auto code = [&](auto at) { return static_cast<double>(at - straight.begin()); };
-    // What lies below the lowest is cut off there.
+    // Signals below the lowest code are clipped.
     while (first + 1 != next && signal(code(first)) < -0.5) ++first;
     const double low = signal(code(first) - 0.5);
     const double width = signal(code(next) - 0.5) - low;

@@ -6,15 +6,15 @@
 
 namespace abbe {
 
-/// What a code tells of the signal that gave it, in DN of a straight response.
+/// Signal behind a code, in DN of a linear response.
 struct CodeLevel {
-  double signal_dn;     ///< The middle of the signals that give it.
-  double rounding_dn2;  ///< The variance that rounding to it adds: w^2/12 of their width w.
+  double signal_dn;     ///< Center of the signals that give the code.
+  double rounding_dn2;  ///< Variance that rounding to it adds: w^2/12 for a width w.
 };
 
-/// That of each 16-bit code that `linear_codes` makes of those of a read-out with a response curve: as steep
-/// as the curve is there, one of the read-out's codes stands for more than 1 DN, or several for less. Codes
-/// that it makes of none, and all without a curve, stand for themselves.
+/// Level of each 16-bit code after `linear_codes`. Depending on the slope of the response curve, one code of
+/// the readout covers more than 1 DN, or several cover less. Codes that `linear_codes` does not produce, and
+/// all codes without a response curve, are their own level.
 [[nodiscard]] std::vector<CodeLevel> code_levels(const Readout& readout);
 
 }  // namespace abbe

@@ -17,20 +17,22 @@ struct Neighbour {
   float weight;
 };
 
-// Where a channel's pixels lie around the pixel (x, y) of the pattern; the pixel alone if it is one.
+// Offsets and weights of a channel's pixels around pixel (x, y) of the pattern; only the pixel itself if it
+// has the channel.
 std::vector<Neighbour> neighbours(const Mosaic& mosaic, int x, int y, int channel) {
   if (mosaic.at(x, y) == channel) return {{0, 0, 1}};
-  std::vector<Neighbour> found;
+  std::vector<Neighbour> around;
   const int w = mosaic.width;
   const int h = mosaic.height;
   for (int dy = 1 - h; dy < h; ++dy)
     for (int dx = 1 - w; dx < w; ++dx)
       if (mosaic.at(x + dx + w, y + dy + h) == channel)
-        found.push_back({dx, dy, static_cast<float>((w - std::abs(dx)) * (h - std::abs(dy)))});
-  return found;
+        around.push_back({dx, dy, static_cast<float>((w - std::abs(dx)) * (h - std::abs(dy)))});
+  return around;
 }
 
-/// The values of a mosaic, and which of them its film has: those beyond a crop, or in gaps, tell nothing.
+/// Values of a mosaic, and the pixels that its film records. Pixels outside the crop or in gaps have no
+/// value.
 struct RawValues {
   int width;
   int height;
@@ -52,7 +54,7 @@ struct RawValues {
   }
 };
 
-// 0 at a pixel that the film does not have.
+// Weighted mean of the recorded neighbours; 0 at a pixel that the film does not record.
 float weighted_mean(const RawValues& raw, int x, int y, const std::vector<Neighbour>& around) {
   if (!raw.has(x, y)) return 0;
   float sum = 0;
@@ -67,16 +69,16 @@ float weighted_mean(const RawValues& raw, int x, int y, const std::vector<Neighb
 
 std::vector<float> own_values(const Image& planes, const Mosaic& mosaic, const std::string& prefix,
                               std::span<const std::string> channels) {
-  std::vector<const ImageChannel*> found;
+  std::vector<const ImageChannel*> sources;
   for (const std::string& channel : channels) {
-    found.push_back(planes.find(prefix + channel));
-    if (found.back() == nullptr) throw Error(ErrorCode::input, "film", "has no plane " + prefix + channel);
+    sources.push_back(planes.find(prefix + channel));
+    if (sources.back() == nullptr) throw Error(ErrorCode::input, "film", "has no plane " + prefix + channel);
   }
   std::vector<float> values;
   values.reserve(planes.pixels());
   for (int y = 0; y < planes.height; ++y)
     for (int x = 0; x < planes.width; ++x)
-      values.push_back(found[static_cast<std::size_t>(mosaic.at(x, y))]->values[values.size()]);
+      values.push_back(sources[static_cast<std::size_t>(mosaic.at(x, y))]->values[values.size()]);
   return values;
 }
 

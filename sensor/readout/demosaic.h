@@ -8,18 +8,16 @@
 
 namespace abbe {
 
-/// The plane a mosaic makes of planes of all its channels: each pixel's own channel, and of the `Variance.`
-/// planes its variance, as `kRawPlane` and its variance. Metadata are kept. Throws Error{input} when a plane
-/// is missing.
+/// Mosaic plane from the planes of all channels: `kRawPlane` contains each pixel's own channel, and
+/// `Variance.<kRawPlane>` its variance. Metadata are copied. Throws Error{input} if a plane is missing.
 [[nodiscard]] Image mosaicked(const Image& planes, const Mosaic& mosaic,
                               std::span<const std::string> channels);
 
-/// A plane for each channel of a mosaic from the one that holds each pixel's own: linear interpolation. A
-/// channel's value at a pixel that has another filter is the mean of the channel's pixels around it, weighted
-/// by (1 - |dx|/w)(1 - |dy|/h) within one pattern of w by h pixels; for the pattern R G / G B that is
-/// bilinear interpolation. Constant planes stay constant up to the borders of the image, of a film's crop and
-/// of its gaps (`recorded_areas`), beyond which all planes are 0. Metadata is kept, other planes are left
-/// out. Throws Error{input} when there is no plane of the name `raw`.
+/// Interpolates a plane for each channel from a mosaic. In a pixel of another channel, the value is a mean of
+/// the channel's pixels around it. Their weights are (1 - |dx|/w)(1 - |dy|/h) within a pattern of w by h
+/// pixels; for the pattern R G / G B this is bilinear interpolation. Constant planes stay constant up to the
+/// borders of the image, the crop and its gaps (`recorded_areas`); outside these all planes are 0. Metadata
+/// are copied, other planes are not. Throws Error{input} if the plane `raw` is missing.
 [[nodiscard]] Image demosaic(const Image& image, const std::string& raw, const Mosaic& mosaic,
                              std::span<const std::string> channels);
 

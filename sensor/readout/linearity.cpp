@@ -8,21 +8,21 @@
 namespace abbe {
 namespace {
 
-constexpr double kLowest = 0.05;  // of saturation, from where linearity counts
+constexpr double kLowest = 0.05;  // fraction of saturation where the linearity range begins
 constexpr double kHighest = 0.95;
-constexpr double kSteadyLight = 10;  // percent, beyond which the exposure times do not tell the light
+constexpr double kSteadyLight = 10;  // percent; above it the exposure times do not determine the light
 constexpr std::size_t kMinTimes = 4;
 constexpr std::size_t kMinSignals = 3;
 
-// A sample of a line and its weight.
+// A weighted point for a line fit.
 struct Sample {
   double x, y, weight;
 };
 
-// The line y = at_zero + slope x of weighted least squares.
+// Line y = at_zero + slope x fitted by weighted least squares.
 struct WeightedLine {
   double at_zero, slope;
-  double at_zero_variance, slope_variance;  // for weights that are inverse variances
+  double at_zero_variance, slope_variance;  // valid if the weights are inverse variances
 };
 std::optional<WeightedLine> fitted_line(const std::vector<Sample>& samples) {
   double w = 0;
@@ -44,13 +44,13 @@ std::optional<WeightedLine> fitted_line(const std::vector<Sample>& samples) {
 }
 
 std::size_t distinct(std::span<const LinearityPoint> points, double LinearityPoint::*value) {
-  std::set<double> found;
-  for (const LinearityPoint& p : points) found.insert(p.*value);
-  return found.size();
+  std::set<double> unique_values;
+  for (const LinearityPoint& p : points) unique_values.insert(p.*value);
+  return unique_values.size();
 }
 
-// y/t = c (1 + b t): the relative curvature b of the signals over the time, and its standard error by what
-// the parabola leaves.
+// Relative curvature b of y/t = c (1 + b t) over the exposure time, and its standard error from the residuals
+// of the parabola.
 std::optional<RelativeBias> curvature_over_time(std::span<const LinearityPoint> points) {
   std::vector<Sample> samples;
   for (const LinearityPoint& p : points) samples.push_back({p.exposure_s, p.signal_dn / p.exposure_s, 1});
@@ -62,7 +62,7 @@ std::optional<RelativeBias> curvature_over_time(std::span<const LinearityPoint> 
   return RelativeBias{line->slope / line->at_zero, spread * std::sqrt(line->slope_variance) / line->at_zero};
 }
 
-// Relative bias of the gain of the pairs by a curvature b over the exposure time.
+// Relative bias of the gain for a curvature b over the exposure time.
 double bias_of(std::span<const LinearityPoint> points, double curvature) {
   double squares = 0;
   double products = 0;

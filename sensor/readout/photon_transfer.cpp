@@ -18,27 +18,28 @@
 namespace abbe {
 namespace {
 
-constexpr double kFitted = 0.7;  // of the signal at saturation
+constexpr double kFitted = 0.7;  // fraction of saturation up to which K is fitted
 constexpr double kPatternsAt = 0.5;
-constexpr double kFull = 0.9;           // of the signal of the brightest pair, where it is full
-constexpr double kLeastKnown = 0.5;     // relative error from which a gain is none
-constexpr double kPatternNoise = 0.25;  // of a pattern, which extrapolated darkness may have
+constexpr double kFull = 0.9;           // fraction of the signal of the brightest pair, if that is full
+constexpr double kMaxGainError = 0.5;   // relative error at which no gain can be determined
+constexpr double kPatternNoise = 0.25;  // largest noise of extrapolated darkness, relative to the pattern
 constexpr const char* kNoLight =
-    "no lit pair between darkness and saturation: their codes scatter no more than those of the dark pairs";
+    "no illuminated pair lies between darkness and saturation: their codes scatter no more than those of the "
+    "dark pairs";
 
 [[noreturn]] void refuse(const std::string& what) {
   throw Error(ErrorCode::input, "photon transfer", what);
 }
 
-[[noreturn]] void refuse_bright_pairs(double saturation_dn, std::size_t lit_pairs) {
+[[noreturn]] void refuse_bright_pairs(double saturation_dn, std::size_t illuminated_pairs) {
   refuse(
-      fmt::format("no lit pair is below {} of the signal where the sensor saturates, taken to be the {:.5g} "
-                  "DN where the codes scatter most: weaker light is needed beside it ({} lit pair{} given)",
-                  kFitted, saturation_dn, lit_pairs, lit_pairs == 1 ? "" : "s"));
+      fmt::format("no illuminated pair is below {} of the saturation signal, taken as the {:.5g} DN where "
+                  "the codes scatter most: add pairs at weaker light ({} illuminated pair{} given)",
+                  kFitted, saturation_dn, illuminated_pairs, illuminated_pairs == 1 ? "" : "s"));
 }
 
-// Of a pair [DN, DN^2]: mean, variance from one exposure to the next without that of rounding, variance over
-// the pixels without both, and the squared standard error of the temporal one [DN^4].
+// Moments of a pair [DN, DN^2]: mean, temporal variance without rounding, spatial variance without both, and
+// the squared standard error of the temporal variance [DN^4].
 struct PairMoments {
   double exposure_s;
   double mean;
@@ -47,11 +48,11 @@ struct PairMoments {
   double temporal_error2;
 };
 
-// How far the variance that rounding adds may be from w^2/12, of steps w and pixels that scatter with
-// a variance t from one exposure to the next and v in all. As their mean lies between two codes it is more or
-// less by w^2 (4 v/w^2 + 1/pi^2) exp(-2 pi^2 v/w^2), the first term of a Fourier series. Where patterns
-// spread the pixels over the codes, up to w^2/12 exp(-4 pi^2 t/w^2) is the same in each exposure. Both are
-// below 1.2e-8 w^2 of a t of w^2 and more, which no number of pixels shows.
+// Bound on the deviation of the rounding variance from w^2/12, for steps w and pixels with the temporal
+// variance t and the total variance v. It depends on the position of their mean between two codes: +- w^2 (4
+// v/w^2 + 1/pi^2) exp(-2 pi^2 v/w^2), the first term of a Fourier series. If patterns spread the pixels over
+// the codes, up to w^2/12 exp(-4 pi^2 t/w^2) is the same in both exposures. Both are below 1.2e-8 w^2 for t
+// >= w^2, which no number of pixels can detect.
 double rounding_error(double step2, double temporal, double spatial) {
   constexpr double kPi2 = std::numbers::pi * std::numbers::pi;
   const double t = std::max(0.0, temporal / step2);
@@ -60,7 +61,7 @@ double rounding_error(double step2, double temporal, double spatial) {
   return step2 * std::max((4 * v + 1 / kPi2) * std::exp(-2 * kPi2 * v), std::exp(-4 * kPi2 * t) / 12);
 }
 
-// Over the pixels of a pair: sums of both frames and powers of their differences.
+// Sums over the pixels of a pair: both frames, and powers of their differences.
 struct PairSums {
   double sum = 0;
   double squares = 0;
@@ -68,7 +69,7 @@ struct PairSums {
   double difference_squares = 0;
   double cubes = 0;
   double fourths = 0;
-  double rounding = 0;  // of their mean
+  double rounding = 0;  // of the mean of both frames
 };
 
 PairSums pair_sums(const FlatPair& pair, const std::vector<CodeLevel>& levels) {
@@ -89,13 +90,13 @@ PairSums pair_sums(const FlatPair& pair, const std::vector<CodeLevel>& levels) {
   return all;
 }
 
-void require_frames(std::span<const FlatPair> dark, std::span<const FlatPair> lit) {
-  if (dark.empty() || lit.empty()) refuse("no dark or no lit pairs");
+void require_frames(std::span<const FlatPair> dark, std::span<const FlatPair> illuminated) {
+  if (dark.empty() || illuminated.empty()) refuse("no dark or no illuminated pairs");
   const std::size_t pixels = dark.front().first.size();
-  for (const std::span<const FlatPair> pairs : {dark, lit})
+  for (const std::span<const FlatPair> pairs : {dark, illuminated})
     for (const FlatPair& pair : pairs)
       if (pixels < 2 || pair.first.size() != pixels || pair.second.size() != pixels)
-        refuse("frames of unequal sizes");
+        refuse("the frames have unequal sizes");
 }
 
 PairMoments moments(const FlatPair& pair, const std::vector<CodeLevel>& levels) {
@@ -106,7 +107,8 @@ PairMoments moments(const FlatPair& pair, const std::vector<CodeLevel>& levels) 
   const double m = all.difference / n;
   const double fourth =
       (all.fourths - 4 * m * all.cubes + 6 * m * m * all.difference_squares) / n - 3 * m * m * m * m;
-  // The variance of a variance is (mu_4 - sigma^4)/n; that of the difference is twice the temporal one.
+  // The variance of a variance is (mu_4 - sigma^4)/n. The variance of the difference is twice the temporal
+  // variance.
   const double error2 = std::max(0.0, fourth / 4 - both * both) / n;
   const double rounding = all.rounding / n;
   const double temporal = both - rounding;
@@ -121,7 +123,7 @@ std::vector<PairMoments> all_moments(std::span<const FlatPair> pairs, const std:
   return all;
 }
 
-// Least squares of a moment over the exposure time.
+// Least-squares line of a moment over the exposure time.
 struct Line {
   double at_zero;
   double slope;
@@ -140,25 +142,26 @@ Line fitted(const std::vector<PairMoments>& points, double PairMoments::*value) 
     xy += p.exposure_s * p.*value;
   }
   const double spread = n * xx - x * x;
-  if (!(spread > 0)) refuse("the dark pairs are of one exposure time only: the dark current needs two");
+  if (!(spread > 0)) refuse("the dark pairs have only one exposure time: the dark current requires two");
   const double slope = (n * xy - x * y) / spread;
   return {(y - slope * x) / n, slope};
 }
 
-// What the value at x of the line through the points is moved by, for each point that is moved by 1.
+// Weights of the points in the value of their line at x.
 std::vector<double> line_weights(const std::vector<PairMoments>& points, double x) {
   const auto n = static_cast<double>(points.size());
-  double middle = 0;
-  for (const PairMoments& p : points) middle += p.exposure_s / n;
+  double mean_time = 0;
+  for (const PairMoments& p : points) mean_time += p.exposure_s / n;
   double spread = 0;
-  for (const PairMoments& p : points) spread += (p.exposure_s - middle) * (p.exposure_s - middle);
+  for (const PairMoments& p : points) spread += (p.exposure_s - mean_time) * (p.exposure_s - mean_time);
   std::vector<double> weights;
   for (const PairMoments& p : points)
-    weights.push_back(1 / n + (x - middle) * (p.exposure_s - middle) / spread);
+    weights.push_back(1 / n + (x - mean_time) * (p.exposure_s - mean_time) / spread);
   return weights;
 }
 
-// K = sum(s^2) / sum(s v): a pair's variance moves ln K by -s / sum(s v), one of darkness through the line.
+// K = sum(s^2) / sum(s v). The variance of a pair changes ln K by -s / sum(s v), that of a dark pair through
+// the line.
 struct RelativeErrors {
   double gain;
   std::optional<double> read_noise;
@@ -167,16 +170,16 @@ RelativeErrors relative_errors(const std::vector<PairMoments>& dark,
                                const std::vector<PairMoments>& fitted_pairs, const Line& dark_mean,
                                double products, double read_variance) {
   std::vector<double> moved(dark.size(), 0);
-  double lit_part = 0;
+  double illuminated_part = 0;
   for (const PairMoments& m : fitted_pairs) {
     const double by = (m.mean - dark_mean.at(m.exposure_s)) / products;
-    lit_part += by * by * m.temporal_error2;
+    illuminated_part += by * by * m.temporal_error2;
     const std::vector<double> weights = line_weights(dark, m.exposure_s);
     for (std::size_t j = 0; j < dark.size(); ++j) moved[j] += by * weights[j];
   }
   const std::vector<double> at_zero = line_weights(dark, 0);
-  double gain = lit_part;
-  double noise = lit_part;
+  double gain = illuminated_part;
+  double noise = illuminated_part;
   for (std::size_t j = 0; j < dark.size(); ++j) {
     gain += moved[j] * moved[j] * dark[j].temporal_error2;
     const double both = moved[j] + at_zero[j] / 2 / read_variance;
@@ -185,15 +188,15 @@ RelativeErrors relative_errors(const std::vector<PairMoments>& dark,
   return {std::sqrt(gain), read_variance > 0 ? std::optional(std::sqrt(noise)) : std::nullopt};
 }
 
-// A dark pair and how much its frames count in a sum.
+// A dark pair, and the weight of its frames in a sum.
 struct WeightedPair {
   const FlatPair* pair;
   const PairMoments* moments;
   double weight;
 };
 
-// Up to where a sum's pixels count: so much above their mean, and beyond that what noise seldom makes.
-double most_darkness(const std::vector<WeightedPair>& darkness, double room_dn) {
+// Largest dark signal of a pixel that counts: `room_dn` above the mean, plus what noise rarely exceeds.
+double max_darkness(const std::vector<WeightedPair>& darkness, double room_dn) {
   constexpr double kDeviations = 4;
   double mean = 0;
   double noise = 0;  // of the mean of both frames' sums
@@ -204,13 +207,13 @@ double most_darkness(const std::vector<WeightedPair>& darkness, double room_dn) 
   return mean + room_dn + kDeviations * std::sqrt(noise);
 }
 
-// The variance of a pattern [DN^2], that of darkness or of a lit pair less it: how the sum of the first
-// frames varies over the pixels together with that of the second ones, whose noise is another. It is below 0
-// where noise alone makes it so. Only pixels whose darkness is up to `room_dn` above its mean count, so that
-// being bright in the light leaves none out.
-double pattern_variance(const std::vector<WeightedPair>& darkness, const FlatPair* lit, double room_dn,
-                        const std::vector<CodeLevel>& levels) {
-  const double most_dn = most_darkness(darkness, room_dn);
+// Spatial variance [DN^2] of darkness, or of an illuminated pair minus darkness. It is the covariance over
+// the pixels of the sum of the first frames and that of the second ones, whose noise is independent. Noise
+// can make it negative. Pixels count if their dark signal is at most `room_dn` above its mean, so that bright
+// pixels of the illuminated pair are not excluded.
+double pattern_variance(const std::vector<WeightedPair>& darkness, const FlatPair* illuminated,
+                        double room_dn, const std::vector<CodeLevel>& levels) {
+  const double max_dn = max_darkness(darkness, room_dn);
   double n = 0;
   double first = 0;
   double second = 0;
@@ -222,10 +225,10 @@ double pattern_variance(const std::vector<WeightedPair>& darkness, const FlatPai
       a += weight * levels[pair->first[i]].signal_dn;
       b += weight * levels[pair->second[i]].signal_dn;
     }
-    if ((a + b) / 2 > most_dn) continue;
-    if (lit != nullptr) {
-      a -= levels[lit->first[i]].signal_dn;
-      b -= levels[lit->second[i]].signal_dn;
+    if ((a + b) / 2 > max_dn) continue;
+    if (illuminated != nullptr) {
+      a -= levels[illuminated->first[i]].signal_dn;
+      b -= levels[illuminated->second[i]].signal_dn;
     }
     n += 1;
     first += a;
@@ -235,15 +238,15 @@ double pattern_variance(const std::vector<WeightedPair>& darkness, const FlatPai
   return n > 1 ? (products - first * second / n) / (n - 1) : 0;
 }
 
-// The pattern [DN^2] of darkness after such an exposure, pixel by pixel, or of a lit pair less that darkness:
-// that of the pairs of this very exposure time, else what the line through all of them has there, since the
-// dark signal of each pixel grows in proportion to time. Where the line adds too much noise, that of the pair
-// nearest in time.
+// Spatial variance [DN^2] of darkness at an exposure time, or of an illuminated pair minus that darkness,
+// pixel by pixel. The darkness is that of the pairs of the same exposure time. Without these it is the value
+// of the line through all dark pairs, since the dark signal of each pixel is proportional to time. If the
+// line adds too much noise, it is the pair nearest in time.
 double pattern(std::span<const FlatPair> pairs, const std::vector<PairMoments>& dark,
-               const std::vector<CodeLevel>& levels, double exposure_s, const FlatPair* lit = nullptr,
+               const std::vector<CodeLevel>& levels, double exposure_s, const FlatPair* illuminated = nullptr,
                double room_dn = std::numeric_limits<double>::infinity()) {
   const auto variance = [&](const std::vector<WeightedPair>& darkness) {
-    return pattern_variance(darkness, lit, room_dn, levels);
+    return pattern_variance(darkness, illuminated, room_dn, levels);
   };
   std::vector<WeightedPair> equal;
   for (std::size_t j = 0; j < pairs.size(); ++j)
@@ -253,7 +256,7 @@ double pattern(std::span<const FlatPair> pairs, const std::vector<PairMoments>& 
 
   const std::vector<double> weights = line_weights(dark, exposure_s);
   std::vector<WeightedPair> line;
-  double noise = 0;  // of a frame's sum, and so of the covariance of two times the root of all pixels
+  double noise = 0;  // of a frame's sum; with the root of all pixels, that of the covariance of two
   for (std::size_t j = 0; j < pairs.size(); ++j) {
     line.push_back({&pairs[j], &dark[j], weights[j]});
     noise += weights[j] * weights[j] * dark[j].temporal;
@@ -267,10 +270,10 @@ double pattern(std::span<const FlatPair> pairs, const std::vector<PairMoments>& 
   return noise > kPatternNoise * by_nearest ? by_nearest : variance(line);
 }
 
-// Adds the linearity of the illuminated pairs; `below` are those that the gain is fitted to.
-void judge_linearity(const std::vector<PairMoments>& lit, const std::vector<PairMoments>& below,
-                     const Line& dark_mean, const Line& dark_variance, double saturation_dn,
-                     PhotonTransfer& transfer) {
+// Adds the linearity of the illuminated pairs. `below` are the pairs that the gain is fitted to.
+void assess_linearity(const std::vector<PairMoments>& illuminated, const std::vector<PairMoments>& below,
+                      const Line& dark_mean, const Line& dark_variance, double saturation_dn,
+                      PhotonTransfer& transfer) {
   const auto points_of = [&](const std::vector<PairMoments>& pairs) {
     std::vector<LinearityPoint> points;
     for (const PairMoments& m : pairs)
@@ -278,50 +281,50 @@ void judge_linearity(const std::vector<PairMoments>& lit, const std::vector<Pair
                         m.temporal - dark_variance.at(m.exposure_s), m.temporal_error2});
     return points;
   };
-  transfer.linearity_error_percent = linearity_error_percent(points_of(lit), saturation_dn);
+  transfer.linearity_error_percent = linearity_error_percent(points_of(illuminated), saturation_dn);
   transfer.gain_bias = gain_bias(points_of(below), transfer.linearity_error_percent.has_value());
 }
 
-// What pairs say, as long as no pixel is full where it should not be.
+// Result for pairs without unexpectedly full pixels.
 struct Analysis {
   PhotonTransfer transfer;
-  double full_dn;  // what full pixels have at least
+  double full_dn;  // lowest signal of full pixels
 };
 
-Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair> lit_pairs, int bits,
+Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair> illuminated_pairs, int bits,
                  const std::vector<CodeLevel>& levels, double white_dn) {
   const std::vector<PairMoments> dark = all_moments(dark_pairs, levels);
-  const std::vector<PairMoments> lit = all_moments(lit_pairs, levels);
+  const std::vector<PairMoments> illuminated = all_moments(illuminated_pairs, levels);
   const Line dark_mean = fitted(dark, &PairMoments::mean);
   const Line dark_variance = fitted(dark, &PairMoments::temporal);
   const auto signal = [&](const PairMoments& m) { return m.mean - dark_mean.at(m.exposure_s); };
 
-  // Saturation is where the variance is largest.
+  // The variance is largest at saturation.
   const auto by = [](auto value) {
     return [value](const PairMoments& a, const PairMoments& b) { return value(a) < value(b); };
   };
   const auto variance = [](const PairMoments& m) { return m.temporal; };
-  const double saturation = signal(*std::max_element(lit.begin(), lit.end(), by(variance)));
+  const double saturation = signal(*std::max_element(illuminated.begin(), illuminated.end(), by(variance)));
   double products = 0;
   double squares = 0;
   std::vector<PairMoments> below;
-  for (const PairMoments& m : lit)
+  for (const PairMoments& m : illuminated)
     if (signal(m) <= kFitted * saturation) {
       below.push_back(m);
       products += signal(m) * (m.temporal - dark_variance.at(m.exposure_s));
       squares += signal(m) * signal(m);
     }
-  if (below.empty()) refuse_bright_pairs(saturation, lit.size());
+  if (below.empty()) refuse_bright_pairs(saturation, illuminated.size());
   if (!(products > 0)) refuse(kNoLight);
   const double gain = squares / products;
   const double read_variance = dark_variance.at_zero;
   const RelativeErrors errors = relative_errors(dark, below, dark_mean, products, read_variance);
-  if (errors.gain > kLeastKnown) refuse(kNoLight);
+  if (errors.gain > kMaxGainError) refuse(kNoLight);
 
-  const PairMoments& brightest = *std::max_element(lit.begin(), lit.end(), by(signal));
+  const PairMoments& brightest = *std::max_element(illuminated.begin(), illuminated.end(), by(signal));
   const auto root = [](double x) { return std::sqrt(std::max(0.0, x)); };
   const std::size_t highest_code = (1U << static_cast<unsigned>(bits)) - 1;
-  // In a full well all pixels hold the same, so that the variance is far below that of the light.
+  // All full wells hold the same number of electrons, so their variance is far below that of the light.
   const bool full =
       brightest.temporal - dark_variance.at(brightest.exposure_s) < signal(brightest) / gain / 2;
   const auto saturation_e = full ? std::optional((brightest.mean - dark_mean.at_zero) * gain) : std::nullopt;
@@ -330,14 +333,15 @@ Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair>
 
   const double full_dn = full ? dark_mean.at_zero + kFull * (brightest.mean - dark_mean.at_zero) : white_dn;
   const auto from_half = [&](const PairMoments& m) { return std::abs(signal(m) - kPatternsAt * saturation); };
-  const auto half_pair = std::min_element(lit.begin(), lit.end(), by(from_half));
-  const FlatPair& half = lit_pairs[static_cast<std::size_t>(half_pair - lit.begin())];
-  // How much more dark signal than others a pixel may have and still hold the light of that pair; a white
-  // level below it tells nothing of wells.
+  const auto half_pair = std::min_element(illuminated.begin(), illuminated.end(), by(from_half));
+  const FlatPair& half = illuminated_pairs[static_cast<std::size_t>(half_pair - illuminated.begin())];
+  // Dark signal above the mean that a pixel may have and still hold the light of that pair. A white level
+  // below the pair does not limit it.
   const double above_half = (full ? brightest.mean : white_dn) - half_pair->mean;
   const double room_dn = above_half > 0 ? above_half : std::numeric_limits<double>::infinity();
   std::vector<TransferPoint> points;
-  for (const PairMoments& m : lit) points.push_back({signal(m), m.temporal - dark_variance.at(m.exposure_s)});
+  for (const PairMoments& m : illuminated)
+    points.push_back({signal(m), m.temporal - dark_variance.at(m.exposure_s)});
   const double read_noise = root(read_variance) * gain;
   Analysis all{
       {gain, read_noise, dark_mean.slope * gain,
@@ -345,11 +349,11 @@ Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair>
        root(pattern(dark_pairs, dark, levels, 0)) * gain, full_well_e, std::move(points), errors.gain * gain,
        errors.read_noise ? std::optional(*errors.read_noise * read_noise) : std::nullopt, saturation_e},
       full_dn};
-  judge_linearity(lit, below, dark_mean, dark_variance, saturation, all.transfer);
+  assess_linearity(illuminated, below, dark_mean, dark_variance, saturation, all.transfer);
   return all;
 }
 
-// Whether each pixel is full in one of these pairs.
+// True for each pixel that is full in one of these pairs.
 std::vector<bool> full_pixels(std::span<const FlatPair> pairs, const std::vector<CodeLevel>& levels,
                               double full_dn) {
   std::vector<bool> full(pairs.front().first.size(), false);
@@ -360,38 +364,40 @@ std::vector<bool> full_pixels(std::span<const FlatPair> pairs, const std::vector
   return full;
 }
 
-// Pairs without some of their pixels.
-struct KeptPairs {
+// Pairs without the excluded pixels.
+struct SelectedPairs {
   std::deque<std::vector<std::uint16_t>> codes;
   std::vector<FlatPair> pairs;
 
-  KeptPairs(std::span<const FlatPair> all, const std::vector<bool>& left_out) {
-    const auto kept = [&](std::span<const std::uint16_t> frame) {
+  SelectedPairs(std::span<const FlatPair> all, const std::vector<bool>& excluded) {
+    const auto selected = [&](std::span<const std::uint16_t> frame) {
       std::vector<std::uint16_t>& some = codes.emplace_back();
       for (std::size_t i = 0; i < frame.size(); ++i)
-        if (!left_out[i]) some.push_back(frame[i]);
+        if (!excluded[i]) some.push_back(frame[i]);
       return std::span<const std::uint16_t>(some);
     };
-    for (const FlatPair& pair : all) pairs.push_back({pair.exposure_s, kept(pair.first), kept(pair.second)});
+    for (const FlatPair& pair : all)
+      pairs.push_back({pair.exposure_s, selected(pair.first), selected(pair.second)});
   }
 };
 
 }  // namespace
 
-PhotonTransfer photon_transfer(std::span<const FlatPair> dark_pairs, std::span<const FlatPair> lit_pairs,
-                               int bits, const std::vector<CodeLevel>& levels, std::uint16_t white_dn) {
-  require_frames(dark_pairs, lit_pairs);
+PhotonTransfer photon_transfer(std::span<const FlatPair> dark_pairs,
+                               std::span<const FlatPair> illuminated_pairs, int bits,
+                               const std::vector<CodeLevel>& levels, std::uint16_t white_dn) {
+  require_frames(dark_pairs, illuminated_pairs);
   const double white =
       levels[std::min<std::size_t>(white_dn, (1U << static_cast<unsigned>(bits)) - 1)].signal_dn;
-  Analysis found = analyse(dark_pairs, lit_pairs, bits, levels, white);
-  // Hot pixels that are full tell neither how their dark signal grows nor how it scatters.
-  const std::vector<bool> full = full_pixels(dark_pairs, levels, found.full_dn);
+  Analysis analysis = analyse(dark_pairs, illuminated_pairs, bits, levels, white);
+  // Full hot pixels show neither the growth nor the noise of their dark signal.
+  const std::vector<bool> full = full_pixels(dark_pairs, levels, analysis.full_dn);
   const auto full_ones = static_cast<std::size_t>(std::count(full.begin(), full.end(), true));
-  if (full_ones == 0) return std::move(found.transfer);
+  if (full_ones == 0) return std::move(analysis.transfer);
   if (full_ones + 2 > full.size()) refuse("all pixels of a dark pair are full: shorter exposures are needed");
-  const KeptPairs dark(dark_pairs, full);
-  const KeptPairs lit(lit_pairs, full);
-  return analyse(dark.pairs, lit.pairs, bits, levels, white).transfer;
+  const SelectedPairs dark(dark_pairs, full);
+  const SelectedPairs illuminated(illuminated_pairs, full);
+  return analyse(dark.pairs, illuminated.pairs, bits, levels, white).transfer;
 }
 
 }  // namespace abbe

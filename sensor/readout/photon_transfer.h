@@ -10,55 +10,63 @@
 
 namespace abbe {
 
-/// Two exposures of one evenly lit (or dark) sensor, taken one after the other: all they differ in is
-/// temporal noise. Their codes, of equally many pixels.
+/// Codes of two exposures of a uniformly illuminated or dark sensor, taken one after the other. They differ
+/// only by temporal noise and have equally many pixels.
 struct FlatPair {
   double exposure_s;
   std::span<const std::uint16_t> first;
   std::span<const std::uint16_t> second;
 };
 
-/// A lit pair of the photon-transfer curve.
+/// A point of the photon-transfer curve: an illuminated pair.
 struct TransferPoint {
-  double signal_dn;     ///< Mean above that of darkness.
-  double variance_dn2;  ///< From one exposure to the next, above that of darkness.
+  double signal_dn;     ///< Mean above the dark signal.
+  double variance_dn2;  ///< Temporal variance above that of darkness.
 };
 
-/// What measurements say of a sensor with a linear response, in the terms of `Readout`.
+/// Measured parameters of a sensor with a linear response, in the terms of `Readout`.
 struct PhotonTransfer {
   double gain_e_per_dn;
   double read_noise_e;
   double dark_e_per_s;
   double prnu_percent;
   double dsnu_e;
-  std::optional<double> full_well_e;                     ///< `saturation_e`, if the codes do not end first.
-  std::vector<TransferPoint> points = {};                ///< The lit pairs in their order.
+  std::optional<double> full_well_e;                     ///< `saturation_e`, unless the codes end first.
+  std::vector<TransferPoint> points = {};                ///< Illuminated pairs in their order.
   double gain_standard_error = 0;                        ///< [e/DN]
-  std::optional<double> read_noise_standard_error = {};  ///< [e]; nothing where rounding hides the noise.
-  /// Electrons at which wells are full or codes end; nothing where the brightest lit pair reaches neither.
+  std::optional<double> read_noise_standard_error = {};  ///< [e]; nothing if rounding hides the noise.
+  /// Electrons at which wells are full or codes end; nothing if the brightest illuminated pair reaches
+  /// neither.
   std::optional<double> saturation_e = {};
-  std::optional<double> linearity_error_percent = {};  ///< By that function, of the lit pairs.
-  std::optional<RelativeBias> gain_bias = {};  ///< By that function, of the pairs that K is fitted to.
+  std::optional<double> linearity_error_percent =
+      {};                                      ///< `linearity_error_percent` of the illuminated pairs.
+  std::optional<RelativeBias> gain_bias = {};  ///< `gain_bias` of the pairs that K is fitted to.
 };
 
-/// The photon transfer method of [EMVA1288]: temporal variance, from the difference of two exposures, less
-/// that of rounding, grows with the mean by 1/K DN per DN, the read noise being what darkness leaves; fixed
-/// patterns are how the first frames of pairs vary over the pixels together with the second ones. `dark`
-/// holds pairs of two or more exposure times, `lit` pairs from weak light to light beyond saturation: K is
-/// fitted up to 70 % of saturation, which is taken from the brightest pair, as is the full well. PRNU is the
-/// pattern of the lit pair nearest to 50 % of saturation less, pixel by pixel, darkness of its exposure time:
-/// of the dark pairs of that time where there are some, else from the line through each pixel's dark signals
-/// over the exposure time or, where a line from afar would add too much noise, from the pair nearest in time.
-/// Pixels whose darkness leaves no room for the light of that pair do not count in it. DSNU is the pattern of
-/// darkness at 0 s, likewise. Both are 0 where noise hides them. Pixels that are full in a dark pair, as hot
-/// ones are in long exposures, do not count in anything. Standard errors are of the pairs' temporal
-/// variances, each known by its pixels' fourth moment and, of noise that is narrower than a code, as far as
-/// rounding is; they are carried through the fits. Pixels count as independent, which those of a row with
-/// noise of its own are not. `bits`: of the codes; `levels`: what each of them stands for; `white_dn`: the
-/// code from which a pixel is full where no lit pair tells that, the highest one if it is beyond. Throws
-/// Error{input} for pairs that do not determine this.
-[[nodiscard]] PhotonTransfer photon_transfer(std::span<const FlatPair> dark, std::span<const FlatPair> lit,
-                                             int bits, const std::vector<CodeLevel>& levels = code_levels({}),
+/// Photon-transfer method of [EMVA1288].
+/// - Temporal variance comes from the difference of two exposures, minus rounding. It grows with the mean by
+///   1/K DN per DN, and its value in darkness is the read noise.
+/// - Fixed patterns come from the covariance over the pixels of the first and the second frames of pairs.
+/// - K is fitted up to 70 % of saturation. The pair of the largest variance gives saturation, the brightest
+///   pair the full well.
+/// - PRNU is the pattern of the illuminated pair nearest to 50 % of saturation, minus the darkness of each
+///   pixel at its exposure time. The darkness is measured at that time or taken from the line through the
+///   dark signals over time. If the line adds too much noise, the dark pair nearest in time replaces it.
+///   Pixels count only if their darkness leaves room for the light of the pair.
+/// - DSNU is the pattern of darkness at 0 s, obtained in the same way. PRNU and DSNU are 0 if noise hides
+///   them.
+/// - Pixels that are full in a dark pair, such as hot pixels in long exposures, are excluded throughout.
+/// - Standard errors propagate those of the temporal variances through the fits. The latter follow from the
+///   fourth moments, and for noise narrower than a code from the uncertainty of rounding. Pixels count as
+///   independent, which row noise violates.
+///
+/// `dark` has pairs of at least two exposure times, `illuminated` pairs from weak light to above saturation.
+/// `bits` is the depth of the codes and `levels` the level of each. `white_dn` is the code of a full pixel if
+/// no illuminated pair shows it, limited to the highest code. Throws Error{input} if the pairs do not
+/// determine the result.
+[[nodiscard]] PhotonTransfer photon_transfer(std::span<const FlatPair> dark,
+                                             std::span<const FlatPair> illuminated, int bits,
+                                             const std::vector<CodeLevel>& levels = code_levels({}),
                                              std::uint16_t white_dn = 65535);
 
 }  // namespace abbe

@@ -18,8 +18,9 @@ namespace {
 using Normal = boost::random::normal_distribution<double>;
 using Uniform = boost::random::uniform_01<double>;
 
-// Beyond this a Poisson distribution is too narrow for 64-bit integers to matter, and no well is so deep.
-constexpr double kMostElectrons = 1e15;
+// No well is so deep. Above this number, a Poisson distribution is too narrow for the range of 64-bit
+// integers.
+constexpr double kMaxElectrons = 1e15;
 constexpr double kSaturationDeviations = 6;
 
 double poisson(double mean, SplitMix64& random) {
@@ -27,16 +28,16 @@ double poisson(double mean, SplitMix64& random) {
   return static_cast<double>(boost::random::poisson_distribution<std::int64_t, double>(mean)(random));
 }
 
-// The electrons that a pixel expects. Throws where they are no number, or too many.
+// Checks the expected electrons of a pixel. Throws Error{input} if they are not a number or too many.
 double countable(double electrons, const char* of_what, std::size_t pixel) {
-  if (!(electrons <= kMostElectrons))
+  if (!(electrons <= kMaxElectrons))
     throw Error(
         ErrorCode::input, "film",
         fmt::format("pixel {} expects {:g} electrons{} (allowed up to 1e15)", pixel, electrons, of_what));
   return electrons;
 }
 
-// What is odd about a pixel in every exposure.
+// Deviations of a pixel that are the same in every exposure.
 struct FixedPattern {
   double sensitivity = 1;
   double offset_e = 0;
@@ -52,12 +53,12 @@ FixedPattern fixed_pattern(const Readout& readout, std::size_t pixel) {
   return pattern;
 }
 
-// A pixel between the counting of its electrons and their conversion.
+// State of a pixel between the generation of its electrons and their conversion.
 struct ExposedPixel {
-  double freed_e;
-  double held_e;
+  double generated_e;
+  double stored_e;
   double offset_e;
-  SplitMix64 random;  // what is left for the read noise
+  SplitMix64 random;  // continues with the read noise
 };
 
 ExposedPixel expose_pixel(const Readout& readout, float expected_e, std::size_t pixel, double seconds,
@@ -67,20 +68,20 @@ ExposedPixel expose_pixel(const Readout& readout, float expected_e, std::size_t 
   SplitMix64 random(ReadoutPurpose::noise, key, pixel);
   const double dark_e = (readout.dark_e_per_s + pattern.hot_e_per_s) * seconds;
   const double mean_e = countable(light_e * pattern.sensitivity + dark_e, " with its dark signal", pixel);
-  const double freed_e = poisson(mean_e, random);
-  return {freed_e, std::min(freed_e, readout.full_well_e), pattern.offset_e, random};
+  const double generated_e = poisson(mean_e, random);
+  return {generated_e, std::min(generated_e, readout.full_well_e), pattern.offset_e, random};
 }
 
-// Lets half of what each pixel of a column cannot hold flow along it, `step` pixels further at a time.
+// Moves half of the excess charge of each pixel along its column, in steps of `step` pixels.
 void overflow(std::vector<ExposedPixel>& pixels, std::size_t first, std::ptrdiff_t step, std::size_t rows,
               double full_well_e) {
   double flowing_e = 0;
   for (std::size_t row = 0; row < rows; ++row) {
     ExposedPixel& pixel = pixels[static_cast<std::size_t>(static_cast<std::ptrdiff_t>(first) +
                                                           static_cast<std::ptrdiff_t>(row) * step)];
-    const double taken_e = std::min(flowing_e, full_well_e - pixel.held_e);
-    pixel.held_e += taken_e;
-    flowing_e += std::max(0.0, pixel.freed_e - full_well_e) / 2 - taken_e;
+    const double taken_e = std::min(flowing_e, full_well_e - pixel.stored_e);
+    pixel.stored_e += taken_e;
+    flowing_e += std::max(0.0, pixel.generated_e - full_well_e) / 2 - taken_e;
   }
 }
 
@@ -93,19 +94,19 @@ void bloom(std::vector<ExposedPixel>& pixels, std::size_t width, double full_wel
   }
 }
 
-// Code of a signal in units of codes, before it is rounded.
+// Code of a signal in DN, before rounding.
 double curved(const Readout& readout, double signal) {
   const double codes = readout.highest_code() - readout.offset_dn;
   return readout.offset_dn +
          (readout.response_curve ? codes * (*readout.response_curve)(signal / codes) : signal);
 }
 
-// The code that a sensor without the response curve would have given, before it is rounded.
+// Code of a sensor without the response curve, before rounding.
 double linear_code(const Readout& readout, double dn) {
   return readout.offset_dn + electrons_of(readout, dn) / readout.gain_e_per_dn;
 }
 
-// The code of so many electrons, before it is cut to those that there are.
+// Code of a number of electrons, before clipping to the range of codes.
 double code_of(const Readout& readout, double electrons) {
   return std::floor(curved(readout, electrons / readout.gain_e_per_dn) + 0.5);
 }
@@ -159,10 +160,10 @@ RawFrame read_out(const Readout& readout, std::span<const float> expected_e, con
       row_e = readout.row_noise_e * Normal()(random);
     }
     const double signal_e =
-        pixel.held_e + pixel.offset_e + row_e + readout.read_noise_e * Normal()(pixel.random);
+        pixel.stored_e + pixel.offset_e + row_e + readout.read_noise_e * Normal()(pixel.random);
     const double code = code_of(readout, signal_e);
     frame.dn.push_back(static_cast<std::uint16_t>(std::clamp(code, 0.0, readout.highest_code())));
-    frame.saturated.push_back(pixel.held_e >= readout.full_well_e || code >= readout.highest_code());
+    frame.saturated.push_back(pixel.stored_e >= readout.full_well_e || code >= readout.highest_code());
   }
   return frame;
 }

@@ -13,9 +13,9 @@ namespace abbe::spec {
 struct Gain : schema::Value<double> {};
 struct IsoSpeed : schema::Located<double> {};
 
-/// The electronics as a scene's `sensor/readout` says them.
+/// Description of the electronics in `sensor/readout` of a scene.
 struct Readout {
-  abbe::Readout numbers;  ///< All of them but what follows.
+  abbe::Readout numbers;  ///< All numbers without a member of their own below.
   std::variant<std::monostate, Gain, IsoSpeed> conversion;
   std::optional<int> bits;
   std::optional<schema::Located<double>> saturation_dn;
@@ -29,14 +29,16 @@ struct Readout {
 
 namespace abbe {
 
-/// Reports an offset that leaves no codes, a curve that does not increase, and a speed that the full well or
-/// the lack of a sensitivity makes impossible; nothing then. The sensitivity [electrons per lx s of daylight]
-/// is that of a pixel of the most sensitive channel.
+/// Builds the electronics. `sensitivity` is that of a pixel of the most sensitive channel [electrons per lx s
+/// of daylight]. Reports and returns nothing for
+/// - an offset that leaves no codes;
+/// - a curve that does not increase;
+/// - a speed that the full well or the lack of a sensitivity makes impossible.
 [[nodiscard]] std::optional<Readout> build(const spec::Readout& readout, std::optional<double> sensitivity,
                                            Diagnostics& diagnostics);
 
-/// The electronics that an object as a scene's `sensor/readout` describes, of a sensor of that sensitivity.
-/// Everything wrong with it is reported; nothing is returned if there is an error.
+/// Reads and builds the electronics from a JSON object like `sensor/readout` of a scene. Reports all errors,
+/// and returns nothing if there is one.
 [[nodiscard]] std::optional<Readout> read_readout(const JsonValue& json, std::optional<double> sensitivity,
                                                   Diagnostics& diagnostics);
 

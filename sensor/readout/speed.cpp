@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "io/error.h"
-#include "sensor/response/coverage.h"
+#include "sensor/response/table_range.h"
 #include "spectral/colorimetry.h"
 #include "spectral/library.h"
 
@@ -25,13 +25,13 @@ NamedCurve daylight() {
 
 double sensitivity_e_per_lx_s(std::span<const Channel> channels, double gathering_area_m2,
                               const Curve& illuminant) {
-  double most = 0;
+  double largest = 0;
   for (const Channel& channel : channels) {
     if (channel.kind != ResponseKind::quantum)
       throw Error(ErrorCode::internal, channel.name, "the speed of a channel that counts no electrons");
-    most = std::max(most, integral_of_product(illuminant, channel.weight) / channel.exposure_ratio);
+    largest = std::max(largest, integral_of_product(illuminant, channel.weight) / channel.exposure_ratio);
   }
-  return most / photometric(illuminant) * gathering_area_m2;
+  return largest / photometric(illuminant) * gathering_area_m2;
 }
 
 std::optional<double> daylight_sensitivity(std::span<const Channel> channels, double gathering_area_m2) {
@@ -42,7 +42,7 @@ std::optional<double> daylight_sensitivity(std::span<const Channel> channels, do
 
 void check_daylight(std::span<const Channel> channels, const SourcePosition& where,
                     Diagnostics& diagnostics) {
-  check_ends_of_light(daylight(), channels, where, diagnostics);
+  check_light_range(daylight(), channels, where, diagnostics);
 }
 
 double saturation_electrons(const Readout& readout) {

@@ -8,32 +8,32 @@
 
 namespace abbe {
 
-/// The attribute of films and raw files that tells the speed, in single precision.
+/// Attribute of films and raw files with the ISO speed, in single precision.
 inline constexpr const char* kIsoSpeedKey = "isoSpeed";
 
-/// Electrons that a pixel of the most sensitive channel counts per lx s of light of `illuminant` on the
-/// sensor. Throws Error{internal} for a channel that counts no electrons.
+/// Electrons per pixel of the most sensitive channel for an exposure of 1 lx s from `illuminant`. Throws
+/// Error{internal} for a channel that does not count electrons.
 [[nodiscard]] double sensitivity_e_per_lx_s(std::span<const Channel> channels, double gathering_area_m2,
                                             const Curve& illuminant);
 
-/// The same of daylight D55, which speeds are stated for [ISO12232]; nothing where a channel counts no
-/// electrons.
+/// Sensitivity for daylight D55, to which speeds refer [ISO12232] [electrons per lx s]. Nothing if a channel
+/// does not count electrons.
 [[nodiscard]] std::optional<double> daylight_sensitivity(std::span<const Channel> channels,
                                                          double gathering_area_m2);
 
-/// Warns of the light beyond the table of D55 where channels count so much of it: a speed leaves it out.
+/// Warns if channels respond to a non-negligible fraction of daylight outside the table of D55, which a speed
+/// ignores.
 void check_daylight(std::span<const Channel> channels, const SourcePosition& where, Diagnostics& diagnostics);
 
-/// Electrons that saturate a pixel: fill its well or reach the highest code, whichever is first.
+/// Electrons that saturate a pixel: a full well or the highest code, whichever is less.
 [[nodiscard]] double saturation_electrons(const Readout& readout);
 
-/// Saturation-based ISO speed 78/H [ISO12232], with H [lx s] the least exposure that saturates a pixel of
-/// that sensitivity: fills its well or reaches the highest code, whichever is first. Noise, dark current and
-/// offsets between pixels are left out.
+/// Saturation-based ISO speed 78/H [ISO12232], where H [lx s] is the smallest exposure that saturates a pixel
+/// of this sensitivity. Noise, dark current and offsets between pixels are ignored.
 [[nodiscard]] double saturation_speed(const Readout& readout, double sensitivity_e_per_lx_s);
 
-/// The gain [electrons per digital number] with which the highest code, not the full well, makes a pixel of
-/// that sensitivity have this speed: K = 78 sensitivity/(speed codes).
+/// Gain [electrons per digital number] at which the highest code, and not the full well, gives this speed: K
+/// = 78 sensitivity/(speed codes).
 [[nodiscard]] double gain_of_speed(const Readout& readout, double speed, double sensitivity_e_per_lx_s);
 
 }  // namespace abbe

@@ -7,7 +7,7 @@
 namespace abbe {
 namespace {
 
-// A function of the values of a curve: exact at its knots and at every nanometre.
+// Applies a function to the values of a curve: exact at its knots and at every nanometre.
 template <typename Function>
 Curve of_each(const Curve& curve, Function function) {
   std::vector<Knot> knots;

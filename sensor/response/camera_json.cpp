@@ -11,7 +11,7 @@ namespace {
 
 constexpr const char* kUnit = "relative";
 
-// The member at the end of a path of keys; a missing one is reported.
+// Member at the end of a path of keys. Reports a missing key.
 const JsonValue* descend(const JsonValue& root, std::initializer_list<const char*> keys,
                          Diagnostics& diagnostics) {
   const JsonValue* value = &root;
@@ -36,7 +36,7 @@ std::vector<std::string> channel_names(const JsonValue& main, Diagnostics& diagn
 
 struct CameraSamples {
   std::vector<double> wavelengths_nm;
-  std::vector<std::vector<double>> values;  // one list a channel
+  std::vector<std::vector<double>> values;  // one list per channel
 };
 
 CameraSamples samples_of(const JsonValue& main, std::size_t channels, Diagnostics& diagnostics) {

@@ -9,12 +9,13 @@
 
 namespace abbe {
 
-/// A camera's spectral sensitivities, by the names of its channels, from the JSON of rawtoaces and physlight:
-/// `spectral_data` with `index` `main`, the channels' names, and `data` `main`, from wavelength [nm] to a
-/// value for each channel; the files mean responses to energy. Zero beyond the table. The header and other
-/// members are not looked at.
-/// Reports units other than "relative", wavelengths out of order or outside [300, 1100] nm, rows of another
-/// length, and values that are no numbers.
+/// Reads the spectral sensitivities of a camera, named by channel, from the JSON of rawtoaces and physlight.
+/// `spectral_data` contains the names of the channels in `index.main`. Its `data.main` maps wavelengths [nm]
+/// to one value per channel. The values are responses to energy and zero outside the table. Other members are
+/// ignored. Reports
+/// - units other than "relative";
+/// - wavelengths out of order or outside [300, 1100] nm;
+/// - rows of another length, and values that are not numbers.
 [[nodiscard]] std::optional<std::vector<NamedCurve>> read_camera_json(const std::filesystem::path& path,
                                                                       Diagnostics& diagnostics);
 

@@ -6,7 +6,7 @@
 #include "io/error.h"
 #include "io/table.h"
 #include "sensor/response/camera_json.h"
-#include "sensor/response/coverage.h"
+#include "sensor/response/table_range.h"
 #include "spectral/curve_use.h"
 #include "spectral/library.h"
 #include "spectral/sources.h"
@@ -24,21 +24,21 @@ bool is_json(const std::string& name) {
   return name.ends_with(".json");
 }
 
-// The columns of a camera's table, or the one that is named, by the names of their channels.
+// All columns of a camera's table, or the one in `name`, named by their channels.
 std::optional<std::vector<NamedCurve>> camera_curves(const std::string& name, const SourcePosition& where,
                                                      Diagnostics& diagnostics) {
   if (is_json(name)) return read_camera_json(name, diagnostics);
-  const std::optional<TableColumn> found = find_table("camera", name, where, diagnostics);
-  if (!found) return std::nullopt;
-  if (!found->column.empty()) {
+  const std::optional<TableColumn> location = find_table("camera", name, where, diagnostics);
+  if (!location) return std::nullopt;
+  if (!location->column.empty()) {
     std::optional<NamedCurve> curve = load_curve("camera", name, where, diagnostics);
     if (!curve) return std::nullopt;
-    curve->name = found->column;
+    curve->name = location->column;
     return std::vector{*std::move(curve)};
   }
   const bool shipped = user_table_end(name) == std::string::npos;
   const std::optional<Table> table =
-      read_table(found->path, shipped ? TableOrigin::shipped : TableOrigin::user, diagnostics);
+      read_table(location->path, shipped ? TableOrigin::shipped : TableOrigin::user, diagnostics);
   if (!table) return std::nullopt;
   std::vector<NamedCurve> curves;
   for (std::size_t column = 1; column < table->columns.size(); ++column) {
@@ -50,17 +50,18 @@ std::optional<std::vector<NamedCurve>> camera_curves(const std::string& name, co
     curves.push_back(*std::move(curve));
   }
   if (!curves.empty()) return curves;
-  diagnostics.error(table->where, "has no column of a channel", ErrorCode::input);
+  diagnostics.error(table->where, "has no channel column", ErrorCode::input);
   return std::nullopt;
 }
 
-// A response that is 0 beyond its table ends there; of one whose table does not say so nobody knows.
-bool tells_its_ends(const NamedCurve& curve, const std::string& column, const Channel& channel,
-                    const SourcePosition& where, Diagnostics& diagnostics) {
+// Checks that a table without an extrapolation rule covers the response. A table that declares 0 needs no
+// check.
+bool check_response_range(const NamedCurve& curve, const std::string& column, const Channel& channel,
+                          const SourcePosition& where, Diagnostics& diagnostics) {
   if (curve.outside != Outside::error) return true;
   NamedCurve named = curve;
   named.name = column;
-  return check_ends(named, Curve(1.0), {&channel, 1}, where, diagnostics);
+  return check_table_range(named, Curve(1.0), {&channel, 1}, where, diagnostics);
 }
 
 ResponseKind photometric_kind(Observer observer) {
@@ -111,7 +112,7 @@ Channel exposed(Channel channel, double ratio) {
 }
 
 std::vector<Channel> with_peak_efficiency(std::vector<Channel> channels, double peak) {
-  // A weight is straight between its knots, so that weight/lambda is greatest at one of them.
+  // A weight is linear between its knots, so weight/lambda is largest at a knot.
   double highest = 0;
   for (const Channel& channel : channels)
     for (const Knot& knot : channel.weight.knots())
@@ -125,12 +126,12 @@ std::vector<Channel> with_peak_efficiency(std::vector<Channel> channels, double 
   return channels;
 }
 
-void limit_angles(Channel& channel, double least_cosine) {
+void limit_angles(Channel& channel, double min_cosine) {
   if (!channel.angular) return;
   AngularResponse& angular = *channel.angular;
   angular.envelope = angular.filters.fixed;
   for (const InterferenceFilter& filter : angular.filters.shifting)
-    angular.envelope = product(angular.envelope, envelope(filter, least_cosine));
+    angular.envelope = product(angular.envelope, envelope(filter, min_cosine));
 }
 
 std::optional<std::vector<Channel>> load_camera(const std::string& name, const SourcePosition& where,
@@ -147,10 +148,10 @@ std::optional<std::vector<Channel>> load_camera(const std::string& name, const S
         !check_use(column, curve.unit, curve.curve, kQuantumResponseUse, where, diagnostics))
       return std::nullopt;
     if (!kind && !quantum && channels.empty())
-      if (auto doubt = unsaid_response(name, curve.unit))
+      if (auto doubt = unknown_response(name, curve.unit))
         diagnostics.error_if_strict(where, *std::move(doubt));
     channels.push_back(quantum ? quantum_channel(label, curve.curve) : energy_channel(label, curve.curve));
-    if (!tells_its_ends(curve, column, channels.back(), where, diagnostics)) return std::nullopt;
+    if (!check_response_range(curve, column, channels.back(), where, diagnostics)) return std::nullopt;
   }
   return channels;
 }

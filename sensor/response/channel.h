@@ -10,34 +10,35 @@
 #include "sensor/response/filter.h"
 #include "spectral/colorimetry.h"
 #include "spectral/curve.h"
-#include "spectral/packet.h"
+#include "spectral/sampled_spectrum.h"
 
 namespace abbe {
 
-/// What a response multiplies: the energy that arrives, the photons that arrive, or, of the colour-matching
-/// functions of the observer of 1931, the luminous exposure, and of that of 1964 what is like it.
+/// Quantity that a response multiplies: the incident energy, the incident photons, or the luminous exposure
+/// for the colour-matching functions of 1931. `photometric_1964` is the corresponding integral with those of
+/// 1964.
 enum class ResponseKind { energy, quantum, photometric, photometric_1964 };
 
-/// How the weight of a channel depends on the angle of incidence.
+/// Dependence of the weight of a channel on the angle of incidence.
 struct AngularResponse {
-  FilterStack filters;  ///< Of which `fixed` is all of the weight that does not depend on the angle.
-  Curve envelope;       ///< Nowhere less than the weight at any angle that occurs.
+  FilterStack filters;  ///< `fixed` is the part of the weight that does not depend on the angle.
+  Curve envelope;       ///< Upper bound of the weight over all angles that occur.
 };
 
-/// One channel of a sensor. Its film value for a spectral irradiance E over the sensor's exposure t is t
-/// times the integral of E(lambda) weight(lambda): J/m^2 weighted by the response for an energy channel,
-/// electrons per m^2 for a quantum channel, lx s for one of the observer of 1931.
+/// One channel of a sensor. Its film value for a spectral irradiance E over the exposure time t of the sensor
+/// is t * integral of E(lambda) weight(lambda). The unit is J/m^2 weighted by the response for an energy
+/// channel, electrons per m^2 for a quantum channel, and lx s for a channel of the 1931 observer.
 struct Channel {
   std::string name;
   ResponseKind kind = ResponseKind::energy;
-  Curve weight;               ///< For unpolarised light along the normal of its filters.
-  double exposure_ratio = 1;  ///< Of its own exposure time to the sensor's; the weight contains it.
-  std::optional<AngularResponse> angular = {};  ///< When some filter of it shifts with the angle.
-  /// When it tells polarised light from unpolarised light; what it measures is then times the weight.
+  Curve weight;               ///< Weight for unpolarised light along the normal of its filters.
+  double exposure_ratio = 1;  ///< Own exposure time over that of the sensor; included in the weight.
+  std::optional<AngularResponse> angular = {};  ///< Present if a filter shifts with the angle.
+  /// Present if the channel depends on polarisation; its result multiplies the weight.
   std::optional<Analyser> analyser = {};
 };
 
-/// The weight for light that arrives under an angle of this cosine.
+/// Weight for light whose angle of incidence has this cosine.
 [[nodiscard]] inline SampledSpectrum weight_at(const Channel& channel, const SampledSpectrum& wavelengths_nm,
                                                float cos_film) {
   if (!channel.angular) return channel.weight(wavelengths_nm);
@@ -48,8 +49,8 @@ struct Channel {
   return weight;
 }
 
-/// Nowhere less in magnitude than the weight at any angle that occurs: by it lights and wavelengths are
-/// drawn.
+/// Upper bound of the magnitude of the weight over all angles that occur, for sampling lights and
+/// wavelengths.
 [[nodiscard]] inline const Curve& envelope(const Channel& channel) {
   return channel.angular ? channel.angular->envelope : channel.weight;
 }
@@ -61,41 +62,42 @@ struct Channel {
 /// weight = response lambda/(hc).
 [[nodiscard]] Channel quantum_channel(std::string name, const Curve& response);
 
-/// The channel behind filters, reached by light from all sides.
+/// The channel behind filters that receive light at all angles.
 [[nodiscard]] Channel behind(Channel channel, const FilterStack& filters);
-/// The channel, which has no analyser yet, behind a polariser.
+/// The channel behind a polariser; it must not have an analyser yet.
 [[nodiscard]] Channel behind(Channel channel, const Polariser& polariser);
-/// The channel that counts `factor` times as much of the same light.
+/// The channel with its weight multiplied by `factor`.
 [[nodiscard]] Channel scaled(Channel channel, double factor);
-/// The channel with an exposure of its own, `ratio` times the sensor's.
+/// The channel with an exposure time of its own, `ratio` times that of the sensor.
 [[nodiscard]] Channel exposed(Channel channel, double ratio);
-/// The channels as counters of electrons, scaled by one factor so that the greatest quantum efficiency among
-/// them and over all wavelengths is `peak`. Responses to energy S become efficiencies proportional to
-/// S(lambda)/lambda, those to photons keep their shape. Throws Error{input} when none responds anywhere.
+/// Channels that count electrons, scaled by a common factor so that their largest quantum efficiency is
+/// `peak`. Responses to energy S become efficiencies proportional to S(lambda)/lambda; responses to photons
+/// keep their shape. Throws Error{input} if no channel responds at any wavelength.
 [[nodiscard]] std::vector<Channel> with_peak_efficiency(std::vector<Channel> channels, double peak);
-/// Tells the channel that the cosines of the angles of incidence are at least this.
-void limit_angles(Channel& channel, double least_cosine);
+/// Restricts the channel's envelope to angles of incidence whose cosine is at least `min_cosine`.
+void limit_angles(Channel& channel, double min_cosine);
 
-/// Whether the numbers of quantum efficiencies count, or only how they compare.
+/// Scale of quantum efficiencies: their values count, or only their ratios.
 enum class ResponseScale { absolute, relative };
 
-/// The channels of a measured camera or detector in `data/camera`, one per column (R, G, B or QE), or of a
-/// user's table or `.json` (see `read_camera_json`). Without a `kind`, colour cameras are energy responses
-/// ("to be multiplied by spectral power"), as they are tabulated, and columns named QE quantum efficiencies;
-/// others whose unit speaks of photons are warned of. Reports absolute quantum efficiencies in percent, or
-/// beyond `kQuantumResponseUse`, and a table that does not say what holds beyond its rows where a share of
-/// the response that is not negligible would lie there if it went on as it ends.
+/// Channels of a measured camera or detector: one per column of a table of `data/camera`, of a user's table
+/// or of a `.json` file (`read_camera_json`). Without `kind`, columns named QE are quantum efficiencies. All
+/// others are responses to energy ("to be multiplied by spectral power"); a unit that mentions photons then
+/// causes a warning. Reports
+/// - absolute quantum efficiencies in percent or outside `kQuantumResponseUse`;
+/// - a table without an extrapolation rule, if constant extrapolation puts a non-negligible part of the
+///   response outside it.
 [[nodiscard]] std::optional<std::vector<Channel>> load_camera(const std::string& name,
                                                               const SourcePosition& where,
                                                               Diagnostics& diagnostics,
                                                               std::optional<ResponseKind> kind = {},
                                                               ResponseScale scale = ResponseScale::absolute);
 
-/// The standard observer as a sensor: X, Y, Z with weight 683.002 times the colour-matching functions, so
-/// that of 1931 Y is in lx s.
+/// Standard observer as a sensor: X, Y, Z with weights of 683.002 times the colour-matching functions. Y of
+/// 1931 is in lx s.
 [[nodiscard]] std::vector<Channel> observer_channels(Observer observer);
-/// The observer whose three channels those are, perhaps behind filters; nothing for a sensor's own of the
-/// same names.
+/// Observer of three channels made by `observer_channels`, possibly behind filters. Nothing for other
+/// channels of the same names.
 [[nodiscard]] std::optional<Observer> standard_observer(std::span<const Channel> channels);
 
 }  // namespace abbe

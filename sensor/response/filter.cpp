@@ -6,20 +6,20 @@
 namespace abbe {
 namespace {
 
-// The largest value on the open interval (low, high): the curve is straight between its knots.
+// Largest value on the open interval (low, high), where the curve is linear between its knots.
 double largest_between(const Curve& curve, double low, double high) {
   const auto knots = curve.knots();
   const auto after = [](double nm, const Knot& knot) { return nm < knot.wavelength_nm; };
   auto knot = std::upper_bound(knots.begin(), knots.end(), low, after);
-  double largest = curve(low);  // to the right of a jump there
+  double largest = curve(low);  // value to the right of a jump at low
   for (; knot != knots.end() && knot->wavelength_nm < high; ++knot) largest = std::max(largest, knot->value);
   return std::max(largest, curve(std::nextafter(high, low)));
 }
 
 }  // namespace
 
-Curve envelope(const InterferenceFilter& filter, double least_cosine) {
-  const double shift = blue_shift(least_cosine, filter.effective_index);
+Curve envelope(const InterferenceFilter& filter, double min_cosine) {
+  const double shift = blue_shift(min_cosine, filter.effective_index);
   std::vector<double> edges;
   for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm) edges.push_back(nm);
   for (const Knot& knot : filter.transmittance.knots())

@@ -7,30 +7,30 @@
 
 namespace abbe {
 
-/// lambda(theta)/lambda_0 = sqrt(1 - sin^2 theta / n_eff^2): what an interference filter's spectrum is
-/// stretched by for light at an angle theta to its normal, in air. `effective_index` >= 1 lies between those
-/// of its layers [Smith2008, ch. 11].
+/// Scale of an interference filter's spectrum for light at an angle theta to its normal in air:
+/// lambda(theta)/lambda_0 = sqrt(1 - sin^2 theta / n_eff^2) [Smith2008, ch. 11]. `effective_index` >= 1 lies
+/// between the indices of its layers.
 template <typename S>
 [[nodiscard]] S blue_shift(S cos_theta, S effective_index) {
   const S sine2 = (1 - cos_theta) * (1 + cos_theta);
   return std::sqrt(1 - sine2 / (effective_index * effective_index));
 }
 
-/// A filter of thin layers, whose transmittance at an angle is that along the normal, moved to shorter
+/// An interference filter. At an angle, its transmittance is that along the normal, shifted to shorter
 /// wavelengths.
 struct InterferenceFilter {
   Curve transmittance;  ///< Along the normal.
   double effective_index;
 };
 
-/// Filters one behind the other: the transmittance of those that do not depend on the angle, and the others.
+/// A stack of filters: the transmittance of those that do not depend on the angle, and the others.
 struct FilterStack {
   Curve fixed = Curve(1.0);
   std::vector<InterferenceFilter> shifting = {};
 };
 
-/// The largest transmittance at any angle whose cosine is at least `least_cosine`, as steps of at most a
-/// nanometre: nowhere less, and zero exactly where no angle lets anything through.
-[[nodiscard]] Curve envelope(const InterferenceFilter& filter, double least_cosine);
+/// Upper bound of the transmittance over all angles whose cosine is at least `min_cosine`, piecewise constant
+/// in steps of at most a nanometre. It is zero exactly where all these transmittances are zero.
+[[nodiscard]] Curve envelope(const InterferenceFilter& filter, double min_cosine);
 
 }  // namespace abbe

@@ -15,14 +15,14 @@ Curve shifted(const InterferenceFilter& filter, double cos_film) {
   return Curve(std::move(knots));
 }
 
-// Transmittance of all of them at an angle of incidence.
+// Transmittance of all filters at an angle of incidence.
 Curve shifted(const std::vector<InterferenceFilter>& filters, double cos_film) {
   Curve all = shifted(filters.front(), cos_film);
   for (std::size_t i = 1; i < filters.size(); ++i) all = product(all, shifted(filters[i], cos_film));
   return all;
 }
 
-// Mean transmittance over the angles. Halves are added to halves, so that few knots are copied often.
+// Mean transmittance over the angles. Adds by recursive halving, so that few knots are copied often.
 Curve mean_transmittance(const std::vector<InterferenceFilter>& filters, std::span<const Incidence> angles) {
   if (angles.size() == 1) return scaled(shifted(filters, angles.front().cos_film), angles.front().fraction);
   const std::size_t half = angles.size() / 2;

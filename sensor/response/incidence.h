@@ -12,8 +12,8 @@ struct Incidence {
   double fraction;
 };
 
-/// The channel as a pixel responds to light that arrives under several angles: its weight is the mean over
-/// them, and depends on no angle any more. `angles` is not empty, and its fractions add up to 1.
+/// Channel of a pixel that receives light under several angles: its weight is the mean over them and no
+/// longer depends on the angle. `angles` must not be empty, and its fractions must add up to 1.
 [[nodiscard]] Channel averaged(Channel channel, std::span<const Incidence> angles);
 
 /// True if the weight of some channel depends on the angle of incidence.

@@ -9,16 +9,16 @@
 
 namespace abbe {
 
-/// Filters laid over single pixels: a pattern of channels that repeats over the film from its top left
-/// corner, as R G / G B. The film of a mosaic has one plane, `kRawPlane`, that holds at each pixel the value
-/// of the pixel's own channel, in that channel's unit: what the same scene's film without the mosaic expects
-/// in that channel's plane there.
+/// Filters on individual pixels: a pattern of channels that repeats from the top left corner of the film,
+/// such as R G / G B. The film of a mosaic has one plane, `kRawPlane`. Each pixel contains the value of its
+/// own channel, in that channel's unit. It has the same expectation as that channel's plane of a film without
+/// the mosaic.
 struct Mosaic {
   int width = 1;
   int height = 1;
-  std::vector<int> channel;  ///< Numbers among the sensor's channels, row by row.
+  std::vector<int> channel;  ///< Indices of the sensor's channels, row by row.
 
-  /// The channel of pixel (x, y), both not negative.
+  /// Channel of pixel (x, y), x and y >= 0.
   [[nodiscard]] int at(int x, int y) const {
     return channel[static_cast<std::size_t>(y % height) * static_cast<std::size_t>(width) +
                    static_cast<std::size_t>(x % width)];
@@ -26,12 +26,12 @@ struct Mosaic {
   bool operator==(const Mosaic&) const = default;
 };
 
-/// Name of the one plane of a mosaic's film.
+/// Name of the only plane of a mosaic's film.
 inline constexpr const char* kRawPlane = "raw";
 
-/// A pattern in words, as "R,G/G,B": rows from the top, the channels by their names.
+/// Text of a pattern, such as "R,G/G,B": rows from the top, channels by name.
 [[nodiscard]] std::string to_text(const Mosaic& mosaic, std::span<const std::string> names);
-/// The pattern of such words; nothing unless all rows have the same length and all names are known.
+/// Parses a pattern. Nothing unless all rows have the same length and all names are known.
 [[nodiscard]] std::optional<Mosaic> parse_mosaic(std::string_view text, std::span<const std::string> names);
 
 }  // namespace abbe

@@ -15,7 +15,7 @@ bool behind_polariser(const Channel& channel) {
   return channel.analyser && counts_light(channel) && channel.weight.integral() != 0;
 }
 
-// Whether two weights differ by a factor alone.
+// True if two weights are proportional.
 bool of_one_response(const Channel& a, const Channel& b) {
   constexpr double kRounding = 1e-6;
   const double factor = a.weight.integral() / b.weight.integral();

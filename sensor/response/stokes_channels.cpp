@@ -46,16 +46,16 @@ std::size_t count_intensities(std::span<const Channel> channels) {
 }
 
 std::vector<Channel> intensities(std::span<const Channel> channels) {
-  std::vector<Channel> counting;
-  std::copy_if(channels.begin(), channels.end(), std::back_inserter(counting), counts_light);
-  return counting;
+  std::vector<Channel> selected;
+  std::copy_if(channels.begin(), channels.end(), std::back_inserter(selected), counts_light);
+  return selected;
 }
 
 std::vector<std::string> intensities(std::span<const std::string> planes) {
-  std::vector<std::string> counting;
-  std::copy_if(planes.begin(), planes.end(), std::back_inserter(counting),
+  std::vector<std::string> selected;
+  std::copy_if(planes.begin(), planes.end(), std::back_inserter(selected),
                [](const std::string& name) { return stokes_plane(name).component == 0; });
-  return counting;
+  return selected;
 }
 
 bool any_analyser(std::span<const Channel> channels) {

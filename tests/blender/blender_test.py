@@ -265,7 +265,7 @@ class Kinds(Exported):
         self.assertEqual(shapes["shape1"]["emission"], {"illuminant": "D65", "radiance": 0.25})
         self.assertAlmostEqual(shapes["shape10"]["emission"]["luminance"], 2 * 176.80 * (0.2126 + 0.5 * 0.7874), delta=0.05)
         told = "\n".join(self.facts["kinds"]["notes"])
-        for part in ('view "Filmic"', "triangles of a smooth body as they are: it needs many (3 times)", 'material "wax": warning: Subsurface', "alpha is dropped",
+        for part in ('view "Filmic"', "triangles of a smooth body: use a fine mesh (3 times)", 'material "wax": warning: Subsurface', "alpha is dropped",
                      'material "fluid": warning: the colour of a clear surface', "Velvet BSDF", 'object "fog": warning: volumes', "points and lines", "elliptic",
                      'material "bottle": warning: Clearcoat of a Principled BSDF that transmits'):
             self.assertIn(part, told)
@@ -278,7 +278,7 @@ class Kinds(Exported):
 
         for name, roughness in (("clay", 0.5), ("chalk", 0.7767)):
             self.assertAlmostEqual(ratio(self.scene("kinds")["materials"][name]["oren_nayar"]["sigma_deg"]), roughness, delta=1e-6)
-        self.assertIn('material "chalk": warning: a roughness of a diffuse surface above 0.7767 is cut to that', self.facts["kinds"]["notes"])
+        self.assertIn('material "chalk": warning: a roughness of a diffuse surface above 0.7767 is clamped to that', self.facts["kinds"]["notes"])
 
 
 class Faults(Exported):

@@ -28,12 +28,12 @@ inline std::vector<Channel> camera(const std::string& name = "Nikon_D5100") {
   return loaded.value_or(std::vector<Channel>{});
 }
 
-/// The chart's patches in that light, as the Nikon D5100 sees them.
+/// Values of the chart's patches in a light for the Nikon D5100.
 inline PatchColors nikon(const std::string& light) {
   return integrate(chart(), camera(), illuminant(light));
 }
 
-/// A correction with all six terms, planted and made configurations of.
+/// A root polynomial with all six terms, to be planted and exported.
 inline const ColorCorrection kRootPolynomial{CorrectionModel::root_polynomial_2,
                                              {{0.5, 0.2, 0.05},
                                               {0.1, 0.6, -0.1},
@@ -47,7 +47,7 @@ inline void expect_near(const std::array<double, 3>& a, const std::array<double,
     EXPECT_NEAR(a[k], b[k], margin) << testing::PrintToString(a) << " and " << testing::PrintToString(b);
 }
 
-/// The Error that `f` throws must have this code and contain this text.
+/// Expects `f` to throw an Error with this code and with this text in its message.
 template <typename F>
 void expect_error(const F& f, ErrorCode code, const std::string& text) {
   try {

@@ -19,7 +19,7 @@ CalibrationSetup setup(const std::string& response, int bits = 12) {
   return {"Nikon_D5100", "D65", response, bits, test::camera(), test::illuminant("D65"), test::chart()};
 }
 
-// For tests that ask nothing of how a fit is judged, which takes most of the time.
+// Options with a minimal validation of the fit, which takes most of the time.
 CharacterisationOptions hardly_judged() {
   CharacterisationOptions options;
   options.folds = 2;
@@ -40,7 +40,7 @@ TEST(CameraCalibration, RecoversCurveAndColour) {
   }
 }
 
-// Columns of a camera's table are known by their names, whatever their order and spelling.
+// The columns of a camera's table are identified by name, in any order and spelling.
 TEST(CameraCalibration, ColumnsOfACameraAreMappedByName) {
   const std::filesystem::path path =
       std::filesystem::path(testing::TempDir()) / ("abbe_camera_" + std::to_string(::getpid()) + ".csv");
@@ -102,7 +102,8 @@ TEST(CameraCalibration, ProfileHasTheNamesOfTheChannels) {
             (std::array<std::string, 3>{"X", "Y", "Z"}));
 }
 
-// As it was measured, and brighter than the diffuser, as what fluoresces is.
+// One patch is brighter than the diffuser, as a fluorescent one may be; the profile records its measured
+// value.
 TEST(CameraCalibration, ProfileTellsTheBrightestPatch) {
   MeasuredCamera camera{"mine", "D65", test::nikon("D65"), {1 / 2000.0, 1 / 3500.0, 1 / 3000.0}, {}};
   camera.colors.raw[4] = {0.5, 1.2, 0.9};

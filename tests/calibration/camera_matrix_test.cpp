@@ -43,7 +43,7 @@ class CameraMatrixTest : public testing::Test {
       std::filesystem::path(testing::TempDir()) / ("abbe_camera_matrix_" + std::to_string(::getpid()));
 };
 
-// A neutral of a film has the values of the perfect diffuser, whatever their unit: Y is that of G.
+// A neutral of a film has the values of the perfect diffuser in any unit, and its Y is the value of G.
 TEST_F(CameraMatrixTest, TakesNeutralsToWhiteInUnitsOfTheSecondChannel) {
   for (const bool is_curved : {false, true}) {
     const CameraProfile camera = profile("D65", 8, is_curved);
@@ -88,7 +88,7 @@ TEST_F(CameraMatrixTest, RefusesARootPolynomial) {
   polynomial.correction = test::kRootPolynomial;
   const ViewOptions view = view_of({polynomial});
   test::expect_error([&] { (void)camera_matrix(view, kRgb, "D65", kD65); }, ErrorCode::usage,
-                     "\"Camera D65\" is no matrix");
+                     "\"Camera D65\" is not a matrix");
 }
 
 }  // namespace

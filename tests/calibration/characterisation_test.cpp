@@ -13,7 +13,7 @@
 namespace abbe {
 namespace {
 
-// The numbers of the row of the documented table that begins with `camera`.
+// Numbers in the row of the documented table that begins with `camera`.
 std::vector<double> documented(const std::string& camera) {
   std::ifstream file(data_directory().parent_path() / "docs" / "calibration.md");
   for (std::string line; std::getline(file, line);) {
@@ -24,7 +24,7 @@ std::vector<double> documented(const std::string& camera) {
   return {};
 }
 
-// What it takes to tell of one camera.
+// Quality of one camera, computed step by step.
 CameraQuality quality_of(const std::string& name) {
   const PatchColors colors = integrate(test::chart(), test::camera(name), test::illuminant("D65"));
   const CorrectionFit matrix = fit_correction(colors);
@@ -39,7 +39,7 @@ CameraQuality quality_of(const std::string& name) {
           sensitivity_index(test::camera(name))};
 }
 
-// By day of two.
+// Qualities of all cameras in nightly runs, of two cameras otherwise.
 std::vector<CameraQuality> qualities() {
   if (!test::nightly()) return {quality_of("Nikon_D5100"), quality_of("ARRI_D21")};
   std::vector<CameraQuality> all = all_camera_qualities(test::chart(), test::illuminant("D65"));

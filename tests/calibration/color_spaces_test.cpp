@@ -20,7 +20,7 @@ TEST(ColorSpaces, EveryAdaptationTakesWhiteToWhite) {
   }
 }
 
-// From the published matrix [Li2017], worked out outside this program.
+// Expected values computed independently from the published matrix [Li2017].
 TEST(ColorSpaces, Cat16FromAToD65) {
   const Matrix3 expected(0.9506814642, -0.1874060997, 0.2629224878, -0.0256698866, 1.0323135659,
                          -0.0115667695, -0.0027424281, 0.0910143911, 2.8135491680);

@@ -95,7 +95,7 @@ TEST(CorrectionFit, EachObjectiveIsBestInItsOwnMeasure) {
   EXPECT_LT(squares(m), squares(linear_part(by_2000.correction)));
 }
 
-// Where the two differences disagree about what is better.
+// Cases in which CIE 1976 and CIEDE2000 prefer different corrections.
 TEST(CorrectionFit, IsJudgedByItsOwnObjective) {
   CorrectionOptions options;
   options.objective = Objective::delta_e_76;
@@ -134,10 +134,9 @@ TEST(CorrectionFit, RootPolynomialKeepsWhiteAndCommutesWithExposure) {
 }
 
 TEST(CorrectionFit, RefusesDegreeThreeOnTwentyFourPatchesForAGoodReason) {
-  test::expect_error(
-      [] { require_enough_patches(CorrectionModel::root_polynomial_3, 24); }, ErrorCode::usage,
-      "13 terms on 24 patches would follow the patches and not the camera: patches left out of "
-      "the fit are shown worse than by a matrix (allowed from 52 patches on)");
+  test::expect_error([] { require_enough_patches(CorrectionModel::root_polynomial_3, 24); }, ErrorCode::usage,
+                     "13 terms on 24 patches would follow the patches and not the camera: a matrix would "
+                     "predict other patches better (allowed from 52 patches on)");
   EXPECT_NO_THROW(require_enough_patches(CorrectionModel::root_polynomial_3, 52));
   EXPECT_NO_THROW(require_enough_patches(CorrectionModel::root_polynomial_2, 24));
   const PatchColors colors = nikon("D65");
@@ -148,7 +147,7 @@ TEST(CorrectionFit, RefusesDegreeThreeOnTwentyFourPatchesForAGoodReason) {
   EXPECT_GT(cross_validate(colors, cubic, 24).mean, cross_validate(colors, {}, 24).mean);
 }
 
-// Adjoining bands: without one of the greys their fit takes more than 300 steps.
+// Adjacent bands: without one of the greys, their fit needs more than 300 iterations.
 TEST(CorrectionFit, ReachesItsToleranceOnIdealFilters) {
   PatchColors colors = integrate(
       test::chart(),
@@ -165,7 +164,7 @@ TEST(CorrectionFit, SaysWhenItFails) {
   once.max_iterations = 1;
   test::expect_error(
       [&] { static_cast<void>(fit_correction(colors, once)); }, ErrorCode::input,
-      "colour correction: no correction can be found for these 24 patches: their values do not go with");
+      "colour correction: no correction can be found for these 24 patches: their values do not match");
   for (Raw& raw : colors.raw) raw[1] = raw[0];
   test::expect_error([&] { static_cast<void>(least_squares_matrix(colors)); }, ErrorCode::input,
                      "these 24 patches do not determine the correction: they show 2 independent colours "
@@ -174,7 +173,7 @@ TEST(CorrectionFit, SaysWhenItFails) {
                      "they show 1 independent colours (needed 2)");
 }
 
-// What one filter gives at exposures of 0.01, 0.1 and 1 differs, once balanced, in last digits alone.
+// One filter at exposures of 0.01, 0.1 and 1: the balanced values differ in their last digits only.
 TEST(CorrectionFit, RoundingIsNoColour) {
   std::vector<Channel> bracket;
   for (const double ratio : {0.01, 0.1, 1.0})
@@ -187,12 +186,12 @@ TEST(CorrectionFit, RoundingIsNoColour) {
                      "they show 1 independent colours (needed 3)");
 }
 
-// Channels that differ by a share of 1e-4, about that of bands of 10 nm which lie 1 nm apart.
+// Channels that differ by a fraction of 1e-4, about as much as bands of 10 nm at a distance of 1 nm.
 TEST(CorrectionFit, NearlyGreyChannelsHaveColours) {
   PatchColors colors = nikon("D65");
   const Matrix3 planted(0.6, 0.25, 0.1, 0.2, 0.95, -0.15, 0.05, -0.2, 1.2);
   colors.white = multiply(planted, {1, 1, 1});
-  constexpr double kShare = 1e-4;  // of the colour that is left
+  constexpr double kShare = 1e-4;  // fraction of the colour that remains
   for (std::size_t i = 0; i < colors.raw.size(); ++i) {
     colors.xyz[i] = multiply(planted, colors.raw[i]);
     for (const std::size_t k : {0U, 2U})

@@ -21,7 +21,7 @@ Jet differentiated(const Lab& first, const Lab& second) {
   return delta_e_2000(a, b);
 }
 
-// The 34 published pairs, which visit every branch of the formula [Sharma2005].
+// The 34 published pairs, which reach every branch of the formula [Sharma2005].
 TEST(DeltaE2000, SharmasPairsAreThePublishedOnes) {
   const ReferenceTable table("ciede2000_sharma2005");
   ASSERT_EQ(table.rows(), 34U);

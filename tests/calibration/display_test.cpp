@@ -70,9 +70,9 @@ TEST(Display, AgreesWithDoublePrecision) {
     too_bright += mapped.too_bright ? 1U : 0U;
     EXPECT_EQ(picture.outside.channels.at(0).values[i], mapped.outside ? 1 : 0);
   }
-  EXPECT_NEAR(picture.outside_share, static_cast<double>(outside) / static_cast<double>(pixels.size()),
+  EXPECT_NEAR(picture.outside_fraction, static_cast<double>(outside) / static_cast<double>(pixels.size()),
               1e-12);
-  EXPECT_NEAR(picture.clipped_share, static_cast<double>(too_bright) / static_cast<double>(pixels.size()),
+  EXPECT_NEAR(picture.clipped_fraction, static_cast<double>(too_bright) / static_cast<double>(pixels.size()),
               1e-3);
   EXPECT_GT(outside, 100U);
   EXPECT_GT(too_bright, 100U);
@@ -125,7 +125,7 @@ TEST(Display, ShowsTheChartAsWellAsTheFitSays) {
     pixels.push_back({raw[0], raw[1], raw[2]});
   }
   const DisplayPicture picture = display(film_of({"R", "G", "B"}, pixels), 1.0);
-  EXPECT_EQ(picture.clipped_share, 0);
+  EXPECT_EQ(picture.clipped_fraction, 0);
   for (std::size_t i = 0; i < pixels.size(); ++i) {
     std::array<double, 3> linear = pixel(picture, i);
     for (double& v : linear) v = srgb_linear(v);
@@ -141,7 +141,7 @@ TEST(Display, OneChannelIsGrey) {
   ASSERT_EQ(picture.image.channels.size(), 1U);
   EXPECT_NEAR(picture.image.channels[0].values[0], srgb_code(0.25), 2e-6);
   EXPECT_NEAR(picture.image.channels[0].values[2], 1, 2e-6);
-  EXPECT_EQ(picture.clipped_share, 0);
+  EXPECT_EQ(picture.clipped_fraction, 0);
 }
 
 TEST(Display, ScalesTheNinetyNinthPercentileToOne) {
@@ -158,7 +158,7 @@ TEST(Display, ScalesTheNinetyNinthPercentileToOne) {
   EXPECT_NEAR(display.automatic_scale(film_of({"X", "Y", "Z"}, spark)), 0.25, 1e-7);
 }
 
-// A colour that Rec.709 holds and AP1 holds as well, but with another brightest primary.
+// A colour inside both Rec.709 and AP1, but with another brightest primary in each.
 TEST(Display, TheAutomaticScaleIsThatOfEveryView) {
   const Image film = film_of({"X", "Y", "Z"}, {{0.6, 0.4, 0.1}, {0.3, 0.3, 0.3}});
   const DisplayTransform plain({"X", "Y", "Z"}, Matrix3());
@@ -179,7 +179,7 @@ TEST(Display, WhatAFilmHasNotIsNeitherExposedForNorCounted) {
   film.metadata[kAreasKey] = "3,0,5,1=0:8 900,0,901,1=0:8";
   EXPECT_EQ(recorded_pixels(film), (std::vector<std::size_t>{3, 4, 900}));
   EXPECT_NEAR(display.automatic_scale(film), 0.25, 1e-7);
-  EXPECT_NEAR(display(film, 1).clipped_share, 1, 1e-12);
+  EXPECT_NEAR(display(film, 1).clipped_fraction, 1, 1e-12);
 }
 
 TEST(Display, SaturatedColoursAreExposedSoThatTheyFit) {
@@ -187,7 +187,7 @@ TEST(Display, SaturatedColoursAreExposedSoThatTheyFit) {
   for (const std::array<double, 3>& rgb : {std::array{0.0, 0.0, 1.0}, {0.3, 1.0, -0.2}, {1.0, -0.1, 0.0}}) {
     const std::vector<std::array<double, 3>> pixels(100, multiply(rgb_to_xyz(kRec709), rgb));
     const DisplayPicture picture = display(film_of({"X", "Y", "Z"}, pixels));
-    EXPECT_EQ(picture.clipped_share, 0);
+    EXPECT_EQ(picture.clipped_fraction, 0);
     const auto code = pixel(picture, 0);
     EXPECT_NEAR(*std::max_element(code.begin(), code.end()), 1, 1e-5);
   }
@@ -198,7 +198,7 @@ TEST(Display, NotANumberIsBlackAndCounted) {
   const DisplayTransform display({"X", "Y", "Z"}, Matrix3());
   const DisplayPicture picture = display(film_of({"X", "Y", "Z"}, {{nan, nan, nan}, {0.1, 0.1, 0.1}}), 1.0);
   EXPECT_EQ(pixel(picture, 0), (std::array<double, 3>{0, 0, 0}));
-  EXPECT_EQ(picture.clipped_share, 0.5);
+  EXPECT_EQ(picture.clipped_fraction, 0.5);
 }
 
 TEST(Display, OwnConfigurationDoesNotMindTheUsersOne) {
@@ -224,7 +224,7 @@ TEST(Display, ShowsThroughTheViewAskedFor) {
   EXPECT_NEAR(code({"", kRec1886Display, kPlainView}), std::pow(0.18, 1 / 2.4), 2e-6);
   EXPECT_NEAR(code({"", kP3Display, ""}), std::pow(0.18, 1 / 2.6), 2e-6);
   EXPECT_NEAR(std::pow(code({"", kRec1886Display, kAcesView}), 2.4), 0.104, 1e-3);
-  // A view that maps tones is given what is brighter than white.
+  // A tone-mapping view receives values brighter than white.
   const Image bright = film_of({"X", "Y", "Z"}, {unit_xyz(kD65)});
   const DisplayTransform aces({"X", "Y", "Z"}, Matrix3(), {}, {"", "", kAcesView});
   EXPECT_GT(pixel(aces(bright, 4.0), 0)[1], pixel(aces(bright, 1.0), 0)[1] + 0.05);
@@ -261,8 +261,8 @@ TEST(Display, P3ShowsColoursThatSrgbCannot) {
   const Image film = film_of({"X", "Y", "Z"}, {green});
   const DisplayTransform p3({"X", "Y", "Z"}, Matrix3(), {}, {"", kP3Display, ""});
   const DisplayTransform srgb({"X", "Y", "Z"}, Matrix3());
-  EXPECT_EQ(p3(film, 1.0).outside_share, 0);
-  EXPECT_EQ(srgb(film, 1.0).outside_share, 1);
+  EXPECT_EQ(p3(film, 1.0).outside_fraction, 0);
+  EXPECT_EQ(srgb(film, 1.0).outside_fraction, 1);
   EXPECT_NEAR(pixel(p3(film, 1.0), 0)[1], 1, 1e-5);
 }
 
@@ -290,7 +290,7 @@ TEST(Display, UsesAUsersConfigurationThatKnowsAces) {
   std::filesystem::remove_all(folder);
 }
 
-// Sodium light, all but one colour: what channels differ by in it is no rounding.
+// Nearly monochromatic sodium light: the small differences between channels exceed rounding.
 TEST(Display, ShowsTheLightOfALine) {
   const Curve line({{589, 0}, {589, 1}, {590, 1}, {590, 0}});
   const DisplayTransform display = make_display(test::camera(), line);
@@ -307,10 +307,9 @@ TEST(Display, RefusesWhatItCannotShow) {
   for (const double from_nm : {500.0, 790.0}) {  // all alike, the second time in the infrared
     std::vector<Channel> blind;
     for (const char* name : {"a", "b", "c"}) blind.push_back(energy_channel(name, band(from_nm, 800)));
-    test::expect_error(
-        [&] { static_cast<void>(make_display(blind, light)); }, ErrorCode::usage,
-        "display: in its light channels a, b, c do not tell colours apart between 360 and 830 nm, so that no "
-        "colour picture can be made of them: ");
+    test::expect_error([&] { static_cast<void>(make_display(blind, light)); }, ErrorCode::usage,
+                       "display: in its light, channels a, b, c do not distinguish colours between 360 and "
+                       "830 nm, so no colour picture can be made of them: ");
   }
   const DisplayTransform display({"R", "G", "B"}, Matrix3());
   test::expect_error(

@@ -30,7 +30,7 @@ TEST(DngProfile, TakesWhiteToWhiteBothWays) {
   EXPECT_EQ(light->code, 17);
   EXPECT_NEAR(light->kelvin, 2855.63, 0.01);
   expect_near(multiply(light->forward, {1, 1, 1}), dng_white(), 1e-12);
-  // The colour matrix takes the light's white to the camera's, of which the greatest value is 1.
+  // The colour matrix maps the light's white to the camera's, whose largest value is 1.
   const Raw camera_white = white_values(made.profile);
   const double greatest = std::max({camera_white[0], camera_white[1], camera_white[2]});
   const auto found = multiply(light->color, made.colors.white);
@@ -75,7 +75,7 @@ TEST(ExifLight, NumbersStandardLightsAndKindsOfFluorescentLamps) {
     EXPECT_EQ(exif_light_source(chromaticity(test::illuminant(name))), number) << name;
 }
 
-// However the data folder calls them.
+// Names and aliases of lights in the data directory.
 TEST(ExifLight, KnowsLightsByTheirOtherNames) {
   for (const auto& [name, number] : {std::pair{"F11", 14},
                                      {"F1", 12},
@@ -88,7 +88,7 @@ TEST(ExifLight, KnowsLightsByTheirOtherNames) {
     EXPECT_EQ(exif_light_source(std::string(name)), number) << name;
 }
 
-// Whose light is near the temperature of day white fluorescent lamps, 13.
+// The table's light has nearly the temperature of day white fluorescent light, number 13.
 TEST(ExifLight, TakesNoTableOfAUserForAStandardLight) {
   const std::filesystem::path before = std::filesystem::current_path();
   const auto folder =

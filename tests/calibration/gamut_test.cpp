@@ -28,14 +28,15 @@ TEST(Gamut, LeavesWhatFits) {
   }
 }
 
-// What tells a colour from the grey of its luminance.
+// Offset of a colour from the grey of its luminance, in X and Z.
 std::array<double, 2> from_white(const Rgb& rgb) {
   const XYZ xyz = multiply(rgb_to_xyz(kRec709), rgb);
   const XYZ white = unit_xyz(kD65);
   return {xyz[0] - xyz[1] * white[0], xyz[2] - xyz[1] * white[2]};
 }
 
-// Luminance and the direction from white in the chromaticity diagram stay, and the result is on the border.
+// Luminance and the direction from white in the chromaticity diagram are preserved, and the result is on the
+// border of the gamut.
 TEST(Gamut, DesaturatesAtEqualLuminanceAndHue) {
   const Gamut gamut(kRec709);
   std::mt19937 random(3);
@@ -65,7 +66,7 @@ TEST(Gamut, DimsWhatIsTooBrightAtItsChromaticity) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(mapped.rgb[k], Rgb({0.25, 1, 0.5})[k], 1e-15);
   EXPECT_TRUE(mapped.too_bright);
   EXPECT_FALSE(mapped.outside);
-  // Desaturating alone makes this one fit.
+  // Desaturation alone brings this colour into the gamut.
   const MappedColor spectral = map_into(gamut, {-0.5, 1.05, -0.1});
   EXPECT_TRUE(spectral.outside);
   EXPECT_FALSE(spectral.too_bright);

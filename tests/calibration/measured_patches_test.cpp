@@ -30,7 +30,7 @@ double mean_difference(const ChartTargets& a, const ChartTargets& b) {
   return sum / static_cast<double>(a.xyz.size());
 }
 
-// Differences between editions that others have published.
+// Published differences between editions.
 TEST(ChartTargets, EditionsDifferAsPublished) {
   const ChartTargets babel = colors_of("colorchecker24_babelcolor_average_xyY");
   const ChartTargets before = colors_of("colorchecker24_before_nov2014");
@@ -57,7 +57,7 @@ class Measured : public testing::Test {
   Diagnostics diagnostics_;
 };
 
-// A camera whose values are a known matrix away from the chart's XYZ, times gains.
+// A camera whose values are the chart's XYZ times a known matrix and gains.
 TEST_F(Measured, RecoversTheMatrixOfAMeasuredCamera) {
   const ChartTargets chart = colors_of("colorchecker24_after_nov2014");
   const Matrix3 planted(0.6, 0.25, 0.1142, 0.2, 0.95, -0.15, 0.05, -0.2, 0.9751);
@@ -95,14 +95,14 @@ TEST_F(Measured, BalancesOnNeutralPatchesAlone) {
   }
 }
 
-// A black one is as neutral as any, and tells nothing of white.
+// A black patch is neutral but carries no information about white.
 TEST_F(Measured, BalancesWithoutTheBlackPatches) {
   const XYZ white{0.9, 1, 0.8};
   ChartTargets chart{{"black", "grey"}, {{0, 0, 0}, {0.45, 0.5, 0.4}}, white};
   MeasuredPatches measured{{"black", "grey"}, {{0.01, 0.01, 0.01}, {0.1, 0.5, 0.25}}};
   for (std::size_t k = 0; k < 3; ++k)
     EXPECT_NEAR(balance(chart, measured).gains[k], Raw({5, 1, 2})[k], 1e-12);
-  // With colours that determine a matrix: of a camera whose values are X, Y and Z.
+  // With colours that determine a matrix, for a camera whose values are X, Y and Z.
   for (const XYZ& xyz : {XYZ{0.4, 0.2, 0.1}, XYZ{0.2, 0.4, 0.1}, XYZ{0.2, 0.1, 0.5}}) {
     chart.names.push_back(std::to_string(chart.names.size()));
     chart.xyz.push_back(xyz);
@@ -137,7 +137,7 @@ TEST_F(Measured, ChartsOfNoColoursAreRefusedAtTheirRows) {
       << diagnostics_.text();
 }
 
-// An L of 150 is a Y of (166/116)^3.
+// L = 150 corresponds to Y = (166/116)^3.
 TEST_F(Measured, ChartsInPercentAreRefusedAtTheirRows) {
   const auto complaint = [&](const std::string& rows) {
     std::ofstream(path_) << "# unit: 1\n# white_xy: 0.3, 0.3\n" << rows;
@@ -167,7 +167,8 @@ TEST_F(Measured, PatchesOfOnePixelTellNoNoise) {
     return patches.value_or(MeasuredPatches{}).deviations;
   };
   const std::string warning =
-      "csv:4:1: warning: patch \"grey\" has no B_deviation, as one pixel has none: all patches count alike";
+      "csv:4:1: warning: patch \"grey\" has no B_deviation, as one pixel gives none: all patches get equal "
+      "weights";
   for (const char* unknown : {"", "0", "0.0"}) {
     EXPECT_TRUE(with_blue(unknown).empty()) << unknown;
     EXPECT_EQ(diagnostics_.all().size(), 1U);
@@ -180,7 +181,7 @@ TEST_F(Measured, PatchesOfOnePixelTellNoNoise) {
   EXPECT_TRUE(diagnostics_.all().empty()) << diagnostics_.text();
 }
 
-// Of a table whose second patch has these deviations, pixels and saturated shares.
+// The second patch of the table has the given deviations, pixels and saturated fractions.
 TEST_F(Measured, PatchesThatAreLeftOutMayTellNoNoise) {
   const auto with_second = [&](const std::string& cells) {
     diagnostics_ = {};
@@ -237,22 +238,21 @@ TEST_F(Measured, NamesEachPatchOnce) {
 TEST(ChartTargets, ReflectancesCannotBeMadeFromColours) {
   Diagnostics diagnostics;
   EXPECT_FALSE(load_chart("colorchecker24_after_nov2014", {}, diagnostics));
-  EXPECT_NE(diagnostics.text().find("states colours and not reflectances"), std::string::npos);
+  EXPECT_NE(diagnostics.text().find("contains colours, but camera values"), std::string::npos);
 }
 
-// Hot pixels are saturated whatever the light is.
+// Hot pixels are saturated in any light.
 TEST_F(Measured, PatchesOfFewDefectivePixelsCount) {
   const std::string columns = "patch,R,G,B,R_pixels,G_pixels,B_pixels,R_saturated,G_saturated,B_saturated\n";
   const auto measured = read(columns + "sound,1,1,1,200,400,200,2,4,0\nbright,1,1,1,200,400,200,0,5,0\n");
   ASSERT_TRUE(measured) << diagnostics_.text();
   EXPECT_EQ(measured->saturated, (std::set<std::string>{"bright"}));
-  EXPECT_NE(
-      diagnostics_.text().find("expose less, or show it on more pixels where defective ones exceed 1 %"),
-      std::string::npos)
+  EXPECT_NE(diagnostics_.text().find("expose less, or show it on more pixels if defective ones exceed 1 %"),
+            std::string::npos)
       << diagnostics_.text();
 }
 
-// A table of another program does not count saturated pixels, but its deviations show them.
+// The table of another program has no columns of saturated pixels, but its deviations reveal them.
 TEST_F(Measured, PatchesWithoutNoiseAtTheTopAreClipped) {
   const std::string columns = "patch,R,G,B,R_deviation,G_deviation,B_deviation,R_pixels,G_pixels,B_pixels\n";
   const auto clipped = [&](const std::string& rows) {
@@ -267,7 +267,7 @@ TEST_F(Measured, PatchesWithoutNoiseAtTheTopAreClipped) {
   EXPECT_NE(
       diagnostics_.text().find(
           "csv:4:1: warning: patch \"b\" has the highest value of G in all its pixels, without the noise "
-          "of others: it is taken for clipped and left out"),
+          "of others: it counts as clipped and is excluded"),
       std::string::npos)
       << diagnostics_.text();
   EXPECT_TRUE(clipped(noisy + "b,3,2,2,.1,0,.1,50,9,50\n").empty()) << "few pixels are even by chance";

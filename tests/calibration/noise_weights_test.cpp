@@ -27,7 +27,8 @@ TEST(NoiseWeights, AreOneWithoutNoiseAndFallWithIt) {
 }
 
 TEST(NoiseWeights, LetAFitForgetPatchesThatAreNothingButNoise) {
-  // Four patches are ruined; a fit that knows how noisy they are shows all as a fit to clean values does.
+  // Four patches are ruined. A fit that knows their noise predicts all patches as well as a fit to clean
+  // values.
   const PatchColors clean = integrated();
   std::mt19937_64 random(7);
   std::normal_distribution<double> noise(0, 0.2);
@@ -95,7 +96,7 @@ TEST(Calibration, ChoosesTheModelThatShowsUnseenPatchesBest) {
   EXPECT_LT(real.candidates[0].unseen_mean, real.candidates[1].unseen_mean);
   EXPECT_EQ(real.correction.correction.model, CorrectionModel::root_polynomial_2);
   EXPECT_NEAR(real.unseen.mean, real.candidates[0].unseen_mean, 1e-12);
-  // An observer needs no more than a matrix.
+  // For an observer, a matrix is exact.
   setup.channels = observer_channels(Observer::cie1931);
   setup.bits = 0;
   EXPECT_EQ(calibrate_camera(setup, options).correction.correction.model, CorrectionModel::linear);

@@ -59,7 +59,7 @@ std::vector<Rgb> codes() {
   return all;
 }
 
-// The configuration of these cameras, in a folder that goes with it.
+// The configuration of these cameras in a temporary folder.
 class WrittenFolder {
  public:
   explicit WrittenFolder(std::span<const CameraProfile> profiles)
@@ -80,7 +80,7 @@ class WrittenFolder {
   OCIO::ConstConfigRcPtr config_;
 };
 
-// Of one camera with a matrix, which is soon written.
+// Configuration of one camera with a matrix, which is written quickly.
 class OcioFolder : public testing::Test {
  protected:
   static std::filesystem::path written_folder_of(const CameraProfile& linear) {
@@ -116,13 +116,13 @@ TEST_F(OcioFolder, CameraAgreesWithDoublePrecisionAndBack) {
   const auto back = config_->getProcessor("Linear XYZ-D65", "Camera D65");
   for (const Rgb& code : codes()) {
     expect_near(run(forward, code), linear_xyz(profile(), code), 1e-5);
-    // Near black a power's inverse is too steep for single precision.
+    // Near black, the inverse of a power is too steep for single precision.
     if (std::min({code[0], code[1], code[2]}) > 0.02) expect_near(run(back, run(forward, code)), code, 1e-4);
   }
 }
 
 TEST_F(OcioFolder, TellsTheScaleOfItsInput) {
-  // Linear values of the diffuser are where a profile of a matrix that keeps white has its white.
+  // A profile with a matrix that preserves white maps the linear values of the diffuser to white.
   CameraProfile linear =
       profile("D50", linear_correction(Matrix3(0.6, 0.26422, 0.1, 0.2, 0.95, -0.15, 0.05, -0.2, 0.97521)));
   linear.linearisation = {};
@@ -185,7 +185,7 @@ TEST_F(OcioFolder, DisplaysEncodeAsTheirStandardsSay) {
   expect_near(shown(kP3Display, kP3D65), power(2.6), 2e-6);
 }
 
-// Middle grey of ACES 1.0 is a tenth of the white of a dark cinema, less its black, and brightened for dim
+// The mid-grey of ACES 1.0 is a tenth of the white of a dark cinema minus its black, brightened for dim
 // surroundings by the power 0.9811 [ACES-CTL].
 TEST_F(OcioFolder, AcesViewPutsMiddleGreyWhereAcesDoes) {
   const auto aces =
@@ -207,8 +207,8 @@ TEST_F(OcioFolder, ScenesSpacesShareOneWhite) {
               {1.055 * std::pow(0.18, 1 / 2.4) - 0.055, 1.055 * std::pow(0.5, 1 / 2.4) - 0.055, 1}, 2e-6);
 }
 
-// The largest CIEDE2000 of a cube over random linear values from 0.2 % of where it ends on, as even over the
-// cube's steps as the colours of a picture are.
+// Largest CIEDE2000 of a cube over random linear values from 0.2 % of its end on. The values are uniform over
+// the steps of the cube, as the colours of a picture are.
 double largest_loss(const CameraProfile& camera, const OCIO::ConstProcessorRcPtr& from_linear, double end) {
   const auto processor = from_linear->getOptimizedCPUProcessor(OCIO::OPTIMIZATION_LOSSLESS);
   const XYZ white = unit_xyz(kD65);
@@ -257,14 +257,15 @@ TEST_F(OcioFolder, PassesOpenColorIosOwnCheck) {
   expect_checked(*folder_);
 }
 
-// One test, for the cube of a root polynomial takes long to write, and to check, which is for the night.
+// A single test, because writing the cube of a root polynomial takes long. Checking it takes longer and runs
+// nightly.
 TEST(OcioFolderOfACube, IsFineEnoughAndPassesOpenColorIosOwnCheck) {
   const WrittenFolder folder(std::array{profile(), profile("blackbody:3200", test::kRootPolynomial)});
   expect_fine_cube(folder);
   if (test::nightly()) expect_checked(folder);
 }
 
-// A camera with linear values in some unit, of whose patches one is brighter than the diffuser.
+// A camera with linear values in a unit, one of whose patches is brighter than the diffuser.
 CameraProfile in_unit(double unit) {
   return {fmt::format("unit {}", unit),
           "camera",
@@ -280,7 +281,7 @@ CameraProfile in_unit(double unit) {
 class OcioFolderOfAUnit : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Units, OcioFolderOfAUnit, testing::Values(3500, 2.7e12));
 
-// The XYZ of white and of a colour whose products are squares are those that the terms add up to by hand.
+// Expected XYZ of white and of a colour whose products are squares, summed from the terms by hand.
 TEST_P(OcioFolderOfAUnit, ShowsTheColoursOfThePolynomial) {
   const CameraProfile camera = in_unit(GetParam());
   const WrittenFolder folder(std::array{camera});
@@ -302,7 +303,7 @@ TEST_P(OcioFolderOfAUnit, ShowsTheColoursOfThePolynomial) {
   expect_shown({0.16, 0.25, 0.09}, {0.1575, 0.232, 0.0915});
 }
 
-// Shares of full scale from an eighth of it on need no scale, nor does what comes out of a curve.
+// Fractions of full scale from an eighth on need no scale, and neither do values after a response curve.
 TEST(OcioConfig, CubesEndAboveAllThatWasCalibrated) {
   const auto text = [](const CameraProfile& camera) { return ocio_config_text({&camera, 1}); };
   const std::string to_cube = "- !<ExponentTransform> {value: 0.333333333333333}";

@@ -23,7 +23,7 @@ TEST(Patches, ACameraCountsWhatEyesDoNotSee) {
               2e-3 * integral_of_product(camera[0].weight, planck(3000)));
 }
 
-// Stacked filters whose edges are as wide as a nanometre: what the sensor counts through them is an area.
+// Stacked filters with edges of one nanometre: the sensor integrates their area.
 TEST(Patches, LineFiltersCountTheirArea) {
   std::vector<Channel> camera = test::camera();
   const Curve triangle({{545, 0}, {546, 1}, {547, 0}});
@@ -32,7 +32,7 @@ TEST(Patches, LineFiltersCountTheirArea) {
   EXPECT_NEAR(diffuser_values(camera, triangle)[1], 1.0 / 2, 1e-4);
 }
 
-// A lamp of teeth that are 0.9 nm wide, between whole nanometres.
+// A light with teeth of 0.9 nm between whole nanometres.
 TEST(Patches, TheBalanceUnderSharpTeethIsThatOfTheirLight) {
   std::vector<Knot> teeth;
   for (const double nm : {410, 540, 612})
@@ -58,7 +58,7 @@ TEST(Patches, RefusesWhatCannotBeCalibrated) {
   std::vector<Channel> blind = test::camera();
   blind[2].weight = Curve();
   test::expect_error([&] { static_cast<void>(integrate(test::chart(), blind, light)); }, ErrorCode::input,
-                     "channel B: the light gives it nothing");
+                     "channel B: it receives nothing from the light");
 }
 
 }  // namespace

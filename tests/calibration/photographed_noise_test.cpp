@@ -14,7 +14,8 @@
 #include "tests/calibration/response_fixture.h"
 #include "tests/tier.h"
 
-// What noise makes of photographs, pixel by pixel: of light before the response, as in a camera, or of codes.
+// Bias due to noise in simulated photographs: noise of the light before the response, as in a camera, or of
+// the codes.
 
 namespace abbe::test {
 namespace {
@@ -52,7 +53,7 @@ class PhotographedNoise : public testing::Test {
   void SetUp() override { fs::create_directories(folder_); }
   void TearDown() override { fs::remove_all(folder_); }
 
-  // Patches between 0.5 and 90 % of full scale in a second, each of kEdge x kEdge pixels, in a row.
+  // Patches between 0.5 and 90 % of full scale in one second, each of kEdge x kEdge pixels, in a row.
   ExposureSeries photograph(const Photographer& camera, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     std::normal_distribution<double> normal;
@@ -84,7 +85,7 @@ class PhotographedNoise : public testing::Test {
     return all ? all->series.at(0) : ExposureSeries{};
   }
 
-  // The share of dark codes where the interval holds the planted exposure.
+  // Fraction of dark codes at which the interval contains the planted exposure.
   static double dark_coverage(const ResponseFit& fit, const PlantedResponse& planted) {
     int inside = 0;
     for (int i = 100; i < 300; ++i) {
@@ -94,8 +95,8 @@ class PhotographedNoise : public testing::Test {
     return inside / 200.0;
   }
 
-  // The mean relative error of the exposure of a code over many series stays within what their scatter makes
-  // of a mean, and the intervals hold the planted curve as often as they say.
+  // Expects the mean relative error of a code's exposure over many series to agree with its scatter. The
+  // intervals must contain the planted curve as often as they state.
   void expect_unbiased(const char* name, double read, Noise noise) {
     const Photographer camera{PlantedResponse(name), read, noise};
     const int seeds = nightly() ? 80 : 8;
@@ -129,7 +130,7 @@ class PhotographedNoise : public testing::Test {
   fs::path folder_ = fs::path(testing::TempDir()) / ("abbe_noise_" + std::to_string(::getpid()));
 };
 
-// The mean of curved codes is not the code of the mean light.
+// The mean of codes after a response curve is not the code of the mean light.
 TEST_F(PhotographedNoise, OfLightBeforeTheCurveLeavesNoBias) {
   expect_unbiased("gamma:2.2", 0.001, Noise::of_light);
   expect_unbiased("gamma:2.2", 0.0003, Noise::of_light);
@@ -141,8 +142,8 @@ TEST_F(PhotographedNoise, OfCodesBehindTheCurveLeavesNoBias) {
   expect_unbiased("linear", 0.001, Noise::of_codes);
 }
 
-// Codes that scatter by less than their steps, of which quiet regions have one or two: one pixel in a hundred
-// that is hot, or warm, is no other end of a step.
+// In quiet regions, codes scatter by less than a step and take one or two values. One hot or warm pixel in a
+// hundred does not count as the other value of a step.
 TEST_F(PhotographedNoise, DefectivePixelsOfQuietRegionsAreNoSteps) {
   Photographer camera{PlantedResponse("linear"), 4e-5};
   camera.electrons = 5e5;
@@ -162,7 +163,7 @@ TEST_F(PhotographedNoise, DefectivePixelsOfQuietRegionsAreNoSteps) {
   }
 }
 
-// One of the hundred pixels of each region, at either end.
+// One defective pixel of the hundred in each region, at either end of the scale.
 TEST_F(PhotographedNoise, OneDefectivePixelOfARegionIsNoFault) {
   Photographer camera{PlantedResponse("gamma:2.2")};
   const ExposureSeries sound = photograph(camera, 1);

@@ -25,7 +25,7 @@ class Photographs : public testing::Test {
   void SetUp() override { fs::create_directories(folder_); }
   void TearDown() override { fs::remove_all(folder_); }
 
-  // 24 patches in a row, seen through a response with noise, once in each channel with its own gain.
+  // 24 patches in a row through a response with noise, once in each channel with its own gain.
   static Image photograph(const std::string& response, double time_s, double noise, std::uint64_t seed) {
     const PlantedResponse planted(response);
     const std::vector<double> values = chart_values();
@@ -147,7 +147,7 @@ TEST_F(Photographs, RegionsOfOnePixelTellNoNoise) {
   EXPECT_TRUE(deviations("[[0, 0, 2, 1], [2, 0, 3, 1]]").empty());
 }
 
-// What `develop` writes of its own read-out.
+// Attributes that `develop` records about its read-out.
 std::map<std::string, std::string> told_by_develop(double exposure_s) {
   return {{"exposure_s", fmt::format("{}", exposure_s)},
           {"mosaic", "R,G/G,B"},
@@ -186,7 +186,7 @@ TEST_F(Photographs, RawFilesTellTheirOwnScale) {
   }
 }
 
-// Ends of the scale are no numbers of single precision, as pixels are.
+// The ends of the scale are not exact in single precision, unlike pixels.
 TEST_F(Photographs, TheEndsOfAnyScaleAreReached) {
   std::ofstream(folder_ / "ends.json") << R"({"exposures": [{"file": "ends.tif", "exposure_s": 1}],
     "regions": [[0, 0, 1, 1], [1, 0, 2, 1], [2, 0, 3, 1], [3, 0, 4, 1]]})";
@@ -213,7 +213,8 @@ TEST_F(Photographs, TheEndsOfAnyScaleAreReached) {
     expect_ends(600, saturation, fmt::format(R"(,"bits":14,"saturation_dn":{}}}}})", saturation));
 }
 
-// What `develop` shows of a sensor tells of its read-out too, as do films, and pictures that others convert.
+// Pictures of `develop`, films and pictures converted by others record a sensor's read-out but do not hold
+// its codes.
 TEST_F(Photographs, PicturesThatTellOfASensorAreNoCodesOfIt) {
   std::map<std::string, std::string> told{{"sensor", R"({"readout":{"bits":12,"offset_dn":100}})"}};
   const Image shown{3, 1, {{"Y", {500, 30000, 65535}}}, told};
@@ -236,7 +237,7 @@ TEST_F(Photographs, PicturesThatTellOfASensorAreNoCodesOfIt) {
     }
 }
 
-// Values beyond the codes of the sensor show that a photograph was converted, those within them nothing.
+// Values above the codes of the sensor reveal that a photograph was converted; smaller values do not.
 TEST_F(Photographs, RawFilesAmongConvertedOnesAreReported) {
   const std::map<std::string, std::string> told{{"white_level_dn", "4095"},
                                                 {"sensor", R"({"readout":{"bits":12,"offset_dn":100}})"}};
@@ -248,13 +249,12 @@ TEST_F(Photographs, RawFilesAmongConvertedOnesAreReported) {
         << R"(.tif"}, {"exposure_s": 2, "file": ")" << second << R"(.tif"}]})";
     return folder_ / "two.json";
   };
-  expect_complaint_of(series("dark", "bright"), "bright.tif has no codes of a sensor, as the first has");
-  expect_complaint_of(series("bright", "dark"),
-                      "dark.tif has codes of the sensor that it tells of, the first other");
+  expect_complaint_of(series("dark", "bright"), "bright.tif has no codes of a sensor, but the first has");
+  expect_complaint_of(series("bright", "dark"), "dark.tif has codes of its sensor, but the first has other");
   EXPECT_TRUE(read(series("bright", "bright"))) << diagnostics_.text();
 }
 
-// "A" is a channel of this sensor; in other files it tells how opaque pixels are.
+// "A" is a channel of this sensor; in other files it is the opacity of pixels.
 TEST_F(Photographs, PlanesOfTheSensorAreSeries) {
   const auto channels_of = [&](const std::string& name) {
     std::ofstream(folder_ / "planes.json")
@@ -300,7 +300,7 @@ TEST_F(Photographs, SaysWhatIsWrong) {
   expect_complaint(R"({"exposures": []})",
                    "/exposures: error: expected an array of exposures (got 0 of them, allowed [1, inf))");
   expect_complaint(R"({"exposures": [{"file": "a.exr"}]})",
-                   "a.exr tells no exposure time: \"exposure_s\" is needed here");
+                   "a.exr records no exposure time: \"exposure_s\" is needed here");
   expect_complaint(R"({"exposures": [{"file": "a.exr", "exposure_s": 0}]})",
                    "/exposures/0/exposure_s: error: expected a number (got 0, allowed (0, inf))");
   expect_complaint(
@@ -310,7 +310,7 @@ TEST_F(Photographs, SaysWhatIsWrong) {
       R"({"exposures": [{"file": "a.exr", "exposure_s": 1}, {"file": "c.exr", "exposure_s": 1}]})",
       "c.exr has other channels than the first");
   expect_complaint(R"({"regions": [[0, 0, 5, 1]], "exposures": [{"file": "a.exr", "exposure_s": 1}]})",
-                   "region [0, 0, 5, 1] lies beyond its 4 x 1 pixels");
+                   "region [0, 0, 5, 1] exceeds its 4 x 1 pixels");
   expect_complaint(R"({"regions": [[2, 0, 2, 1]], "exposures": [{"file": "a.exr", "exposure_s": 1}]})",
                    "/regions/0: error: expected pixels x0, y0, x1, y1 with x0 < x1 and y0 < y1");
   expect_complaint(R"({"regions": [[0, 0, 1.5, 1]], "exposures": [{"file": "a.exr", "exposure_s": 1}]})",

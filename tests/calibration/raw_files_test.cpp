@@ -13,7 +13,7 @@
 #include "io/raw_picture.h"
 #include "sensor/readout/readout.h"
 
-// DNG and FITS serve wherever a raw TIFF does, with the same numbers.
+// DNG and FITS are accepted wherever a raw TIFF is, with the same results.
 
 namespace abbe {
 namespace {
@@ -28,7 +28,8 @@ class RawFiles : public testing::Test {
   void SetUp() override { fs::create_directories(folder_); }
   void TearDown() override { fs::remove_all(folder_); }
 
-  // A grey wedge under a mosaic, exposed for so long; what the film tells fills several cards of FITS.
+  // A grey wedge under a mosaic with this exposure time. The attributes of the film fill several cards of
+  // FITS.
   static RawPicture wedge(double exposure_s, bool with_metadata = true) {
     RawPicture raw;
     raw.width = kFrameWidth;
@@ -65,8 +66,8 @@ class RawFiles : public testing::Test {
     return path;
   }
 
-  // Of Abbe or of another program, by its name, and of a sensor whose well is full at the code of column 48,
-  // before the codes end.
+  // Writes a file of Abbe ("own...") or of another program. The sensor's well is full at the code of column
+  // 48, below the highest code.
   fs::path write_full_well(const std::string& name) const {
     RawPicture raw = wedge(1, name.starts_with("own"));
     raw.white_level_dn = 2010;
@@ -89,7 +90,7 @@ class RawFiles : public testing::Test {
     return read.value_or(PhotographedSeries{});
   }
 
-  // Of that photograph alone, of which these members of a listing tell.
+  // Series of one photograph, with these members in its listing.
   std::optional<PhotographedSeries> listed_series(const std::string& name, std::string members) {
     if (members.find("regions") == std::string::npos) members += R"(, "regions": [[46, 0, 48, 2]])";
     std::ofstream(folder_ / "one.json")
@@ -125,7 +126,7 @@ TEST_F(RawFiles, TellWhatTheFilmToldOnAnyNumberOfCards) {
   }
 }
 
-// A DNG has a table that does so.
+// A DNG has a table that undoes the curve.
 TEST_F(RawFiles, AResponseCurveIsUndoneWhereTheyAreRead) {
   RawPicture raw = wedge(0.5);
   raw.linear_codes.resize(4001);
@@ -150,7 +151,7 @@ TEST_F(RawFiles, AResponseCurveIsUndoneWhereTheyAreRead) {
   }
 }
 
-// Code 1 of a series is where the camera clips.
+// Code 1 of a series is the code at which the camera clips.
 TEST_F(RawFiles, TheWhiteLevelClipsASeries) {
   for (const char* name : kKinds) {
     (void)write_full_well(name);
@@ -165,7 +166,7 @@ TEST_F(RawFiles, TheWhiteLevelClipsASeries) {
   }
 }
 
-// What a listing says takes the place of what they tell of the same, and of nothing else.
+// The listing overrides the same value in the files, and nothing else.
 TEST_F(RawFiles, BlackIsTheirsWhateverTheListingSays) {
   for (const char* name : kKinds) {
     (void)write_full_well(name);
@@ -181,24 +182,24 @@ TEST_F(RawFiles, BlackIsTheirsWhateverTheListingSays) {
   }
 }
 
-// The code at which the camera clips is one of the file, above its black.
+// The clipping code must be a code of the file, above its black.
 TEST_F(RawFiles, AFullScaleThatTheyCannotReachIsNamed) {
   for (const char* name : {"own.tif", "own.dng"}) {
     (void)write_full_well(name);
     for (const auto& [listed, fault] : {std::pair{R"("full_scale": 1)", "(got 1, which is code 65535"},
                                         {R"("full_scale": 0.0007)", "(got 0.0007, which is code 46"}}) {
       EXPECT_FALSE(listed_series(name, listed)) << name << listed;
-      EXPECT_NE(diagnostics_.text().find(fmt::format("{} has codes from 50, its black, to 4095, of which "
-                                                     "\"full_scale\" is none {}",
-                                                     name, fault)),
-                std::string::npos)
+      EXPECT_NE(
+          diagnostics_.text().find(fmt::format(
+              "{} has codes from 50, its black, to 4095, and \"full_scale\" is outside {}", name, fault)),
+          std::string::npos)
           << diagnostics_.text();
       EXPECT_EQ(diagnostics_.code(), ErrorCode::input);
     }
   }
 }
 
-// Other programs tell where codes clip, as of a limit of straightness, but not where they end.
+// Other programs record where codes clip, for example as a limit of linearity, but not where they end.
 TEST_F(RawFiles, AnyCodeMayBeTheFullScaleOfOtherPrograms) {
   for (const char* name : {"plain.dng", "plain.fits"}) {
     (void)write(name, wedge(0.5, false));
@@ -210,32 +211,32 @@ TEST_F(RawFiles, AnyCodeMayBeTheFullScaleOfOtherPrograms) {
 
 TEST_F(RawFiles, CodesEndAtTheWhiteLevelThatIsTold) {
   for (const char* name : kKinds) {
-    const auto end = end_of_codes(read_raw_image(write_full_well(name)));
+    const auto end = clipping_level(read_raw_image(write_full_well(name)));
     ASSERT_TRUE(end) << name;
     EXPECT_EQ(end->dn, 2010) << name;
-    EXPECT_TRUE(end->is_told) << name;
+    EXPECT_TRUE(end->is_declared) << name;
   }
 }
 
-// A converter keeps the description beside planes and codes of its own.
+// A converter copies the description but writes planes and codes of its own.
 TEST_F(RawFiles, CodesOfOtherPicturesEndWhereSomeAreTheHighest) {
   RawPicture raw = wedge(1);
   raw.metadata["white_level_dn"] = "2010";
   raw.codes.back() = 4001;
-  EXPECT_FALSE(end_of_codes(read_raw_image(write("bright.tif", raw)))) << "of another scale";
+  EXPECT_FALSE(clipping_level(read_raw_image(write("bright.tif", raw)))) << "of another scale";
   ImageChannel plane{"R", std::vector<float>(raw.codes.size(), 3000)};
   const auto converted = [&] {
     write_raw_picture(
         folder_ / "rgb.tif",
         {kFrameWidth, kFrameHeight, {plane, {"G", plane.values}, {"B", plane.values}}, raw.metadata});
-    return end_of_codes(read_raw_image(folder_ / "rgb.tif"));
+    return clipping_level(read_raw_image(folder_ / "rgb.tif"));
   };
   EXPECT_FALSE(converted()) << "of other planes";
   plane.values[5] = 65535;
   ASSERT_TRUE(converted());
   EXPECT_EQ(converted()->dn, 65535);
-  EXPECT_FALSE(converted()->is_told);
-  const auto of_values = [](float darker) { return end_of_codes({{2, 1, {{"Y", {darker, 1}}}, {}}, {}}); };
+  EXPECT_FALSE(converted()->is_declared);
+  const auto of_values = [](float darker) { return clipping_level({{2, 1, {{"Y", {darker, 1}}}, {}}, {}}); };
   EXPECT_TRUE(of_values(static_cast<float>(85 / 255.0))) << "eight bits";
   EXPECT_FALSE(of_values(0.12345F)) << "floats";
 }

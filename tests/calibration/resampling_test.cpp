@@ -17,7 +17,7 @@ TEST(CrossValidation, ShowsEachPatchByAFitWithoutIt) {
   const PatchErrors before = cross_validate(colors, {}, 24);
   const double seen = fit_correction(colors).errors.delta_e[17];
   EXPECT_GT(before.delta_e[17], seen);
-  // The colour of a patch changes what it is judged by, but not the fit that judges it.
+  // The colour of a patch changes its own error, but not the fit that predicts it.
   colors.xyz[17] = fit_correction(colors).correction(colors.raw[17]);
   PatchColors without = nikon("D65");
   without.names.erase(without.names.begin() + 17);
@@ -45,7 +45,7 @@ TEST(CrossValidation, DealsPatchesToFolds) {
                        "allowed 2 to the 24 patches");
 }
 
-// The standard error of a mean is known.
+// The standard error of a mean is known in closed form.
 TEST(Bootstrap, IntervalOfAMeanIsTwoStandardErrorsWide) {
   std::mt19937_64 random(5);
   std::normal_distribution<double> normal(3, 2);

@@ -13,7 +13,7 @@ TEST(ResponseCoverage, HundredNoisySeriesOfEachCurve) {
   }
 }
 
-// Of which nothing tells how the noise of a code grows with it.
+// The series do not state how the noise of a code grows with it.
 TEST(ResponseCoverage, HundredSeriesOfSinglePixelsOfEachCurve) {
   for (const char* name : {"linear", "gamma:2.2", "s-curve"}) {
     const Recovery recovery = recover_often(name, 100, kSinglePixels, false);

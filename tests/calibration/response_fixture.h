@@ -17,7 +17,7 @@ inline std::vector<double> stops(double low, double high, double step) {
   return times;
 }
 
-/// The chart's green values through a measured camera.
+/// Green values of the chart's patches for a measured camera.
 inline std::vector<double> chart_values() {
   std::vector<double> values;
   const Curve light = illuminant("D65");
@@ -26,13 +26,13 @@ inline std::vector<double> chart_values() {
   return values;
 }
 
-/// The planted exposure of a code over the recovered one, both in units of that at mid-scale.
+/// Ratio of the planted to the recovered exposure of a code, each relative to mid-scale.
 inline double exposure_ratio(const ResponseFit& fit, const PlantedResponse& planted, double code) {
   return linearise(fit.linear, code) / linearise(fit.linear, 0.5) * planted.exposure(0.5) /
          planted.exposure(code);
 }
 
-/// Largest error between 1 % and 99 % of the code range, as a share of full scale.
+/// Largest error between 1 % and 99 % of the code range, as a fraction of full scale.
 inline double worst_error(const ResponseFit& fit, const PlantedResponse& planted) {
   double worst = 0;
   for (int i = 10; i <= 990; ++i)
@@ -41,7 +41,7 @@ inline double worst_error(const ResponseFit& fit, const PlantedResponse& planted
   return worst;
 }
 
-/// The share of the codes between 1 % and 99 % where the reported interval holds the planted exposure.
+/// Fraction of the codes between 1 % and 99 % at which the reported interval contains the planted exposure.
 inline double coverage(const ResponseFit& fit, const PlantedResponse& planted) {
   int inside = 0;
   for (int i = 10; i <= 990; ++i) {
@@ -52,14 +52,14 @@ inline double coverage(const ResponseFit& fit, const PlantedResponse& planted) {
   return inside / 981.0;
 }
 
-/// A 12-bit camera whose patches, each a mean of some pixels, scatter by half a step in the dark and by one
-/// and a half at full scale.
+/// Noise of a 12-bit camera whose patches are means of several pixels: half a step in the dark, one and a
+/// half steps at full scale.
 inline constexpr CodeNoise kNoisyCamera{12, 1.2e-4, 1.2e-7};
 
-/// A single pixel of such a camera: photons of 14 000 electrons at full scale, and a step of read noise.
+/// Noise of a single pixel of such a camera: 14 000 electrons at full scale, and a read noise of one step.
 inline constexpr CodeNoise kSinglePixels{12, 3e-4, 7e-5};
 
-/// What recovering a planted curve from many noisy series comes to.
+/// Result of recovering a planted curve from many noisy series.
 struct Recovery {
   double worst = 0;     ///< Error over all seeds.
   double coverage = 0;  ///< Mean over all seeds.

@@ -127,13 +127,14 @@ TEST(ResponseFit, ItsIntervalHoldsThePlantedCurve) {
   }
 }
 
-// Photons make the errors of bright codes many times those of dark ones, and nothing says so.
+// Photon noise makes the errors of bright codes many times those of dark ones, and the series does not state
+// it.
 TEST(ResponseFit, ItsIntervalHoldsThePlantedCurveOfSinglePixels) {
   for (const char* name : {"linear", "gamma:2.2", "s-curve"})
     EXPECT_GE(recover_often(name, by_night(6, 3), kSinglePixels, false).coverage, 0.85) << name;
 }
 
-// Noise ten times as large makes the interval ten times as wide, whether it was announced or not.
+// Ten times the noise widens the interval ten times, whether the series states it or not.
 TEST(ResponseFit, IntervalGrowsWithTheNoise) {
   const PlantedResponse planted("gamma:2.2");
   const auto width = [&](double read, double stated) {
@@ -163,8 +164,8 @@ TEST(ResponseFit, ClippingByNoiseDoesNotPullTheCurve) {
   }
 }
 
-// Codes that grow a quarter as fast from 0.8 on: 24 patches and six times a factor of two apart leave few
-// codes beyond the knee.
+// Codes grow a quarter as fast from 0.8 on. 24 patches and six times in ratios of two give few codes above
+// the knee.
 TEST(ResponseFit, AKneeThatTheCurveDoesNotFollowIsReported) {
   constexpr double kKnee = 0.8;
   const auto code_of = [](double x) { return x < kKnee ? x : std::min(1.0, kKnee + (x - kKnee) / 4); };
@@ -206,7 +207,7 @@ TEST(ResponseFit, AFitThatDoesNotConvergeIsAnError) {
   const ExposureSeries series =
       expose(chart_values(), stops(-9, 6, 1.0 / 3), PlantedResponse("s-curve"), {12, 0, 0});
   expect_error([&] { static_cast<void>(recover_response(series, {.max_iterations = 2})); }, ErrorCode::input,
-               "response fit: no curve goes through these codes (gave up after");
+               "response fit: no curve fits these codes (gave up after");
 }
 
 TEST(ResponseFit, SaysWhatIsMissing) {
@@ -220,12 +221,12 @@ TEST(ResponseFit, SaysWhatIsMissing) {
   expect_error(fit({1e4, 2e4}), ErrorCode::input, "only 0 code values are neither black nor clipped");
   expect_error(
       fit({0.5, 0.50005}), ErrorCode::input,
-      "the exposure times leave the curve open: the longest is 1.0001 times the shortest (allowed from "
+      "the exposure times do not determine the curve: the longest is 1.0001 times the shortest (allowed from "
       "1.02 on");
 }
 
-// Two exposures that hardly differ: many patches of little noise tell of the codes that they have, though not
-// of those beyond, and few of much noise tell of neither.
+// Two nearly equal exposures. Many patches of little noise determine the curve at their codes but not above.
+// Few patches of much noise determine neither.
 TEST(ResponseFit, RefusesACurveThatItDoesNotKnow) {
   const auto series = [](int patches, double seconds, double noise) {
     std::vector<double> values;
@@ -233,11 +234,11 @@ TEST(ResponseFit, RefusesACurveThatItDoesNotKnow) {
     return expose(values, std::array{seconds, 1.02 * seconds}, PlantedResponse("linear"), {12, noise, 0});
   };
   expect_error([&] { static_cast<void>(recover_response(series(192, 0.5, 5e-4))); }, ErrorCode::input,
-               "no exposure tells of the codes beyond 0.51");
+               "no exposure determines the curve above code 0.51");
   ExposureSeries few = series(40, 0.7, 3e-3);
   few.deviations.clear();
   expect_error([&] { static_cast<void>(recover_response(few)); }, ErrorCode::input,
-               "these exposures leave the curve open: of the codes");
+               "these exposures do not determine the curve: of the codes");
 }
 
 TEST(ResponseFit, NoticesExposureTimesThatAreSwapped) {

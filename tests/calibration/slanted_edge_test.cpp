@@ -1,4 +1,4 @@
-#include "calibration/judge/slanted_edge.h"
+#include "calibration/metrics/slanted_edge.h"
 
 #include <cmath>
 #include <numbers>
@@ -14,8 +14,8 @@ namespace {
 constexpr int kWidth = 64;
 constexpr int kHeight = 96;
 
-// An edge slanted by this from the columns, blurred by a Gaussian of this deviation [pixels] and by the
-// pixels, whose means are taken over 16 x 16 points each.
+// An edge at this angle to the columns, blurred by a Gaussian of this deviation [pixels] and by the pixels.
+// Their means are taken over 16 x 16 points.
 std::vector<double> edge(double angle_deg, double deviation, double dark = 0.1, double bright = 0.9) {
   const double angle = angle_deg * std::numbers::pi / 180;
   const auto at = [&](double x, double y) {
@@ -34,7 +34,7 @@ std::vector<double> edge(double angle_deg, double deviation, double dark = 0.1, 
   return values;
 }
 
-// Of the Gaussian and of the pixel's square, across the edge.
+// Modulation of the Gaussian and of the pixel's square, across the edge.
 double expected(double frequency, double angle_deg, double deviation) {
   const double angle = angle_deg * std::numbers::pi / 180;
   const auto sinc = [](double x) {
@@ -88,7 +88,7 @@ TEST(SlantedEdge, BearsNoise) {
               slanted_edge(edge(5, 0.5), kWidth, kHeight).mtf50.value(), 0.03);
 }
 
-// Two patches on one side of the edge, a bright line along it, and a pixel that is no number.
+// Two patches on one side of the edge, a bright line along it, and a pixel that is not a number.
 TEST(SlantedEdge, RefusesWhatIsNone) {
   const auto refused = [](const std::vector<double>& values, const std::string& text) {
     test::expect_error([&] { (void)slanted_edge(values, kWidth, kHeight); }, ErrorCode::input, text);
@@ -97,14 +97,14 @@ TEST(SlantedEdge, RefusesWhatIsNone) {
   std::vector<double> patches = other;
   for (std::size_t i = patches.size() / 2; i < patches.size(); ++i)
     patches[i] = 0.1 + 0.4 * (patches[i] - 0.1);
-  refused(patches, "these pixels show no single straight edge: 2");
+  refused(patches, "these pixels show no single straight edge: the distance from one does not explain 2");
   std::vector<double> line = other;
   for (std::size_t i = line.size() - 1; i % kWidth >= 4 || i > kWidth; --i)
     if (i % kWidth >= 4) line[i] -= 0.7 * (other[i - 4] - 0.1);
-  refused(line, "both sides of the line that these pixels show are alike");
+  refused(line, "both sides of the line in these pixels are equal");
   std::vector<double> hole = other;
   hole[kWidth + 2] = std::nan("");
-  refused(hole, "pixel 2,1 of these holds no number (got nan)");
+  refused(hole, "pixel 2,1 of these is not a finite number (got nan)");
 }
 
 }  // namespace

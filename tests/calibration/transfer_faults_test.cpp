@@ -1,6 +1,6 @@
 #include "tests/calibration/transfer_fixture.h"
 
-// Frames that were confused with one another.
+// Frames that were confused with one another, or do not belong together.
 
 namespace abbe {
 namespace {
@@ -15,7 +15,7 @@ class TransferFaults : public test::PlantedFrames {
                                 {{"gain_e_per_dn", fmt::format("{}", gain_e_per_dn)}});
   }
 
-  // A dark frame of which so many pixels have the lowest code.
+  // A dark frame in which this many pixels have the lowest code.
   fs::path cut_frame(int lowest, double exposure_s) {
     Image image{kEdge, kEdge, {{"raw", {}}}, {}};
     for (int i = 0; i < kEdge * kEdge; ++i)
@@ -27,7 +27,7 @@ class TransferFaults : public test::PlantedFrames {
     return file;
   }
 
-  // A frame of a read-out of 2 e/DN that adds neither noise nor an offset.
+  // A frame of a read-out with 2 e/DN and neither noise nor offset.
   fs::path ideal_frame(double electrons, double exposure_s) {
     Readout readout;
     readout.gain_e_per_dn = 2;
@@ -42,7 +42,7 @@ class TransferFaults : public test::PlantedFrames {
     return file;
   }
 
-  // A frame of which each row of 64 pixels has a noise of its own of 3 e, beside 2 e of each pixel.
+  // A frame in which each row of 64 pixels has a row noise of 3 e, in addition to 2 e in each pixel.
   fs::path row_frame(double electrons, double exposure_s, int height = kEdge) {
     Readout readout;
     readout.gain_e_per_dn = 2;
@@ -62,7 +62,7 @@ class TransferFaults : public test::PlantedFrames {
     return file;
   }
 
-  // A frame of which the pixels of `areas` alone were rendered, beside them darker than any.
+  // A frame in which only the pixels of `areas` were rendered; all others are darker.
   fs::path cropped_frame(double electrons, double exposure_s, const std::string& areas,
                          const std::string& end) {
     std::vector<float> expected(kEdge * kEdge, static_cast<float>(electrons));
@@ -94,8 +94,8 @@ TEST_F(TransferFaults, FramesOfAPairSeeTheSameLight) {
   refused(dark, lit, lit[3], "has a mean of 15");
 }
 
-// All pixels of a row have its noise in common, so that the mean of a frame is less sure than of as many
-// independent pixels; of two rows nothing is told of how sure.
+// All pixels of a row have its noise in common, so the mean of a frame is less certain than that of as many
+// independent pixels. Two rows do not show how much less.
 TEST_F(TransferFaults, RowNoiseIsNoOtherLight) {
   for (const int height : {kEdge, 2}) {
     Files dark;
@@ -118,7 +118,7 @@ TEST_F(TransferFaults, DarkFramesOfAPairSeeTheSameLight) {
 TEST_F(TransferFaults, OneFrameIsNoPair) {
   const Files dark{frame(0, 0.01), frame(0, 0.01), frame(0, 1), frame(0, 1)};
   const fs::path once = frame(500, 0.01);
-  refused(dark, {once, once}, once, "has the very codes of the frame before it");
+  refused(dark, {once, once}, once, "has exactly the codes of the frame before it");
 }
 
 TEST_F(TransferFaults, FramesThatAreFullMayBeAlike) {
@@ -130,7 +130,7 @@ TEST_F(TransferFaults, FramesThatAreFullMayBeAlike) {
   EXPECT_NEAR(measure_transfer(dark, lit, inputs)[0].transfer.gain_e_per_dn, 2, 0.1);
 }
 
-// Half of whose pixels have no light, which is no pattern of the sensor.
+// Half of the pixels were not rendered and are dark, which is not a pattern of the sensor.
 TEST_F(TransferFaults, PixelsThatWereNotRenderedDoNotCount) {
   for (const char* end : {"tif", "png", "dng", "fits"}) {
     Files dark;
@@ -151,17 +151,16 @@ TEST_F(TransferFaults, PixelsThatWereNotRenderedDoNotCount) {
 TEST_F(TransferFaults, FramesAreOfTheSamePixels) {
   const Files dark{cropped_frame(0, 0.01, "0,0,32,64", "tif"), cropped_frame(0, 0.01, "0,0,32,64", "tif")};
   const Files other{cropped_frame(300, 0.01, "0,0,32,60", "tif")};
-  refused(dark, {other[0], other[0]}, other[0], "has the very codes of the frame before it");
+  refused(dark, {other[0], other[0]}, other[0], "has exactly the codes of the frame before it");
   const Files lit{other[0], cropped_frame(300, 0.01, "0,0,32,60", "tif")};
-  refused(
-      dark, lit, lit[0],
-      "was rendered at the pixels 0,0,32,60, the first frame at 0,0,32,64: patterns are those of the same "
-      "pixels");
+  refused(dark, lit, lit[0],
+          "was rendered at the pixels 0,0,32,60, the first frame at 0,0,32,64: fixed patterns need the same "
+          "pixels");
   const Files one{cropped_frame(300, 0.01, "0,0,1,1", "tif")};
-  refused(one, lit, one[0], "has too few pixels in raw to tell noise (got 1, allowed 2 or more)");
+  refused(one, lit, one[0], "has too few pixels in raw to measure noise (got 1, allowed 2 or more)");
 }
 
-// Of 4096 pixels 20 are 0.488 %, and 21 are 0.513 %.
+// 20 of 4096 pixels are 0.488 %, 21 are 0.513 %.
 TEST_F(TransferFaults, FramesWhoseNoiseIsCutOffAreRefused) {
   Files lit;
   for (const double e : {300, 300, 1000, 1000, 3000, 3000}) lit.push_back(frame(e, 0.01));
@@ -175,10 +174,10 @@ TEST_F(TransferFaults, FramesWhoseNoiseIsCutOffAreRefused) {
   EXPECT_EQ(measure_transfer(dark(20), lit, inputs).size(), 1U);
   const Files cut = dark(21);
   refused(cut, lit, cut[3], "0.513 % of its codes in ");
-  PlantedFrames::refused(cut, lit, " are 0, the lowest, at which noise is cut off (allowed 0.5 %), so that");
+  PlantedFrames::refused(cut, lit, " are 0, the lowest, at which noise is cut off (allowed 0.5 %), so");
 }
 
-// In the dark all of their codes are 0, and rightly so; where only some are, they are refused as ever.
+// In the dark all codes are 0, which is correct. If only some are, the frames are rejected.
 TEST_F(TransferFaults, FramesOfAnIdealReadOutAreDarkThroughout) {
   const Files dark{ideal_frame(0, 0.01), ideal_frame(0, 0.01), ideal_frame(0, 1), ideal_frame(0, 1)};
   Files lit;
@@ -189,7 +188,7 @@ TEST_F(TransferFaults, FramesOfAnIdealReadOutAreDarkThroughout) {
   EXPECT_EQ(found.read_noise_e, 0);
   EXPECT_EQ(found.dark_e_per_s, 0);
   const Files dim{ideal_frame(2, 0.01), ideal_frame(2, 0.01)};
-  PlantedFrames::refused(dark, dim, " are 0, the lowest, at which noise is cut off (allowed 0.5 %), so that");
+  PlantedFrames::refused(dark, dim, " are 0, the lowest, at which noise is cut off (allowed 0.5 %), so");
 }
 
 }  // namespace

@@ -19,7 +19,7 @@
 
 namespace abbe::test {
 
-/// Raw files of a planted sensor, in a folder of their own: a read noise of 6 e and darkness at 50 DN.
+/// Raw files of a planted sensor in a temporary folder. Its read noise is 6 e, and darkness is at 50 DN.
 class PlantedFrames : public testing::Test {
  protected:
   using Files = std::vector<std::filesystem::path>;
@@ -27,8 +27,8 @@ class PlantedFrames : public testing::Test {
   void SetUp() override { std::filesystem::create_directories(folder_); }
   void TearDown() override { std::filesystem::remove_all(folder_); }
 
-  /// A frame of a square sensor whose pixels expect these electrons, told by these attributes besides; its
-  /// plane has the name of the channel that they tell.
+  /// Writes a frame of a square sensor whose pixels expect these electrons. Further `attributes` are
+  /// recorded; the plane has the name of the channel among them.
   std::filesystem::path frame(const std::string& name, std::span<const float> electrons, double exposure_s,
                               double gain_e_per_dn, int bits,
                               const std::map<std::string, std::string>& attributes) const {
@@ -49,7 +49,8 @@ class PlantedFrames : public testing::Test {
     return write(name, image);
   }
 
-  /// Writes codes as a raw file of the kind that its name says, a DNG with a table of what they stand for.
+  /// Writes codes as a raw file whose format follows from its name. A DNG gets `linear_codes` as its
+  /// linearisation table.
   std::filesystem::path write(const std::string& name, const Image& codes,
                               const std::vector<std::uint16_t>& linear_codes = {}) const {
     const std::filesystem::path path = folder_ / name;
@@ -75,7 +76,7 @@ class PlantedFrames : public testing::Test {
     return path;
   }
 
-  /// What `measure_transfer` must object to, in these words.
+  /// Expects `measure_transfer` to reject the frames with this text.
   static void refused(const Files& dark, const Files& lit, const std::string& text) {
     expect_error(
         [&] {

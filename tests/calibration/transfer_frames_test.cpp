@@ -10,7 +10,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Two areas of a film that was merged of parts, under a mosaic that begins at the film's corner.
+// Two areas of a film merged from parts, under a mosaic that begins at the film's corner.
 TEST(RawCodes, AreOfThePixelsThatWereRendered) {
   Image image{4, 2, {{"raw", {}}}, {{"crop", "1,0,4,2"}, {"areas", "1,0,2,2=0:8 3,1,4,2=0:8"}}};
   for (int code = 0; code < 8; ++code) image.channels[0].values.push_back(static_cast<float>(code) / 65535);
@@ -33,7 +33,7 @@ TEST(RawCodes, AreOfThePixelsThatWereRendered) {
 
 class TransferFrames : public test::PlantedFrames {
  protected:
-  // A frame of a sensor under R and G in columns, of which G sees twice as much.
+  // A frame of a sensor with columns of R and G, of which G receives twice as much.
   fs::path frame(const std::string& name, double electrons, double exposure_s, int bits = 12) const {
     std::vector<float> expected(kEdge * kEdge);
     for (std::size_t i = 0; i < expected.size(); ++i)
@@ -73,7 +73,7 @@ TEST_F(TransferFrames, FindThePlantedSensorInEachChannel) {
   }
 }
 
-// G, exposed for twice as long as the sensor, has twice the dark current's electrons.
+// G is exposed for twice as long as the sensor and has twice the electrons of dark current.
 TEST_F(TransferFrames, ChannelsOfTheirOwnExposureAreDarkForIt) {
   const auto pair = [&](double electrons, double exposure_s) {
     std::vector<float> expected(kEdge * kEdge);
@@ -97,7 +97,7 @@ TEST_F(TransferFrames, ChannelsOfTheirOwnExposureAreDarkForIt) {
     EXPECT_NEAR(one.transfer.dark_e_per_s, 500, 10) << one.channel;
 }
 
-// A grey sensor's channel has a name in all of them.
+// The channel of a grey sensor has a name in all formats.
 TEST_F(TransferFrames, AnyKindOfFileTellsTheExposureOfAChannelsOwn) {
   for (const char* end : {"tif", "png", "dng", "fits"}) {
     const auto pair = [&](double electrons, double exposure_s) {
@@ -124,7 +124,7 @@ TEST_F(TransferFrames, AnyKindOfFileTellsTheExposureOfAChannelsOwn) {
   }
 }
 
-// Codes of a curve, so coarse that one is 5/3 DN wide in the dark.
+// Codes of a coarse response curve; one code is 5/3 DN wide in the dark.
 class CurvedFrames : public TransferFrames {
  protected:
   CurvedFrames() {
@@ -184,7 +184,7 @@ TEST_F(CurvedFrames, AreOfOneCurve) {
           "has another response curve, offset_dn or saturation_dn than the first frame");
 }
 
-// One pixel in a thousand clips in the longer darkness, and no lit pair does at first.
+// One pixel in a thousand clips in the longer dark exposure, and no bright pair does at first.
 TEST_F(TransferFrames, WhiteLevelsTellWhichHotPixelsAreFull) {
   Readout readout;
   readout.gain_e_per_dn = 2;
@@ -233,10 +233,10 @@ TEST_F(TransferFrames, ObjectsInSentences) {
   refused(dark, {lit[0], lit[1], lit[0], frame("other.tif", 500, 0.02)},
           "is exposed for 0.02 s and the frame before it for 0.01");
   refused(dark, {lit[0], frame("deep.tif", 500, 0.01, 14)}, "has 14 bits, the first frame 12");
-  refused(dark, lit, "dark pairs are of one exposure time only");
+  refused(dark, lit, "dark pairs have only one exposure time");
   Image plain{kEdge, kEdge, {{"Y", std::vector<float>(kEdge * kEdge, 7)}}, {}};
   write_raw_picture(folder_ / "plain.tif", plain);
-  refused({folder_ / "plain.tif"}, lit, "tells neither bits nor exposure time");
+  refused({folder_ / "plain.tif"}, lit, "records neither bits nor exposure time");
 }
 
 }  // namespace

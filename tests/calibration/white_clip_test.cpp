@@ -7,7 +7,7 @@
 namespace abbe {
 namespace {
 
-// A sensor to which a neutral is (4, 2, 1), as a lamp like A makes it.
+// A sensor whose values of a neutral are (4, 2, 1), as in the light of illuminant A.
 Matrix3 warm() {
   return rgb_to_xyz(kRec709) * diagonal({0.25, 0.5, 1});
 }

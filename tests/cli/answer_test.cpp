@@ -84,8 +84,9 @@ TEST(Answer, PlacedComplaintsKeepTheirCodeAndBeginTheirLine) {
 TEST(Answer, AListOfNamesAnswersNoQuestion) {
   const test::Outcome run = test::abbe("query --list illuminant --json ior N-BK7 --at 550");
   EXPECT_EQ(run.code, 2);
-  EXPECT_NE(run.err.find("--list: lists names, and answers no question beside (got ior, allowed alone)"),
-            std::string::npos)
+  EXPECT_NE(
+      run.err.find("--list: lists names only and cannot be combined with a query (got ior, allowed alone)"),
+      std::string::npos)
       << run.err;
   EXPECT_TRUE(run.out.empty());
 }

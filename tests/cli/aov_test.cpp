@@ -7,7 +7,7 @@
 #include "tests/cli/program.h"
 #include "tests/cli/runs.h"
 
-// Channels of what each pixel sees first, from the command line to the files.
+// Auxiliary channels of the first surface in each pixel, from the command line to the files.
 
 namespace abbe::test {
 namespace {
@@ -31,7 +31,7 @@ TEST(Aov, ChannelsHaveTheNamesThatDenoisersRead) {
   EXPECT_EQ(film.find("Coverage")->values[0], 0);
 }
 
-// A film with them is developed, shown and compared as one without.
+// A film with auxiliary channels is developed, displayed and compared like one without.
 TEST(Aov, TheFilmItselfIsNoOther) {
   ASSERT_EQ(rendered_ball("plain.exr", "").code, 0);
   ASSERT_EQ(
@@ -61,7 +61,7 @@ TEST(Aov, PartsOfAnyCropsAndRangesMakeTheFileOfTheWhole) {
   EXPECT_EQ(read_file(file("sum.exr")), read_file(file("whole.exr")));
 }
 
-// Of the other components of the Stokes vector, which have signs, there is none; in parts neither.
+// Intensities alone have an albedo. The other Stokes components are signed. The same holds for parts.
 TEST(Aov, AlbedoIsThatOfIntensities) {
   const std::string stokes = "--set /sensor/stokes=true --aov albedo ";
   ASSERT_EQ(rendered_ball("stokes.exr", stokes).code, 0);
@@ -84,12 +84,13 @@ TEST(Aov, AChannelOfTheSensorKeepsItsName) {
       "id.exr",
       R"(--aov id --set '/sensor={"resolution": [24, 16], "channels": {"Id": {"band": [500, 600]}}}')");
   EXPECT_EQ(run.code, 3);
-  EXPECT_NE(run.err.find("a channel has the name that a feature goes by (got \"Id\")"), std::string::npos)
+  EXPECT_NE(run.err.find("a channel has the name of a feature plane (got \"Id\"); rename it"),
+            std::string::npos)
       << run.err;
 }
 
-// Mesh files may name their materials, and so shapes, by any bytes: a film tells those that are no UTF-8 by
-// U+FFFD.
+// Mesh files may contain names of materials, and so of shapes, with any bytes. A film records bytes that are
+// not UTF-8 as U+FFFD.
 TEST(Aov, NamesOfLatin1AreTold) {
   (void)scratch().write("latin1.mtl", "newmtl caf\xE9\nKd 0.5 0.5 0.5\nnewmtl b\nKd 0.5 0.5 0.5\n");
   (void)scratch().write("latin1.obj",

@@ -47,7 +47,7 @@ TEST(Arguments, IntegersAreWholeAndInRange) {
               fmt::format("--spp: got \"{}\", allowed whole numbers in [1, 16777216]", text));
 }
 
-// One more than doubles tell from its neighbours.
+// Doubles distinguish this integer from its neighbours, but not the next one.
 TEST(Arguments, WholeNumbersAreNotRounded) {
   EXPECT_EQ(parse_integer("--seed", "9007199254740991", 0, kMaxSeed), kMaxSeed);
   EXPECT_NE(refusal([] { return parse_integer("--seed", "9007199254740992", 0, kMaxSeed); }), "accepted");
@@ -80,10 +80,10 @@ TEST(Arguments, TimesHaveUnits) {
 }
 
 TEST(Arguments, SharesArePercentOrPlain) {
-  EXPECT_DOUBLE_EQ(parse_share("--error", "0.5%"), 0.005);
-  EXPECT_DOUBLE_EQ(parse_share("--error", "0.005"), 0.005);
+  EXPECT_DOUBLE_EQ(parse_fraction("--error", "0.5%"), 0.005);
+  EXPECT_DOUBLE_EQ(parse_fraction("--error", "0.005"), 0.005);
   for (const char* text : {"", "%", "0", "1", "100%", "-1%"})
-    EXPECT_NE(refusal([&] { return parse_share("--error", text); }), "accepted") << text;
+    EXPECT_NE(refusal([&] { return parse_fraction("--error", text); }), "accepted") << text;
 }
 
 TEST(Arguments, AmountsOfMemoryHaveUnits) {
@@ -124,7 +124,7 @@ TEST(Arguments, OverridesArePointerAndValue) {
   EXPECT_NE(refusal([] { return parse_override("--set", "/samples"); }), "accepted");
 }
 
-// The fault that the command line has; empty if there is none.
+// Error of the command line; empty without an error.
 std::string fault_of(CLI::App& app, const std::vector<std::string>& words) {
   try {
     app.parse(std::vector<std::string>(words.rbegin(), words.rend()));
@@ -134,18 +134,18 @@ std::string fault_of(CLI::App& app, const std::vector<std::string>& words) {
   return "";
 }
 
-// Gives every option and argument of a command, and of those within it, an empty text; counts them.
+// Passes an empty text to every option and argument of a command and of its subcommands, and counts them.
 int expect_refused_empty(CLI::App& app, const CLI::App& command, const std::vector<std::string>& words) {
   int count = 0;
   bool first = true;
   for (const CLI::Option* option : command.get_options()) {
     if (option->get_items_expected_min() == 0) continue;
-    if (!option->nonpositional() && !std::exchange(first, false)) continue;  // others come behind the first
+    if (!option->nonpositional() && !std::exchange(first, false)) continue;  // others follow the first
     ++count;
     std::vector<std::string> line = words;
     if (option->nonpositional()) line.push_back(option->get_name());
     line.emplace_back();
-    EXPECT_NE(fault_of(app, line).find("got an empty text, allowed "), std::string::npos)
+    EXPECT_NE(fault_of(app, line).find("got an empty value, allowed "), std::string::npos)
         << fmt::format("{}", fmt::join(line, " "));
   }
   for (const CLI::App* within : command.get_subcommands([](const CLI::App*) { return true; })) {
@@ -167,7 +167,7 @@ TEST(Arguments, NoOptionTakesAnEmptyText) {
       FAIL() << argument << " takes the next argument";
     } catch (const Error& error) {
       EXPECT_EQ(error.code, ErrorCode::usage);
-      EXPECT_NE(std::string(error.what()).find("got an empty text"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("got an empty value"), std::string::npos) << error.what();
     }
   }
   EXPECT_NO_THROW(check_names(app, {"render", "--set=/render/samples=1", "scene.json"}));

@@ -14,7 +14,7 @@
 #include "tests/cli/json_output.h"
 #include "tests/cli/program.h"
 
-// Calibrations from raw files and from what `abbe measure` reads out of them.
+// Calibrations from raw files, and from values that `abbe measure` reads from them.
 
 namespace abbe::test {
 namespace {
@@ -24,7 +24,7 @@ using namespace abbe::cli;
 constexpr double kBlack = 64;
 constexpr double kFull = 4095 - kBlack;
 
-// Exposures of a wedge by a camera of 12 bits that tells its levels, of this gamma.
+// Exposures of a step wedge by a 12-bit camera with this gamma, whose files record its levels.
 std::filesystem::path write_series(double gamma = 1) {
   constexpr int kWidth = 96;
   constexpr int kHeight = 64;
@@ -51,7 +51,8 @@ std::filesystem::path write_series(double gamma = 1) {
   return path;
 }
 
-// Exposures of a wedge in pictures that tell nothing: 16 bits that hold the 12 of a camera of this gamma.
+// Exposures of a step wedge in pictures without attributes: 16 bits that contain the 12 of a camera with this
+// gamma.
 std::filesystem::path write_picture_series(double gamma) {
   constexpr int kWidth = 96;
   std::string listing;
@@ -73,7 +74,7 @@ std::filesystem::path write_picture_series(double gamma) {
                          R"({"full_scale": 0.0624857, "bits": 12, "exposures": [)" + listing + "]}");
 }
 
-// Exposures through a mosaic whose channels are told as B, G, R.
+// Exposures through a mosaic whose channels are declared as B, G, R.
 std::filesystem::path write_mosaic_series() {
   constexpr int kEdge = 32;
   std::string listing;
@@ -95,7 +96,7 @@ std::filesystem::path write_mosaic_series() {
   return scratch().write("mosaic_series.json", R"({"exposures": [)" + listing + "]}");
 }
 
-// The chart as a camera sees it in D65, the perfect diffuser being given; one patch with clipped green.
+// Camera values of the chart under D65, with the perfect diffuser. One patch has a clipped green value.
 CalibrateOptions measured(const std::string& unit, double white, const std::string& clipped = "") {
   CalibrateOptions options;
   options.how.bootstrap.replicates = 2;
@@ -124,7 +125,8 @@ TEST(CalibrateRaw, NumbersAboveBlackAreSharesOfWhatTheSeriesTells) {
   EXPECT_NEAR(both["dE00_mean"].get<double>(), plain, 0.05) << "the response is a straight line";
 }
 
-// The chart in values of this gamma, of which the same noise of light, if it is told, makes more in the dark.
+// Camera values of the chart with this gamma. If noise is recorded, it is the same in linear light and
+// therefore larger for dark codes.
 std::filesystem::path write_chart(double gamma, bool is_noisy,
                                   const std::string& unit = "shares of full scale", double full = 1) {
   Diagnostics diagnostics;
@@ -146,8 +148,8 @@ std::filesystem::path write_chart(double gamma, bool is_noisy,
   return scratch().write("chart_of_gamma.csv", rows);
 }
 
-// What the noise does to the fit is the same for linear values and for codes; what the curve's errors do,
-// noise or none, is the same too.
+// The noise affects the fit equally for linear values and for codes. So do the errors of the curve, with or
+// without noise.
 TEST(CalibrateRaw, NoiseIsMadeLinearWithTheValues) {
   CalibrateOptions options;
   options.how.bootstrap.replicates = 2;
@@ -168,7 +170,8 @@ TEST(CalibrateRaw, NoiseIsMadeLinearWithTheValues) {
   for (std::size_t i = 0; i < 24; ++i) EXPECT_NEAR(curved[i], linear[i], 0.03) << i;
 }
 
-// The values of such pictures are shares of 65535, or floats as they are, which clip where the listing says.
+// The values of such pictures are fractions of 65535, or floats as stored. They clip at the level that the
+// listing declares.
 TEST(CalibrateRaw, ValuesOfPicturesAreSharesOfTheListedFullScale) {
   CalibrateOptions options;
   options.how.bootstrap.replicates = 2;
@@ -199,7 +202,7 @@ TEST(CalibrateRaw, SaturatedPatchesAreLeftOutOfBalanceAndFit) {
   const json answer = json_output(calibrate, clipped);
   const std::string warnings = testing::internal::GetCapturedStderr();
   EXPECT_NE(warnings.find("patch \"white 9.5 (.05 D)\" has saturated pixels"), std::string::npos) << warnings;
-  EXPECT_NE(warnings.find("it is left out"), std::string::npos) << warnings;
+  EXPECT_NE(warnings.find("it is excluded"), std::string::npos) << warnings;
   ASSERT_EQ(answer["patches"].size(), 23U);
   EXPECT_NEAR(answer["dE00_mean"].get<double>(), plain, 0.15);
   const CalibrateOptions all = measured(kNumbersAboveBlack, 3000, "all");
@@ -215,12 +218,11 @@ TEST(CalibrateRaw, CodeValuesOfPicturesAreWarnedOfWhereNoSeriesMakesThemLinear) 
     return testing::internal::GetCapturedStderr();
   };
   CalibrateOptions options = measured(kCodeValues, 0.8);
-  EXPECT_NE(
-      told(options).find("raw_patches.csv: warning: its values, the code values of a picture, are taken "
-                         "for linear, which those for displays are not"),
-      std::string::npos);
+  EXPECT_NE(told(options).find("raw_patches.csv: warning: its values are code values of a picture and count "
+                               "as linear, but code values for displays are not linear"),
+            std::string::npos);
   options.series = write_series();
-  EXPECT_EQ(told(options).find("taken for linear"), std::string::npos);
+  EXPECT_EQ(told(options).find("count as linear"), std::string::npos);
   EXPECT_EQ(told(measured("linear camera values", 0.8)), "");
 }
 
@@ -229,7 +231,7 @@ TEST(CalibrateRaw, ScalesThatDoNotFitAreNamed) {
   EXPECT_EQ(fault([&] { scale_to_codes(raw, {}, "m.csv"); }, "m.csv: its values are digital numbers above"),
             ErrorCode::input);
   MeasuredPatches clipped{{"grey"}, {{300, 300, 4003}}, {}, kNumbersAboveBlack, {"grey"}};
-  scale_to_codes(clipped, {4000}, "m.csv");  // which is left out, so that nothing hinges on it
+  scale_to_codes(clipped, {4000}, "m.csv");  // this patch is omitted, so it does not affect the fit
   EXPECT_EQ(clipped.values[0][0], 0.075);
   MeasuredPatches other{{"grey"}, {{0.3, 0.3, 300}}};
   MeasuredPatches dim{{"grey"}, {{0.01, 0.02, 0.04}}, {{0.001, 0.002, 0.003}}, kCodeValues};
@@ -248,10 +250,10 @@ TEST(CalibrateRaw, LightsAreNamedOnce) {
   options.output = scratch() / "twice";
   EXPECT_EQ(fault([&] { calibrate(options); }, "--illuminant: D65 is named twice"), ErrorCode::usage);
   options.illuminants = "lamp.csv,A,Lamp.csv";
-  EXPECT_EQ(fault([&] { calibrate(options); },
-                  "--illuminant: Lamp.csv differs from lamp.csv in case only, of which the names of "
-                  "OpenColorIO know nothing"),
-            ErrorCode::usage);
+  EXPECT_EQ(
+      fault([&] { calibrate(options); },
+            "--illuminant: Lamp.csv differs from lamp.csv only in case, which OpenColorIO ignores in names"),
+      ErrorCode::usage);
 }
 
 TEST(CalibrateRaw, OneExposureTwiceIsASentenceAndNoReportOfTheSolver) {
@@ -269,9 +271,9 @@ TEST(CalibrateRaw, ChartsLieAsTheyArePrinted) {
   const std::array<Imath::V2d, 4> corners{{{0, 0}, {60, 0}, {60, 40}, {0, 40}}};
   const std::array<Imath::V2d, 4> mirrored{{{60, 0}, {0, 0}, {0, 40}, {60, 40}}};
   EXPECT_EQ(outlines_between(corners, names, 6).size(), 24U);
-  EXPECT_EQ(
-      fault([&] { (void)outlines_between(mirrored, names, 6); }, "--corners: these show the chart mirrored"),
-      ErrorCode::usage);
+  EXPECT_EQ(fault([&] { (void)outlines_between(mirrored, names, 6); },
+                  "--corners: these corners show the chart mirrored"),
+            ErrorCode::usage);
   EXPECT_EQ(
       fault([&] { (void)outlines_between(corners, names, 7); }, "--columns: got 7, which does not divide"),
       ErrorCode::usage);

@@ -39,7 +39,7 @@ TEST(Calibrate, TakesValuesForLinearUnlessAskedToRecoverThem) {
   EXPECT_EQ(json_output(calibrate, asked)["responses"].size(), 3U);
 }
 
-// What other commands have measured of the sensor stands beside its colours.
+// The page also shows measurements of the sensor by other commands.
 TEST(Calibrate, ShowsNoiseAndSharpnessOnItsPage) {
   CalibrateOptions options = nikon();
   options.output = scratch() / "measured";
@@ -56,11 +56,11 @@ TEST(Calibrate, ShowsNoiseAndSharpnessOnItsPage) {
   EXPECT_EQ(page.find("signal_dn</td>"), std::string::npos);
   for (const char* damaged : {R"({"channel": ["R"], "signal_dn": [[1]]})", R"({"mtf": 1})", "[", "3"}) {
     std::ofstream(options.transfer) << damaged;
-    EXPECT_EQ(fault([&] { calibrate(options); }, "is not what the command prints with --json"),
+    EXPECT_EQ(fault([&] { calibrate(options); }, "is not an answer that the command printed with --json"),
               ErrorCode::input);
   }
   options.output.clear();
-  EXPECT_EQ(fault([&] { calibrate(options); }, "which is written with --output alone"), ErrorCode::usage);
+  EXPECT_EQ(fault([&] { calibrate(options); }, "which needs --output"), ErrorCode::usage);
 }
 
 TEST(Calibrate, WritesTheMatricesOfDngAndTheCurvesOfRawtoaces) {
@@ -81,14 +81,14 @@ TEST(Calibrate, WritesTheMatricesOfDngAndTheCurvesOfRawtoaces) {
        {"Nikon_D5100 under FL11", "Vora value 0.931", "dark skin", "Patches left out of the fit"})
     EXPECT_NE(page.find(text), std::string::npos) << text;
   EXPECT_EQ(page.find("<?xml"), std::string::npos);
-  // The curves written are a camera like any other.
+  // The written spectral responses can be used like those of any camera.
   CalibrateOptions again = nikon();
   again.camera = (options.output / "sensitivities.json").string();
   const double first = json_output(calibrate, nikon())["dE00_mean"];
   EXPECT_NEAR(json_output(calibrate, again)["dE00_mean"].get<double>(), first, 0.01);
 }
 
-// OpenColorIO refuses a CLF with a byte that is no UTF-8, and pages say that they have none.
+// OpenColorIO rejects a CLF with bytes that are not UTF-8, and pages declare UTF-8.
 TEST(Calibrate, NamesThatAreNoUtf8StandInNoFileAsTheyAre) {
   CalibrateOptions options = nikon();
   options.camera = (scratch() / "caf\xE9.csv").string();
@@ -105,7 +105,7 @@ TEST(Calibrate, NamesThatAreNoUtf8StandInNoFileAsTheyAre) {
   }
 }
 
-// A table of the chart as the camera sees it, the white being given, as `abbe measure` writes it.
+// Table of the camera values of the chart and the white, in the format of `abbe measure`.
 std::string measured_table(const std::string& light, double white, const std::string& saturated = "") {
   Diagnostics diagnostics;
   const auto channels = load_camera("Nikon_D5100", {}, diagnostics);
@@ -140,7 +140,7 @@ TEST(Calibrate, TrainsAPhotographedCameraOnSpectraSeenThroughItsCurves) {
   EXPECT_EQ(fault([&] { calibrate(options); }, "the chart itself"), ErrorCode::usage);
 }
 
-// The Nikon's curves as a table with these columns.
+// Spectral responses of the Nikon as a table with these columns.
 std::string camera_table(const std::vector<std::size_t>& order) {
   Diagnostics diagnostics;
   const auto channels = load_camera("Nikon_D5100", {}, diagnostics);
@@ -162,7 +162,7 @@ TEST(Calibrate, TakesCurvesForWhatTheyAreSaidToMultiply) {
   const double quantum = json_output(calibrate, options)["dE00_mean"];
   EXPECT_GT(std::abs(quantum - energy), 0.01);
   options.camera = "box:400-500,500-600,600-700";
-  EXPECT_EQ(fault([&] { calibrate(options); }, "goes with measured curves (got box:400-500"),
+  EXPECT_EQ(fault([&] { calibrate(options); }, "applies to measured curves only (got box:400-500"),
             ErrorCode::usage);
   const Outcome alone = abbe("calibrate --all-cameras --camera-response quantum");
   EXPECT_EQ(alone.code, 2) << alone.err;
@@ -175,10 +175,10 @@ TEST(Calibrate, RefusesChartsInPercent) {
                              "# unit: reflectance in percent\n# outside: clamp\n"
                              "wavelength_nm,a\n400,0.5\n700,0.9\n")
                       .string();
-  EXPECT_EQ(fault([&] { calibrate(options); }, "allowed shares of 1"), ErrorCode::input);
+  EXPECT_EQ(fault([&] { calibrate(options); }, "allowed fractions of 1"), ErrorCode::input);
   std::swap(options.chart, options.training);
   options.chart = "colorchecker24_babelcolor_average";
-  EXPECT_EQ(fault([&] { calibrate(options); }, "allowed shares of 1"), ErrorCode::input);
+  EXPECT_EQ(fault([&] { calibrate(options); }, "allowed fractions of 1"), ErrorCode::input);
 }
 
 TEST(Calibrate, KnowsRedGreenAndBlueByNameInWhateverOrderAFileHasThem) {
@@ -194,7 +194,7 @@ TEST(Calibrate, KnowsRedGreenAndBlueByNameInWhateverOrderAFileHasThem) {
   const json found = json_output(calibrate, bgr);
   for (const char* key : {"white_values", "to_xyz_d65", "dE00_mean"})
     EXPECT_EQ(found[key], expected[key]) << key;
-  // Columns of a table and curves of a camera are matched by name too.
+  // Columns of a table and channels of a camera are matched by name.
   for (CalibrateOptions* options : {&rgb, &bgr}) {
     options->measured = scratch().write("measured_rgb.csv", measured_table("D65", 300));
     options->training = "pmc_chart_luo2024";
@@ -206,7 +206,7 @@ TEST(Calibrate, KnowsRedGreenAndBlueByNameInWhateverOrderAFileHasThem) {
       ErrorCode::input);
 }
 
-// Colours that a table states are those in its own light, which nothing else can be calibrated for.
+// Measured colours in a table belong to its own illuminant, so that no other illuminant can be calibrated.
 TEST(Calibrate, IsOfTheLightThatAChartTellsItsColoursIn) {
   CalibrateOptions options = nikon();
   options.camera.clear();
@@ -249,7 +249,7 @@ TEST(Calibrate, FaultsOfMeasuredValuesAreSentences) {
     std::ofstream(options.measured) << text;
     return [options] { calibrate(options); };
   };
-  // All patches alike: nothing of the camera can be known from them.
+  // Equal patches reveal nothing about the camera.
   std::string grey = "# unit: linear camera values\npatch,R,G,B\n";
   Diagnostics diagnostics;
   const Chart chart = load_chart(options.chart, {}, diagnostics).value();
@@ -269,7 +269,7 @@ TEST(Calibrate, FaultsOfMeasuredValuesAreSentences) {
             std::string::npos);
 }
 
-// What is of one camera's colours: nothing of all cameras at once, nor of curves alone.
+// Options for the colours of one camera do not apply to all cameras or to response curves alone.
 TEST(Calibrate, OptionsOfColoursAreRefusedWhereThereAreNone) {
   const auto expect_refused = [](const std::string& what, const std::string& option) {
     const Outcome run = abbe("calibrate " + what + " " + option);

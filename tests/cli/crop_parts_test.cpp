@@ -12,7 +12,7 @@
 #include "tests/source_tree.h"
 #include "tests/tier.h"
 
-// Films that are cut into crops, each of them into ranges of samples.
+// Films rendered in crops, each of them in ranges of samples.
 
 namespace abbe::test {
 namespace {
@@ -23,7 +23,7 @@ bool names(const std::string& text, const std::string& what) {
   return text.find(what) != std::string::npos;
 }
 
-// Unequal ones, not along tiles, some of them cut into ranges, in no order.
+// Crops of unequal size that ignore tiles, in arbitrary order. Some are divided into ranges of samples.
 std::string crops_of(const std::string& scene) {
   return part_of(scene, "right", "--crop 7,0,24,5") + " " +
          part_of(scene, "low", "--crop 0,5,24,16 --sample-range 5:8") + " " +
@@ -41,9 +41,9 @@ TEST(CropParts, AddUpToTheFileOfTheWholeRender) {
   EXPECT_EQ(read_file(part_of(ball(), "all", "--crop 0,0,24,16")), read_file(file("whole.abbepart")));
 }
 
-// Every crop traces all photons and keeps those that meet it.
+// Every crop traces all photons and records those that reach it.
 TEST(CropParts, AddUpWherePhotonsAreTraced) {
-  // By day without what `auto` traces before it renders.
+  // The pilot rays of `auto` are omitted by day.
   const std::string integrator = nightly() ? "auto" : "light";
   const std::string scene = (data_directory() / "scenes/prism_spot.json").string() +
                             " --set '/sensor/resolution=[24, 16]' --spp 8 --integrator " + integrator;
@@ -55,7 +55,7 @@ TEST(CropParts, AddUpWherePhotonsAreTraced) {
   EXPECT_EQ(read_file(file("sum.exr")), read_file(file("whole.exr")));
 }
 
-// On a smaller film.
+// A smaller film saves time.
 TEST(CropParts, TheDocumentedExampleWorks) {
   std::string text = read_file(source_tree() / "docs/distributed.md");
   const std::size_t begin = text.find("```sh\n", text.find("\nFilms are cut by `--crop`")) + 6;
@@ -100,7 +100,8 @@ TEST(CropParts, NoPixelTakesASampleTwice) {
   const Outcome both =
       merged(a + " " + part_of(ball(), "b", "--crop 9,8,24,16 --sample-range 5:8"), file("no.exr"));
   EXPECT_EQ(both.code, 4);
-  EXPECT_TRUE(names(both.err, "b.abbepart: has samples that are there already (got 5:8 of pixels 9,8,10,16)"))
+  EXPECT_TRUE(
+      names(both.err, "b.abbepart: has samples that are already included (got 5:8 of pixels 9,8,10,16)"))
       << both.err;
   EXPECT_EQ(merged(a + " " + part_of(ball(), "c", "--crop 9,8,24,16 --sample-range 6:8"),
                    file("sum.abbepart") + " --partial")
@@ -108,7 +109,7 @@ TEST(CropParts, NoPixelTakesASampleTwice) {
             0);
 }
 
-// What there is of a film is right at each pixel, and a part of it goes on being added to.
+// A partial film is correct at each of its pixels and can be extended.
 TEST(CropParts, APartialFilmIsRightWherePixelsHaveDifferentSamples) {
   const std::string left = part_of(ball(), "left", "--crop 0,0,10,16 --sample-range 0:6");
   const std::string right = part_of(ball(), "right", "--crop 10,4,24,16");
@@ -147,7 +148,7 @@ TEST(CropParts, AFilmOfUnevenSamplesTellsWhichPixelsHaveWhich) {
   EXPECT_EQ(abbe(compare + " --maps " + file("maps")).code, 0) << "all pixels are in common";
 }
 
-// Black for want of a render is no darkness.
+// Pixels are black because they were not rendered, which is not a measured darkness.
 TEST(CropParts, AFilmWithGapsTellsWhichPixelsItHas) {
   const std::string a = part_of(ball(), "a", "--crop 0,0,10,8");
   const std::string b = part_of(ball(), "b", "--crop 10,8,24,16");
@@ -165,7 +166,9 @@ TEST(CropParts, AFilmWithGapsTellsWhichPixelsItHas) {
   EXPECT_EQ(compared.json()["areas"], nlohmann::json::parse("[[0, 0, 10, 8], [10, 8, 24, 16]]"));
   const Outcome maps = abbe(compare + " --maps " + file("maps"));
   EXPECT_EQ(maps.code, 2);
-  EXPECT_TRUE(names(maps.err, "a rectangle of pixels in common (got areas 0,0,10,8 10,8,24,16)")) << maps.err;
+  EXPECT_TRUE(
+      names(maps.err, "films whose common pixels form one rectangle (got the areas 0,0,10,8 10,8,24,16)"))
+      << maps.err;
   const nlohmann::json of_a = developed(film_of(ball(), "a", "--crop 0,0,10,8"));
   const nlohmann::json of_b = developed(film_of(ball(), "b", "--crop 10,8,24,16"));
   const nlohmann::json of_both = developed(gaps);
@@ -183,7 +186,7 @@ TEST(CropParts, OfOneCropMakeItsFilm) {
   EXPECT_EQ(read_file(file("sum.exr")), read_file(file("whole.exr")));
   const Outcome more = abbe("merge --crop 3,3,20,9 " + parts + " -o " + file("sum.exr"));
   EXPECT_EQ(more.code, 4);
-  EXPECT_TRUE(names(more.err, "a.abbepart: has pixels beyond --crop (got 3,2,20,5, allowed 3,3,20,9)"))
+  EXPECT_TRUE(names(more.err, "a.abbepart: has pixels outside --crop (got 3,2,20,5, allowed 3,3,20,9)"))
       << more.err;
 }
 

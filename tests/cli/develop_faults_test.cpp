@@ -11,14 +11,14 @@
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
 
-// Films that cannot be developed, and places where nothing can be written.
+// Films that cannot be developed, and outputs that cannot be written.
 
 namespace abbe::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-// A film as a render of a scene with a read-out writes it.
+// Film of a scene with a readout, as a render writes it.
 Image film_of_four_pixels() {
   Image image{2, 2, {}, {}};
   image.channels = {{"V", {1e12F, 2e12F, 3e12F, 4e12F}}, {"Variance.V", {1e20F, 1e20F, 1e20F, 1e20F}}};
@@ -64,10 +64,10 @@ TEST(DevelopFaults, FilmsThatLackSomethingAreNamed) {
            {[](Image& image) { image.channels.front().name = "W"; }, "has no channel \"V\""},
            {[](Image& image) { image.channels.pop_back(); }, "has no channel \"Variance.V\""},
            {pixel("V", std::numeric_limits<float>::quiet_NaN()),
-            "channel \"V\" holds no number at pixel 1,0 (got nan)"},
+            "channel \"V\" has a value that is not finite at pixel 1,0 (got nan)"},
            {pixel("V", std::numeric_limits<float>::infinity()),
-            "channel \"V\" holds no number at pixel 1,0 (got inf)"},
-           {pixel("Variance.V", -1), "channel \"Variance.V\" holds no variance at pixel 1,0 (got -1)"},
+            "channel \"V\" has a value that is not finite at pixel 1,0 (got inf)"},
+           {pixel("Variance.V", -1), "channel \"Variance.V\" has a negative variance at pixel 1,0 (got -1)"},
            {pixel("V", 1e30F), "pixel 1 expects"},
            without("sensor_channels"),
            without("exposure_s"),
@@ -127,7 +127,7 @@ TEST(DevelopFaults, FilesThatAreNoFilmsAreInputErrors) {
   EXPECT_NE(abbe("develop " + file("others.exr")).err.find("has no part \"exposure\""), std::string::npos);
 }
 
-// A few hundred bytes that announce gigabytes.
+// Files of a few hundred bytes that declare gigabytes.
 TEST(DevelopFaults, BombsAreRefusedBeforeTheyGoOff) {
   Imf::Header header(65536, 4096);
   for (int i = 0; i < 9; ++i) header.channels().insert("C" + std::to_string(i), Imf::Channel(Imf::FLOAT));
@@ -165,7 +165,7 @@ TEST(DevelopFaults, APngTakesOnePlaneOrThree) {
   EXPECT_EQ(develop(image, "-o " + file("two.tif")).code, 0);
   const Outcome run = develop(image, "-o " + file("two.png"));
   EXPECT_EQ(run.code, 5);
-  EXPECT_NE(run.err.find("one plane or three"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("one or three channels"), std::string::npos) << run.err;
   const Outcome shown = develop(image, "--display " + file("two.png"));
   EXPECT_EQ(shown.code, 2);
   EXPECT_NE(shown.err.find("a picture needs a sensor of one or three channels"), std::string::npos)

@@ -13,7 +13,7 @@
 #include "tests/cli/runs.h"
 #include "tests/tier.h"
 
-// Raw files as other programs read them, and films exposed anew.
+// Raw files read by other programs, and films developed with another exposure.
 
 namespace abbe::test {
 namespace {
@@ -25,7 +25,7 @@ constexpr const char* kTwo =
     R"("response": "quantum", "channels": {"a": {"band": [600, 700]}, "b": {"band": [500, 600]}},
        "readout": {"gain_e_per_dn": 50, "bits": 12, "offset_dn": 50, "read_noise_e": 90})";
 
-// A film of 48 x 32 pixels of a ball before an even sky.
+// A film of 48 x 32 pixels of a ball in front of a uniform environment.
 std::string ball_film(const std::string& name, const std::string& sensor, const std::string& options = "") {
   const std::string scene =
       scratch()
@@ -76,7 +76,7 @@ TEST(DevelopRaw, LibRawReadsTheCodesOfADng) {
     EXPECT_NE(told.find(line), std::string::npos) << line << '\n' << told;
 }
 
-// Converted by LibRaw with the file's own white balance and matrix, a picture has the colours of ours.
+// LibRaw converts the file with its own white balance and matrix. The colours must be those of our picture.
 TEST(DevelopRaw, LibRawFindsTheColoursOfADng) {
   if (!has("dcraw_emu")) GTEST_SKIP() << "libraw-bin is not installed";
   const std::string path = ball_film("colours", kMosaic, "--spp 64");
@@ -145,7 +145,7 @@ TEST(DevelopRaw, FilesTellWhatTheirNumbersAre) {
   EXPECT_EQ(told.at("gain_e_per_dn"), "10");
 }
 
-// 20 electrons of dark signal at 10 electrons per code.
+// The dark signal is 20 electrons, at 10 electrons per code.
 TEST(DevelopRaw, AboveBlackIsLight) {
   const std::string path = ball_film("dark_signal", kMosaic);
   const std::string dark_current = " --set /readout/dark_e_per_s=20000";
@@ -163,7 +163,7 @@ TEST(DevelopRaw, ChannelsWithDarkSignalsOfTheirOwnAreWarnedOf) {
       "channels": {"a": {"band": [600, 700]}, "b": {"filters": [{"band": [500, 600]}], "exposure_s": 3}},
       "readout": {"gain_e_per_dn": 50, "bits": 12, "offset_dn": 50, "dark_e_per_s": 100})");
   const std::string warning =
-      "have dark signals of their own (of 2 to 6 codes), which the black level of raw files leaves out";
+      "have different dark signals (2 to 6 DN): the black level of raw files does not include them";
   EXPECT_NE(abbe("develop " + path + " -o " + file("own.fits")).err.find(warning), std::string::npos);
   EXPECT_EQ(read_raw_picture(file("own.fits")).black_level_dn, 50);
   EXPECT_EQ(abbe("develop " + path + " -o " + file("own.exr")).err, "");
@@ -190,7 +190,7 @@ TEST(DevelopAnew, TwiceTheTimeIsTwiceTheLight) {
 TEST(DevelopAnew, AShutterIsWarnedOfWhereItsSceneIsSeen) {
   const std::string path = ball_film("shutter", std::string(kTwo) + R"(, "shutter": {"rise_s": 0.2})");
   const std::string anew = "develop " + path + " --exposure-s 2 -o " + file("shutter.tif");
-  EXPECT_NE(abbe(anew).err.find("--exposure-s: warning: the film's motion blur is that of its own exposure"),
+  EXPECT_NE(abbe(anew).err.find("--exposure-s: warning: motion blur remains that of the film's own exposure"),
             std::string::npos);
   EXPECT_EQ(abbe(anew + " --frame dark").err, "");
 }
@@ -228,7 +228,7 @@ std::vector<double> fits_codes(const std::string& name) {
 double mean_of(const std::vector<double>& values) {
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
 }
-// Of each of two exposures: half the variance of their difference.
+// The variance of one exposure is half that of the difference of two.
 double temporal_variance(const std::vector<double>& a, const std::vector<double>& b) {
   const double shift = mean_of(a) - mean_of(b);
   double squares = 0;
@@ -236,7 +236,7 @@ double temporal_variance(const std::vector<double>& a, const std::vector<double>
   return squares / 2 / static_cast<double>(a.size() - 1);
 }
 
-// A million pixels tell the gain to 0.14 % and the read noise to 0.1 %, one standard deviation.
+// A million pixels determine the gain to 0.14 % and the read noise to 0.1 % (one standard deviation).
 TEST(DevelopAnew, PairsOfFramesTellGainAndReadNoiseAtEverySpeed) {
   const int edge = nightly() ? 1000 : 300;
   const double bound = nightly() ? 0.005 : 5 * std::sqrt(2.0) / edge;  // five standard errors of a variance
@@ -277,9 +277,9 @@ TEST(DevelopAnew, AFileThatFailsLosesNoOther) {
   const Outcome run = abbe("develop " + path + " -o " + file("no.png") + " -o " + file("no.dng") + " -o " +
                            file("yes.tif") + " -o " + file("yes.fits"));
   EXPECT_EQ(run.code, 5) << run.err;
-  EXPECT_NE(run.err.find("no.png: a file of this kind holds one plane or three"), std::string::npos)
+  EXPECT_NE(run.err.find("no.png: this format stores one or three channels"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("no.dng: a DNG stores one plane, three planes or a mosaic"), std::string::npos)
       << run.err;
-  EXPECT_NE(run.err.find("no.dng: a DNG has one plane, three, or a mosaic"), std::string::npos) << run.err;
   EXPECT_EQ(read_picture(file("yes.tif")).channels.size(), 2U);
   EXPECT_TRUE(std::filesystem::exists(file("yes.fits")));
   EXPECT_FALSE(std::filesystem::exists(file("no.dng")));
@@ -339,16 +339,17 @@ TEST(DevelopAnew, AnOutputThatCannotBeWrittenKeepsNoOtherFromIt) {
 TEST(DevelopAnew, OptionsWithoutEffectAreRefused) {
   const std::string path = ball_film("idle", kTwo);
   for (const auto& [options, message] :
-       {std::pair{"--frame bias --exposure-s 10", "--exposure-s: a bias frame is exposed for no time"},
-        std::pair{"--frame dark --light key=5", "--light: a frame of --frame sees no scene"},
-        std::pair{"--frame flat --light key=5", "--light: a frame of --frame sees no scene"},
+       {std::pair{"--frame bias --exposure-s 10", "--exposure-s: has no effect on a bias frame"},
+        std::pair{"--frame dark --light key=5", "--light: has no effect on a calibration frame"},
+        std::pair{"--frame flat --light key=5", "--light: has no effect on a calibration frame"},
         std::pair{"--iso 400 --set /readout/iso=300",
-                  "--iso: is what --set /readout/iso says too: one of them"},
+                  "--iso: sets the same value as --set /readout/iso: give only one of them"},
         std::pair{"--white A --set /output/white=D50",
-                  "--white: is what --set /output/white says too: one of them"},
-        std::pair{"--exposure 5", "--exposure: only what is written takes it (allowed with --display or -o)"},
-        std::pair{"--white A", "--white: only what is written takes it"},
-        std::pair{"--set /output/white=A", "/output/white: only what is written takes it"}}) {
+                  "--white: sets the same value as --set /output/white: give only one of them"},
+        std::pair{"--exposure 5",
+                  "--exposure: has no effect without an output (allowed with --display or -o)"},
+        std::pair{"--white A", "--white: has no effect without an output"},
+        std::pair{"--set /output/white=A", "/output/white: has no effect without an output"}}) {
     const Outcome run = abbe("develop " + path + " " + options);
     EXPECT_EQ(run.code, 2) << options;
     EXPECT_NE(run.err.find(message), std::string::npos) << options << '\n' << run.err;
@@ -359,18 +360,18 @@ TEST(DevelopAnew, FaultsAreNamed) {
   const std::string path = ball_film("faults", kTwo);
   const std::string bare = ball_film("bare", R"("observer": "1931")");
   for (const auto& [arguments, message] :
-       {std::pair{path + " --frame grey", "--frame: got \"grey\", allowed bias, dark or flat"},
+       {std::pair{path + " --frame grey", "--frame: got \"grey\", allowed bias, dark, flat or flat:FRACTION"},
         std::pair{path + " --frame flat:x", "--frame: "},
         std::pair{path + " --exposure-s 0", "--exposure-s: "}, std::pair{path + " --frames 0", "--frames: "},
-        std::pair{bare + " --frame dark", "--frame: the film has no read-out"},
-        std::pair{bare + " --frames 3", "--frames: the film has no read-out whose noise it could draw"},
-        std::pair{bare + " --seed 3", "--seed: the film has no read-out whose noise it could draw"},
-        std::pair{path + " --view film", "--view: only a picture takes it (allowed with --display)"},
-        std::pair{path + " --screen paper", "--screen: only a picture takes it"},
-        std::pair{path + " --ocio /nowhere.ocio", "--ocio: only a picture takes it"},
+        std::pair{bare + " --frame dark", "--frame: the film has no readout"},
+        std::pair{bare + " --frames 3", "--frames: needs a film with a readout, which has the noise"},
+        std::pair{bare + " --seed 3", "--seed: needs a film with a readout, which has the noise"},
+        std::pair{path + " --view film", "--view: applies to pictures only (allowed with --display)"},
+        std::pair{path + " --screen paper", "--screen: applies to pictures only"},
+        std::pair{path + " --ocio /nowhere.ocio", "--ocio: applies to pictures only"},
         std::pair{bare + " --iso 100", "channel \"X\" counts no electrons"},
         std::pair{path + " --iso 400 --set /readout/gain_e_per_dn=8",
-                  "/readout/iso: makes the gain, which /readout/gain_e_per_dn says too"},
+                  "/readout/iso: sets the gain, which /readout/gain_e_per_dn sets too"},
         std::pair{path + " --iso 0", "--iso: "}}) {
     const Outcome run = abbe("develop " + arguments);
     EXPECT_NE(run.code, 0) << arguments;

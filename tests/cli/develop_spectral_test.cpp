@@ -10,7 +10,7 @@
 #include "tests/cli/program.h"
 #include "tests/cli/runs.h"
 
-// Spectral films, and sensors that look at them.
+// Spectral films, and sensors that record them.
 
 namespace abbe::test {
 namespace {
@@ -51,11 +51,12 @@ TEST(DevelopSpectral, BinsHoldTheRadianceThatIsSeenFromCornerToCorner) {
     sum += mean;
     corner += static_cast<double>(band.radiance.front());
   }
-  EXPECT_NEAR(sum, 150, 0.2);  // less 0.08 %, by which cos^4 falls from the centre of so large a pixel
+  EXPECT_NEAR(sum, 150, 0.2);  // 0.08 % less, since cos^4 decreases within this large pixel
   EXPECT_NEAR(corner, 150, 0.3) << "the lens darkens its corners to a half, the scene does not";
 }
 
-// Life size at f/1, where rays of the rim of the lens are at 14 degrees with the axis, and f/2 off the axis.
+// Images of life size: at f/1, with rays from the rim of the lens at 14 degrees to the axis, and at f/2 off
+// the axis.
 TEST(DevelopSpectral, CloseUpsHoldTheRadianceToo) {
   for (const char* lens : {R"("f_number": 1)", R"("f_number": 2, "blades": 5)"}) {
     const auto scene = [&](const std::string& name, const std::string& sensor) {
@@ -108,7 +109,7 @@ TEST(DevelopSpectral, StatsAreOfTheRadiancesThatTheFilmHolds) {
   EXPECT_NEAR(stats["film"]["450nm"]["standard_error"], std::sqrt(variance) / 192, 1e-6 * mean);
 }
 
-// A dome of 0.5 W/(m^2 sr nm) over all the visible is 683 lm/W x 0.5 x 106.8 nm.
+// A dome of 0.5 W/(m^2 sr nm) over all visible wavelengths has 683 lm/W x 0.5 x 106.8 nm.
 TEST(DevelopSpectral, ThePreviewIsInCandelas) {
   const std::string path = dome_film("dome", kBins);
   const Image image = read_exr(path);
@@ -130,7 +131,7 @@ TEST(DevelopSpectral, RenderAndDevelopShowTheSame) {
   }
 }
 
-// It is in candelas, the sensor's films are in electrons.
+// Its unit is the candela. Films of the sensor are in electrons.
 TEST(DevelopSpectral, TheExposureOfRadiancesIsNoSensors) {
   const std::string scene = dome_scene("counting.json", kBroadBands);
   const auto seen = [&](const std::string& film) {
@@ -163,7 +164,7 @@ TEST(DevelopSpectral, ASensorThatLooksLaterCountsWhatOneInTheSceneCounts) {
   EXPECT_EQ(raw.code, 0) << raw.err;
 }
 
-// A shutter that opens and closes all the time passes half the light, whoever looks.
+// A shutter that opens and closes during the whole exposure passes half the light to any sensor.
 TEST(DevelopSpectral, AShutterTakesNothingOffRadiancesAndItsShareOffCounts) {
   const std::string shutter = R"(, "shutter": {"rise_s": 0.01, "fall_s": 0.01})";
   const std::string path = dome_film("half_open", kBins + shutter);
@@ -214,8 +215,9 @@ TEST(DevelopSpectral, ResponsesBeyondTheBandsAreTold) {
   EXPECT_EQ(seen("[510, 590]").err, "");
   const Outcome half = seen("[550, 650]");
   EXPECT_EQ(half.code, 0);
-  EXPECT_NE(half.err.find("covers 500 to 600 nm only, where 52.1 % of the response of channel \"W\" is not"),
-            std::string::npos)
+  EXPECT_NE(
+      half.err.find("covers only 500 to 600 nm, but 52.1 % of the response of channel \"W\" lies outside"),
+      std::string::npos)
       << half.err;
   const Outcome none = seen("[610, 650]");
   EXPECT_EQ(none.code, 4);
@@ -246,33 +248,33 @@ TEST(DevelopSpectral, WhatDoesNotFitIsRefused) {
   };
   const std::string picture = " --display " + file("no.png");
   says(spectral + picture + " --iso 400", 2,
-       "--iso: a spectral film needs a sensor that looks at it: --scene");
-  says(spectral + picture + " --set /readout/bits=8", 2, "--set: a spectral film needs a sensor");
-  says(spectral + " -o " + file("no.tif"), 2, "a spectral film needs a sensor that looks at it: --scene");
+       "--iso: needs a sensor for a spectral film (allowed with --scene)");
+  says(spectral + picture + " --set /readout/bits=8", 2, "--set: needs a sensor for a spectral film");
+  says(spectral + " -o " + file("no.tif"), 2, "needs a sensor for a spectral film (allowed with --scene)");
   says(spectral + " --scene " + dome_scene("same.json", kBins), 2, "its sensor is spectral itself");
   says(spectral + " --scene " + dome_scene("far.json", kBroadBands, "0.03"), 4,
-       "was seen in another field of view");
+       "was rendered with another field of view");
   std::string meter = read_file(dome_scene("meter.json", kBroadBands));
   const std::size_t camera = meter.find("{\"thin_lens\"");
   meter.replace(camera, meter.find("\"sensor\"") - camera,
                 R"({"irradiance_probe": {"at": [0, 0, 0], "normal": [0, 0, 1]}}, )");
   says(spectral + " --scene " + scratch().write("meter.json", meter).string(), 4,
-       "was seen by another camera");
+       "was rendered with another kind of camera");
   std::string small = read_file(dome_scene("small.json", kBroadBands));
   small.replace(small.find("[24, 16]"), 8, "[12, 8]");
   says(spectral + " --scene " + scratch().write("small.json", small).string(), 4,
-       "has other pixels than the sensor (got 24 x 16, allowed 12 x 8)");
+       "has another size than the sensor (got 24 x 16, allowed 12 x 8)");
   says(spectral + " --scene " + file("absent.json"), 4, "absent.json");
   says(dome_film("counted", kBroadBands) + " --scene " + dome_scene("sensor.json", kBroadBands), 2,
-       "only a spectral film");
+       "applies to spectral films only");
   const std::string tilting =
       R"("response": "quantum", "channels": {"t": {"filters": [{"transmittance": {"band": [500, 510]}, "effective_index": 2}]}})";
   says(spectral + " --scene " + dome_scene("tilting.json", tilting) + " -o " + file("no.exr"), 2,
-       "by the angle of the light");
+       "depends on the angle of incidence");
   Image image = read_exr(spectral);
   image.metadata.erase("emissiveUnits");
   write_exr(file("unitless.exr"), image);
-  says(file("unitless.exr"), 4, "unitless.exr: no attribute \"emissiveUnits\"");
+  says(file("unitless.exr"), 4, "unitless.exr: missing attribute \"emissiveUnits\"");
   image.metadata["emissiveUnits"] = "W.m^-2.sr^-1";
   image.channels.push_back({"S0.nm", image.channels.front().values});
   write_exr(file("unnamed.exr"), image);

@@ -16,7 +16,7 @@
 #include "tests/source_tree.h"
 #include "tests/tier.h"
 
-// From films to digital numbers, files and pictures.
+// Films developed to digital numbers, files and pictures.
 
 namespace abbe::test {
 namespace {
@@ -27,7 +27,7 @@ constexpr const char* kReadout =
     R"({"gain_e_per_dn": 3, "bits": 12, "offset_dn": 50, "full_well_e": 9000, "read_noise_e": 6,
         "dark_e_per_s": 4000, "prnu_percent": 2, "dsnu_e": 4, "serial": 5})";
 
-// A film of 24 x 16 pixels before a dome, unevenly lit by a big ball.
+// A film of 24 x 16 pixels of a dome, which a large ball illuminates unevenly.
 std::string uneven_scene(const std::string& name, const std::string& sensor) {
   return scratch()
       .write(name, R"({"abbe": 1, "camera": {"thin_lens": {"focal_length": 0.05, "f_number": 4},
@@ -44,7 +44,7 @@ const std::string kRgb =
     R"("response": "quantum", "fill_factor": 0.5, "channels": {"R": {"band": [600, 700]},
         "G": {"filters": [{"band": [500, 600]}], "exposure_s": 0.04}, "B": {"band": [400, 500]}})";
 
-// The film of that scene.
+// Film of that scene.
 std::string uneven_film(const std::string& name, const std::string& sensor, const std::string& options = "") {
   return film_of(uneven_scene(name + ".json", sensor), name, options);
 }
@@ -67,7 +67,7 @@ Readout readout() {
 }
 constexpr double kArea = 600e-6 * 600e-6 * 0.5;
 
-// What the library makes of a plane of a film.
+// Digital numbers of a plane, computed by the library.
 std::vector<float> codes(const Image& film, const std::string& plane, const Exposure& exposure) {
   std::vector<float> electrons;
   for (const float value : film.find(plane)->values) electrons.push_back(static_cast<float>(value * kArea));
@@ -150,7 +150,7 @@ TEST(Develop, TheReportSetsTheSensorsNoiseBesideTheRenders) {
   EXPECT_GT(report["render_error_e"][2], 0);
   EXPECT_NEAR(report["iso_speed"], std::stod(rendered.metadata.at("isoSpeed")),
               1e-4 * report["iso_speed"].get<double>());
-  // Two wells hold twice as much.
+  // Two wells collect twice the electrons.
   const nlohmann::json deep = developed(path + " --set /readout/full_well_e=1000 --set /readout/bits=16");
   const nlohmann::json deeper = developed(path + " --set /readout/full_well_e=2000 --set /readout/bits=16");
   EXPECT_NEAR(deep["iso_speed"].get<double>() / deeper["iso_speed"].get<double>(), 2, 1e-9);
@@ -182,14 +182,15 @@ TEST(Develop, TheElectronicsMayBeVariedAndNothingElse) {
   const std::string bare = uneven_film("bare", kRgb);
   const Outcome none = abbe("develop " + bare + " -o " + file("no.png"));
   EXPECT_EQ(none.code, 2);
-  EXPECT_NE(none.err.find("has no read-out"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("needs a film with a readout"), std::string::npos) << none.err;
   developed(bare + " --set '/readout=" + kReadout + "' -o " + file("given.png"));
   developed(rgb_film() + " -o " + file("own.png"));
   EXPECT_EQ(read_picture(file("given.png")).channels[1].values,
             read_picture(file("own.png")).channels[1].values);
   const Outcome used = abbe("develop " + bare + " --set /exposure_s=2");
   EXPECT_EQ(used.code, 2);
-  EXPECT_NE(used.err.find("(got /exposure_s, allowed /readout and below, /output/white)"), std::string::npos)
+  EXPECT_NE(used.err.find("(got /exposure_s, allowed /readout and keys below it, /output/white)"),
+            std::string::npos)
       << used.err;
   const Outcome wrong = abbe("develop " + rgb_film() + " --set /readout/bits=99");
   EXPECT_EQ(wrong.code, 3);
@@ -220,7 +221,7 @@ TEST(Develop, WithoutAReadOutThePictureIsTheRenders) {
   }
 }
 
-// The picture of a raw file without noise to speak of is that of its film, within the steps of its codes.
+// The picture of a raw file with negligible noise equals that of its film within the steps of its codes.
 TEST(Develop, TheRawFileMakesThePictureOfTheFilm) {
   for (const char* mosaic : {"", R"(, "mosaic": [["R", "G"], ["G", "B"]])"}) {
     const std::string path = uneven_film("fine", kRgb + mosaic, "--display " + file("film.png"));
@@ -242,7 +243,7 @@ TEST(Develop, AMosaicIsOnePlane) {
   developed(path + " -o " + file("bayer.tif") + " -o " + file("bayer_parts.exr"));
   const Image raw = read_picture(file("bayer.tif"));
   ASSERT_EQ(raw.channels.size(), 1U);
-  std::vector<double> seconds;  // G, on odd diagonals, has an exposure of its own
+  std::vector<double> seconds;  // G, on odd diagonals, has its own exposure time
   for (int y = 0; y < raw.height; ++y)
     for (int x = 0; x < raw.width; ++x) seconds.push_back((x + y) % 2 == 1 ? 0.04 : 0.01);
   EXPECT_EQ(whole_numbers(raw.channels[0]), codes(read_exr(path), "raw", {0.01, 0, 0, 0, seconds}));
@@ -251,7 +252,7 @@ TEST(Develop, AMosaicIsOnePlane) {
   EXPECT_EQ(parts.back().image.channels.size(), 3U);
 }
 
-// The preview is the picture before the display's curve, where nothing had to be brought into its gamut.
+// The preview is the picture before the curve of the display, if no colour had to be moved into its gamut.
 TEST(Develop, ThePreviewIsLinear) {
   const std::string path = uneven_film("linear", R"("observer": "1931")");
   developed(path + " -o " + file("linear_parts.exr") + " --display " + file("linear.png"));
@@ -273,7 +274,7 @@ TEST(Develop, ThePreviewIsLinear) {
   EXPECT_GT(compared, 50);
 }
 
-// Nothing that the preview tells makes a comparison read its colours otherwise than those of any Rec.709.
+// The attributes of the preview do not change how a comparison reads its colours.
 TEST(Develop, ThePreviewIsComparedAsRec709) {
   developed(rgb_film() + " -o " + file("told_parts.exr"));
   Image told = read_exr_parts(file("told_parts.exr")).back().image;
@@ -306,7 +307,7 @@ TEST(Develop, MergedPartsDevelopLikeTheirWhole) {
   EXPECT_EQ(read_file(file("merged.png")), read_file(file("whole.png")));
 }
 
-// Those of the guide's commands that are about its chart, of whose parts other tests tell, are for the night.
+// The commands of the guide for its chart run at night only, since other tests check their parts.
 bool runs_now(const std::string& command) {
   const auto tells_of = [&](const char* word) { return command.find(word) != std::string::npos; };
   return nightly() || !(tells_of("chart") || tells_of("patches") || tells_of("transfer"));

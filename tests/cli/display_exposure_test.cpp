@@ -9,7 +9,7 @@
 #include "tests/cli/program.h"
 #include "tests/cli/runs.h"
 
-// The exposure and the colours of pictures, as commands choose and report them.
+// Display exposure and colours of pictures, as commands choose and report them.
 
 namespace abbe::test {
 namespace {
@@ -18,14 +18,14 @@ double exposure_of_picture(const std::string& picture) {
   return std::stod(read_picture(picture).metadata.at("display_exposure"));
 }
 
-// Films of the same scene, the second of twice the light.
+// Two films of one scene, the second with twice the light.
 struct TwoFrames {
   std::string dim = film_of(lit_dome("dim.json", kNikon), "dim", "--display " + file("dim.png"));
   std::string bright_scene = lit_dome("bright.json", kNikon);
   std::string bright = film_of(bright_scene, "bright", "--set /lights/1/emission/luminance=200");
 };
 
-// Relative rounding of the attribute, which has seven digits.
+// Relative rounding error of the attribute, which has seven digits.
 constexpr double kSevenDigits = 1e-6;
 
 TEST(DisplayExposure, IsReportedByTheCommandsAndThePicture) {
@@ -68,7 +68,7 @@ TEST(DisplayExposure, OptionsWithoutEffectAreErrors) {
     EXPECT_EQ(abbe("develop " + films.bright + options).code, 2) << options;
   const Outcome render = run_render(films.bright_scene, file("e.exr"), "--exposure-of " + films.dim);
   EXPECT_EQ(render.code, 2);
-  EXPECT_NE(render.err.find("--exposure-of: only a picture takes it"), std::string::npos) << render.err;
+  EXPECT_NE(render.err.find("--exposure-of: applies to pictures only"), std::string::npos) << render.err;
   const Outcome other = run_render(lit_dome("o.json", kObserver), file("o.exr"),
                                    "--display " + file("o.png") + " --exposure-of " + films.dim);
   EXPECT_EQ(other.code, 4);
@@ -76,7 +76,7 @@ TEST(DisplayExposure, OptionsWithoutEffectAreErrors) {
   EXPECT_EQ(abbe("develop " + films.bright + to + " --exposure-of " + file("none.exr")).code, 4);
 }
 
-// The dome is of illuminant A. A calibration in that light shows it as white; one in D65 alone shows it warm.
+// The dome emits illuminant A. A calibration for A shows it as white, one for D65 alone shows it as warm.
 TEST(CameraSpace, OfACalibrationGivesTheColours) {
   const std::string film = film_of(lit_dome("c.json", kNikon), "c");
   const auto own = developed(film + " --display " + file("own.png"));

@@ -14,8 +14,8 @@
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
 #include "transport/path/ray_trace.h"
-#include "validation/layout/lamp_rays.h"
 #include "validation/layout/layout.h"
+#include "validation/layout/light_rays.h"
 #include "validation/layout/outline.h"
 
 namespace abbe::test {
@@ -31,14 +31,14 @@ Scene loaded(const std::string& text) {
   return *std::move(scene);
 }
 
-// The scene of the prism, with these lights in place of its environment.
+// Scene of the prism with these lights instead of its environment.
 std::string prism_with(const std::string& lights) {
   const std::string text = prism_scene();
   const std::size_t begin = text.find(R"("lights": [)") + 11;
   return text.substr(0, begin) + lights + text.substr(text.find("],\n  \"shapes\""));
 }
 
-// Across the prism at an angle of incidence, as the scene's file has it [mm].
+// Ray through the prism at an angle of incidence, in the coordinates of the scene file [mm].
 struct Across {
   V3d origin, direction;
 };
@@ -48,9 +48,9 @@ Across across_prism(double incidence_deg) {
   return {V3d(-7.5, 1.25, 4.330127018922193) - 60.0 * direction, direction};
 }
 
-// What `abbe draw` draws of a ray.
+// Lines that `abbe draw` draws for a ray.
 std::vector<DrawnRay> drawn(const Scene& scene, const BasicRay<double>& ray, double nm, Follow follow) {
-  return drawn_rays(scene, follow_ray(scene, ray, nm, follow, {.least_share = kLeastDrawnShare}), nm);
+  return drawn_rays(scene, follow_ray(scene, ray, nm, follow, {.min_power_fraction = kMinDrawnFraction}), nm);
 }
 
 struct Line {
@@ -80,7 +80,7 @@ TEST(Draw, RaysLeaveAPrismAtTheDeviationOfItsFormula) {
   }
 }
 
-// Each view has the same pixels per length, so that angles are true.
+// All views have the same pixels per length, so that angles are true.
 TEST(Draw, TheDrawingShowsThatDeviationInTheWavelengthsColour) {
   const auto [origin, direction] = across_prism(50);
   const auto path = scratch() / "prism.svg";
@@ -88,7 +88,7 @@ TEST(Draw, TheDrawingShowsThatDeviationInTheWavelengthsColour) {
       cli::draw({scratch().write("draw.json", prism_scene()), path, {486.1327, 656.2725}, origin, direction}),
       0);
   const std::vector<Line> lines = rays_in(read_file(path));
-  ASSERT_EQ(lines.size(), 12U);  // three pieces of two rays in two views
+  ASSERT_EQ(lines.size(), 12U);  // three segments of two rays in two views
   for (const std::size_t first : {6U, 9U}) {
     const Line& in = lines[first];
     const Line& out = lines[first + 2];
@@ -116,7 +116,7 @@ TEST(Draw, ASlabShiftsRays) {
     box.vertices.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? kThickness : 0);
   box.triangles = {{0, 2, 3}, {0, 3, 1}, {4, 5, 7}, {4, 7, 6}, {0, 1, 5}, {0, 5, 4},
                    {2, 6, 7}, {2, 7, 3}, {0, 4, 6}, {0, 6, 2}, {1, 3, 7}, {1, 7, 5}};
-  EXPECT_EQ(outline(box, kElevation).size(), 12U);  // its edges, without the diagonals
+  EXPECT_EQ(outline(box, kElevation).size(), 12U);  // edges without the diagonals
   Scene scene{};
   scene.materials.push_back({"glass", DielectricMaterial{"constant", RefractiveIndex(kIndex)}});
   scene.shapes.push_back({"slab", box, 0});
@@ -141,13 +141,13 @@ TEST(Draw, BranchesAreFainterTheLessTheyAre) {
   const std::string svg = read_file(options.output);
   EXPECT_NE(svg.find("stroke-opacity=\"0.8\""), std::string::npos);
   const std::size_t lines = rays_in(svg).size();
-  EXPECT_GT(lines, 6U);  // more than the three pieces of the main branch in two views
+  EXPECT_GT(lines, 6U);  // more than the three segments of the main branch in two views
   const auto rays = drawn(loaded(prism_scene()), {V3d(-0.06, 0, 0), {1, 0, 0.1}}, 550, Follow::both);
-  for (const DrawnRay& ray : rays) EXPECT_GE(ray.share, kLeastDrawnShare);
-  EXPECT_LT(rays.back().share, 0.1);
+  for (const DrawnRay& ray : rays) EXPECT_GE(ray.power_fraction, kMinDrawnFraction);
+  EXPECT_LT(rays.back().power_fraction, 0.1);
 }
 
-// N-SF66 is tabulated from 390 nm on.
+// The table of N-SF66 starts at 390 nm.
 TEST(Draw, AnIndexBeyondItsDataIsTold) {
   const auto [origin, direction] = across_prism(50);
   std::string scene = prism_scene();
@@ -164,16 +164,16 @@ TEST(Draw, AnIndexBeyondItsDataIsTold) {
   };
   EXPECT_EQ(said(450), "");
   const std::string held = said(320);
-  EXPECT_NE(
-      held.find("warning: the index of material \"glass\" is held from the end of its data, [390, 2500] nm"),
-      std::string::npos)
+  EXPECT_NE(held.find("warning: the index of material \"glass\" is extrapolated from the end of its data, "
+                      "[390, 2500] nm"),
+            std::string::npos)
       << held;
 }
 
 TEST(Draw, RoundShapesHaveTheirCircumference) {
   const auto circle = outline(Sphere{{1, 2, 3}, 0.5}, kElevation);
   for (const V3d& p : circle.front()) EXPECT_NEAR(std::hypot(p.x - 1, p.z - 3), 0.5, 1e-12);
-  // A sphere sheared by x + y is seen along y as an ellipse.
+  // A sphere sheared by x + y appears as an ellipse along y.
   Imath::M44d sheared;
   sheared[1][0] = 1;
   const Shape placed = PlacedShape{make_prototype(Sphere{{0, 0, 0}, 1}),
@@ -194,15 +194,15 @@ TEST(Draw, LampsSendTheirRaysWhereTheyLight) {
          {"name": "sky", "environment": {}, "emission": {"illuminant": "D65", "radiance": 1}},
          {"name": "beam", "directional": {"towards": [0, 0, 1], "irradiance": 1}})"));
   const Light& spot = light_named(scene, "spot", "--from-light");
-  const auto rays = lamp_rays(scene, spot, 5);
+  const auto rays = light_rays(scene, spot, 5);
   ASSERT_EQ(rays.size(), 10U);
   EXPECT_NEAR(angle_deg(rays.front().direction, {1, 0, 0}), 5, 1e-5);
   EXPECT_NEAR(angle_deg(rays[2].direction, {1, 0, 0}), 0, 1e-5);
-  for (const auto& ray : lamp_rays(scene, light_named(scene, "lamp", ""), 3))
+  for (const auto& ray : light_rays(scene, light_named(scene, "lamp", ""), 3))
     EXPECT_GT(ray.direction.x, 0.49);
-  for (const auto& ray : lamp_rays(scene, light_named(scene, "beam", ""), 3))
+  for (const auto& ray : light_rays(scene, light_named(scene, "beam", ""), 3))
     EXPECT_EQ(ray.direction, V3d(0, 0, -1));
-  EXPECT_TRUE(lamp_rays(scene, light_named(scene, "sky", ""), 3).empty());
+  EXPECT_TRUE(light_rays(scene, light_named(scene, "sky", ""), 3).empty());
   EXPECT_EQ(fault([&] { (void)light_named(scene, "sun", "--from-light"); },
                   "--from-light: no such light (got \"sun\", allowed spot, lamp, sky, beam)"),
             ErrorCode::usage);
@@ -251,7 +251,7 @@ TEST(TraceFromLight, StartsOnTheSurfaceInDouble) {
       emission + R"(, {"name": "ball", "sphere": {"center": [-30.7, 0.1, 5.3], "radius": 0.37}, )" +
       emission));
   const auto start = [&scene](const std::string& name) {
-    const V3d origin = middle_ray(scene, light_named(scene, name, "")).value().origin;
+    const V3d origin = central_ray(scene, light_named(scene, name, "")).value().origin;
     return (origin + scene.origin_m) / scene.unit_m;  // in the file's millimetres
   };
   EXPECT_LT((start("quad") - V3d(-50.1, -0.2, 0.25)).length(), 1e-9);
@@ -271,7 +271,7 @@ TEST(TraceFromLight, StartsInTheMiddleOfWhatItLights) {
   ASSERT_EQ(found["events"].size(), 3U);
   EXPECT_EQ(found["events"][0]["shape"], "prism");
   EXPECT_NEAR(found["events"][0]["angle_in_deg"].get<double>(), 30, 1e-5);
-  // A lamp that floats do not hold exactly is not what its own rays meet.
+  // The rays of a lamp must not hit the lamp itself, even if floats do not represent its position exactly.
   cli::TraceOptions cornell{data_directory() / "scenes" / "cornell.json", 550, {}, {}};
   cornell.light = "lamp";
   EXPECT_NE(json_output(cli::trace, cornell)["events"][0]["shape"], "lamp");
@@ -279,7 +279,7 @@ TEST(TraceFromLight, StartsInTheMiddleOfWhatItLights) {
   EXPECT_EQ(json_output(cli::trace, options)["events"][0]["kind"], "hit");  // the lamp itself
   options.light = "sky";
   options.direction = {};
-  EXPECT_EQ(fault([&] { (void)cli::trace(options); }, "no middle"), ErrorCode::usage);
+  EXPECT_EQ(fault([&] { (void)cli::trace(options); }, "no central ray"), ErrorCode::usage);
   options.light = "";
   EXPECT_EQ(fault([&] { (void)cli::trace(options); }, "needs --origin and --dir"), ErrorCode::usage);
 }

@@ -7,14 +7,14 @@
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
 
-// What a machine does to a render: full disks, signals, lack of memory, closed streams, foreign locales.
+// Effects of the machine on a render: full disks, signals, lack of memory, closed streams, foreign locales.
 
 namespace abbe::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// An emptied folder for the outputs of a test.
+/// An empty folder for the outputs of a test.
 fs::path folder(const std::string& name) {
   fs::remove_all(scratch() / name);
   fs::create_directories(scratch() / name);
@@ -27,7 +27,7 @@ std::vector<std::string> names_in(const fs::path& folder) {
   return names;
 }
 
-/// Files that a render writes, one of which may be on another disk: by option.
+/// Files that a render writes, by option. One of them may be on another disk.
 using OutputFiles = std::vector<std::pair<std::string, std::string>>;
 const OutputFiles kOutputs{{"-o", "film.exr"}, {"--display", "picture.png"}, {"--stats", "stats.json"}};
 constexpr const char* kCheckpoint = "state.abbepart";
@@ -37,7 +37,7 @@ std::string render_command(const OutputFiles& outputs) {
   for (const auto& [option, name] : outputs) command += " " + option + " " + name;
   return command;
 }
-/// The outputs but the checkpoint, which no render replaces unasked, as an earlier render left them.
+/// Outputs of an earlier render, without the checkpoint, which a render replaces only on request.
 void put_old(const fs::path& there) {
   for (const auto& [option, name] : kOutputs) std::ofstream(there / name) << "old";
 }
@@ -49,7 +49,7 @@ TEST(FullDisk, NoOldOutputIsLost) {
     std::ofstream(there / film) << "old";
     OutputFiles outputs = kOutputs;
     outputs.front().second = film;
-    // Beside a part no picture is written.
+    // A partial film has no picture.
     if (fs::path(film).extension() == ".abbepart") outputs.erase(outputs.begin() + 1);
     outputs.emplace_back("--checkpoint", kCheckpoint);
     const Outcome run = shell("cd " + there.string() + "; (ulimit -f 0; " + render_command(outputs) +
@@ -65,7 +65,7 @@ TEST(FullDisk, NoOldOutputIsLost) {
             (std::vector<std::string>{"film.abbepart", "film.exr", "picture.png", "stats.json"}));
 }
 
-// A film of 10 kB and sums of 36 kB do not fit, picture and numbers do: they are written all the same.
+// A film of 10 kB and sums of 36 kB do not fit. The picture and the statistics fit and must be written.
 TEST(FullDisk, AnOutputThatFailsTakesNoOtherWithIt) {
   const fs::path there = folder("nearly_full");
   put_old(there);
@@ -80,8 +80,8 @@ TEST(FullDisk, AnOutputThatFailsTakesNoOtherWithIt) {
     EXPECT_NE(run.err.find(name), std::string::npos) << run.err;
 }
 
-// A disk of 1 MB that is really full, for one output after the other, where the system lets us mount one; the
-// limits above stand for it elsewhere.
+// A disk of 1 MB that is full, for one output after the other. Where the system does not allow mounting, the
+// limits above replace it.
 TEST(FullDisk, OfASmallFileSystem) {
   if (shell("unshare -Urm true").code != 0) return;
   OutputFiles all = kOutputs;
@@ -107,7 +107,7 @@ TEST(FullDisk, OfASmallFileSystem) {
   }
 }
 
-// As little address space as the program starts in, and more until it renders.
+// The address space starts with the minimum for the program and grows until it renders.
 TEST(Memory, TooLittleExitsWith6) {
   constexpr int kStepKb = 20000;
   const auto within = [](int kb, const std::string& arguments) {
@@ -127,7 +127,7 @@ TEST(Memory, TooLittleExitsWith6) {
   EXPECT_GT(refusals, 0);
 }
 
-// What paths cost that are traced again with every ray kept, which nobody asks a render for: here 600 MB.
+// Tracing paths again with all rays recorded, as `bench` does, would need 600 MB here.
 TEST(Memory, StatsTraceNoPathsAgain) {
   const auto scene = scratch().write("deep.json", R"({"abbe": 1,
     "camera": {"pinhole": {"fov_deg": 40}, "from": [0, 0, 0], "to": [0, 1, 0], "up": [0, 0, 1]},
@@ -142,7 +142,7 @@ TEST(Memory, StatsTraceNoPathsAgain) {
   EXPECT_TRUE(run.json()["embree_replay_share"].is_null());
 }
 
-// Lamps of one spectrum, which took 30 kB each.
+// Lamps with the same spectrum, each of which would take 30 kB with a copy of its own.
 TEST(Memory, ManyLampsTakeLittle) {
   std::string lamps;
   for (int i = 0; i < 20000; ++i)
@@ -157,7 +157,7 @@ TEST(Memory, ManyLampsTakeLittle) {
   EXPECT_EQ(run.code, 0) << run.err;
 }
 
-// Of memory for the film, and of address space for the stacks of so many threads.
+// Too little memory for the film, and too little address space for the stacks of the threads.
 TEST(Memory, TooLargeDemandsExitWith6) {
   fs::remove(file("a.exr"));
   const std::string render =
@@ -181,8 +181,8 @@ TEST(Threads, AnyNumberGivesTheSameFile) {
   for (const char* threads : {"0", "2", "64"}) EXPECT_EQ(sums(threads), one) << threads;
 }
 
-// A camera that sees a hundred nanometres of a floor, lit from a picometre above: beyond what a film of this
-// scene holds.
+// A camera that sees a hundred nanometres of a floor, which a lamp illuminates from a picometre above. The
+// values exceed the range of a film of this scene.
 TEST(Samples, ThoseTheFilmCannotHoldAreCountedAndTheirPixelsKept) {
   const auto scene = scratch().write("near.json", R"({"abbe": 1,
     "camera": {"pinhole": {"fov_deg": 2e-4}, "from": [0, 1e-3, 2e-3], "to": [0, 0, 0], "up": [0, 0, 1]},
@@ -199,7 +199,7 @@ TEST(Samples, ThoseTheFilmCannotHoldAreCountedAndTheirPixelsKept) {
   EXPECT_GT(dropped, 0U);
   EXPECT_LT(dropped, 8U * 6 * 8);
   EXPECT_NE(run.err.find(fmt::format(
-                "warning: {} samples were left out: not finite, or more than the film can hold", dropped)),
+                "warning: {} samples were dropped: not finite, or larger than the film can hold", dropped)),
             std::string::npos)
       << run.err;
   const Image image = read_exr(file("near.exr"));
@@ -213,12 +213,13 @@ TEST(Samples, ThoseTheFilmCannotHoldAreCountedAndTheirPixelsKept) {
   EXPECT_EQ(read_exr(file("near.exr")).find("Y")->values, image.find("Y")->values);
 }
 
-// What nobody reads any more ends no render, and a file never takes the place of a closed stream.
+// A pipe whose reader has closed it does not end a render, and a file never gets the number of a closed
+// stream.
 TEST(Streams, ClosedOrFullOnesEndNoRender) {
   for (const char* streams : {">&-", "2>&-", "2>/dev/full", "<&- >&- 2>&-", "2>&1 | true"}) {
     const std::string film = file("streams.exr");
     fs::remove(film);
-    // `true` has left before the first line of progress.
+    // `true` ends before the first line of progress.
     const Outcome run = shell("{ sleep 0.1; " ABBE_BINARY " render " + ball() + " -o " + film +
                               "; echo $? > " + file("code") + "; } " + streams);
     EXPECT_EQ(read_file(file("code")), "0\n") << streams << '\n' << run.err;
@@ -234,7 +235,7 @@ TEST(Streams, AnAnswerThatNobodyGetsExitsWith5) {
   }
 }
 
-// As `head` does; `true` has left before the first word.
+// The reader ends early, as `head` does. `true` ends before the first word.
 TEST(Streams, AReaderMayLeave) {
   for (const char* question : {"query --list", "query ior N-BK7 --at 500 --json", "help"}) {
     const Outcome run = shell(
@@ -244,7 +245,7 @@ TEST(Streams, AReaderMayLeave) {
   }
 }
 
-// Decimal commas, grouped thousands.
+// A locale with decimal commas and grouped thousands.
 TEST(Locale, ChangesNothing) {
   const fs::path there = folder("locale");
   ASSERT_EQ(shell("localedef -i de_DE -f UTF-8 " + (there / "de_DE.UTF-8").string()).code, 0);

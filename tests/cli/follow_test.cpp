@@ -17,7 +17,7 @@ namespace {
 using Imath::V3d;
 constexpr double kNm = 550;
 
-// A ray that meets a slab of 10 mm across x at 45 degrees, and all that becomes of it.
+// A ray that hits a slab of 10 mm across x at 45 degrees, and all its branches.
 RayTree through_slab(double k) {
   constexpr double kThickness = 0.01;
   Scene scene{};
@@ -26,13 +26,13 @@ RayTree through_slab(double k) {
   scene.shapes.push_back({"back", Quad{{kThickness, -1, -1}, {0, 2, 0}, {0, 0, 2}}, 0});
   scene.commit();
   const V3d direction = V3d(1, 0, 1).normalized();
-  return follow_ray(scene, {-0.01 * direction, direction}, kNm, Follow::both, {.least_share = 1e-14});
+  return follow_ray(scene, {-0.01 * direction, direction}, kNm, Follow::both, {.min_power_fraction = 1e-14});
 }
 
 double escaped(const RayTree& tree, double side) {
   double sum = 0;
   for (const RayBranch& branch : tree.branches)
-    if (branch.trace.last.direction.x * side > 0) sum += branch.trace.events.back().share;
+    if (branch.trace.last.direction.x * side > 0) sum += branch.trace.events.back().power_fraction;
   return sum;
 }
 
@@ -42,12 +42,12 @@ FresnelPower<double> face() {
 
 TEST(Follow, TheBranchesOfASlabAddUp) {
   const RayTree tree = through_slab(0);
-  // s and p apart, all the way.
+  // The s and p components are followed separately.
   const auto passed = [](double R) { return (1 - R) / (1 + R); };
   const double expected = (passed(face().Rs) + passed(face().Rp)) / 2;
   EXPECT_NEAR(escaped(tree, 1), expected, 1e-9);
   EXPECT_NEAR(escaped(tree, -1), 1 - expected, 1e-9);
-  EXPECT_NEAR(escaped(tree, 1) + escaped(tree, -1) + tree.cut_share, 1, 1e-12);
+  EXPECT_NEAR(escaped(tree, 1) + escaped(tree, -1) + tree.truncated_power, 1, 1e-12);
   for (const RayBranch& branch : tree.branches)
     for (const TraceEvent& event : branch.trace.events)
       if (event.passage) {
@@ -84,7 +84,7 @@ TEST(Follow, APrismReflectsByTheLawAndWithin) {
       EXPECT_NEAR(branch["deviation_deg"].get<double>(), 180 - 2 * 50, 1e-9);
     }
     if (branch["from_event"] != 1) continue;
-    within = true;  // met by the base at the angle refracted by the first face
+    within = true;  // the base is hit at the angle after refraction at the first face
     EXPECT_NEAR(branch["events"][0]["angle_in_deg"].get<double>(),
                 tree["events"][0]["angle_out_deg"].get<double>(), 1e-9);
   }

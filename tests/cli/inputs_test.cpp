@@ -11,14 +11,14 @@
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
 
-// What commands read is never written over, whatever it is called, and takes no more memory than allowed.
+// Commands never overwrite their inputs, whatever their names, and use no more memory than allowed.
 
 namespace abbe::test {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder with a scene and files of all kinds that it names.
+/// A folder with a scene and all kinds of files that it names.
 class InputFiles : public ::testing::Test {
  protected:
   InputFiles() : folder_(scratch() / "inputs") {
@@ -43,7 +43,7 @@ class InputFiles : public ::testing::Test {
   [[nodiscard]] Outcome here(const std::string& command) const {
     return shell("cd " + folder_.string() + " && " + command);
   }
-  // No command may touch the file that it would write over.
+  // Commands must not change the file that they would overwrite.
   void expect_kept(const std::string& command, const std::string& input) const {
     const std::string before = read_file(folder_ / input);
     const Outcome run = here(ABBE_BINARY " " + command);
@@ -53,7 +53,7 @@ class InputFiles : public ::testing::Test {
     EXPECT_FALSE(before.empty()) << input;
   }
 
-  // A hundred nodes of one mesh of 10,000 triangles: 360 KB of numbers that make 84 MB.
+  // A hundred nodes with one mesh of 10,000 triangles: 360 KB of numbers that become 84 MB.
   void write_repeated_gltf() const {
     constexpr int kVertices = 30000;
     std::string positions(std::size_t{kVertices} * 3 * sizeof(float), '\0');
@@ -82,7 +82,7 @@ class InputFiles : public ::testing::Test {
 TEST_F(InputFiles, AreNotRenderedOver) {
   fs::create_hard_link(folder_ / "wall.exr", folder_ / "hard.exr");
   fs::create_symlink("wall.exr", folder_ / "soft.exr");
-  expect_kept("render wall.json --quiet", "wall.exr");  // where the film goes unless told otherwise
+  expect_kept("render wall.json --quiet", "wall.exr");  // default name of the film
   for (const char* name : {"hard.exr", "soft.exr", "sub/../wall.exr", "$PWD/wall.exr"})
     expect_kept(fmt::format("render wall.json --quiet -o {}", name), "wall.exr");
   for (const char* name : {"lamp.csv", "chair.obj", "chair.mtl", "wall.json", "wall.exr"})
@@ -105,7 +105,7 @@ TEST_F(InputFiles, TablesAndConfigurationsAreNotRenderedOver) {
       "users/config.ocio");
 }
 
-// Pictures are fitted to its patches; films are not.
+// The colours of pictures are fitted to the patches of this table, those of films are not.
 TEST_F(InputFiles, FilmsAndPartsNeedNoChart) {
   fs::copy(data_directory(), folder_ / "data", fs::copy_options::recursive);
   ASSERT_EQ(fs::remove(folder_ / "data/reflectance/colorchecker24_babelcolor_average.csv"), true);
@@ -171,7 +171,7 @@ TEST_F(InputFiles, TakeNoMoreMemoryThanAllowed) {
   refused("lab wall.json:wall --max-memory 3M", "wall.exr");
   refused("render wall.json --quiet -o a.exr --set /sensor/resolution=[1000,1000] --max-memory 20M", "film");
   refused("compare wall.exr wall.exr --max-memory 6M", "wall.exr");
-  // What a mesh holds is counted as it is read: a small file may hold much, and name large ones.
+  // Memory of a mesh is counted while it is read: a small file may expand to much data or name large files.
   const auto with_mesh = [this](const char* name) {
     write("mesh.json", fmt::format(R"({{"abbe": 1,
       "camera": {{"pinhole": {{"fov_deg": 40}}, "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]}},
@@ -192,7 +192,7 @@ TEST_F(InputFiles, TakeNoMoreMemoryThanAllowed) {
   write("fan.obj", corners + "\n");
   with_mesh("fan.obj");
   refused("info mesh.json --max-memory 2M", "fan.obj");
-  // The header alone tells: of the pixels there is not one.
+  // The header declares the size. The file contains no pixels.
   fs::resize_file(folder_ / "wall.exr", fs::file_size(folder_ / "wall.exr") / 2);
   refused("render wall.json --max-memory 3M", "wall.exr");
   EXPECT_EQ(here(ABBE_BINARY " render wall.json --quiet -o a.exr").code, 4);
@@ -203,7 +203,7 @@ TEST_F(InputFiles, TakeNoMoreMemoryThanAllowed) {
   refused("develop a.exr -o b.exr --max-memory 1k", "a.exr");
 }
 
-/// Files that no disk holds, by name: to read them would wait for ever, or never end.
+/// Files without content on a disk: reading them would block or never end.
 std::vector<std::pair<std::string, fs::path>> special_files() {
   const fs::path fifo = scratch() / "special_fifo";
   fs::remove(fifo);
@@ -246,7 +246,7 @@ TEST_F(InputFiles, SpecialFilesAreRefusedAtOnce) {
       command.replace(command.find("{}"), 2, name + extension);
       const Outcome run = here("timeout 5 " ABBE_BINARY " " + command);
       const std::string said = command + '\n' + run.err.substr(0, 400);
-      if (name == "kernel") {  // texts of it are read as far as they do not block
+      if (name == "kernel") {  // texts are read as long as they do not block
         EXPECT_TRUE(run.code == 3 || run.code == 4) << run.code << ": " << said;
         continue;
       }
@@ -255,7 +255,7 @@ TEST_F(InputFiles, SpecialFilesAreRefusedAtOnce) {
     }
 }
 
-// From a pipe, by "-", and from a file by the name of the stream.
+// Scenes read from a pipe, by "-", and from a file with the name of the stream.
 TEST_F(InputFiles, StandardInputIsReadAsBefore) {
   EXPECT_EQ(here("cat wall.json | " ABBE_BINARY " info -").code, 0);
   EXPECT_EQ(here(ABBE_BINARY " info /dev/stdin < wall.json").code, 4) << "it names files beside itself";

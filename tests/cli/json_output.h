@@ -13,7 +13,7 @@ namespace abbe::test {
 
 using nlohmann::json;
 
-/// What a command prints as JSON.
+/// The JSON that a command prints.
 template <typename Options>
 json json_output(int (*command)(const Options&), Options options) {
   options.json = true;
@@ -23,7 +23,7 @@ json json_output(int (*command)(const Options&), Options options) {
   return answer.empty() ? json() : json::parse(answer);
 }
 
-/// The code of the error a command ends with; its message must hold `words`.
+/// Code of the error with which a command ends. Its message must contain `words`.
 inline ErrorCode fault(const std::function<void()>& command, const std::string& words) {
   try {
     command();

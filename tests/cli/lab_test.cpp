@@ -48,7 +48,7 @@ TEST(Lab, SmoothGlassIsFresnelsToTheLastDigitOfFloat) {
   EXPECT_NEAR(lab["energy_max"].get<double>(), 1, 2e-7);
 }
 
-// From inside, 60 degrees lie beyond the critical angle.
+// The angle of 60 degrees inside is above the critical angle.
 TEST(Lab, LooksFromWithinToo) {
   cli::LabOptions options = about(R"({"dielectric": {"ior": 1.5}})");
   options.inside = true;
@@ -73,7 +73,8 @@ TEST(Lab, PaintHasItsReflectanceAndColour) {
   EXPECT_NEAR(lab["energy_max"].get<double>(), 0.5, 1e-6);
 }
 
-// Fringes of 20 nm under the lines of a fluorescent lamp: a sum at 10 nm was off by 7.7.
+// Interference fringes of 20 nm under the lines of a fluorescent lamp. A sum in steps of 10 nm is wrong by
+// 7.7.
 TEST(Lab, ColoursAreSumsAtOneNanometre) {
   cli::LabOptions options = about(R"({"film": {"layers": [{"ior": "water", "thickness_nm": 5000}]}})");
   options.illuminant = "FL11";
@@ -99,8 +100,8 @@ TEST(Lab, ColoursAreSumsAtOneNanometre) {
     }
 }
 
-// What is neutral has no colour of the noise, and how far Y is off is told; R has more samples.
-// Against R of the one wavelength, which hardly differs from the others'.
+// The noise does not tint neutral materials, and the error of Y is reported. R has more samples. The
+// reference is R at one wavelength, which hardly differs from that at the others.
 TEST(Lab, TheErrorOfYIsTold) {
   for (const char* words : {R"({"phong": {"reflectance": 1, "exponent": 10}})",
                             R"({"conductor": {"ior": {"n": 0.2, "k": 3}, "roughness": 0.5}})"}) {
@@ -123,7 +124,7 @@ TEST(Lab, TheErrorOfYIsTold) {
   for (const json& row : exact["angles"]) EXPECT_EQ(row["reflected_Y_error"], 0);
 }
 
-// Lobes of a milliradian and half spheres that are cut off by the surface.
+// Lobes of a milliradian, and half spheres that the surface cuts off.
 TEST(Lab, NarrowLobesAndEdgesAreDrawnAsTheySay) {
   const auto expect_sound = [](const char* words, double angle_deg, double spread) {
     cli::LabOptions options = about(words);
@@ -179,7 +180,7 @@ TEST(Lab, TakesTheUnitsOfItsScene) {
   EXPECT_NEAR(through("in"), expected(0.0254), 1e-4);
 }
 
-// Clear matter reflects by n alone: 1.5 + 0.3i has 0.0536 along the normal.
+// Transparent materials reflect by n alone: 1.5 + 0.3i would reflect 0.0536 along the normal.
 TEST(Lab, RefusesWhatIsNotClearAndTellsOfIndicesThatAreHeld) {
   const auto of = [](const std::string& words) {
     return [words] {
@@ -191,15 +192,16 @@ TEST(Lab, RefusesWhatIsNotClearAndTellsOfIndicesThatAreHeld) {
   for (const char* model : {"dielectric", "thin_glass"})
     EXPECT_EQ(
         fault(of(fmt::format(R"({{"{}": {{"ior": {{"n": 1.5, "k": 0.3}}}}}})", model)),
-              "is not clear: with n = 1.5 and k = 0.3 at 320 nm it reflects 0.0536 along the normal, where "
-              "dielectrics and panes reflect 0.0400"),
+              "is not clear: with n = 1.5 and k = 0.3 at 320 nm it reflects 0.0536 along the normal, but "
+              "dielectrics and thin glass are computed from n alone and reflect 0.0400"),
         ErrorCode::scene);
   testing::internal::CaptureStderr();
   testing::internal::CaptureStdout();
   of(R"({"dielectric": {"ior": "N-SF66"}})")();
   (void)testing::internal::GetCapturedStdout();
-  EXPECT_NE(testing::internal::GetCapturedStderr().find("is held from the end of its data, [390, 2500] nm"),
-            std::string::npos);
+  EXPECT_NE(
+      testing::internal::GetCapturedStderr().find("is extrapolated from the end of its data, [390, 2500] nm"),
+      std::string::npos);
 }
 
 TEST(Lab, TellsOfAnExtinctionThatIsHeldWhereTheIndexIsMeasured) {
@@ -214,11 +216,11 @@ TEST(Lab, TellsOfAnExtinctionThatIsHeldWhereTheIndexIsMeasured) {
   };
   const std::string held = heard_at({320, 550});
   EXPECT_NE(held.find("warning: the extinction of material "), std::string::npos) << held;
-  EXPECT_NE(held.find("is held from the end of its data, [334, 2500] nm"), std::string::npos) << held;
-  EXPECT_EQ(heard_at({334, 550}).find("is held"), std::string::npos);
+  EXPECT_NE(held.find("is extrapolated from the end of its data, [334, 2500] nm"), std::string::npos) << held;
+  EXPECT_EQ(heard_at({334, 550}).find("is extrapolated"), std::string::npos);
 }
 
-// Colours are sums from 360 to 830 nm, whatever wavelengths are asked for.
+// Colours are integrated from 360 to 830 nm for any requested wavelengths.
 TEST(Lab, TellsOfIndicesThatColoursAloneAskFor) {
   const auto heard = [](const std::string& material) {
     cli::LabOptions options = about(material);
@@ -230,9 +232,9 @@ TEST(Lab, TellsOfIndicesThatColoursAloneAskFor) {
   };
   const std::string held = heard(R"({"dielectric": {"ior": "ZnSe"}})");
   EXPECT_NE(held.find("warning: the index of material "), std::string::npos) << held;
-  EXPECT_NE(
-      held.find("is held from the end of its data, [540, 18200] nm; colours are sums from 360 to 830 nm"),
-      std::string::npos)
+  EXPECT_NE(held.find("is extrapolated from the end of its data, [540, 18200] nm; colours are integrated "
+                      "from 360 to 830 nm"),
+            std::string::npos)
       << held;
   const auto ruby = scratch().write("ruby.csv",
                                     "# unit: n, k dimensionless\n# outside: clamp\nwavelength_nm,n,k\n"

@@ -8,12 +8,12 @@
 #include "tests/cli/program.h"
 #include "tests/cli/runs.h"
 
-// Films told apart by lights and by events, from the command line to films that are lit anew.
+// Films with layers by light and by path length, from the command line to films with other light factors.
 
 namespace abbe::test {
 namespace {
 
-// The ball beside a lamp, before a sensor of that kind.
+// The ball and a lamp, recorded by this sensor.
 std::string lit_ball(const std::string& name, const std::string& sensor) {
   std::string text =
       scene_text(R"("white": {"diffuse": {"reflectance": 0.8}})",
@@ -39,7 +39,7 @@ float value(const Image& image, const std::string& channel, std::size_t pixel) {
   return found != nullptr ? found->values[pixel] : NAN;
 }
 
-// Of channels of all sensors.
+// Layers exist for the channels of all sensors.
 void expect_sum(const Image& film, const std::vector<std::string>& layers, const std::string& plane) {
   for (std::size_t pixel = 0; pixel < film.pixels(); ++pixel) {
     float sum = 0;
@@ -89,7 +89,8 @@ TEST(Layers, PartsMakeTheFileOfTheWhole) {
   EXPECT_EQ(read_file(file("sum.exr")), read_file(file("whole.exr")));
 }
 
-// As bright as a render whose lamp is turned down, to the noise of neither: the same paths.
+// The film is as bright as a render with a dimmer lamp, without additional noise, since both have the same
+// paths.
 TEST(Layers, LightsAreTurnedDownWithoutRendering) {
   ASSERT_EQ(run_render(coloured(), file("lit.exr"), "--layers lights").code, 0);
   const Image lit = read_exr(file("lit.exr"));
@@ -121,10 +122,10 @@ TEST(Layers, WhatCannotBeToldIsRefused) {
   fails(run_render(coloured(), file("no.exr"), "--layers bounces:0"), 2,
         "--layers: got \"0\", allowed whole numbers in [1, 64]");
   fails(run_render(coloured(), file("no.exr"), "--layers lights:moon"), 2,
-        "--layers: no light has such a name (got \"moon\", allowed lamp_1, sky)");
+        "--layers: no light has this name (got \"moon\", allowed lamp_1, sky)");
   ASSERT_EQ(run_render(coloured(), file("plain.exr"), "").code, 0);
   fails(abbe(fmt::format("develop {} --light sky=2 -o {}", file("plain.exr"), file("no.exr"))), 2,
-        "--light: the film has no layers of lights: render --layers lights makes them");
+        "--light: the film has no layers of lights: render it with --layers lights");
   fails(abbe(fmt::format("develop {} --light sky -o {}", file("plain.exr"), file("no.exr"))), 2,
         "--light: got \"sky\", allowed NAME=FACTOR");
   fails(abbe(fmt::format("develop {} --light sky=0.5,-1 -o {}", file("plain.exr"), file("no.exr"))), 2,

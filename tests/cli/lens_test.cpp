@@ -23,7 +23,8 @@ TEST(Lens, JsonHasEveryFigure) {
   EXPECT_GT(answer["t_stop"][1].get<double>(), answer["f_number"][1].get<double>());
 }
 
-// Of a thin lens of n = 1.5 and f = 100 mm the only ghost has its focus at f/7, and spreads six beams wide.
+// A thin lens with n = 1.5 and f = 100 mm has one ghost, which is focused at f/7 and spreads over six times
+// the beam.
 TEST(Lens, TellsItsGhosts) {
   const auto file = scratch().write("thin.json", R"({"f_number": 10, "wavelengths_nm": [550], "surfaces": [
     {"radius": 100, "thickness": 1e-6, "glass": 1.5, "stop": true}, [-100, 100]]})");
@@ -55,7 +56,7 @@ TEST(Lens, TablesTellWavelengthsSurfacesAndFields) {
     EXPECT_NE(run.out.find(line), std::string::npos) << line << '\n' << run.out;
 }
 
-// The stop is set at the file's wavelength, whatever wavelengths are asked for.
+// The stop is set at the wavelength of the file for any requested wavelengths.
 TEST(Lens, OtherWavelengthsKeepTheStop) {
   const auto own = abbe("lens double_gauss --json").json();
   const auto other = abbe("lens double_gauss --lambda 450 --json").json();
@@ -80,9 +81,9 @@ TEST(Lens, PageAndDrawingShowTheLens) {
   const std::string drawing = read_file(svg);
   EXPECT_EQ(count(drawing, "class=\"glass\""), 6U);
   EXPECT_EQ(count(drawing, "class=\"stop\""), 2U);
-  EXPECT_EQ(count(drawing, "class=\"ray\""), 15U);  // five of each field
+  EXPECT_EQ(count(drawing, "class=\"ray\""), 15U);  // five per field
   const std::string page = read_file(html);
-  EXPECT_EQ(count(page, "<svg"), 7U);  // drawing, focal shift, spots, modulation, a fan of each field
+  EXPECT_EQ(count(page, "<svg"), 7U);  // drawing, focal shift, spots, modulation, and a fan per field
   EXPECT_EQ(count(page, "</svg>"), 7U);
   EXPECT_EQ(page.find("<?xml"), std::string::npos);
   EXPECT_NE(page.find("<td>focal_length_mm</td>"), std::string::npos);
@@ -105,7 +106,7 @@ TEST(Lens, FaultsAreToldWithTheirPlace) {
   EXPECT_EQ(abbe("lens double_gauss -o lens.png").code, 2);
 }
 
-// Sums of a field of a right angle, and of a beam that does not get to the image: nothing, not numbers.
+// Seidel sums of a field at a right angle, and of a beam that misses the image, are null.
 TEST(Lens, SeidelSumsThatAreNoneAreNull) {
   const auto sums_of = [](const std::string& text) {
     const auto file = scratch().write("none.json", text);
@@ -123,7 +124,7 @@ TEST(Lens, SeidelSumsThatAreNoneAreNull) {
   for (const auto& sum : telecentric["S_I"]) EXPECT_TRUE(sum.is_null());
 }
 
-// Of a lens that is telecentric before the stop, and of an erect relay without power.
+// A lens that is telecentric before the stop, and an erect relay without power.
 TEST(Lens, WithoutFNumberIsLookedThroughAndDeveloped) {
   const std::string objective = "[100, 5, 1.5], [-100, 99.15966386554621], ";
   const std::string stop = R"({"stop": true, "thickness": 99.15966386554621, "aperture": 4})";
@@ -155,7 +156,7 @@ TEST(Lens, WithoutFNumberIsLookedThroughAndDeveloped) {
   EXPECT_TRUE(afocal.starts_with("unnumbered: afocal, film 98.319 mm behind it, Airy radius ")) << afocal;
 }
 
-// A stop that no ray fills, and a field beyond what the lens sees, leave their figures out.
+// Figures are omitted for a stop that no ray fills, and for a field outside the view of the lens.
 TEST(Lens, WhatDoesNotGetThroughHasNoFigures) {
   const auto dark = scratch().write("dark.json", R"({"entrance_pupil": 5, "fields_deg": [0, 100],
   "surfaces": [{"radius": 50, "thickness": 4, "glass": "N-BK7", "stop": true, "aperture": 10}, [-50, 40, null, 10]]})");

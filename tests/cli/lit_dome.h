@@ -13,7 +13,7 @@
 #include "tests/cli/program.h"
 #include "tests/cli/runs.h"
 
-// A scene that sensors see in a warm light, and what their films tell of its white.
+// A scene in warm light, and the white that films of it record.
 
 namespace abbe::test {
 
@@ -22,7 +22,7 @@ inline constexpr const char* kWideObserver = R"("observer": "1964")";
 inline constexpr const char* kNikon = R"("camera": "Nikon_D5100")";
 inline constexpr const char* kSpectral = R"("spectral": {"from_nm": 380, "to_nm": 780, "step_nm": 5})";
 
-// A white dome behind, and before it in the list, a lamp that hardly shines.
+// A white dome in the background. A lamp with little power precedes it in the list of lights.
 inline std::string lit_dome(const std::string& name, const std::string& sensor, const std::string& white = "",
                             const std::string& dome = "A") {
   return scratch()
@@ -39,7 +39,7 @@ inline std::string lit_dome(const std::string& name, const std::string& sensor, 
       .string();
 }
 
-// Means of a picture's code values, or of channels.
+// Means of the code values of a picture, or of channels.
 inline std::array<double, 3> means(const Image& picture) {
   std::array<double, 3> mean{};
   for (std::size_t k = 0; k < 3; ++k)
@@ -47,7 +47,7 @@ inline std::array<double, 3> means(const Image& picture) {
       mean[k] += static_cast<double>(v) / static_cast<double>(picture.pixels());
   return mean;
 }
-// How much redder than blue.
+// Ratio of red to blue.
 inline double warmth(const std::string& picture) {
   const auto [r, g, b] = means(read_picture(picture));
   return r - b;

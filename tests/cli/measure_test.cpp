@@ -34,7 +34,7 @@ std::string chart_scene(const std::string& name, const std::string& sensor, doub
 }
 const std::string kBayer = R"("model": "dslr_apsc_bayer_14bit", "exposure_s": 0.4)";
 
-// The film of a chart before a mosaic, with its scene.
+// Film of a chart through a mosaic, with its scene.
 struct Shot {
   std::string scene;
   std::string film;
@@ -65,7 +65,7 @@ TEST(Measure, EveryRawFileHasTheSamePatches) {
     EXPECT_EQ(all[i]["channels"], (std::vector<std::string>{"R", "G", "B"}));
     EXPECT_EQ(all[i]["patches"], all[0]["patches"]) << all[i]["image"];
   }
-  // What the film expects, the raw file has within its noise.
+  // The raw file has the values of the film within its noise.
   const nlohmann::json& expected = all[4]["patches"];
   const nlohmann::json& found = all[0]["patches"];
   ASSERT_EQ(found.size(), 24U);
@@ -96,7 +96,7 @@ TEST(Measure, CornersByHandFindWhatTheSceneSays) {
   EXPECT_EQ(compared["patches"][3]["pixels"], by_scene["patches"][3]["pixels"][0]) << "the same code";
 }
 
-// Each channel of its own pixels, all of them together the patch's.
+// Each channel counts its own pixels. Together they are all pixels of the patch.
 TEST(Measure, CompareReadsAMosaicByTheSameCode) {
   const auto [scene, film] = shot("mosaic", kBayer);
   const nlohmann::json patches = measured(film + " --chart " + scene)["patches"];
@@ -124,7 +124,7 @@ TEST(Measure, TheTableIsWhatCalibrateTakes) {
   ASSERT_EQ(calibrated.code, 0) << calibrated.err;
 }
 
-// A raw converter shows the patches in the colours that we do: as far as demosaicking and its 1/10000 go.
+// A raw converter shows the patches in the same colours, up to demosaicking and its rounding to 1/10000.
 TEST(Measure, LibRawMakesTheSameColoursOfADng) {
   if (shell("command -v dcraw_emu").code != 0) GTEST_SKIP() << "libraw-bin is not installed";
   const auto [scene, film] = shot("colours", kBayer);
@@ -143,14 +143,14 @@ TEST(Measure, LibRawMakesTheSameColoursOfADng) {
   for (std::size_t patch = 0; patch < 24; ++patch) {
     const double brightest = std::max({mean(ours, patch, 0), mean(ours, patch, 1), mean(ours, patch, 2)});
     for (std::size_t k = 0; k < 3; ++k) {
-      if (mean(ours, patch, k) <= 0) continue;  // the converter cuts what lies outside its gamut
+      if (mean(ours, patch, k) <= 0) continue;  // the converter clips colours outside its gamut
       EXPECT_NEAR(mean(theirs, patch, k) / scale, mean(ours, patch, k), 0.01 * brightest)
           << ours[patch]["patch"] << ' ' << k;
     }
   }
 }
 
-// The colour matrix that LibRaw tells of a file, row by row.
+// Colour matrix that LibRaw reads from a file, by rows.
 std::array<double, 9> told_matrix(const std::string& told) {
   std::array<double, 9> matrix{};
   const std::string title = "DNG color matrix 1:\n";
@@ -162,8 +162,8 @@ std::array<double, 9> told_matrix(const std::string& told) {
   return matrix;
 }
 
-// In light A the matrix is that of light A: it takes the white of that light, not adapted, to the values of
-// the greys, on which the white balance lies.
+// Under illuminant A the matrix is that for A. It maps the white of A, without adaptation, to the values of
+// the greys, which the white balance determines.
 TEST(Measure, ADngOfAWarmLightTellsTheCameraInThatLight) {
   if (shell("command -v dcraw_emu").code != 0) GTEST_SKIP() << "libraw-bin is not installed";
   const auto [scene, film] = shot("warm", R"("model": "dslr_apsc_bayer_14bit", "exposure_s": 2)", "A");
@@ -184,7 +184,8 @@ TEST(Measure, ADngOfAWarmLightTellsTheCameraInThatLight) {
     EXPECT_NEAR(shown[k].get<double>() / shown[1].get<double>(), 1, 0.03) << k << ": grey is grey";
 }
 
-// A profile whose matrices undo a mixing of linear sRGB with its mean, in D65 by this share, and none in A.
+// A profile whose matrices invert a mixture of linear sRGB with its mean: by this fraction under D65, and not
+// at all under A.
 std::string mixing_profile(const std::string& name, double share, int warm = 17) {
   constexpr double kFromXyz[3][3] = {{3.2404542, -1.5371385, -0.4985314},
                                      {-0.9692660, 1.8760108, 0.0415560},
@@ -204,7 +205,7 @@ std::string mixing_profile(const std::string& name, double share, int warm = 17)
   return scratch().write(name, nlohmann::json{{"lights", {warm_light, cool_light}}}.dump()).string();
 }
 
-// LibRaw takes the matrix of D65: what it then shows is the mixture, in each patch.
+// LibRaw uses the matrix for D65, which must show the mixture in each patch.
 TEST(Measure, LibRawTakesTheMatricesOfACalibration) {
   if (shell("command -v dcraw_emu").code != 0) GTEST_SKIP() << "libraw-bin is not installed";
   const auto [scene, film] = shot("profile", kBayer);
@@ -239,17 +240,17 @@ TEST(Measure, ProfilesThatNoConverterKnowsAreNamed) {
   const std::string lone = scratch().write("lone.json", R"({"lights": [{}]})").string();
   const std::string bare = scratch().write("bare.json", R"({"lights": [{}, {}]})").string();
   for (const auto& [arguments, code, message] :
-       {std::tuple{out + mixing_profile("other.json", 0, 255), 4, "the light has no number in Exif"},
+       {std::tuple{out + mixing_profile("other.json", 0, 255), 4, "the illuminant has no Exif code"},
         std::tuple{out + lone, 4, "/lights"}, std::tuple{out + bare, 4, "missing key \"ColorMatrix\""},
         std::tuple{out + file("absent.json"), 4, "absent.json"},
-        std::tuple{" -o " + file("unknown.tif") + " --profile " + lone, 2, "only a .dng takes it"}}) {
+        std::tuple{" -o " + file("unknown.tif") + " --profile " + lone, 2, "applies to .dng files only"}}) {
     const Outcome run = abbe("develop " + film + arguments);
     EXPECT_EQ(run.code, code) << arguments << '\n' << run.err;
     EXPECT_NE(run.err.find(message), std::string::npos) << arguments << '\n' << run.err;
   }
 }
 
-// The film's is a Nikon D5100; one with bands of its own has no camera's colours.
+// The camera of the film is a Nikon D5100. A film with its own bands has the colours of no camera.
 TEST(Measure, AProfileIsOfTheFilmsOwnCamera) {
   const std::string bands =
       R"("exposure_s": 0.4, "response": "quantum", "readout": {"gain_e_per_dn": 9, "bits": 14},
@@ -293,12 +294,12 @@ TEST(Measure, SaturatedPatchesAreNamed) {
   ASSERT_EQ(abbe("develop " + film + " -o " + file("bright.tif")).code, 0);
   const Outcome run = abbe("measure " + file("bright.tif") + " --chart " + scene);
   EXPECT_EQ(run.code, 0);
-  EXPECT_NE(run.err.find("saturated pixels, whose values are too low, in "), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("saturated pixels make the means too low in "), std::string::npos) << run.err;
   EXPECT_NE(run.err.find("white 9.5"), std::string::npos) << run.err;
   EXPECT_EQ(run.err.find("black 2"), std::string::npos) << run.err;
 }
 
-// Black is what a crop holds beside its pixels, and what no patch is.
+// Pixels outside a crop are black, which must not count as a patch.
 TEST(Measure, PixelsThatWereNotRenderedAreNoPatches) {
   const std::string scene = chart_scene("cropped", kBayer);
   const std::string film = file("cropped.exr");
@@ -312,7 +313,7 @@ TEST(Measure, PixelsThatWereNotRenderedAreNoPatches) {
     const std::string image = file(std::string("cropped.") + end);
     const Outcome run = abbe("measure " + image + " --chart " + scene);
     EXPECT_EQ(run.code, 4) << end << '\n' << run.err;
-    EXPECT_NE(run.err.find("its middle is beyond the pixels that were rendered (got x in ["),
+    EXPECT_NE(run.err.find("its measured area extends outside the rendered pixels (got x in ["),
               std::string::npos)
         << run.err;
     EXPECT_NE(run.err.find("allowed [0, 96] and [0, 30])"), std::string::npos) << run.err;
@@ -332,27 +333,27 @@ TEST(Measure, FaultsAreNamed) {
   (void)scratch().write("cut.dng", read_file(file("faulty.dng")).substr(0, 3000));
   (void)scratch().write("cut.fits", "SIMPLE  =                    T");
   for (const auto& [arguments, code, message] :
-       {std::tuple{film + " --chart " + aside, 4, "its middle is beyond the film"},
+       {std::tuple{film + " --chart " + aside, 4, "its inner part is outside the film"},
         std::tuple{film + table + " --corners 0,0,200,0,200,64,0,64", 4,
-                   "its middle is beyond the film (got x in ["},
+                   "its measured area extends outside the film (got x in ["},
         std::tuple{film + table + " --corners 0,0,9,9,9,0,0,9", 2,
                    "--corners: expected the corners of a convex"},
         std::tuple{film + table, 2, "a table of patches needs --corners"},
         std::tuple{film + table + " --corners 0,0,9", 2, "got 3 numbers, allowed 8"},
-        std::tuple{film + table + " --corners 0,0,12,0,12,8,0,8", 4, "holds no whole pixel of channel R"},
+        std::tuple{film + table + " --corners 0,0,12,0,12,8,0,8", 4, "contains no whole pixel of channel R"},
         std::tuple{file("cut.dng") + " --chart " + scene, 4, "cut.dng: "},
-        std::tuple{file("cut.fits") + " --chart " + scene, 4, "cut.fits: no FITS image"},
+        std::tuple{file("cut.fits") + " --chart " + scene, 4, "cut.fits: not a FITS image"},
         std::tuple{film + " --chart " + scene + " -o " + file("x.txt"), 2, "allowed .csv"},
         std::tuple{film + " " + file("faulty.dng") + " --chart " + scene + " -o " + file("x.csv"), 2,
-                   "one table holds images of the same channels and unit"}}) {
+                   "needs images with the same channels and unit"}}) {
     const Outcome run = abbe("measure " + arguments);
     EXPECT_EQ(run.code, code) << arguments << '\n' << run.err;
     EXPECT_NE(run.err.find(message), std::string::npos) << arguments << '\n' << run.err;
   }
 }
 
-// A chart seen from the side in a raw file: what is measured where it is found is what the scene's camera
-// says.
+// A chart seen obliquely in a raw file. The values at the detected position must equal those at the position
+// that the camera of the scene gives.
 TEST(Measure, CornersAreFound) {
   if (!ABBE_FINDS_CHARTS) GTEST_SKIP() << "built without OpenCV";
   const std::string scene = scratch()

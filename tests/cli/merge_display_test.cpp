@@ -8,8 +8,8 @@
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
 
-// The picture that `merge` writes of a film is the one that a render of all its samples writes, as is that of
-// `develop` where there is no noise, in what it tells too.
+// The picture that `merge` writes of a film must equal that of a render with all samples, and that of
+// `develop` without noise. So must its attributes.
 
 namespace abbe::test {
 namespace {
@@ -77,7 +77,7 @@ TEST(MergeDisplay, IsRefusedBeforeAnySumIsRead) {
   EXPECT_EQ(abbe("merge " + part + " -o " + file("two.exr") + " --display /nowhere/two.png").code, 5);
 }
 
-// The reason is in the film and its parts, so that all who are asked for a picture tell it.
+// The reason is recorded in the film and its parts, so that all commands that write a picture report it.
 TEST(MergeDisplay, ChannelsThatShowNoColoursAreToldAlike) {
   const std::string render =
       "render " + ball() +
@@ -92,11 +92,9 @@ TEST(MergeDisplay, ChannelsThatShowNoColoursAreToldAlike) {
   for (const Outcome& run : {rendered, abbe("develop " + film + shown),
                              abbe("merge " + part + " -o " + file("merged.exr") + shown)}) {
     EXPECT_EQ(run.code, 2);
-    EXPECT_NE(
-        run.err.find(
-            "abbe: display: in its light channels a, b, c do not tell colours apart between 360 and 830 nm, "
-            "so that no colour picture can be made of them: "),
-        std::string::npos)
+    EXPECT_NE(run.err.find("abbe: display: in its light, channels a, b, c do not distinguish colours between "
+                           "360 and 830 nm, so no colour picture can be made of them: "),
+              std::string::npos)
         << run.err;
   }
 }

@@ -10,12 +10,12 @@
 #include "tests/tier.h"
 #include "transport/render/part.h"
 
-// What `merge` holds of films that are far larger than the program.
+// Memory of `merge` for films that are far larger than the program.
 
 namespace abbe::test {
 namespace {
 
-/// The parts of a render of one sample each, separated by blanks.
+/// Parts of a render with one sample each, separated by blanks.
 std::string parts_of(const FilmShape& shape, int count) {
   std::string names;
   RenderResult result{Film(shape), {}, {}};
@@ -30,7 +30,7 @@ std::string parts_of(const FilmShape& shape, int count) {
   return names;
 }
 
-/// The parts of a render of two samples: so many crops, a part for each sample of each.
+/// Parts of a render with two samples: this number of crops, with a part per sample and crop.
 std::string crop_parts_of(FilmShape shape, int count) {
   std::string names;
   for (int i = 0; i < 2 * count; ++i) {
@@ -46,7 +46,7 @@ std::string crop_parts_of(FilmShape shape, int count) {
   return names;
 }
 
-/// The most memory that the program had at a time when adding them [bytes].
+/// Maximum memory of the program while it merges them [bytes].
 std::size_t peak_bytes(const std::string& parts) {
   const std::string command = fmt::format("{} merge {} -o {} -o {} 2> {}", ABBE_BINARY, parts,
                                           file("sum.abbepart"), file("sum.exr"), file("stderr"));
@@ -76,7 +76,7 @@ TEST(MergeMemory, IsThreeFilmsWhateverTheNumberOfParts) {
     RecordProperty(fmt::format("films_of_{}", count), fmt::format("{:.2f}", held));
     EXPECT_LE(held, 3.25) << count;
   }
-  // Of which two are a crop and its bytes.
+  // Two of these are a crop and its bytes.
   for (const int count : counts) {
     const double held = films(crop_parts_of(large, count));
     RecordProperty(fmt::format("films_of_{}_crops", count), fmt::format("{:.2f}", held));

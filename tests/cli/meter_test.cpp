@@ -11,7 +11,7 @@
 namespace abbe::test {
 namespace {
 
-// A lamp of 100 lm in the middle of a white sphere, and three meters.
+// A lamp of 100 lm at the centre of a white sphere, and three meters.
 std::string hall() {
   return scratch()
       .write("hall.json", R"({
@@ -40,7 +40,7 @@ TEST(MeterCommand, TellsEachMeterWithItsUncertainty) {
   EXPECT_EQ(wall["measures"], "irradiance");
   EXPECT_EQ(wall["luminous"]["unit"], "lx");
   const double half = wall["luminous"]["half_interval_95"].get<double>();
-  // Phi / (4 pi r^2 (1 - rho)) at the wall of an integrating sphere.
+  // The illuminance at the wall of an integrating sphere is Phi / (4 pi r^2 (1 - rho)).
   EXPECT_NEAR(wall["luminous"]["value"].get<double>(), 100 / (16 * std::numbers::pi) / 0.5, 3 * half);
   EXPECT_GT(half, 1.9 * wall["luminous"]["standard_error"].get<double>());
   EXPECT_EQ(meters[1]["spectrum"]["wavelength_nm"], nlohmann::json({425, 475, 525, 575, 625, 675}));
@@ -91,7 +91,7 @@ TEST(MeterCommand, OverwritesNothingThatTheSceneReads) {
   EXPECT_EQ(abbe("meter " + scene.string() + " --spectra /nonexistent/x.csv").code, 5);
 }
 
-// Of a flux each cell has a part, and uniformity is that of the parts.
+// Each cell receives a part of a flux. The uniformity is that of the parts.
 TEST(MeterCommand, TellsUniformityOfCells) {
   const auto scene = scratch().write("even.json", R"({"abbe": 1,
     "lights": [{"directional": {"towards": [0, 0, 1], "irradiance": 3}}],
@@ -99,9 +99,9 @@ TEST(MeterCommand, TellsUniformityOfCells) {
                      "quad": {"corner": [0, 0, 0], "edge_u": [1, 0, 0], "edge_v": [0, 1, 0]}}}})");
   const Outcome run = abbe("meter " + scene.string() + " --quiet");
   ASSERT_EQ(run.code, 0) << run.err;
-  const std::size_t at = run.out.find(", the least ");
+  const std::size_t at = run.out.find(", minimum / mean ");
   ASSERT_NE(at, std::string::npos) << run.out;
-  EXPECT_GT(std::stod(run.out.substr(at + 12)), 0.95) << run.out;
+  EXPECT_GT(std::stod(run.out.substr(at + 17)), 0.95) << run.out;
 }
 
 TEST(MeterCommand, TellsOfADarkPlaceAndStrictlyRefusesIt) {
@@ -112,19 +112,19 @@ TEST(MeterCommand, TellsOfADarkPlaceAndStrictlyRefusesIt) {
     "meters": {"inside": {"at": [0, 0, 0], "normal": [0, 0, 1]}}})");
   const Outcome run = abbe("meter " + scene.string() + " --quiet --error 1%");
   EXPECT_EQ(run.code, 0);
-  EXPECT_NE(run.err.find("warning: meter inside: the camera stands within \"safe\""), std::string::npos)
+  EXPECT_NE(run.err.find("warning: meter inside: the camera is inside \"safe\""), std::string::npos)
       << run.err;
-  EXPECT_NE(run.err.find("warning: meter inside: a pilot found no light there: --error had"),
+  EXPECT_NE(run.err.find("warning: meter inside: a pilot found no light at the meter: --error has no effect"),
             std::string::npos)
       << run.err;
-  EXPECT_EQ(run.err.find("no light was found"), std::string::npos) << "it is told why";
+  EXPECT_EQ(run.err.find("no light reached the sensor"), std::string::npos) << "it is told why";
   const Outcome strict = abbe("meter " + scene.string() + " --quiet --strict");
   EXPECT_EQ(strict.code, 3);
-  EXPECT_NE(strict.err.find("inside: the camera stands within"), std::string::npos) << strict.err;
+  EXPECT_NE(strict.err.find("inside: the camera is inside"), std::string::npos) << strict.err;
 }
 
-// Of a square of half the side a under a ceiling the middle of the floor, d below, has E = 4 L A atan A with
-// A = a / sqrt(a^2 + d^2).
+// Under a square ceiling with half side a, the centre of the floor at a distance d below has E = 4 L A atan A
+// with A = a / sqrt(a^2 + d^2).
 TEST(MeterCommand, TellsOfALampOnACeilingAndMeasuresOneThatIsApart) {
   const auto read = [](double height) {
     return abbe("meter --quiet --strict --json " + scratch()
@@ -139,7 +139,8 @@ TEST(MeterCommand, TellsOfALampOnACeilingAndMeasuresOneThatIsApart) {
   };
   const Outcome flush = read(0.5);
   EXPECT_EQ(flush.code, 3);
-  EXPECT_NE(flush.err.find("the lamp \"light 0\" lies on \"shape 0\""), std::string::npos) << flush.err;
+  EXPECT_NE(flush.err.find("the light \"light 0\" coincides with \"shape 0\""), std::string::npos)
+      << flush.err;
   const Outcome apart = read(0.499);
   ASSERT_EQ(apart.code, 0) << apart.err;
   const auto luminous = apart.json()["meters"][0]["luminous"];
@@ -159,8 +160,8 @@ TEST(MeterCommand, TellsOnceForAllMetersWhatLampsLieOn) {
   const Outcome run = abbe("meter --quiet --spp 1 " + scene.string());
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_EQ(run.err,
-            "abbe: warning: the lamp \"light 0\" lies on \"shape 0\", which may be met instead: keep them "
-            "apart\n");
+            "abbe: warning: the light \"light 0\" coincides with \"shape 0\", which rays may hit instead: "
+            "separate them\n");
 }
 
 TEST(MeterCommand, TellsWhichMetersFoundNoLight) {
@@ -170,8 +171,8 @@ TEST(MeterCommand, TellsWhichMetersFoundNoLight) {
   const Outcome run = abbe("meter " + scene.string() + " --quiet --spp 16");
   EXPECT_EQ(run.code, 0);
   EXPECT_EQ(run.err.find("meter up"), std::string::npos) << run.err;
-  EXPECT_NE(run.err.find("warning: meter down: no light was found by 16 samples per pixel, although lights "
-                         "emit what the sensor sees"),
+  EXPECT_NE(run.err.find("warning: meter down: no light reached the sensor in 16 samples per pixel, although "
+                         "lights emit in its wavelength range"),
             std::string::npos)
       << run.err;
 }
@@ -179,7 +180,7 @@ TEST(MeterCommand, TellsWhichMetersFoundNoLight) {
 TEST(MeterCommand, NeedsMetersAndNoCamera) {
   const Outcome picture = abbe("render " + hall());
   EXPECT_EQ(picture.code, 3);
-  EXPECT_NE(picture.err.find("meters alone"), std::string::npos) << picture.err;
+  EXPECT_NE(picture.err.find("meters but no camera"), std::string::npos) << picture.err;
   const Outcome none = abbe("meter " + scratch().write("none.json", R"({"abbe": 1, "meters": {}})").string());
   EXPECT_EQ(none.code, 3);
   EXPECT_NE(none.err.find("the scene has no meters"), std::string::npos) << none.err;

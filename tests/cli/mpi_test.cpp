@@ -14,12 +14,12 @@
 namespace abbe::test {
 namespace {
 
-// More processes than processors are no mistake here.
+// Allows more processes than processors.
 constexpr char kStart[] =
     "OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 {} mpirun --oversubscribe --bind-to none "
     "--quiet -n {} {}";
 
-/// The command that renders with so many processes.
+/// Command that renders with this number of processes.
 std::string command(int processes, const std::string& arguments) {
   return fmt::format(kStart, "", processes, ABBE_BINARY " render " + arguments);
 }
@@ -36,7 +36,7 @@ class Mpi : public testing::Test {
   }
 };
 
-/// A scene of so many pixels each way.
+/// A scene with this number of pixels in each direction.
 std::string scene(const std::string& name, int pixels = 64) {
   return fmt::format("{} --set /sensor/resolution=[{},{}]",
                      (data_directory() / "scenes" / (name + ".json")).string(), pixels, pixels);
@@ -68,13 +68,13 @@ TEST_F(Mpi, StatsAreOfAllProcesses) {
   const std::string arguments = fmt::format("{} --spp {} --threads 1 --quiet -o {} --stats -",
                                             scene("furnace", 16), nightly() ? 1024 : 512, film.string());
   const nlohmann::json alone = abbe("render " + arguments).json();
-  const nlohmann::json crew = together(3, arguments).json();
+  const nlohmann::json mpi_group = together(3, arguments).json();
   EXPECT_EQ(alone["processes"], 1);
-  EXPECT_EQ(crew["processes"], 3);
-  EXPECT_EQ(crew["threads"], 1);
-  EXPECT_EQ(crew["paths"], alone["paths"]);
-  EXPECT_EQ(crew["rays"], alone["rays"]);
-  EXPECT_GT(crew["cpu_s"], 0.75 * alone["cpu_s"].get<double>()) << "for the same work";
+  EXPECT_EQ(mpi_group["processes"], 3);
+  EXPECT_EQ(mpi_group["threads"], 1);
+  EXPECT_EQ(mpi_group["paths"], alone["paths"]);
+  EXPECT_EQ(mpi_group["rays"], alone["rays"]);
+  EXPECT_GT(mpi_group["cpu_s"], 0.75 * alone["cpu_s"].get<double>()) << "for the same work";
 }
 
 TEST_F(Mpi, AnErrorAskedForEndsAtTheSameSample) {
@@ -109,7 +109,7 @@ TEST_F(Mpi, WhatIsWrongIsToldOnce) {
   expect_told_once(together(3, "nowhere.json"), 4, "nowhere.json: error: cannot open the file");
 }
 
-/// Renders with two processes, each by a command line of its own, which is given up after a minute.
+/// Renders with two processes that have different command lines, and ends them after a minute.
 Outcome apart(const std::string& first, const std::string& second) {
   const std::string shell_of_each = "sh -c 'if [ $OMPI_COMM_WORLD_RANK = 0 ]; then exec " ABBE_BINARY
                                     " render " +
@@ -117,7 +117,7 @@ Outcome apart(const std::string& first, const std::string& second) {
   return shell(fmt::format(kStart, "timeout 60", 2, shell_of_each));
 }
 
-// Sums of films that are not the same one are the film of no render.
+// The sum of two different films is no valid film.
 TEST_F(Mpi, ProcessesThatRenderSomethingElseAreRefused) {
   const std::string film = (scratch() / "mixed.abbepart").string();
   const std::string start = (scratch() / "start.abbepart").string();
@@ -130,7 +130,7 @@ TEST_F(Mpi, ProcessesThatRenderSomethingElseAreRefused) {
         whole + " --sample-range 0:32", whole + " --crop 0,0,8,16", whole + " --integrator light",
         scene("furnace", 16) + " --time 9s", scene("furnace", 16) + " --error 1%", whole + " --aov depth",
         whole + " --checkpoint " + start + " --resume"}) {
-    expect_told_once(apart(whole + each, other + each), 4, "mpirun: process 1 renders something else");
+    expect_told_once(apart(whole + each, other + each), 4, "mpirun: process 1 does not render the same film");
     EXPECT_FALSE(std::filesystem::remove(film)) << other;
   }
 }
@@ -149,7 +149,7 @@ TEST_F(Mpi, ProcessesMayDifferInWhatChangesNoFilm) {
 TEST_F(Mpi, TheSceneComesFromAFile) {
   const std::string read = " < " + (data_directory() / "scenes/furnace.json").string();
   const std::string film = " --spp 1 --quiet -o " + (scratch() / "read.exr").string() + read;
-  expect_told_once(together(2, "-" + film), 2, "<stdin>: comes to the first process alone");
+  expect_told_once(together(2, "-" + film), 2, "<stdin>: is available to the root process only");
   EXPECT_EQ(together(1, "-" + film).code, 0);
 }
 

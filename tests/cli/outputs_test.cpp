@@ -9,7 +9,7 @@
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
 
-// Where renders and merges write, under awkward names and in awkward places.
+// Outputs of render and merge with unusual names and in unusual folders.
 
 namespace abbe::test {
 namespace {
@@ -90,7 +90,7 @@ TEST(Outputs, ScenesComeFromStandardInputAndStatsGoToStandardOutput) {
 }
 
 TEST(Outputs, UnwritablePlacesAreFoundBeforeRendering) {
-  // At this many samples a render that started would not end within the test.
+  // A render with this number of samples would not end during the test.
   const std::string render = ABBE_BINARY " render " + ball() + " --spp 10000000 --quiet -o a.exr ";
   for (const char* place : {"/nowhere", "/proc", "$PWD/ball.json"}) {
     for (const char* output : {"--display {}/a.png", "--stats {}/a.json", "--checkpoint {}/a.abbepart",
@@ -105,7 +105,8 @@ TEST(Outputs, UnwritablePlacesAreFoundBeforeRendering) {
   }
 }
 
-// The tasks of a job array run at once: whatever they shared but the scene would be locked by one of them.
+// The tasks of a job array run at the same time. A file that they share, other than the scene, would be
+// locked by one of them.
 TEST(Outputs, APartIsAllThatItsRenderWrites) {
   const fs::path folder = scratch() / "alone";
   fs::remove_all(folder);
@@ -130,8 +131,7 @@ TEST(Outputs, APartIsAllThatItsRenderWrites) {
   for (const char* picture : {"--display some.png", "--gamut some.png"}) {
     const Outcome refused = here(render + "--sample-range 4:8 -o more.abbepart " + picture);
     EXPECT_EQ(refused.code, 2) << picture;
-    EXPECT_NE(refused.err.find("more.abbepart: a part is all that its render writes"), std::string::npos)
-        << refused.err;
+    EXPECT_NE(refused.err.find("more.abbepart: is a partial film"), std::string::npos) << refused.err;
   }
   EXPECT_EQ(names(), expected);
 }
@@ -167,7 +167,7 @@ TEST(Merge, CroppedRangesAddUp) {
   EXPECT_EQ(read_file(file("sum.exr")), read_file(file("whole.exr")));
 }
 
-// Every replicate may then differ, and nothing but the samples that are left is made.
+// Every replicate may then differ. Only the remaining samples are rendered.
 TEST(Merge, TenThousandRangesAreGoneOnWith) {
   ASSERT_EQ(
       here(ABBE_BINARY " render " + ball() + " --quiet --spp 20001 --sample-range 0:1 -o one.abbepart").code,

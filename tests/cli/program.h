@@ -12,8 +12,8 @@
 
 #include <nlohmann/json.hpp>
 
-/// The program under test as shells read it: that of the build which the test's program, in a folder of its
-/// `tests`, is of. So objects do not depend on the folder they were compiled in.
+/// Path of the program under test for shells: the one of the build to which this test program belongs, next
+/// to its folder `tests`. It is found at run time, so that objects do not depend on the folder of the build.
 #define ABBE_BINARY "\"$ABBE_BINARY\""
 
 namespace abbe::test {
@@ -25,7 +25,7 @@ inline const int kShellsKnowTheProgram =
                .c_str(),
            1);
 
-/// What a run of the program gave.
+/// Result of a run of the program.
 struct Outcome {
   int code;
   std::string out;
@@ -39,7 +39,7 @@ inline std::string read_file(const std::filesystem::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// A folder of this process's own, emptied and removed at the end.
+/// A folder that belongs to this process. It is emptied first and removed at the end.
 class Scratch {
  public:
   Scratch() : path_(std::filesystem::temp_directory_path() / ("abbe_cli_test_" + std::to_string(getpid()))) {
@@ -76,7 +76,7 @@ inline Outcome shell(const std::string& command) {
   return run;
 }
 
-/// Runs the program through a shell; `arguments` as one would type them.
+/// Runs the program in a shell with these arguments.
 inline Outcome abbe(const std::string& arguments) {
   return shell(ABBE_BINARY " " + arguments);
 }

@@ -48,13 +48,13 @@ TEST(Program, HelpTellsTheKeysOfScenes) {
                   "\n  units\n      Unit of length.\n      \"m\", \"cm\", \"mm\", \"um\" or \"in\", default "
                   "\"m\"\n"},
         {"sensor/spectral",
-         "\n  from_nm\n      Where the first bin begins.\n      number in [300, 1100] nm, required\n"},
+         "\n  from_nm\n      Lower end of the first bin.\n      number in [300, 1100] nm, required\n"},
         {"camera/pinhole", "\n  one of\n    focal_length\n"},
         {"camera/pinhole/fov_deg",
          "\ncamera/pinhole/fov_deg\n  Field of view along the shorter image axis.\n"},
         {"lights/sun/angular_diameter_deg", "\n  number in [0.01, 60] degrees, default 0.533\n"},
         {"camera/thin_lens", "\n      number in [0.5, 1e+06], required without t_stop\n"},
-        {"lights/two_sided", "\n  Beside `quad`, `sphere`, `disc`: Whether it emits from both sides.\n"},
+        {"lights/two_sided", "\n  With `quad`, `sphere`, `disc`: True to emit from both sides.\n"},
         {"resolution", "\nsensor/resolution\n"},
         {"scale", "\nshapes/instance/transform/scale\n"},
         {"scale", "\nshapes/transform/scale\n"}})
@@ -130,7 +130,7 @@ TEST(Program, MissingInputsExitWith4) {
 
 TEST(Program, OutputsAreCheckedBeforeRendering) {
   const auto path = scratch().write("ball.json", ball_scene()).string();
-  // At this many samples a render that started would not end within the test.
+  // A render with this number of samples would not end during the test.
   const std::string render = "render " + path + " --spp 10000000 --quiet ";
   EXPECT_EQ(abbe(render + "-o /nowhere/out.exr").code, 5);
   EXPECT_EQ(abbe(render + "-o " + (scratch() / "a.exr").string() + " --display /nowhere/a.png").code, 5);
@@ -215,13 +215,13 @@ TEST(Calibrate, WritesConfigurationAndReportForEachLight) {
   const Outcome run = abbe(
       "calibrate --camera Nikon_D5100 --illuminant D65,A --response linear --correction root-polynomial-2 "
       "--test colorchecker24_ohta1997 -o " +
-      folder.string() + (nightly() ? "" : " --objective XYZ"));  // of which resampling is quick
+      folder.string() + (nightly() ? "" : " --objective XYZ"));  // whose resampling is quick
   ASSERT_EQ(run.code, 0) << run.err;
   for (const char* name : {"config.ocio", "camera_D65.clf", "camera_A.clf", "camera_A.cube", "camera_A.spi1d",
                            "camera_A_to_aces.clf"})
     EXPECT_GT(std::filesystem::file_size(folder / name), 1000U) << name;
   const auto report = nlohmann::json::parse(read_file(folder / "report.json"));
-  EXPECT_NEAR(report["bake_dE00_max"].get<double>(), 0.25, 0.05);  // dark values are among those it is of
+  EXPECT_NEAR(report["bake_dE00_max"].get<double>(), 0.25, 0.05);  // includes dark values
   ASSERT_EQ(report["calibrations"].size(), 2U);
   const auto& tungsten = report["calibrations"][1];
   EXPECT_EQ(tungsten["illuminant"], "A");
@@ -234,7 +234,7 @@ TEST(Calibrate, WritesConfigurationAndReportForEachLight) {
 }
 
 TEST(Calibrate, RealCameraFromPhotographsToConfiguration) {
-  // Grey steps that a camera of gamma 2 photographed with eight times.
+  // Grey steps that a camera with gamma 2 photographed with eight exposures.
   std::string exposures;
   for (int stop = -6; stop <= 1; ++stop) {
     Image image{48, 1, {}, {}};
@@ -255,7 +255,7 @@ TEST(Calibrate, RealCameraFromPhotographsToConfiguration) {
   EXPECT_NE(alone.out.find("uncertainty [%]"), std::string::npos);
   EXPECT_NE(read_file(folder + "/response.csv").find("code,R,R_low,R_high,G"), std::string::npos);
 
-  // The chart's own XYZ, seen by that camera.
+  // The XYZ values of the chart, recorded by that camera.
   std::string rows = "# unit: code values\npatch,R,G,B\n";
   Diagnostics diagnostics;
   const auto targets = load_chart_targets("colorchecker24_after_nov2014", Curve(1.0), {}, diagnostics);
@@ -288,7 +288,7 @@ TEST(Calibrate, MeasuredCamera) {
   EXPECT_EQ(abbe("calibrate --camera Nikon_D5100 --measured " + file.string()).code, 2);
 }
 
-// What only a simulated camera can do.
+// Options that apply to a simulated camera only.
 TEST(Calibrate, OptionsWithoutEffectAreRefused) {
   for (const char* real : {"--measured x.csv", "--series x.json", "--all-cameras"})
     for (const char* option :
@@ -315,7 +315,7 @@ TEST(Trace, FromTheCommandLine) {
     return abbe(trace + "--dir 1,0,.25 --lambda 550 --stokes=" + stokes);
   };
   EXPECT_EQ(lit("2,1.2,0,-1.6").code, 0);
-  EXPECT_NE(lit("1,1,1,0").err.find("--stokes: got \"1,1,1,0\", allowed I above 0"), std::string::npos);
+  EXPECT_NE(lit("1,1,1,0").err.find("--stokes: got \"1,1,1,0\", allowed I > 0"), std::string::npos);
   for (const char* wrong : {"1,1,1,0", "0,0,0,0", "1,0,0"}) EXPECT_EQ(lit(wrong).code, 2) << wrong;
 }
 
@@ -357,7 +357,7 @@ TEST(Info, TellsTheSharesOfTechniquesThatARenderHas) {
       R"({"point": {"at": [0, -100, 80]}, "emission": {"illuminant": "D65", "radiant_flux_W": 1}})");
   const std::string path = scratch().write("lens.json", scene).string();
   const nlohmann::json found = abbe("info " + path + " --json").json();
-  EXPECT_EQ(found["owned"]["path"], "E (S|D)* L but those of light");
+  EXPECT_EQ(found["owned"]["path"], "E (S|D)* L, except paths owned by light");
   EXPECT_EQ(found["owned"]["light"], "E D (S|D)* S L of traced lights");
   const nlohmann::json& shares = found["shares"];
   ASSERT_TRUE(shares.is_object());
@@ -371,7 +371,7 @@ TEST(Info, TellsTheSharesOfTechniquesThatARenderHas) {
     EXPECT_GT(shares[technique]["relative_variance"], 0) << technique;
     EXPECT_GT(shares[technique]["rays"], 1) << technique;
   }
-  EXPECT_NE(abbe("info " + path).out.find("shares       "), std::string::npos);
+  EXPECT_NE(abbe("info " + path).out.find("balance      "), std::string::npos);
 }
 
 TEST(Info, TellsTheMosaicAndHoldsOnePlaneForIt) {
@@ -391,7 +391,7 @@ TEST(Info, TellsTheMosaicAndHoldsOnePlaneForIt) {
   EXPECT_EQ(plain["memory_bytes"].get<int>() - raw["memory_bytes"].get<int>(), 24 * 16 * 2 * 16);
 }
 
-// A triangle of glass is no closed surface: told by everything that loads it, refused by --strict alone.
+// A triangle of glass is not a closed surface. All commands that load it warn; only --strict rejects it.
 TEST(Program, StrictRefusesMatterThatIsNotClosed) {
   const std::string scene =
       scratch()
@@ -405,16 +405,15 @@ TEST(Program, StrictRefusesMatterThatIsNotClosed) {
   for (const std::string& command : {"info " + scene, render}) {
     const Outcome run = abbe(command);
     EXPECT_EQ(run.code, 0) << run.err;
-    EXPECT_NE(
-        run.err.find(
-            "/shapes/0/mesh: warning: the mesh around matter \"glass\" is no closed surface: 3 open edges"),
-        std::string::npos)
+    EXPECT_NE(run.err.find("/shapes/0/mesh: warning: the mesh around medium \"glass\" is not a closed "
+                           "surface: 3 open edges"),
+              std::string::npos)
         << run.err;
   }
   std::filesystem::remove(file("open.exr"));
   const Outcome strict = abbe(render + " --strict");
   EXPECT_EQ(strict.code, 3) << strict.err;
-  EXPECT_NE(strict.err.find("error: the mesh around matter"), std::string::npos) << strict.err;
+  EXPECT_NE(strict.err.find("error: the mesh around medium"), std::string::npos) << strict.err;
   EXPECT_FALSE(std::filesystem::exists(file("open.exr")));
 }
 

@@ -27,7 +27,7 @@ TEST(Progress, SaysThatFewSamplesLeaveTheErrorUnknown) {
             ", error not yet known: a pilot has 40 times this noise; increase --spp");
 }
 
-// A line with all of its parts, in narrow and wide terminals.
+// Progress lines with all parts, on narrow and wide terminals.
 TEST(Progress, FitsTheTerminalAndShowsTheTimeLeft) {
   const Progress full{0.25, 4096, 1234.5, 5, 7500, {0.028, 0.43, 0.0004}, 2048};
   std::size_t longest = 0;

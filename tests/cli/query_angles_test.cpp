@@ -12,7 +12,7 @@
 #include "tests/cli/json_output.h"
 #include "tests/cli/program.h"
 
-// Materials that absorb, or of which nobody knows it, and the medium that angles are in.
+// Materials that absorb or whose absorption is unknown, and the medium in which angles are given.
 
 namespace abbe::test {
 namespace {
@@ -67,7 +67,7 @@ TEST(QueryAngles, AreInAirAsInScenes) {
               in_scenes, 1e-6);
 }
 
-// The characteristic matrix of one clear layer along the normal, [Born1999, sec. 1.6].
+// Reflectance of one transparent layer at normal incidence by its characteristic matrix [Born1999, sec. 1.6].
 TEST(QueryAngles, UnderACoatingAllIndicesAreRelativeToAir) {
   cli::ReflectanceOptions options{"water", {550}};
   options.coating = "MgF2:100";
@@ -133,7 +133,7 @@ TEST(QueryReflectance, WhereItHangsOnAnExtinctionThatIsNotMeasuredIsAnError) {
                 [&] {
                   (void)cli::query_reflectance({metal.string(), {550, 450}});
                 },
-                "the k of metal has no data there (got 450 nm, allowed [500, 600] nm)"),
+                "the k of metal has no data at this wavelength (got 450 nm, allowed [500, 600] nm)"),
             ErrorCode::usage);
   cli::ReflectanceOptions coated{"N-BK7", {450}};
   coated.coating = metal.string() + ":20";

@@ -101,7 +101,8 @@ TEST(QueryLight, TellsNullOfWhatHasNoTemperature) {
 }
 
 TEST(QueryLight, ReadsPixelsOfASpectralImage) {
-  // Left half lit by A, right half by FL2, in bands of 5 nm about the tabulated wavelengths.
+  // The left half is illuminated by A, the right half by FL2, in bands of 5 nm around the tabulated
+  // wavelengths.
   Diagnostics diagnostics;
   const Curve a = load_illuminant("A", {}, diagnostics)->curve;
   const Curve fl2 = load_illuminant("FL2", {}, diagnostics)->curve;
@@ -142,8 +143,7 @@ TEST(QueryLight, TellsWhatASpectralImageLacksOfTheLightAsked) {
     json_output(query_light, options);
     return testing::internal::GetCapturedStderr();
   };
-  EXPECT_NE(warnings(LightOptions{file.string()}).find("covers 500 to 600 nm only, where"),
-            std::string::npos);
+  EXPECT_NE(warnings(LightOptions{file.string()}).find("covers only 500 to 600 nm, but"), std::string::npos);
   const auto filter =
       scratch().write("green.csv", "# unit: 1\n# outside: zero\nwavelength_nm,T\n510,0\n550,1\n590,0\n");
   EXPECT_EQ(warnings(LightOptions{file.string(), filter.string()}), "") << "no other light gets through";
@@ -158,7 +158,7 @@ TEST(QueryLight, IsOfNoPowerThatIsNegativeOrNoNumber) {
     const std::filesystem::path file = scratch() / "odd.exr";
     write_exr(file, spectral_layout({1, 1, {{500, {1}}, {550, {value}}, {600, {1}}}, {}, {}}));
     EXPECT_EQ(fault([&] { query_light(LightOptions{file.string()}); },
-                    "odd.exr: holds no radiance in the band at 550 nm"),
+                    "odd.exr: has a radiance that is negative or not finite in the band at 550 nm"),
               ErrorCode::input);
   }
 }
@@ -166,7 +166,7 @@ TEST(QueryLight, IsOfNoPowerThatIsNegativeOrNoNumber) {
 TEST(QueryLight, ObjectsInSentences) {
   LightOptions cropped{"D65"};
   cropped.crop = Crop{0, 0, 1, 1};
-  EXPECT_EQ(fault([&] { query_light(cropped); }, "for spectral images"), ErrorCode::usage);
+  EXPECT_EQ(fault([&] { query_light(cropped); }, "applies to spectral images only"), ErrorCode::usage);
   EXPECT_EQ(fault([] { query_light(LightOptions{"D66"}); }, "unknown illuminant \"D66\""), ErrorCode::input);
   EXPECT_EQ(fault(
                 [] {
@@ -178,7 +178,7 @@ TEST(QueryLight, ObjectsInSentences) {
                 [] {
                   query_light(LightOptions{"D65", "bessell_B,sdss2010_z"});
                 },
-                "no light that an observer sees"),
+                "no visible light"),
             ErrorCode::input);
 }
 
@@ -187,7 +187,7 @@ TEST(Query, SharesInPercentAreRefusedByEveryCommand) {
       scratch().write("pc.csv", "# unit: %\n# outside: clamp\nwavelength_nm,T\n380,0.3\n780,0.6\n").string() +
       ":T";
   const auto expect_refused = [](const std::function<void()>& command) {
-    EXPECT_EQ(fault(command, "is in another unit (got \"%\", allowed shares of 1)"), ErrorCode::input);
+    EXPECT_EQ(fault(command, "has the wrong unit (got \"%\", allowed fractions of 1)"), ErrorCode::input);
   };
   expect_refused([&] { query_light(LightOptions{"D65", table}); });
   expect_refused([&] { query_light(LightOptions{"D65", "", table}); });
@@ -207,16 +207,17 @@ TEST(Query, TablesThatEndWithinWhatIsCountedAreTold) {
     testing::internal::GetCapturedStdout();
     return testing::internal::GetCapturedStderr();
   };
-  const std::string ends = "short.csv\" is 0 beyond its table, 450 to 650 nm";
+  const std::string ends = "short.csv\" is 0 outside its table, 450 to 650 nm";
   const auto expect_told = [&](const std::function<int()>& command) {
     const std::string said = told(command);
     EXPECT_NE(said.find(ends), std::string::npos) << said;
   };
-  // Of even power 200 of 400 nm lie beyond.
-  EXPECT_NE(told([&] {
-              return query_light(LightOptions{lamp});
-            }).find("50 % of what the luminous efficacy of radiation from 380 to 780 nm would count"),
-            std::string::npos);
+  // The power is constant, and 200 of the 400 nm are outside the table.
+  EXPECT_NE(
+      told([&] {
+        return query_light(LightOptions{lamp});
+      }).find("50 % of the integral for the luminous efficacy of radiation from 380 to 780 nm would lie"),
+      std::string::npos);
   expect_told([&] { return query_light(LightOptions{"D65", lamp}); });
   expect_told([&] {
     return query_metamerism(
@@ -245,14 +246,14 @@ TEST(QueryMetamerism, ComparesTwoSurfaces) {
 TEST(QueryCamera, IsJudgedWithoutALight) {
   CameraOptions options{"Nikon_D5100", "", ""};
   EXPECT_EQ(fault([&] { query_camera(options); }, "--illuminant or --judge"), ErrorCode::usage);
-  options.judge = true;
+  options.metrics = true;
   const json found = json_output(query_camera, options);
   EXPECT_NEAR(found["vora"].get<double>(), 0.931, 1e-3);
   EXPECT_NEAR(found["sensitivity_index"].get<double>(), 90.78, 0.01);
   EXPECT_EQ(found["luther_residual"].size(), 3u);
 }
 
-// A camera's responses to energy as quantum efficiencies, 1 where both are so.
+// Energy responses of a camera as quantum efficiencies. Both are equal at `unity_nm`.
 std::string as_quantum_efficiencies(double unity_nm) {
   Diagnostics diagnostics;
   const auto channels = load_camera("Nikon_D5100", {}, diagnostics);
@@ -278,18 +279,18 @@ TEST(QueryCamera, TakesCurvesForWhatTheyAreSaidToMultiply) {
   options.response.reset();
   testing::internal::CaptureStderr();
   EXPECT_LT(json_output(query_camera, options)["raw"]["R"], 0.95);
-  EXPECT_NE(testing::internal::GetCapturedStderr().find("is taken as a response to energy"),
+  EXPECT_NE(testing::internal::GetCapturedStderr().find("is used as a response to energy"),
             std::string::npos);
 }
 
-// The CCD sees to 1050 nm, D65 is told to 830 nm, A and E to 1100 nm.
+// The CCD responds up to 1050 nm. D65 is tabulated up to 830 nm, A and E up to 1100 nm.
 TEST(QueryCamera, TellsOfLightsThatEndWithinWhatItSees) {
   const auto said = [](const std::string& light) {
     testing::internal::CaptureStderr();
     json_output(query_camera, CameraOptions{"kodak_kaf-3200me", light, ""});
     return testing::internal::GetCapturedStderr();
   };
-  EXPECT_NE(said("D65").find("\"D65\" is 0 beyond its table, 300 to 830 nm"), std::string::npos);
+  EXPECT_NE(said("D65").find("\"D65\" is 0 outside its table, 300 to 830 nm"), std::string::npos);
   for (const char* light : {"A", "E"}) EXPECT_EQ(said(light), "");
   const std::string lamp =
       scratch().write("ended.csv", "# unit: 1\nwavelength_nm,L\n380,1\n780,1\n").string();
@@ -303,7 +304,7 @@ TEST(QueryCamera, TellsOfLightsThatEndWithinWhatItSees) {
 }
 
 TEST(QueryDeltaE, KnowsFormulasOfAppearanceAndDisplays) {
-  // sRGB red and white beside D65, as `itp_srgb` of the reference tables has them.
+  // The colours are red and white of sRGB relative to D65, as in `itp_srgb` of the reference tables.
   const json found =
       json_output(query_delta_e, DeltaEOptions{{53.2407933, 80.0924696, 67.2031964}, {100, 0, 0}});
   EXPECT_NEAR(found["dE_ITP"].get<double>(), 232.6248, 0.01);

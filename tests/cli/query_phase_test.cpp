@@ -23,7 +23,7 @@ TEST(QueryReflectance, TellsThePhasesOfBothFields) {
     EXPECT_NEAR(silver["phase_s_deg"][i].get<double>(), phase(f.rs), 1e-9);
     EXPECT_NEAR(silver["phase_p_deg"][i].get<double>(), phase(f.rp), 1e-9);
   }
-  // Glass turns over at Brewster's angle, 56.7 degrees.
+  // The phase for glass changes by half a turn at Brewster's angle, 56.7 degrees.
   const json glass = json_output(cli::query_reflectance, {"N-BK7", {550}, {0, 56, 57}});
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(glass["phase_s_deg"][i].get<double>(), 180, 1e-4);

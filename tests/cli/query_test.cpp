@@ -19,7 +19,7 @@
 namespace abbe::test {
 namespace {
 
-// Rows of a table by the value of one column, in their order.
+// Rows of a table with this value in one column, in their order.
 std::map<std::string, std::vector<std::size_t>> rows_by(const ReferenceTable& table,
                                                         const std::string& column) {
   std::map<std::string, std::vector<std::size_t>> groups;
@@ -27,7 +27,7 @@ std::map<std::string, std::vector<std::size_t>> rows_by(const ReferenceTable& ta
   return groups;
 }
 
-// The distinct values of a column in some rows.
+// Distinct values of a column in these rows.
 std::vector<double> values(const ReferenceTable& table, const std::vector<std::size_t>& rows,
                            const std::string& column) {
   std::vector<double> all;
@@ -38,8 +38,8 @@ std::vector<double> values(const ReferenceTable& table, const std::vector<std::s
   return all;
 }
 
-// The name of a patch of a ColorChecker 24 by its number in chart order, which is that of the table's
-// columns; none for 0.
+// Name of a patch of a ColorChecker 24 by its number in the order of the chart, which is that of the columns
+// of the table. Empty for 0.
 std::string patch(const std::string& chart, double number) {
   static constexpr std::array kPatches{"dark skin",
                                        "light skin",
@@ -83,7 +83,7 @@ TEST(QueryIor, EveryLineOfEveryMaterial) {
   ASSERT_GT(table.rows(), 20U);
   for (std::size_t row = 0; row < table.rows(); ++row) {
     cli::IndexOptions options{table.text(row, "id"), {}};
-    std::vector<double> expected;  // a formula that begins later has no value for the first lines
+    std::vector<double> expected;  // a formula that starts later has no value for the first lines
     for (const auto& [column, nm] : lines) {
       if (table.text(row, column).empty()) continue;
       options.at_nm.push_back(nm);
@@ -135,7 +135,7 @@ TEST(QueryReflectance, OfACoatedSurface) {
     options.coating = wrong;
     EXPECT_THROW(cli::query_reflectance(options), Error) << wrong;
   }
-  options.coating = "MgF2:100001";  // scenes have none so thick
+  options.coating = "MgF2:100001";  // scenes do not allow such thick films
   EXPECT_EQ(fault([&options] { (void)cli::query_reflectance(options); }, "of (0, 100000] nm"),
             ErrorCode::usage);
 }
@@ -160,7 +160,7 @@ TEST(QueryList, TellsOfMatterWhereItHoldsAndWhoSaysSo) {
   testing::internal::CaptureStdout();
   EXPECT_EQ(cli::query_list({""}), 0);
   EXPECT_NE(testing::internal::GetCapturedStdout().find(
-                "\nglass\n  1634 glasses of their makers, listed by --list glass\nilluminant\n"),
+                "\nglass\n  1634 glasses of manufacturers, listed by --list glass\nilluminant\n"),
             std::string::npos);
 }
 
@@ -203,9 +203,9 @@ TEST(QueryPrism, ThroughputOfBothPolarisations) {
   EXPECT_NEAR(found["Tp"].get<double>(), 0.991278, 1e-6);
 }
 
-// The reference is for a medium of index 1 around the catalogued index. That of water is relative to vacuum:
-// in air its sines and tangents of angles change by the index of air, its reflectances are those of n /
-// n_air.
+// The reference assumes a medium of index 1 around the catalogued index. The index of water is relative to
+// vacuum: in air, sines and tangents of its angles change by the index of air, and its reflectances are those
+// of n / n_air.
 TEST(QueryAngles, EveryCriticalAngleBrewsterAngleAndReflectance) {
   const ReferenceTable table("critical_brewster_fresnel");
   const std::vector<double> angles{0, 30, 45, 60, 75, 85};
@@ -333,7 +333,7 @@ TEST(QueryColor, SumsOverTheRangeThatIsChosen) {
   EXPECT_NE(other.err.find("allowed 360-830, 380-780"), std::string::npos) << other.err;
   const Outcome astm = abbe("query color --illuminant D65 --range 380-780 --method astm-e308");
   EXPECT_EQ(astm.code, 2);
-  EXPECT_NE(astm.err.find("--range: is for --method 1nm"), std::string::npos) << astm.err;
+  EXPECT_NE(astm.err.find("--range: applies to --method 1nm only"), std::string::npos) << astm.err;
 }
 
 TEST(QueryArrays, OneWavelengthIsAListOnlyWhereListsWereAskedFor) {

@@ -31,7 +31,7 @@ TEST(Reference, MarkdownKeepsBarsInTheirCells) {
   EXPECT_TRUE(has_line(page, "tool cut SCENE [KEY] [COMMAND|all] --with saw|axe [OPTION...]")) << page;
   EXPECT_TRUE(has_line(page, "| `-w, --with saw\\|axe` | Saw\\|axe; required |")) << page;
   EXPECT_TRUE(has_line(page, "| `--dry` | 'Only' think |")) << page;
-  EXPECT_EQ(page.find("| `-h"), std::string::npos) << page;  // said once for all
+  EXPECT_EQ(page.find("| `-h"), std::string::npos) << page;  // mentioned once for all
 }
 
 TEST(Reference, ManTakesTextForText) {

@@ -7,12 +7,12 @@
 #include "io/picture.h"
 #include "tests/cli/lit_dome.h"
 
-// What pictures show as white once the lights of a film count other than they did.
+// White of pictures after the lights of a film were weighted differently.
 
 namespace abbe::test {
 namespace {
 
-// Of a film whose lights are told apart: the name of the white and what is said of it.
+// For a film with light layers: the name of the white, and the warning about it.
 struct Relit {
   std::string white;
   std::string err;
@@ -26,7 +26,7 @@ Relit relit(const std::string& film, const std::string& options) {
 
 class RelitFilm : public testing::TestWithParam<const char*> {};
 
-// The ball in the light of the lamp of D65 alone is grey, as where the dome does not shine.
+// The ball is grey in the light of the D65 lamp alone, as if the dome emitted nothing.
 TEST_P(RelitFilm, ShowsTheMainLightThatIsLeftAsWhite) {
   const std::string film = film_of(lit_dome("relit.json", GetParam()), "relit", "--layers lights");
   const Relit left = relit(film, "--light dome=0");
@@ -60,7 +60,7 @@ TEST_P(RelitFilm, KeepsTheWhiteThatItsSceneAsksForWhateverLightsAreLeft) {
 
 INSTANTIATE_TEST_SUITE_P(White, RelitFilm, testing::Values(kObserver, kWideObserver, kNikon, kSpectral));
 
-// A sensor that looks at radiances is corrected for the light that is left, where its scene has it.
+// A sensor that records radiances is corrected for the remaining light if its scene contains it.
 TEST(RelitWhite, ASensorThatLooksAtLightsThatAreLeftIsCorrectedForThem) {
   const std::string film = film_of(lit_dome("s.json", kSpectral), "lit", "--layers lights");
   const Relit seen = relit(film, "--light dome=0 --scene " + lit_dome("n.json", kNikon));
@@ -69,7 +69,7 @@ TEST(RelitWhite, ASensorThatLooksAtLightsThatAreLeftIsCorrectedForThem) {
   EXPECT_EQ(seen.err, "");
 }
 
-// That scene with more lights before its own.
+// That scene with more lights, which precede its own.
 std::string with_lights(const std::string& name, const std::string& path, const std::string& lights) {
   std::string text = read_file(path);
   text.insert(text.find('[', text.find("\"lights\"")) + 1, lights + ", ");
@@ -84,11 +84,11 @@ TEST(RelitWhite, OfLightsThatShareALayerIsToldWhereTheyHaveOne) {
     "emission": {"illuminant": "FL11", "luminous_intensity": 0.001}})");
   const Relit untold = relit(film_of(three, "three", "--layers lights:dome"), "--light dome=0");
   EXPECT_EQ(untold.white, "dome");
-  const std::string told = "does not tell the colour of \"rest\" (--white tells another)";
+  const std::string told = "does not record the colour of \"rest\" (choose a white with --white)";
   EXPECT_NE(untold.err.find(told), std::string::npos) << untold.err;
 }
 
-// Two lamps of one colour are brighter than a third that is brighter than each.
+// Two lamps of one colour are together brighter than a third lamp that is brighter than each.
 TEST(RelitWhite, IsThatOfTheLightsThatTogetherGiveMost) {
   const std::string path = with_lights("group.json", lit_dome("group.json", kObserver),
                                        R"({"name": "other", "point": {"at": [0, 0, 1]},

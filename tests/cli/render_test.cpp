@@ -128,7 +128,7 @@ TEST(Render, ShowsThroughViewsAndUsersConfigurations) {
   EXPECT_NE(aces, plain);
   ASSERT_EQ(abbe("calibrate --camera observer:1931 -o " + file("users")).code, 0);
   const std::string config = file("users") + "/config.ocio";
-  // The same codes, which a user's configuration does not say how to read.
+  // The codes are the same, since a configuration of the user does not define how to read them.
   const auto expect_aces = [&](const std::string& name, const std::string& options,
                                const std::string& before = "") {
     EXPECT_EQ(picture(name, options, before).find("sRGB"), std::string::npos);
@@ -151,7 +151,7 @@ TEST(Render, AViewOfNoPictureIsRefused) {
         abbe("render " + ball() + " --quiet -o " + file("film.exr") + " " + option + " nonsense");
     EXPECT_EQ(run.code, 2) << option;
     EXPECT_NE(run.err.find(std::string(option) +
-                           ": only a picture takes it (allowed with --display, --gamut or --preview)"),
+                           ": applies to pictures only (allowed with --display, --gamut or --preview)"),
               std::string::npos)
         << run.err;
   }
@@ -233,8 +233,8 @@ TEST(Render, AnErrorIsNotWaitedForWhereThereIsNoLight) {
   EXPECT_NE(run.err.find("no light on the film"), std::string::npos) << run.err;
 }
 
-// `timeout` sends the signal; one that comes before the render watches for it just kills, so the render has a
-// second.
+// `timeout` sends the signal. A signal before the render watches for it would kill the program, so the render
+// has a second.
 TEST(Render, SignalsLeaveAValidImageWithItsTrueSampleCount) {
   for (const auto& [name, code] : {std::pair{"INT", 130}, std::pair{"TERM", 143}}) {
     const std::string film = file(std::string(name) + ".exr");
@@ -252,7 +252,8 @@ TEST(Render, SignalsLeaveAValidImageWithItsTrueSampleCount) {
 TEST(Render, InfoTellsIntoHowManyCameraPathsGoOn) {
   const std::string box = (data_directory() / "scenes" / "cornell.json").string();
   EXPECT_EQ(abbe("info " + box + " --json").json()["path_splitting"], 8);
-  EXPECT_NE(abbe("info " + box).out.find("splitting    camera paths go on in 8 "), std::string::npos);
+  EXPECT_NE(abbe("info " + box).out.find("splitting    camera paths continue in 8 directions "),
+            std::string::npos);
   const Outcome rendered = abbe("render " + box + " --spp 1 --quiet --display " + file("box.png") + " -o " +
                                 file("box.exr") + " --stats -");
   EXPECT_EQ(rendered.json()["path_splitting"], 8);

@@ -10,7 +10,7 @@
 #include "tests/source_tree.h"
 #include "tests/tier.h"
 
-// Parts, checkpoints and interruptions, as a user of the program meets them.
+// Partial films, checkpoints and interruptions from the point of view of a user.
 
 namespace abbe::test {
 namespace {
@@ -51,7 +51,7 @@ TEST(Merge, RefusesPartsOfOtherRenders) {
                     "another replicates (got 4, allowed 2)"));
   EXPECT_TRUE(
       names(refusal(part_of_ball("path", "--integrator light --sample-range 2:4")), "another integrator"));
-  EXPECT_TRUE(names(refusal(a), "has samples that are there already (got 0:2)"));
+  EXPECT_TRUE(names(refusal(a), "has samples that are already included (got 0:2)"));
   PartFile older = read_part_file(part_of_ball("old", "--sample-range 2:4"));
   for (const char* key : {"version", "data_sha256", "exposure_s", "scene_sha256", "seed", "integrator",
                           "replicates", "channel.Y", "build", "instruction_set"}) {
@@ -61,7 +61,7 @@ TEST(Merge, RefusesPartsOfOtherRenders) {
     write_part_file(file("other.abbepart"), other.header, other.bytes);
     EXPECT_TRUE(names(refusal(file("other.abbepart")), fmt::format("another {} (got 0.0.9", key)));
   }
-  PartFile vast = older;  // whose sums would have 2^64 bytes, of which its 0 are the remainder
+  PartFile vast = older;  // its sums would have 2^64 bytes, which overflows to its 0 bytes
   vast.header["film"] = "65536 65536 16384 16384 0 0 1";
   std::string planes = "plane";
   for (int i = 1; i < 16384; ++i) planes += ",plane";
@@ -91,7 +91,7 @@ TEST(Merge, SaysWhichOfTheStatedSamplesAreMissing) {
   EXPECT_EQ(read_exr(file("gaps.exr")).metadata.at("samples_stated"), "8");
 }
 
-// What some parts add up to is a part that knows how many samples its render is to have.
+// The sum of some parts is a part that records the number of samples of the whole render.
 TEST(Merge, AddsUpInATree) {
   const auto sum_of = [](const std::string& parts, const std::string& name) {
     const Outcome run = merged(parts, file(name) + " --partial");
@@ -111,8 +111,8 @@ TEST(Merge, AddsUpInATree) {
   EXPECT_EQ(read_file(file("tree.exr")), read_file(file("whole.exr")));
 }
 
-// A finished render of which more samples were asked for later is as complete as the last of its parts
-// states.
+// A render that was finished and extended later is complete at the largest number of samples that its parts
+// state.
 TEST(Merge, TheLargestStatedNumberHolds) {
   const std::string first = part_of_ball("first", "--spp 128");
   const std::string more = part_of_ball("more", "--spp 192 --sample-range 128:160");
@@ -126,7 +126,7 @@ TEST(Merge, TheLargestStatedNumberHolds) {
   EXPECT_EQ(read_file(file("sum.abbepart")), read_file(part_of_ball("all", "--spp 192")));
 }
 
-// Where time decides, no number of samples is stated.
+// A render with a time limit records no number of samples.
 TEST(Merge, WhatTimeEndedIsComplete) {
   const std::string timed = part_of_ball("timed", "--time 0.01s");
   EXPECT_FALSE(read_part_file(timed).header.contains("samples_stated"));
@@ -145,13 +145,13 @@ TEST(Resume, WhatACheckpointHoldsIsTold) {
     EXPECT_EQ(run.code, 0) << run.err;
     return run.err.substr(0, run.err.find('\n'));
   };
-  const std::string begin = "abbe: " + saved + ": going on after ";
+  const std::string begin = "abbe: " + saved + ": continuing after ";
   EXPECT_EQ(told("0:2", ""), begin + "samples 0:2");
   EXPECT_EQ(told("0:1", "1 2 1"), begin + "samples 0:1 and a part of the next");
   EXPECT_EQ(told("", "0 2 1"), begin + "a part of the first sample");
 }
 
-// What another process is still writing has another name until it is whole.
+// A file has another name until the process that writes it has finished.
 TEST(Merge, ReadsPartsWhileOthersAreWritten) {
   const std::string a = part_of_ball("part-0", "--sample-range 0:4");
   const std::string b = part_of_ball("part-4", "--sample-range 4:8");
@@ -179,7 +179,7 @@ TEST(Merge, UsageErrors) {
   EXPECT_EQ(merged(part_of_ball("a", "--sample-range 0:2"), "/nowhere/no.exr").code, 5);
 }
 
-// The first example of the documentation, on a smaller film.
+// First example of the documentation, on a smaller film.
 TEST(Merge, TheDocumentedParallelExampleWorks) {
   std::string text = read_file(source_tree() / "docs/distributed.md");
   const std::size_t begin = text.find("```sh\n") + 6;
@@ -198,7 +198,7 @@ TEST(Merge, TheDocumentedParallelExampleWorks) {
   EXPECT_EQ(read_file(file("prism.exr")), read_file(file("whole64.exr")));
 }
 
-// Which the cluster's nightly test runs.
+// The nightly test of the cluster runs this example.
 TEST(Merge, TheDocumentedJobsAreTheirFiles) {
   const std::string text = read_file(source_tree() / "docs/distributed.md");
   for (const char* name : {"render.sbatch", "merge.sbatch", "submit.sh"}) {
@@ -208,7 +208,7 @@ TEST(Merge, TheDocumentedJobsAreTheirFiles) {
   }
 }
 
-/// A render with checkpoints that takes about a second.
+/// A render with checkpoints that takes about one second.
 class Checkpoint : public testing::Test {
  protected:
   void SetUp() override {
@@ -220,7 +220,7 @@ class Checkpoint : public testing::Test {
     return "render " + scene_ + " --quiet --checkpoint " + checkpoint_ + " --checkpoint-every 0.01s -o " +
            film_ + " --spp " + options;
   }
-  // The film of a render left alone, and how long it took [s].
+  // Film of an uninterrupted render, and its time [s].
   double render_calmly() const {
     const Outcome run =
         abbe("render " + scene_ + " --spp 4096 --quiet -o " + calm_ + " --stats " + file("calm.json"));
@@ -240,7 +240,7 @@ TEST_F(Checkpoint, KillsChangeNoBit) {
   int kills = 0;
   int interrupted = 0;
   while (kills < (nightly() ? 20 : 4)) {
-    // By day, when few are killed, the first has a checkpoint.
+    // By day few renders are killed, so the first must have a checkpoint.
     const std::string soon = kills == 0 && !nightly()
                                  ? "until [ -e " + checkpoint_ + " ]; do sleep 0.01; done"
                                  : "sleep " + std::to_string(delay(random));
@@ -280,11 +280,11 @@ TEST_F(Checkpoint, SignalsEndWithAValidOneAndResumeGoesOn) {
 TEST_F(Checkpoint, OthersAreRefusedAndKept) {
   ASSERT_EQ(abbe(command("128 --sample-range 0:64")).code, 0);
   const std::string good = read_file(checkpoint_);
-  EXPECT_EQ(abbe(command("128")).code, 5);  // not overwritten without a word
+  EXPECT_EQ(abbe(command("128")).code, 5);  // an existing checkpoint is not overwritten
   for (const char* other : {"128 --seed 4", "128 --set /render/max_depth=2", "16", "128 --crop 0,0,3,3"}) {
     const Outcome run = abbe(command("") + other + " --resume");
     EXPECT_EQ(run.code, 4) << other;
-    EXPECT_NE(run.err.find("is a part of another render"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("belongs to another render"), std::string::npos) << run.err;
   }
   EXPECT_EQ(read_file(checkpoint_), good);
   std::string flipped = good;
@@ -298,7 +298,8 @@ TEST_F(Checkpoint, OthersAreRefusedAndKept) {
 
 TEST_F(Checkpoint, TakesMoreSamplesAfterItsOwn) {
   ASSERT_EQ(abbe(command("256 --sample-range 0:100")).code, 0);
-  ASSERT_EQ(abbe(command("128 --sample-range 110:120 --resume")).code, 0);  // as many replicates
+  ASSERT_EQ(abbe(command("128 --sample-range 110:120 --resume")).code,
+            0);  // the number of replicates is equal
   EXPECT_EQ(read_part_file(checkpoint_).header.at("samples"), "0:100,110:120");
   ASSERT_EQ(abbe(command("256 --resume")).code, 0);
   ASSERT_EQ(abbe("render " + scene_ + " --spp 256 --quiet -o " + calm_).code, 0);
@@ -310,8 +311,8 @@ TEST_F(Checkpoint, OneThatCannotBeWrittenIsToldAndDoesNotStopTheRender) {
                             " ]; do sleep 0.01; done; rm " + checkpoint_ + "; mkdir " + checkpoint_ +
                             "; until grep -q warning " + file("stderr") +
                             " || ! kill -0 $pid; do sleep 0.01; done; kill -TERM $pid; wait $pid");
-  EXPECT_NE(run.err.find("warning: no checkpoint: "), std::string::npos) << run.err;
-  EXPECT_EQ(run.code, 5) << run.err;  // the last one is not forgiven
+  EXPECT_NE(run.err.find("warning: the checkpoint was not written: "), std::string::npos) << run.err;
+  EXPECT_EQ(run.code, 5) << run.err;  // the last checkpoint must be written
 }
 
 TEST_F(Checkpoint, TwoWritersOfOneOutputAreOneTooMany) {
@@ -333,14 +334,14 @@ TEST_F(Checkpoint, TwoWritersOfOneOutputAreOneTooMany) {
     EXPECT_NE(run.err.find(output + ": another process is writing it"), std::string::npos) << run.err;
 }
 
-// What is asked for is a film of those samples, and not of others.
+// A film must contain the requested samples and no others.
 TEST(Resume, RefusesACheckpointOfMoreSamplesThanAreAskedFor) {
   const std::string saving =
       " --checkpoint " + file("more.abbepart") + " -o " + file("more.exr") + " --quiet";
   ASSERT_EQ(abbe("render " + ball() + saving).code, 0);
   const Outcome fewer = abbe("render " + ball() + saving + " --resume --spp 4");
   EXPECT_EQ(fewer.code, 4);
-  EXPECT_NE(fewer.err.find("more.abbepart: holds samples that are not asked for (got 0:8, allowed 0:4)"),
+  EXPECT_NE(fewer.err.find("more.abbepart: contains samples that are not requested (got 0:8, allowed 0:4)"),
             std::string::npos)
       << fewer.err;
   EXPECT_EQ(abbe("render " + ball() + saving + " --resume").code, 0);

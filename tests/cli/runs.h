@@ -16,7 +16,7 @@ inline Outcome run_render(const std::string& scene, const std::string& output,
   return abbe("render " + scene + " --quiet -o " + output + " " + options);
 }
 
-/// The file of a render that ends well.
+/// File of a render that succeeds.
 inline std::string rendered_file(const std::string& scene, const std::string& path,
                                  const std::string& options) {
   const Outcome run = run_render(scene, path, options);
@@ -27,7 +27,7 @@ inline std::string film_of(const std::string& scene, const std::string& name,
                            const std::string& options = "") {
   return rendered_file(scene, file(name + ".exr"), options);
 }
-/// A part of a scene's render, given by options.
+/// Partial film of a scene with these options.
 inline std::string part_of(const std::string& scene, const std::string& name, const std::string& options) {
   return rendered_file(scene, file(name + ".abbepart"), options);
 }
@@ -36,7 +36,7 @@ inline Outcome merged(const std::string& parts, const std::string& output) {
   return abbe("merge " + parts + " -o " + output);
 }
 
-/// What `develop` tells of what it made.
+/// Answer of `develop --json`, which must succeed.
 inline nlohmann::json developed(const std::string& arguments, int code = 0) {
   const Outcome run = abbe("develop " + arguments + " --json");
   EXPECT_EQ(run.code, code) << arguments << '\n' << run.err;

@@ -6,7 +6,7 @@
 
 namespace abbe::test {
 
-/// Scene files for the program, around some shapes and materials.
+/// Scene file with these shapes and materials.
 inline std::string scene_text(const std::string& materials, const std::string& shapes,
                               const std::string& units = "mm") {
   return R"({"abbe": 1, "units": ")" + units + R"(",
@@ -28,14 +28,14 @@ inline std::string prism_scene() {
       R"({"name": "prism", "prism": {"apex_deg": 60, "side": 30, "length": 40}, "material": "glass"})");
 }
 
-/// A white ball in light from everywhere.
+/// A white ball in uniform light from all directions.
 inline std::string ball_scene() {
   return scene_text(
       R"("white": {"diffuse": {"reflectance": 0.8}})",
       R"({"name": "ball", "sphere": {"center": [0, 0, 0], "radius": 50}, "material": "white"})");
 }
 
-/// Files of this process's own: that scene, and any other by name.
+/// Files that belong to this process: that scene, and any other by its name.
 inline std::string ball() {
   return scratch().write("ball.json", ball_scene()).string();
 }

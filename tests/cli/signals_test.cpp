@@ -12,7 +12,7 @@
 #include "tests/cli/scenes.h"
 #include "tests/tier.h"
 
-// Signals while a render loads, runs and writes.
+// Signals while a render loads, renders and writes.
 
 namespace abbe::test {
 namespace {
@@ -22,19 +22,19 @@ namespace fs = std::filesystem;
 std::string until(const std::string& condition) {
   return "; until " + condition + "; do sleep 0.01; done; ";
 }
-/// A render in the background, as $pid.
+/// A render in the background with the process number $pid.
 std::string started(const std::string& options) {
   return ABBE_BINARY " render " + ball() + " --quiet " + options + " & pid=$!";
 }
 
 struct Announcement {
-  std::string name;  ///< As `kill` takes it.
+  std::string name;  ///< Name for `kill`.
   int number;
 };
 const std::vector<Announcement> kAnnouncements{{"HUP", SIGHUP},   {"USR1", SIGUSR1}, {"USR2", SIGUSR2},
                                                {"XCPU", SIGXCPU}, {"ALRM", SIGALRM}, {"PWR", SIGPWR}};
 
-// Terminals, batch systems and limits of CPU time announce the end so, some of them more than once.
+// Terminals, batch systems and limits of CPU time announce the end by these signals, some of them repeatedly.
 TEST(Signals, AnnouncementsOfTheEndLeaveAllAsARequestToEndDoes) {
   for (const auto& [name, number] : kAnnouncements) {
     const std::string film = file(name + ".exr");
@@ -57,8 +57,8 @@ TEST(Signals, AnnouncementsThatTheCallerIgnoresAreIgnored) {
   EXPECT_EQ(run.code, 0) << run.err;
 }
 
-// The pass over this film takes a thread half a second or more, and its checkpoint is there before. A SIGHUP
-// is no next signal.
+// One pass over this film takes a thread at least half a second, and its checkpoint exists before. A SIGHUP
+// does not count as a second signal.
 TEST(Signals, ALongPassIsSavedAtOnceAndTheNextSignalKills) {
   const std::string film = file("long.exr");
   const std::string saved = file("long.abbepart");
@@ -83,7 +83,7 @@ TEST(Signals, ALongPassIsSavedAtOnceAndTheNextSignalKills) {
   EXPECT_TRUE(read_file(film) == pieces);
 }
 
-// Before there is anything to lose a signal ends the program as it ends any.
+// A signal ends the program as usual before any samples exist.
 TEST(Signals, WhileAMeshLoadsLeaveNothing) {
   std::string ply =
       "ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"

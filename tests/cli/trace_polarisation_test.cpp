@@ -1,4 +1,4 @@
-// What `abbe trace` tells of polarisation, against chained Fresnel amplitudes and the textbook's elements.
+// Polarisation in `abbe trace`, compared with chained Fresnel amplitudes and textbook elements.
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -31,7 +31,7 @@ json traced(const std::string& scene, const V3d& origin, const V3d& direction,
 double number(const json& value) {
   return value.get<double>();
 }
-// Sheets across z, the first at 0, one unit apart below it; u runs along x.
+// Thin sheets across z, the first at 0 and the others one unit apart below it. The axis u is along x.
 std::string sheets(const std::vector<std::string>& materials) {
   std::string matter;
   std::string shapes;
@@ -46,9 +46,9 @@ std::string sheets(const std::vector<std::string>& materials) {
 }
 const V3d kAbove(0, 0, 1);
 const V3d kDown(0, 0, -1);
-// The first axis of light along z is along x.
+// The first axis of light along z is x.
 
-// Both faces of a prism let s and p through apart: their means would multiply to less.
+// Both faces of a prism transmit s and p separately. The product of their means would be smaller.
 TEST(TracePolarisation, OfAPrismIsThatOfBothFacesInTurn) {
   const double elevation = 20 * kDegree;
   const V3d direction(std::cos(elevation), 0, std::sin(elevation));
@@ -79,8 +79,8 @@ TEST(TracePolarisation, OfAPrismIsThatOfBothFacesInTurn) {
   EXPECT_NEAR(number(p_alone["events"][0]["T"]), 1 - number(found["events"][0]["Rp"]), 1e-9);
 }
 
-// Glass of index 1.51, cut so that light is reflected twice within at 54 degrees 37 minutes. [Born1999, sec.
-// 1.5.4]
+// Fresnel rhomb: glass of index 1.51, cut so that light is totally reflected twice inside at 54 degrees 37
+// minutes [Born1999, sec. 1.5.4].
 TEST(TracePolarisation, OfFresnelsRhombIsAQuarterWave) {
   const double angle = (54 + 37 / 60.0) * kDegree;
   const V3d along(std::sin(angle), 0, -std::cos(angle));
@@ -92,7 +92,7 @@ TEST(TracePolarisation, OfFresnelsRhombIsAQuarterWave) {
   const RayTrace trace = trace_ray(scene, {V3d(0, 0, 0.5), along}, kDLineNm, 2);
   ASSERT_EQ(trace.events.size(), 2U);
   for (const TraceEvent& event : trace.events) EXPECT_EQ(event.kind, TraceEvent::Kind::total_reflection);
-  const auto& m = trace.way.mueller.rows;
+  const auto& m = trace.polarisation.mueller.rows;
   EXPECT_NEAR(std::atan2(m[3][2], m[2][2]), std::numbers::pi / 2, 1e-3);
   EXPECT_NEAR(m[0][0], 1, 1e-12);
   EXPECT_NEAR(m[1][1], 1, 1e-12);
@@ -109,13 +109,13 @@ TEST(TracePolarisation, OfPolarisersIsMalusLaw) {
   EXPECT_NEAR(number(back["stokes"][0]), 0.5 * 0.75, 1e-12);
 }
 
-// Horizontal light through a quarter wave at 45 degrees is circular; a second one makes it linear again,
+// A quarter-wave plate at 45 degrees makes horizontal light circular. A second one makes it linear again, and
 // crossed.
 TEST(TracePolarisation, OfWavePlatesIsCircularAndBack) {
   const std::string quarter = R"({"wave_plate": {"retardance_deg": 90, "angle_deg": 45}})";
   const json once = traced(sheets({quarter}), kAbove, kDown, {1, 1, 0, 0});
-  // With k downwards y = k x f, f being the fast axis, leans to +x: light along x has U > 0 there, of which a
-  // quarter wave makes V < 0. From below y leans to -x.
+  // The axes are y = k x f, with f the fast axis. With k downwards y leans to +x: light along x has U > 0
+  // there, and a quarter wave makes V < 0. From below, y leans to -x.
   EXPECT_NEAR(number(once["stokes"][3]), -1, 1e-12);
   const json from_below = traced(sheets({quarter}), -kAbove, -kDown, {1, 1, 0, 0});
   EXPECT_NEAR(number(from_below["stokes"][3]), 1, 1e-12);

@@ -26,7 +26,7 @@ json trace(const std::string& scene, double nm, const Imath::V3d& origin, const 
       cli::trace, cli::TraceOptions{scratch().write("scene.json", scene), nm, origin, direction, max_events});
 }
 
-// A ray onto the middle of the left face of the prism at an angle of incidence from below its normal.
+// A ray to the centre of the left face of the prism, at an angle of incidence below its normal.
 json through_prism(double nm, double incidence_deg) {
   const double elevation = (incidence_deg - 30) * kDegree;
   const Imath::V3d dir(std::cos(elevation), 0, std::sin(elevation));
@@ -78,7 +78,7 @@ TEST(TraceMirror, ReflectsAndNamesTheMetal) {
   EXPECT_NEAR(found["final_dir"][2].get<double>(), std::sqrt(0.5), 1e-12);
 }
 
-// Sheets and mirrors whose light does not depend on the glass they stand in tell its index all the same.
+// Sheets and mirrors whose light does not depend on the surrounding glass also report its index.
 TEST(TraceSheet, TellsTheIndexOfTheMatterThatItStandsIn) {
   for (const char* sheet : {R"({"polariser": {}})", R"({"mirror": {"reflectance": 0.9}})"}) {
     const std::string scene =
@@ -100,7 +100,7 @@ constexpr const char* kTintedMatter = R"("water": {"dielectric": {"ior": 1.33, "
   "fog": {"medium": {"absorption_per_m": 0.5}}, "haze": {"medium": {"absorption_per_m": 0.2}},
   "mirror": {"mirror": {"reflectance": 1}}, "card": {"diffuse": {"reflectance": 0.8}}, "sheet": {"polariser": {}})";
 
-// What a ray along x, from `x` metres, has left where it ends.
+// Power that remains of a ray along x from `x` metres.
 double left_along_x(const std::string& shapes, double x = -10) {
   const std::string scene = scene_text(kTintedMatter, shapes, "m");
   return trace(scene, 550, {x, 0, 0}, {1, 0, 0})["stokes"][0].get<double>();
@@ -112,7 +112,7 @@ std::string tinted_ball(const std::string& material, double radius) {
   return tinted(material, "sphere", fmt::format(R"({{"center": [0, 0, 0], "radius": {}}})", radius));
 }
 
-// Whatever ends a stretch, the matter around it takes its share by Beer's law.
+// The medium absorbs by Beer's law along each segment, however the segment ends.
 TEST(TraceMatter, TakesItsShareBeforeWhatStandsInIt) {
   const double face = 4 * 1.33 / (2.33 * 2.33);
   const std::string water = tinted_ball("water", 3);
@@ -128,7 +128,7 @@ TEST(TraceMatter, TakesItsShareBeforeWhatStandsInIt) {
   EXPECT_NEAR(left_along_x(water, -3), face * std::exp(-3), 1e-9) << "from its surface";
 }
 
-// As the first of the scene is met, or the second.
+// The order of the boxes in the scene does not matter.
 TEST(TraceMatter, EndsWhereOtherMatterBegins) {
   const auto box = [](const std::string& material, double from, double to) {
     return tinted(material, "mesh", inline_mesh(test::box({from, -1, -1}, {to, 1.5, 1.7})));

@@ -1,4 +1,4 @@
-// What light an image lacks is said, also where nothing else is.
+// Warnings of light that is missing from an image, and silence otherwise.
 #include <algorithm>
 #include <string_view>
 
@@ -11,7 +11,7 @@
 namespace abbe::test {
 namespace {
 
-// Outside its shell the scene is lit by a lamp that has a shape; one more ball may be there.
+// A lamp with a shape illuminates the scene outside the shell. One more ball may be present.
 std::string room(const std::string& shapes, const std::string& lights) {
   return scratch()
       .write(
@@ -41,37 +41,37 @@ TEST(Warnings, LightThatAChosenTechniqueLosesIsNamed) {
   EXPECT_EQ(warned(scene).err, "");
   const Outcome light = warned(scene, " --integrator light --spp 64");
   EXPECT_EQ(light.code, 0);
-  EXPECT_EQ(
-      light.err,
-      "abbe: warning: light that integrator \"light\" does not reach is missing: E L: lights seen directly "
-      "(\"lamp\")\n");
+  EXPECT_EQ(light.err,
+            "abbe: warning: integrator \"light\" cannot sample some light paths, whose light is missing: "
+            "E L: lights seen directly (\"lamp\")\n");
   const Outcome strict = warned(scene, " --integrator light --strict");
   EXPECT_EQ(strict.code, 3);
-  EXPECT_NE(strict.err.find("integrator \"light\" does not reach"), std::string::npos) << strict.err;
+  EXPECT_NE(strict.err.find("integrator \"light\" cannot sample"), std::string::npos) << strict.err;
 }
 
-// Else one would believe that what is allowed is done.
+// Otherwise the user would believe that a permitted method is used.
 TEST(Warnings, WhatChoosesNothingIsRefused) {
   const std::string scene = room(ball_of("white"), kLamp);
   EXPECT_EQ(warned(scene, " --integrator auto --consistent").code, 0);
   for (const char* chosen : {" --integrator path", " --set /render/integrator=path"}) {
     const Outcome run = warned(scene, std::string(" --consistent") + chosen);
     EXPECT_EQ(run.code, 2) << chosen;
-    EXPECT_NE(run.err.find("--consistent: lets auto choose"), std::string::npos) << run.err;
+    EXPECT_NE(run.err.find("--consistent: applies to the integrator auto only"), std::string::npos)
+        << run.err;
   }
   const Outcome run =
       warned(scene, " --set /render/integrator=path --set /render/lights=light --integrator bdpt");
   EXPECT_EQ(run.code, 2);
   EXPECT_NE(
-      run.err.find("--integrator: the scene says how \"path\" draws its paths (got bdpt, allowed path)"),
+      run.err.find(
+          "--integrator: the sampling settings of the scene apply to path only (got bdpt, allowed path)"),
       std::string::npos)
       << run.err;
   const Outcome allowed = warned(scene, " --set /render/consistent=true --integrator bdpt");
   EXPECT_EQ(allowed.code, 2);
-  EXPECT_NE(
-      allowed.err.find(
-          "--integrator: the scene lets \"auto\" choose among more integrators (got bdpt, allowed auto)"),
-      std::string::npos)
+  EXPECT_NE(allowed.err.find(
+                "--integrator: render/consistent of the scene applies to auto only (got bdpt, allowed auto)"),
+            std::string::npos)
       << allowed.err;
 }
 
@@ -86,7 +86,7 @@ TEST(Warnings, SettingsOfPhotonsThatTheIntegratorMakesNoUseOfAreNamed) {
     }
     const Outcome run = warned(scene + set, options);
     EXPECT_EQ(run.code, 0) << run.err;
-    const std::string before = "makes no use of it: ";
+    const std::string before = "does not use these settings: ";
     const std::size_t at = run.err.find(before);
     if (at == std::string::npos) return std::string();
     return run.err.substr(at + before.size(), run.err.find('\n', at) - at - before.size());
@@ -105,11 +105,12 @@ TEST(Warnings, SettingsOfPhotonsThatTheIntegratorMakesNoUseOfAreNamed) {
   EXPECT_EQ(unused("--integrator path", "nearest=50"), "") << "is so anyway";
 }
 
-// It tells nothing of light that no sample has found.
+// A black film does not show light that its samples missed.
 TEST(Warnings, ABlackFilmIsTold) {
   const std::string said =
-      "abbe: warning: no light was found by 1 samples per pixel, although lights emit what the sensor sees: "
-      "none comes there, or by ways too rare for so many\n";
+      "abbe: warning: no light reached the sensor in 1 samples per pixel, although lights emit in its "
+      "wavelength range: nothing can reach it, or the paths are too rare; check a ray with `abbe trace`, or "
+      "increase --spp\n";
   const std::string nothing_there = room("", kBulb);
   EXPECT_EQ(warned(nothing_there).err, said);
   EXPECT_EQ(warned(nothing_there, "--strict").code, 0) << "it may be right";
@@ -120,7 +121,7 @@ TEST(Warnings, ABlackFilmIsTold) {
   for (const std::string& lights : {std::string(), infrared}) {
     const Outcome run = warned(room(ball_of("white"), lights));
     EXPECT_EQ(run.code, 0) << run.err;
-    EXPECT_EQ(run.err.find("no light was found"), std::string::npos) << run.err;
+    EXPECT_EQ(run.err.find("no light reached the sensor"), std::string::npos) << run.err;
   }
 }
 
@@ -128,7 +129,7 @@ TEST(Warnings, LightThatNoTechniqueReachesIsRepeated) {
   const std::string scene = room(ball_of("glass") + ", " + ball_of("white", "0.1"), kBulb);
   const Outcome run = warned(scene, " --strict");
   EXPECT_EQ(run.code, 0);
-  EXPECT_NE(run.err.find("warning: light that no technique reaches"), std::string::npos) << run.err;
+  EXPECT_NE(run.err.find("warning: no integrator can sample some light paths"), std::string::npos) << run.err;
   EXPECT_NE(
       run.err.find("E S+ L: a point, spot or directional light seen in mirrors or through glass (\"bulb\")"),
       std::string::npos)
@@ -152,7 +153,7 @@ TEST(Warnings, StrictRefusesASceneThatIsDark) {
   }
 }
 
-// What explains a scene answers where no render can be.
+// Commands that explain a scene answer even if no render is possible.
 TEST(Warnings, InfoAnswersWherePhotonsCannotBeTraced) {
   std::string text = read_file(
       room(R"({"name": "ground", "sphere": {"center": [0, 0, -7e6], "radius": 6e6}, "material": "glass"}, )" +
@@ -165,7 +166,8 @@ TEST(Warnings, InfoAnswersWherePhotonsCannotBeTraced) {
   for (const char* as : {"", " --json"}) {
     const Outcome run = abbe("info " + scene + as);
     EXPECT_EQ(run.code, 0) << run.err;
-    EXPECT_NE(run.err.find("warning: ground: photons of a light from afar cannot light"), std::string::npos)
+    EXPECT_NE(run.err.find("warning: ground: photons of a distant light cannot illuminate"),
+              std::string::npos)
         << run.err;
     EXPECT_NE(run.out.find("light"), std::string::npos);
     EXPECT_EQ(run.out.find("wavelength"), std::string::npos) << "nobody drew any";
@@ -179,11 +181,11 @@ TEST(Warnings, PolarisationLeftOutTakesALineUnlessQuiet) {
   EXPECT_EQ(warned(left_out).err.find("polarisation"), std::string::npos);
   const Outcome loud = abbe("render " + left_out + " -o " + (scratch() / "warned.exr").string());
   const std::size_t at =
-      loud.err.find("abbe: render/polarisation is \"off\", which matters after shape \"ball\"");
+      loud.err.find("abbe: render/polarisation is \"off\", which affects the image after shape \"ball\"");
   ASSERT_NE(at, std::string::npos) << loud.err;
   EXPECT_LT(loud.err.find('\n', at) - at, 220U);
   const Outcome measuring = warned(left_out + " --set /sensor/stokes=true");
-  EXPECT_NE(measuring.err.find("warning: the sensor measures how light is polarised"), std::string::npos)
+  EXPECT_NE(measuring.err.find("warning: the sensor measures polarisation"), std::string::npos)
       << measuring.err;
   EXPECT_EQ(warned(left_out + " --set /sensor/stokes=true", " --strict").code, 3);
   const std::string mirrors = room(ball_of("mirror") + ", " + ball_of("mirror", "0.1"), kLamp);
@@ -194,7 +196,7 @@ TEST(Warnings, ACameraWithinOpaqueMatterIsTold) {
   const std::string inside =
       room(ball_of("white", "5"), R"({"name": "sky", "environment": {}, "emission": {"spectrum": 1}})");
   const std::string said =
-      "abbe: warning: the camera stands within \"ball\", which is opaque and has no light inside\n";
+      "abbe: warning: the camera is inside \"ball\", which is opaque and contains no light\n";
   EXPECT_EQ(warned(inside).err, said);
   EXPECT_EQ(abbe("info " + inside).err, said);
   EXPECT_EQ(warned(inside, " --strict").code, 3);
@@ -204,9 +206,8 @@ TEST(Warnings, ACameraWithinOpaqueMatterIsTold) {
 TEST(Warnings, GlassWithoutThicknessAndMetersOnLightsAreReported) {
   const std::string coated = room(ball_of("white") + ", " + ball_of("glass"), kLamp);
   const std::string lost =
-      "\"ball\" lies on all of the opaque \"ball\" and has no effect (a thin coat would take a reflectance "
-      "of "
-      "0.5 to 0.316): keep them apart, or give that a coated material";
+      "\"ball\" coincides with all of the opaque \"ball\" and has no effect (a thin coat would change a "
+      "reflectance of 0.5 to 0.316): separate them, or give the latter a coated material";
   EXPECT_NE(abbe("info " + coated).err.find("abbe: warning: " + lost + "\n"), std::string::npos);
   EXPECT_EQ(warned(coated, " --strict").code, 3);
   const std::string metered = scratch()
@@ -216,7 +217,7 @@ TEST(Warnings, GlassWithoutThicknessAndMetersOnLightsAreReported) {
     "lights": [{"name": "bulb", "sphere": {"center": [0, 0, 0], "radius": 1}, "emission": {"spectrum": 1}}]})")
                                   .string();
   const std::string said =
-      "the meter lies, within rounding, on \"bulb\" and receives nothing of what that emits: keep them apart";
+      "the meter coincides within rounding with \"bulb\" and does not receive its emission: separate them";
   EXPECT_NE(abbe("info " + metered).err.find("abbe: warning: " + said + "\n"), std::string::npos);
   EXPECT_NE(warned(metered).err.find("warning: " + said), std::string::npos);
 }
@@ -235,7 +236,7 @@ TEST(Warnings, ALampOnSomethingOpaqueIsTold) {
   };
   const std::string flush = lit_by(panel_at(2));
   const std::string said =
-      "the lamp \"panel\" lies on \"ceiling\", which may be met instead: keep them apart";
+      "the light \"panel\" coincides with \"ceiling\", which rays may hit instead: separate them";
   EXPECT_EQ(abbe("info " + flush).err, "abbe: warning: " + said + "\n");
   EXPECT_NE(warned(flush).err.find("warning: " + said), std::string::npos);
   const Outcome strict = warned(flush, " --strict");
@@ -243,9 +244,10 @@ TEST(Warnings, ALampOnSomethingOpaqueIsTold) {
   EXPECT_NE(strict.err.find(said), std::string::npos) << strict.err;
   EXPECT_EQ(abbe("info " + lit_by(panel_at(1.999))).err, "");
   EXPECT_EQ(warned(lit_by(panel_at(1.999)), " --strict").code, 0);
-  EXPECT_NE(abbe("info " + lit_by(R"({"name": "bulb", "point": {"at": [0.3, 0.1, 2]})"))
-                .err.find("the lamp \"bulb\" stands on \"ceiling\", on one side or the other by rounding"),
-            std::string::npos);
+  EXPECT_NE(
+      abbe("info " + lit_by(R"({"name": "bulb", "point": {"at": [0.3, 0.1, 2]})"))
+          .err.find("the light \"bulb\" lies on the surface of \"ceiling\", on either side by rounding"),
+      std::string::npos);
 }
 
 }  // namespace

@@ -14,13 +14,13 @@
 #include "tests/cli/runs.h"
 #include "transport/render/part.h"
 
-// What pictures show as white.
+// White of pictures.
 
 namespace abbe::test {
 namespace {
 
-// All sensors: the one light that matters is white by default, in the picture of the render and in that of
-// its film; another white is asked for by the name of a light, of an illuminant, or by coordinates.
+// All sensors: by default white is the dominant light, in the picture of the render and in that of its film.
+// The name of a light or of an illuminant, or coordinates, request another white.
 class AnySensor : public testing::TestWithParam<const char*> {};
 
 TEST_P(AnySensor, ShowsTheMainLightAsWhiteOrWhatIsAskedFor) {
@@ -54,8 +54,8 @@ TEST_P(AnySensor, ShowsTheMainLightAsWhiteOrWhatIsAskedFor) {
   }
 }
 
-// A developed film and its picture tell the white that was asked for, and the film shows it when it is
-// developed again.
+// A developed film and its picture record the requested white, which the film shows when it is developed
+// again.
 TEST(White, IsToldByWhatIsDevelopedForIt) {
   const std::string film = film_of(lit_dome("t.json", kNikon), "t");
   developed(film + " --white D65 --exposure 0.002 -o " + file("t_d65.exr") + " --display " +
@@ -85,7 +85,7 @@ TEST(White, IsToldAsAskedForWhereTheSceneAsksForIt) {
 
 INSTANTIATE_TEST_SUITE_P(White, AnySensor, testing::Values(kObserver, kWideObserver, kNikon, kSpectral));
 
-// White points of A, D65 and FL11 for the CIE 1964 observer as they are published.
+// White points of A, D65 and FL11 for the CIE 1964 observer, as published.
 TEST(White, IsThatOfTheObserverWhoseFilmItIs) {
   const Chromaticity a{0.45117, 0.40594};
   const Chromaticity fl11{0.38541, 0.37123};
@@ -122,7 +122,7 @@ TEST(White, AFilmTellsItsWhiteToTheSensorThatLooksAtIt) {
   EXPECT_GT(seen(lit_dome("n.json", kNikon), " --set /output/white=D65"), 0.3);
 }
 
-// The colour of lights that are even from one whole nanometre to another, by their power there.
+// Colour of lights that are constant between whole nanometres, from their power there.
 Chromaticity color_of_bands(const std::map<std::pair<int, int>, double>& power) {
   const ColorMatching& eye = color_matching(Observer::cie1931);
   XYZ seen{};
@@ -136,7 +136,7 @@ Chromaticity color_of_bands(const std::map<std::pair<int, int>, double>& power) 
   return chromaticity(seen);
 }
 
-// A film of lines in wide bins, with exactly what the lamp has in each.
+// A film of spectral lines in wide bins, with the exact power of the lamp in each.
 TEST(White, OfASpectralFilmIsWhatItsBinsShow) {
   const auto lit_lines = [](const std::string& name, const std::string& sensor) {
     std::string text = read_file(lit_dome(name, sensor));
@@ -169,7 +169,7 @@ TEST(White, OfASpectralFilmIsWhatItsBinsShow) {
     EXPECT_NEAR(b, g, 1.5 / 255) << arguments;
   };
   expect_neutral(path);
-  // The bin of the red line is half within the red channel.
+  // Half of the bin of the red line is inside the red channel.
   constexpr const char* kInfrared =
       R"("channels": {"R": {"band": [630, 680]}, "G": {"band": [500, 590]}, "N": {"band": [790, 900]}})";
   for (const char* sensor : {kNikon, kWideObserver, kInfrared}) {
@@ -178,7 +178,7 @@ TEST(White, OfASpectralFilmIsWhatItsBinsShow) {
   }
 }
 
-// Films of bands that leave little of the light, or nothing that is seen.
+// Films of bands that contain little of the light, or no visible light.
 TEST(White, OfBandsThatNoEyeAdaptsToIsWhatIsAskedForOrNone) {
   struct Bands {
     const char* sensor;
@@ -197,7 +197,7 @@ TEST(White, OfBandsThatNoEyeAdaptsToIsWhatIsAskedForOrNone) {
     expect_xy(read_exr(film).metadata, of_a, 2e-5);
     expect_xy(read_exr(film_of(lit_dome("named.json", sensor, "\"D65\""), "named")).metadata, of_d65, 2e-5);
     developed(film + " --white D65 --display " + file("few.png"));
-    if (of_a[0] < 0.45 && of_a[1] < 0.45) continue;  // which no camera sees anything of
+    if (of_a[0] < 0.45 && of_a[1] < 0.45) continue;  // invisible to the cameras
     const std::string looker = lit_dome("looker.json", kNikon);
     for (const std::string& scene : {looker, lit_dome("other.json", kNikon, "", "FL11")}) {
       developed(film + " -o " + file("seen.exr") + " --display " + file("few.png") + " --scene " + scene);
@@ -212,7 +212,8 @@ TEST(White, OfBandsThatNoEyeAdaptsToIsWhatIsAskedForOrNone) {
   }
 }
 
-// A light to whose colour in the film's bands no eye adapts; asked for, it is seen as it is.
+// Chromatic adaptation to the colour of this light in the bands of the film is impossible. If it is requested
+// as white, sensors use its own colour.
 TEST(White, OfALightThatAFilmOfBandsAsksForIsThatLightToWhoLooks) {
   constexpr const char* kRed = R"("spectral": {"from_nm": 650, "to_nm": 700, "step_nm": 10})";
   const std::string film = film_of(lit_dome("red.json", kRed, "\"faint\""), "red");
@@ -233,7 +234,7 @@ TEST(White, OfAFilmOfBandsIsFoundByTheNameThatTheFilmHasForIt) {
   EXPECT_EQ(abbe("develop " + film + " --white faint --display " + file("red.png")).code, 2);
 }
 
-// Whoever names it, the scene that looks or an option.
+// The scene of the sensor or an option may name the light.
 TEST(White, OfAnIlluminantIsWhatTheBinsOfAFilmShowOfIt) {
   const std::string film =
       film_of(lit_dome("bins.json", R"("spectral": {"from_nm": 380, "to_nm": 780, "step_nm": 20})"), "bins");
@@ -263,7 +264,7 @@ TEST(White, PartsOfOtherWhitesMerge) {
   ASSERT_EQ(run_render(path, file("a.abbepart"), "--sample-range 0:32").code, 0);
   ASSERT_EQ(run_render(path, file("b.abbepart"), "--sample-range 32:64").code, 0);
   ASSERT_EQ(run_render(path, file("whole.exr")).code, 0);
-  // As another machine's pilot may have it.
+  // The pilot of another machine may have this value.
   RenderPart b = read_part(file("b.abbepart"));
   b.identity["white"] = "faint";
   b.identity["white_xy"] = "0.3 0.3";
@@ -277,13 +278,15 @@ TEST(White, PartsOfOtherWhitesMerge) {
   EXPECT_EQ(merged.metadata.at("white_xy"), whole.metadata.at("white_xy"));
 }
 
-// What cannot be written, or is locked, is refused before a pilot looks for the white.
+// An output that cannot be written, or is locked, is rejected before the pilot that determines the white.
 TEST(White, IsSettledAfterTheOutputs) {
   const std::string path = lit_dome("first.json", kObserver, "[0.7, 0.29]");  // itself an error
   EXPECT_EQ(run_render(path, "/nonexistent/a.exr").code, 5);
   EXPECT_EQ(run_render(path, file("a.exr")).code, 3);
   const Outcome piped = shell("cat " + path + " | " ABBE_BINARY " render - --quiet -o " + file("a.exr"));
-  EXPECT_NE(piped.err.find("<stdin>: /output/white: is no white"), std::string::npos) << piped.err;
+  EXPECT_NE(piped.err.find("<stdin>: /output/white: chromatic adaptation to this white is impossible"),
+            std::string::npos)
+      << piped.err;
 }
 
 TEST(White, ALightOfAnAmbiguousNameIsNone) {
@@ -308,7 +311,7 @@ TEST(White, OfASensorWithoutColoursIsWarnedOf) {
   const Outcome info = abbe("info --json " + path);
   EXPECT_EQ(info.code, 0);
   EXPECT_TRUE(info.json()["white"].is_null());
-  EXPECT_NE(info.err.find("/output/white: warning: a white without effect"), std::string::npos) << info.err;
+  EXPECT_NE(info.err.find("/output/white: warning: white has no effect"), std::string::npos) << info.err;
   EXPECT_EQ(run_render(path, file("one.exr"), "--strict").code, 0);
 }
 
@@ -322,7 +325,7 @@ TEST(White, WhatCannotBeIsAnErrorAtItsPlace) {
   refused(R"("dom")", "dome", kObserver);
   refused("[0.5, 0.6]", "x + y is above 1", kObserver);
   refused("[0.5, 1]", "allowed (0, 1)", kObserver);
-  refused("[0.7, 0.29]", "no white that an eye adapts to", kNikon);
+  refused("[0.7, 0.29]", "chromatic adaptation to this white is impossible", kNikon);
   ASSERT_EQ(run_render(lit_dome("ok.json", kObserver), file("ok.exr")).code, 0);
   const Outcome run =
       abbe("develop " + file("ok.exr") + " --set /output/white=dom --display " + file("x.png"));
@@ -330,7 +333,7 @@ TEST(White, WhatCannotBeIsAnErrorAtItsPlace) {
   EXPECT_NE(run.err.find("dome"), std::string::npos) << run.err;
 }
 
-// An overexposed sensor in warm light: its channels all hold as much, which is no neutral.
+// An overexposed sensor in warm light: all its channels have the same value, which is not a neutral colour.
 TEST(White, WhatSaturatesIsNotCyan) {
   const std::string film = file("hot.exr");
   const std::string sensor =

@@ -66,7 +66,7 @@ class DescriptionTest : public ::testing::Test {
   }
   ~DescriptionTest() override { fs::remove_all(folder_); }
 
-  // A scene exactly as written.
+  // Loads a scene exactly as written.
   Loaded load_text(const std::string& text, const std::vector<Override>& overrides = {}) {
     Loaded loaded;
     write(folder_ / "scene.json", text);
@@ -74,12 +74,12 @@ class DescriptionTest : public ::testing::Test {
     return loaded;
   }
 
-  // The members of `fragment`, completed by the keys a scene needs.
+  // Loads a scene with the members of `fragment`, completed by the keys that a scene needs.
   Loaded load(const std::string& fragment, const std::vector<Override>& overrides = {}) {
     return load_text(completed(fragment), overrides);
   }
 
-  // The curve a reflectance describes.
+  // The curve of a reflectance.
   Curve curve(const std::string& json) {
     const Loaded loaded =
         load(fmt::format(R"({{"materials": {{"m": {{"diffuse": {{"reflectance": {}}}}}}}}})", json));
@@ -88,7 +88,7 @@ class DescriptionTest : public ::testing::Test {
                         : Curve(-1.0);
   }
 
-  // The emission of a lamp: `kind` is one of the lights' geometries.
+  // The emission of a light; `kind` is its member that gives the geometry.
   Curve emission(const std::string& kind, const std::string& json) {
     const Loaded loaded = load(fmt::format(R"({{"lights": [{{{}, "emission": {}}}]}})", kind, json));
     EXPECT_TRUE(loaded.scene) << loaded.text();
@@ -104,7 +104,7 @@ class DescriptionTest : public ::testing::Test {
     return loaded.scene ? loaded->shapes.at(0).shape : Shape(Sphere{{0, 0, 0}, 0});
   }
 
-  // Each fault is refused with its one message.
+  // Expects that each fault is an error with its message, and the only error.
   void expect_refused(const std::vector<Fault>& faults) {
     for (const Fault& fault : faults) {
       SCOPED_TRACE(fault.what);

@@ -33,7 +33,7 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
        "expected a mesh: the name of a file, or triangles (got a number)"},
       {"5 two strengths at once",
        R"({"lights": [{"sun": {"towards": [0, 0, 1], "illuminance": 1}, "emission": {"blackbody_K": 5000}}]})",
-       ErrorCode::scene, "sun/illuminance: error: goes in place of \"emission\", and there is one"},
+       ErrorCode::scene, "sun/illuminance: error: cannot be combined with \"emission\""},
       {"5 unknown key", R"({"render": {"smaples": 4}})", ErrorCode::scene,
        "/render/smaples: error: unknown key \"smaples\"; did you mean \"samples\"?"},
       {"6 wrong type", R"({"render": {"samples": "many"}})", ErrorCode::scene,
@@ -49,7 +49,8 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
       {"9 negative count", R"({"render": {"samples": -1}})", ErrorCode::scene,
        "(got -1, allowed [1, 16777216])"},
       {"9 endless paths", R"({"render": {"roulette_depth": -1}})", ErrorCode::scene,
-       "/render/roulette_depth: error: ends no path, so that max_depth must (got -1 without a max_depth)"},
+       "/render/roulette_depth: error: never ends a path, and then max_depth is required (got -1 without a "
+       "max_depth)"},
       {"9 fractional count", R"({"render": {"samples": 1.5}})", ErrorCode::scene,
        "expected an integer (got 1.5"},
       {"10 deep nesting", std::string(1000000, '['), ErrorCode::scene,
@@ -100,14 +101,15 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
        ErrorCode::scene, "(got 1.5, allowed [0, 1])"},
       {"23 thin coat", R"({"materials": {"m": {"coated_diffuse": {"ior": 0.9, "reflectance": 1}}}})",
        ErrorCode::scene,
-       "/materials/m/coated_diffuse/ior: error: a coat is denser than air (got n = 0.9 at 300 nm)"},
+       "/materials/m/coated_diffuse/ior: error: a clear coat must have n of 1 or more (got n = 0.9 at 300 "
+       "nm)"},
       {"23 metal coat",
        R"({"materials": {"m": {"coated_diffuse": {"ior": {"n": 1.5, "k": 1}, "reflectance": 1}}}})",
-       ErrorCode::scene, "a coat is clear (got k = 1 at 300 nm, allowed [0, 0.001])"},
+       ErrorCode::scene, "a clear coat must not absorb (got k = 1 at 300 nm, allowed [0, 0.001])"},
       {"23 weights", R"({"materials": {"a": {"diffuse": {"reflectance": 0}}, "m": {"mixture":
        [{"material": "a", "weight": 0.7}, {"material": "a", "weight": {"band": [500, 600], "value": 0.4}}]}}})",
        ErrorCode::scene,
-       "/materials/m/mixture: error: the weights of a mixture add up to at most 1 (got 1.1)"},
+       "/materials/m/mixture: error: the weights of a mixture must add up to at most 1 (got 1.1)"},
       {"28 exponent", R"({"materials": {"m": {"phong": {"reflectance": 1, "exponent": -2}}}})",
        ErrorCode::scene,
        "/materials/m/phong/exponent: error: expected a number (got -2, allowed [0, 10000])"},
@@ -133,12 +135,12 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
       {"mixture of glass",
        R"({"materials": {"g": {"dielectric": {"ior": 1.5}}, "m": {"mixture": [{"material": "g", "weight": 1}]}}})",
        ErrorCode::scene,
-       "material \"g\" cannot be mixed: light enters it, which a mixture has no inside for"},
+       "material \"g\" cannot be mixed: it has a medium inside, which a mixture cannot have"},
       {"mixture of a polariser",
        R"({"materials": {"p": {"polariser": {}}, "m": {"mixture": [{"material": "p", "weight": 1}]}}})",
        ErrorCode::scene,
-       "material \"p\" cannot be mixed: its axis would be lost, as a mixture has one of its own for all "
-       "parts"},
+       "material \"p\" cannot be mixed: its axis would be lost, because a mixture has one axis for all "
+       "components"},
       {"23 extinction", R"({"materials": {"m": {"polariser": {"extinction_ratio": 0.5}}}})", ErrorCode::scene,
        "/materials/m/polariser/extinction_ratio: error: curve out of range at 300 nm (got 0.5, allowed [1, "},
       {"23 birefringence", R"({"materials": {"m": {"wave_plate": {"birefringence": -0.1, "thickness": 1}}}})",
@@ -173,7 +175,7 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
        ErrorCode::scene, "thickness_nm: error: expected a number (got -1, allowed"},
       {"a priority of what has no inside",
        R"({"materials": {"m": {"diffuse": {"reflectance": 0}, "priority": 1}}})", ErrorCode::scene,
-       "/materials/m/priority: error: a priority goes with matter within a shape: a dielectric or a "
+       "/materials/m/priority: error: priority applies only to a medium inside a shape: a dielectric or a "
        "medium"},
       {"a fractional priority", R"({"materials": {"m": {"dielectric": {"ior": 1.5}, "priority": 0.5}}})",
        ErrorCode::scene, "expected an integer (got 0.5, allowed [-1000, 1000])"},
@@ -187,10 +189,11 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
        R"({"materials": {"m": {"conductor": {"ior": 1.5, "roughness": {"alpha": 0.1, "distribution": "gxx"}}}}})",
        ErrorCode::scene, "unknown distribution \"gxx\""},
       {"28 stretched", R"({"materials": {"m": {"conductor": {"ior": 1.5, "roughness": [0.01, 0.21]}}}})",
-       ErrorCode::scene, "roughness: error: alphas more than 20 times apart (got 0.01 and 0.21)"},
+       ErrorCode::scene,
+       "roughness: error: the two alphas must not differ by more than a factor of 20 (got 0.01 and 0.21)"},
       {"28 coated",
        R"({"materials": {"m": {"conductor": {"ior": 1.5, "roughness": 0.1, "coating": [{"ior": 1.38, "thickness_nm": 1}]}}}})",
-       ErrorCode::scene, "roughness: error: a coating lies on smooth surfaces only"},
+       ErrorCode::scene, "roughness: error: a coating needs a smooth surface"},
       {"27 empty band", sensed(R"("resolution": [1, 1], "channels": {"R": {"band": [600, 600]}})"),
        ErrorCode::scene,
        "/sensor/channels/R/band: error: an empty band (got [600, 600] nm, allowed low < high)"},
@@ -231,7 +234,7 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
       {"a lens too far open",
        R"({"camera": {"lens_system": {"prescription": "double_gauss", "f_number": 1.4}, )" + at + "}",
        ErrorCode::scene,
-       "/camera/lens_system/f_number: error: the lens does not open so far (got f/1.4, allowed f/2 "
+       "/camera/lens_system/f_number: error: the lens cannot open that far (got f/1.4, allowed f/2 "
        "or more)"},
       {"two blades",
        R"({"camera": {"thin_lens": {"focal_length": 0.05, "f_number": 4, "blades": 2}, )" + at + "}",
@@ -247,13 +250,13 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
       {"blades of a lens in air",
        R"({"camera": {"thin_lens": {"focal_length": 0.05, "t_stop": 0.5, "blades": 4}, )" + at + "}",
        ErrorCode::scene,
-       "/camera/thin_lens/t_stop: error: a T-stop is no faster than its blades let it be (got 0.5, allowed "
+       "/camera/thin_lens/t_stop: error: a T-stop must not be faster than its blades allow (got 0.5, allowed "
        "[0.6266"},
       {"faster than blades let it be",
        R"({"camera": {"thin_lens": {"focal_length": 0.05, "f_number": 4, "t_stop": 4, "blades": 4}, )" + at +
            "}",
        ErrorCode::scene,
-       "/camera/thin_lens/t_stop: error: a T-stop is no faster than its f-number and blades let it be (got "
+       "/camera/thin_lens/t_stop: error: a T-stop must not be faster than its f-number and blades allow (got "
        "4, allowed [5.013"},
       {"a lens of no kind", R"({"camera": {"lens_system": {"prescription": 50}, )" + at + "}",
        ErrorCode::scene,
@@ -262,7 +265,8 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
       {"a lens without a stop",
        R"({"camera": {"lens_system": {"prescription": {"f_number": 4, "surfaces": [[50, 4, 1.5], [-50, 40]]}}, )" +
            at + "}",
-       ErrorCode::scene, "/camera/lens_system/prescription: error: no surface is the stop: a lens has one"},
+       ErrorCode::scene,
+       "/camera/lens_system/prescription: error: a lens needs a stop, and no surface is marked as the stop"},
       {"a glass that is none, within a short surface",
        R"({"camera": {"lens_system": {"prescription": {"f_number": 4, "surfaces": [{"stop": true, "thickness": 1}, [50, 4, "N-BK77"], [-50, 40]]}}, )" +
            at + "}",
@@ -271,11 +275,12 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
        R"({"camera": {"lens_system": {"prescription": {"f_number": 4, "surfaces": [{"stop": true, "thickness": 1}, [50]]}}, )" +
            at + "}",
        ErrorCode::scene,
-       "/camera/lens_system/prescription/surfaces/1: error: a list in place of an object has radius, "
-       "thickness, glass, aperture here (got 1 values, allowed 2 to 4)"},
+       "/camera/lens_system/prescription/surfaces/1: error: an array in place of this object has the values "
+       "radius, "
+       "thickness, glass, aperture (got 1 values, allowed 2 to 4)"},
       {"too near for a real lens",
        R"({"camera": {"lens_system": {"prescription": "double_gauss", "focus_distance": 0.01}, )" + at + "}",
-       ErrorCode::scene, "the lens has no image behind it of what is there to be in focus (got "},
+       ErrorCode::scene, "the lens forms no image behind it of an object at the focus distance (got "},
       {"relative spectrum", lit(R"({"illuminant": "A"})"), ErrorCode::scene,
        "illuminant is a relative spectrum and needs a scale, one of radiant_flux_W, luminous_flux_lm, "
        "intensity, luminous_intensity"},
@@ -283,29 +288,31 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
        "an emission has one scale (got radiant_flux_W and intensity)"},
       {"a lamp around the meter",
        R"({"lights": [{"sphere": {"center": [0, 0, 0], "radius": 2}, "emission": {"illuminant": "A", "illuminance": 9, "distance": 2}}]})",
-       ErrorCode::scene, "/lights/0/emission: error: lies within the lamp (got a distance of 2)"},
+       ErrorCode::scene, "/lights/0/emission: error: the distance lies inside the light (got 2)"},
       {"no distance", lit(R"({"illuminant": "A", "illuminance": 9})"), ErrorCode::scene,
        "missing key \"distance\""},
       {"a distance of nothing", lit(R"({"illuminant": "A", "luminous_intensity": 9, "distance": 1})"),
-       ErrorCode::scene, "distance goes with irradiance or illuminance, which is not there"},
+       ErrorCode::scene, "distance requires irradiance or illuminance, which is missing"},
       {"negative flux", lit(R"({"spectral_flux_W_per_nm": -1})"), ErrorCode::scene,
        "(got -1, allowed [0, 1e+30])"},
       {"a body of a few float steps",
        R"({"materials": {"g": {"dielectric": {"ior": 1.5}}}, "shapes": [{"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "g"},
            {"sphere": {"center": [1e7, 0, 0], "radius": 1}, "material": "g"}]})",
        ErrorCode::scene,
-       "/shapes/1: error: shape \"shape 1\" is 3.46 m large and 1e+07 m from the middle of the scene, where "
-       "floats are 1.19 m apart: too few for matter that light enters (got 2.91 of them, allowed [64, inf))"},
+       "/shapes/1: error: shape \"shape 1\" is 3.46 m large and 1e+07 m from the center of the scene, where "
+       "single precision resolves 1.19 m: too coarse for a shape with a medium inside (got 2.91 steps, "
+       "allowed [64, inf))"},
       {"a lamp of triangles of a few float steps",
        R"({"materials": {"g": {"diffuse": {"reflectance": 0}}}, "shapes": [{"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "g"},
            {"mesh": {"vertices": [[1e7, 0, 0], [1e7, 9, 0], [1e7, 0, 9]], "triangles": [[0, 1, 2]]}, "material": "g", "emission": {"spectrum": 1}}]})",
-       ErrorCode::scene, "too few for a mesh that emits"},
+       ErrorCode::scene, "too coarse for an emitting mesh"},
       {"a camera far from what it sees",
        R"({"materials": {"g": {"diffuse": {"reflectance": 0}}}, "shapes": [{"sphere": {"center": [0, 1e7, 0], "radius": 1}, "material": "g"}]})",
-       ErrorCode::scene, "/camera: error: the camera is 1e+07 m from what it sees, which is 3.46 m large"},
+       ErrorCode::scene,
+       "/camera: error: the camera is 1e+07 m from the visible scene, which is 3.46 m large"},
       {"a pixel of a direction",
        R"({"camera": {"pinhole": {"focal_length": 100}, "from": [0, -3, 0], "to": [0, 0, 0], "up": [0, 0, 1]}})",
-       ErrorCode::scene, "/camera: error: a pixel sees 4.5e-08 of a radian"},
+       ErrorCode::scene, "/camera: error: a pixel covers 4.5e-08 rad"},
       {"a sun from nowhere", R"({"lights": [{"sun": {"towards": [0, 0, 0], "illuminance": 1}}]})",
        ErrorCode::scene, "a direction must not be zero"},
       {"a sun too small",
@@ -328,22 +335,22 @@ TEST_F(DescriptionFaultsTest, RefusesAndExplainsWhatIsWrong) {
        "luminous_intensity cannot scale this spectrum"},
       {"two skies",
        R"({"lights": [{"environment": {}, "emission": {"spectrum": 1}}, {"environment": {}, "emission": {"spectrum": 1}}]})",
-       ErrorCode::scene, "a scene has one environment"},
+       ErrorCode::scene, "a scene has at most one environment light"},
       {"glass brings its own",
        R"({"materials": {"m": {"dielectric": {"ior": "N-BK7", "absorption_per_m": 1}}}})", ErrorCode::scene,
-       "absorption_per_m goes with an index without k; this one brings its own"},
+       "absorption_per_m requires an index without k; this index already has one"},
       {"unknown glass", R"({"materials": {"m": {"dielectric": {"ior": "N-BK77"}}}})", ErrorCode::scene,
        "did you mean \"N-BK7\"?"},
       {"energy times efficiency",
        sensed(R"("resolution": [1, 1], "response": "energy", "quantum_efficiency": 1, "channels": {"R": 1})"),
-       ErrorCode::scene, "a quantum_efficiency makes the response quantum"},
+       ErrorCode::scene, "quantum_efficiency requires a quantum response"},
       {"observer has its own", sensed(R"("resolution": [1, 1], "observer": "1931", "quantum_efficiency": 1)"),
-       ErrorCode::scene, "quantum_efficiency goes with channels"},
+       ErrorCode::scene, "quantum_efficiency is used with channels only"},
       {"a name EXR cannot hold", sensed(R"("resolution": [1, 1], "channels": {"a.b": 1})"), ErrorCode::scene,
-       "letters, digits, - and _ only (got \"a.b\")"},
+       "letters, digits, - and _ (got \"a.b\")"},
       {"a name too long for EXR",
        sensed(R"("resolution": [1, 1], "channels": {")" + std::string(101, 'a') + R"(": 1})"),
-       ErrorCode::scene, "up to 100 letters"},
+       ErrorCode::scene, "at most 100 characters"},
       {"unknown unit", R"({"units": "ft"})", ErrorCode::scene, "unknown unit of length \"ft\""},
   };
   expect_refused(faults);
@@ -379,16 +386,16 @@ TEST_F(DescriptionFaultsTest, WarnsOfDarknessAndExtrapolation) {
   };
   EXPECT_NE(lamp_of("0").find("/lights/0/emission: warning: \"bulb\" emits nothing\n"), std::string::npos);
   EXPECT_NE(lamp_of(R"({"band": [400, 500]})")
-                .find("/lights/0/emission: warning: \"bulb\" emits nothing that the sensor sees\n"),
+                .find("/lights/0/emission: warning: \"bulb\" emits nothing that the sensor records\n"),
             std::string::npos);
   EXPECT_EQ(lamp_of(R"({"band": [400, 610]})"), "");
 
-  // 22: the user is told that an index is held beyond its measurements.
+  // 22: a warning reports an index that is used outside its measurements.
   const std::string lamp = R"({"lights": [{"environment": {}, "emission": {"spectrum": 1}}],)";
   const Loaded beyond = load(lamp + R"("materials": {"m": {"dielectric": {"ior": "N-SF11"}}}})");
-  EXPECT_NE(beyond.text().find(
-                "/materials/m: warning: N-SF11 holds on [370, 2500] nm, the sensor sees [300, 1100] nm: "
-                "outside, the index is held from the nearer end"),
+  EXPECT_NE(beyond.text().find("/materials/m: warning: N-SF11 has data on [370, 2500] nm, but the sensor "
+                               "responds on [300, 1100] nm: "
+                               "outside its data, the index of the nearer end is used"),
             std::string::npos)
       << beyond.text();
   const Loaded within = load(lamp + R"("materials": {"m": {"dielectric": {"ior": "N-SF11"}}},

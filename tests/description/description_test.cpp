@@ -54,7 +54,7 @@ TEST_F(DescriptionTest, ConvertsToMetresAndRecentres) {
   EXPECT_NEAR(area(bench->shapes.at(0).shape), 1e-4, 1e-10);
 }
 
-// Short surfaces and files of glass included; what a scene holds needs no file.
+// Covers short forms of surfaces and glass files. A prescription within the scene needs no file of its own.
 TEST_F(DescriptionTest, LensesStandInTheScene) {
   write(folder_ / "own.csv", "# unit: index, nm\nwavelength_nm,n\n300,1.625\n1100,1.625\n");
   const Loaded loaded = load(R"({"camera": {"lens_system": {"prescription": {"title": "mine", "f_number": 8,
@@ -67,7 +67,7 @@ TEST_F(DescriptionTest, LensesStandInTheScene) {
   EXPECT_EQ(lens.surfaces[1].behind->index.n(550), 1.625);
   EXPECT_EQ(lens.surfaces[1].semi_aperture_mm, 20);
   EXPECT_FALSE(lens.surfaces[2].behind);
-  EXPECT_DOUBLE_EQ(lens.surfaces[0].iris.value().share(), lens::Iris(6, 0).share());
+  EXPECT_DOUBLE_EQ(lens.surfaces[0].iris.value().area_fraction(), lens::Iris(6, 0).area_fraction());
   EXPECT_FALSE(lens.surfaces[1].iris);
 }
 
@@ -108,16 +108,16 @@ TEST_F(DescriptionTest, PlacesProbes) {
       R"({"camera": {"irradiance_probe": {"quad": {"corner": [1, 0, 0], "edge_u": [2, 0, 0], "edge_v": [0, 3, 0]}}},
     "sensor": {"observer": "1964"}})");
   ASSERT_TRUE(loaded.scene) << loaded.text();
-  ASSERT_TRUE(std::holds_alternative<Probe>(loaded->camera.kind));
+  ASSERT_TRUE(std::holds_alternative<IrradianceProbe>(loaded->camera.kind));
   EXPECT_EQ(loaded->camera.width * loaded->camera.height, 1);
-  const auto& probe = std::get<Quad>(std::get<Probe>(loaded->camera.kind).surface);
+  const auto& probe = std::get<Quad>(std::get<IrradianceProbe>(loaded->camera.kind).surface);
   expect_near(probe.corner + loaded->origin_m, {1, 0, 0});
   expect_near(probe.edge_u, {2, 0, 0});
   expect_near(probe.edge_v, {0, 3, 0});
   const Loaded point = load(R"({"camera": {"irradiance_probe": {"at": [1, 0, 0], "normal": [0, 0, -2]}}})");
   ASSERT_TRUE(point.scene) << point.text();
-  expect_near(std::get<PointOfMeter>(std::get<Probe>(point->camera.kind).surface).normal, {0, 0, -1});
-  EXPECT_EQ(std::get<Probe>(point->camera.kind).area(), 0);
+  expect_near(std::get<ProbePoint>(std::get<IrradianceProbe>(point->camera.kind).surface).normal, {0, 0, -1});
+  EXPECT_EQ(std::get<IrradianceProbe>(point->camera.kind).area(), 0);
 }
 
 TEST_F(DescriptionTest, ReadsCurves) {
@@ -237,13 +237,13 @@ TEST_F(DescriptionTest, TablesAreInTheUnitThatIsAskedFor) {
   const std::string scaled =
       R"({"materials": {"m": {"medium": {"absorption_per_m": {"scale": 100, "of": "t.csv:a"}}}}})";
   for (const char* unit : {"1/cm", "mm^-1", "furlongs", "1/mm; in air"})
-    EXPECT_NE(complaint(fog, unit).find("\"t.csv:a\" is in another unit (got \"" + std::string(unit) +
+    EXPECT_NE(complaint(fog, unit).find("\"t.csv:a\" has the wrong unit (got \"" + std::string(unit) +
                                         "\", allowed 1/m;"),
               std::string::npos);
   for (const char* unit : {"1/m", "m^-1 (power)", "per metre; wavelength in nm"})
     EXPECT_EQ(complaint(fog, unit), "");
   EXPECT_EQ(complaint(scaled, "1/cm"), "");
-  EXPECT_NE(complaint(paint, "%").find("allowed shares of 1"), std::string::npos);
+  EXPECT_NE(complaint(paint, "%").find("allowed fractions of 1"), std::string::npos);
   EXPECT_EQ(complaint(paint, "reflectance factor (0-1)"), "");
   for (const char* unit : {"mW/(m2 sr nm)", "W/(m2 sr um)", "W/(cm2 sr nm)"})
     EXPECT_NE(complaint(lamp, unit).find("allowed W/(m^2 sr nm)"), std::string::npos) << unit;
@@ -286,7 +286,7 @@ TEST_F(DescriptionTest, TablesWithinSumsAndProductsAreInThatUnitToo) {
     EXPECT_NE(complaint(fog, curve, "1/cm").find("(got \"1/cm\", allowed 1/m; {\"scale\": S"),
               std::string::npos)
         << curve;
-    EXPECT_NE(complaint(paint, curve, "%").find("allowed shares of 1"), std::string::npos) << curve;
+    EXPECT_NE(complaint(paint, curve, "%").find("allowed fractions of 1"), std::string::npos) << curve;
     EXPECT_NE(complaint(lamp, curve, "mW/(m2 sr nm)").find("allowed W/(m^2 sr nm)"), std::string::npos)
         << curve;
     EXPECT_EQ(complaint(fog, curve, "1/m"), "");
@@ -312,7 +312,7 @@ TEST_F(DescriptionTest, SharesOfASensorAreNoPercentagesWhereverATableStands) {
                                          unit, value, value));
     const Loaded loaded = load(R"({"sensor": {"resolution": [1, 1], )" + sensor + "}}");
     const std::string text = loaded.text();
-    return loaded.scene && text.find("is taken as a response") == text.npos ? "" : text;
+    return loaded.scene && text.find("is used as a response") == text.npos ? "" : text;
   };
   const std::string channels = R"("channels": {"a": "t.csv:QE"})";
   const std::string peak = R"(, "peak_quantum_efficiency": 0.5)";
@@ -324,18 +324,18 @@ TEST_F(DescriptionTest, SharesOfASensorAreNoPercentagesWhereverATableStands) {
         std::string(R"("quantum_efficiency": "t.csv:QE", "channels": {"a": 1})"),
         std::string(R"("camera": "t.csv")"), channels + quantum}) {
     for (const char* unit : {"%", "quantum efficiency [%]"})
-      EXPECT_NE(complaint(unit, 0.9, sensor).find("allowed shares of 1"), std::string::npos) << sensor;
+      EXPECT_NE(complaint(unit, 0.9, sensor).find("allowed fractions of 1"), std::string::npos) << sensor;
     EXPECT_NE(complaint("1", 50, sensor).find("(got 50, allowed ["), std::string::npos) << sensor;
     EXPECT_EQ(complaint("1", 0.9, sensor), "") << sensor;
   }
   for (const std::string& sensor : {R"("camera": "t.csv")" + peak, channels + quantum + peak})
     EXPECT_EQ(complaint("%", 50, sensor), "") << "scaled: " << sensor;
   EXPECT_EQ(complaint("%", 50, channels), "") << "of no unit";
-  EXPECT_NE(complaint("electrons per photon", 0.5, channels).find("warning: \"t.csv:QE\" is taken as"),
+  EXPECT_NE(complaint("electrons per photon", 0.5, channels).find("warning: \"t.csv:QE\" is used as"),
             std::string::npos);
   EXPECT_NE(complaint("electrons per photon", 0.5,
                       R"("channels": {"a": {"product": ["t.csv:QE", {"band": [400, 700]}]}})")
-                .find("warning: \"t.csv:QE\" is taken as"),
+                .find("warning: \"t.csv:QE\" is used as"),
             std::string::npos);
   EXPECT_EQ(complaint("electrons per photon", 0.5, channels + quantum), "");
 }

@@ -25,8 +25,7 @@ inline std::string file_text(const fs::path& path) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// The scene files in a folder of the data directory and in the folders below it,
-/// sorted.
+/// The scene files in a folder of the data directory and in the folders below it, sorted.
 inline std::vector<fs::path> scene_files(const fs::path& folder) {
   std::vector<fs::path> paths;
   for (const auto& entry : fs::recursive_directory_iterator(data_directory() / folder))
@@ -39,7 +38,7 @@ inline std::string scene_guide_text() {
   return file_text(data_directory().parent_path() / "docs" / "scene.md");
 }
 
-/// The examples of the guide to scene files, most of which say a part of a scene only.
+/// The examples of the guide to scene files. Most of them show only a part of a scene.
 inline std::vector<std::string> guide_examples() {
   const std::string guide = scene_guide_text();
   const std::regex fence("```jsonc\n([^`]*)```");
@@ -49,7 +48,7 @@ inline std::vector<std::string> guide_examples() {
   return examples;
 }
 
-/// A part of a scene with the keys that it lacks and a scene needs; text that is no JSON as it is.
+/// A part of a scene, completed by the keys that a scene needs. Text that is not JSON is returned unchanged.
 inline std::string completed(const std::string& fragment) {
   Diagnostics ignored;
   const auto source = std::make_shared<const SourceText>(SourceText{"fragment", fragment});

@@ -20,7 +20,7 @@ inline std::string base64(const std::string& bytes) {
   return text;
 }
 
-// Three corners of a triangle of area 1/2 in xy, and its indices as shorts, padded to 44 bytes.
+// Three vertices of a triangle of area 1/2 in the xy plane and its indices as shorts, padded to 44 bytes.
 inline std::string triangle_bytes() {
   return raw<float>({0, 0, 0, 1, 0, 0, 0, 1, 0}) + raw<std::uint16_t>({0, 1, 2, 0});
 }
@@ -34,7 +34,7 @@ inline std::string glb(const std::string& json, const std::string& binary) {
   return "glTF" + raw<std::uint32_t>({2, static_cast<std::uint32_t>(chunks.size() + 12)}) + chunks;
 }
 
-/// The parts of a glTF asset that tests change.
+/// The parts of a glTF asset, for tests to change.
 struct Asset {
   std::string nodes = R"([{"mesh": 0}])";
   std::string roots = "[0]";

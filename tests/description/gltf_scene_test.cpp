@@ -1,8 +1,8 @@
-// Scenes of glTF, converted, beside the same scenes written by hand.
+// Compares converted glTF scenes with the same scenes written by hand.
 #include <cmath>
 
-#include "doors.h"
 #include "gltf_asset.h"
+#include "importers.h"
 #include "io/schema/write.h"
 #include "spectral/rgb.h"
 #include "tests/io/icc_profile.h"
@@ -13,7 +13,7 @@ namespace {
 using test::Asset;
 using test::DoorFault;
 
-// A triangle of the material 0 with a camera that sees it, and more.
+// A triangle of material 0 with a camera that sees it, and further nodes.
 std::string gltf(const std::string& material, const std::string& nodes = "", const std::string& roots = "",
                  const std::string& more = "") {
   Asset asset;
@@ -27,9 +27,9 @@ std::string gltf(const std::string& material, const std::string& nodes = "", con
   return asset.text();
 }
 
-class GltfSceneTest : public test::DoorsTest {
+class GltfSceneTest : public test::ImportersTest {
  protected:
-  // The parts that all scenes of `gltf` share, with what a test adds.
+  // The parts that all scenes of `gltf` have in common, with the additions of a test.
   static std::string twin(const std::string& material, const std::string& lights = "",
                           const std::string& shape = "") {
     return R"({"abbe": 1, "camera": {"pinhole": {"fov_deg": 28.64788975654116}, "from": [0, 0, 5], "to": [0, 0, 4], "up": [0, 1, 0]},
@@ -61,10 +61,11 @@ TEST_F(GltfSceneTest, MetallicRoughness) {
           R"({"name": "m", "pbrMetallicRoughness": {"metallicFactor": 0}, "extensions": {"KHR_materials_ior": {"ior": 1}, "KHR_materials_clearcoat": {"clearcoatFactor": 0.125, "clearcoatRoughnessFactor": 0.25}}})"),
       twin(
           R"({"principled": {"base_color": 1, "roughness": 1, "specular": 0, "clearcoat": 0.5, "clearcoat_gloss": 0.37878787878787884}})"));
-  EXPECT_FALSE(tells("cut to that")) << told_;
+  EXPECT_FALSE(tells("clamped")) << told_;
 }
 
-// A layer of factor 1 reflects 0.04 along the normal there, and the coat here a quarter of that at most.
+// A glTF clear coat of factor 1 reflects 0.04 at normal incidence; the coat of `principled` reflects at most
+// a quarter of that.
 TEST_F(GltfSceneTest, CoatsAndReflectancesBeyondWhatThereIsAreCut) {
   const auto made = convert(
       "a.gltf",
@@ -75,16 +76,16 @@ TEST_F(GltfSceneTest, CoatsAndReflectancesBeyondWhatThereIsAreCut) {
   EXPECT_EQ(surface.specular, 1);
   EXPECT_EQ(surface.clearcoat, 1);
   EXPECT_EQ(surface.clearcoat_gloss, 0);
-  for (const char* what : {"a clear coat of a factor above 0.25 is cut to that",
-                           "a width of a clear coat's facets above 0.1 is cut to that",
-                           "a reflectance along the normal above 0.08 is cut to that"})
+  for (const char* what : {"a clear coat factor above 0.25 is clamped to that value",
+                           "a facet width of a clear coat above 0.1 is clamped to that value",
+                           "a reflectance at normal incidence above 0.08 is clamped to that value"})
     EXPECT_TRUE(tells(what)) << told_ << "lacks " << what;
   ASSERT_TRUE(convert(
       "a.gltf",
       gltf(
           R"({"name": "m", "extensions": {"KHR_materials_ior": {"ior": 1.78}, "KHR_materials_clearcoat": {"clearcoatRoughnessFactor": 0.5}}})")))
       << told_;
-  EXPECT_FALSE(tells("cut to that")) << told_;
+  EXPECT_FALSE(tells("clamped")) << told_;
 }
 
 TEST_F(GltfSceneTest, TexturesLieAsTheyDo) {
@@ -108,15 +109,15 @@ TEST_F(GltfSceneTest, TexturesLieAsTheyDo) {
   EXPECT_EQ(file.image.value, "photo.exr");
   EXPECT_EQ(file.mapping.wrap, TextureWrap::clamp);
   EXPECT_EQ(file.mapping.scale, Imath::V2d(2, 3));
-  // v runs down there: 1 - (3 (1 - v) + 0.5).
+  // v increases downwards in glTF: 1 - (3 (1 - v) + 0.5).
   EXPECT_EQ(file.mapping.offset, Imath::V2d(0.25, -2.5));
   EXPECT_FALSE(convert("a.gltf", with("gone.exr")));
   EXPECT_TRUE(tells("gone.exr")) << told_;
   EXPECT_TRUE(convert("a.gltf", with("data:image/png;base64,AAAA"))) << told_;
-  EXPECT_TRUE(tells("an image within the file has no name here: dropped")) << told_;
+  EXPECT_TRUE(tells("an image embedded in the file is not supported: dropped")) << told_;
 }
 
-// glTF takes the codes of all images for sRGB, whatever their files say.
+// glTF decodes all images as sRGB, whatever their files declare.
 TEST_F(GltfSceneTest, WhatAnImageSaysOfItsColoursIsTold) {
   Asset asset;
   asset.primitive = R"("attributes": {"POSITION": 0, "TEXCOORD_0": 2}, "indices": 1, "material": 0)";
@@ -136,14 +137,14 @@ TEST_F(GltfSceneTest, WhatAnImageSaysOfItsColoursIsTold) {
   };
   const std::string plain = scene_with(test::kSrgbColumns, test::srgb_curve());
   EXPECT_NE(plain.find("photo.jpg"), std::string::npos) << told_;
-  EXPECT_FALSE(tells("sRGB there")) << told_;
+  EXPECT_FALSE(tells("takes it as sRGB")) << told_;
   EXPECT_EQ(scene_with(test::kSrgbColumns, test::curve_tag({})), plain);
-  EXPECT_TRUE(tells("an image is decoded as it says here, and as sRGB there")) << told_;
+  EXPECT_TRUE(tells("an image is decoded as it declares: the source renderer takes it as sRGB")) << told_;
 
   const std::string wide = scene_with(test::kP3Columns, test::srgb_curve());
   EXPECT_TRUE(
-      tells("baseColorTexture: warning: all images count as sRGB there; here one is an error, and its "
-            "mean as sRGB stands for it: its colours are those of the profile \"wide\" (allowed "))
+      tells("baseColorTexture: warning: an image that Abbe rejects is replaced by its mean as sRGB, as which "
+            "the source renderer takes all images: its colours are those of the profile \"wide\" (allowed "))
       << told_;
   const Image photo = read_picture(folder_ / "photo.jpg");
   const auto linear = [&](std::size_t c) {
@@ -169,13 +170,13 @@ TEST_F(GltfSceneTest, WhatImagesSayAndIsNotSoHereIsTold) {
     EXPECT_TRUE(convert("a.gltf", asset.text())) << told_;
   };
   read(R"("wrapS": 33071, "wrapT": 33071)", R"(, "scale": 1)");
-  EXPECT_FALSE(tells("edges")) << told_;
+  EXPECT_FALSE(tells("wrap modes")) << told_;
   EXPECT_FALSE(tells("normal map")) << told_;
   read(R"("wrapT": 33071)", R"(, "scale": 0.25)");
-  EXPECT_TRUE(tells("an image goes on beyond its edges along v as along u here")) << told_;
-  EXPECT_TRUE(tells("the scale of a normal map has no counterpart here: dropped")) << told_;
+  EXPECT_TRUE(tells("different wrap modes along u and v are not supported: that of u is used")) << told_;
+  EXPECT_TRUE(tells("the scale of a normal map is not supported: dropped")) << told_;
   read(R"("wrapT": 33648)", "");
-  EXPECT_TRUE(tells("an image is not mirrored beyond its edges here: it repeats")) << told_;
+  EXPECT_TRUE(tells("mirrored repetition of an image is not supported: it repeats")) << told_;
 }
 
 TEST_F(GltfSceneTest, GlassAndPanes) {
@@ -202,7 +203,8 @@ TEST_F(GltfSceneTest, DispersionHasTheAbbeNumber) {
   EXPECT_NEAR((n(587.5618) - 1) / (n(486.1327) - n(656.2725)), 40, 0.1);
 }
 
-// Of grey, half of which is left after 2 m, with an index as without absorption; of a colour its spectrum.
+// Grey: half of the light remains after 2 m, with the same index as without absorption. Coloured: the
+// spectrum of the colour.
 TEST_F(GltfSceneTest, DispersionKeepsTheAbsorption) {
   const auto glass = [this](const std::string& attenuation) {
     const auto made = convert(
@@ -219,9 +221,9 @@ TEST_F(GltfSceneTest, DispersionKeepsTheAbsorption) {
   EXPECT_EQ(std::get<spec::TableIor>(grey.ior.value).n, std::get<spec::TableIor>(clear.ior.value).n);
   ASSERT_TRUE(grey.absorption_per_m);
   EXPECT_NEAR(std::get<double>(grey.absorption_per_m->value), std::log(2) / 2, 1e-12);
-  EXPECT_FALSE(tells("a colour has no spectrum")) << told_;
+  EXPECT_FALSE(tells("a colour does not determine a spectrum")) << told_;
   EXPECT_TRUE(glass(R"(, "attenuationColor": [0.5, 1, 1], "attenuationDistance": 2)").absorption_per_m);
-  EXPECT_TRUE(tells("a colour has no spectrum")) << told_;
+  EXPECT_TRUE(tells("a colour does not determine a spectrum")) << told_;
 }
 
 TEST_F(GltfSceneTest, Emission) {
@@ -245,28 +247,28 @@ TEST_F(GltfSceneTest, Lights) {
   const auto made = convert("a.gltf", gltf(R"({"name": "m"})", nodes, ", 2, 5", lights));
   ASSERT_TRUE(made) << told_;
   ASSERT_EQ(made->lights.size(), 3U);
-  const auto& point = std::get<spec::PointLamp>(made->lights[0].kind);
+  const auto& point = std::get<spec::PointLightSource>(made->lights[0].kind);
   EXPECT_LT((point.source.at - Imath::V3d(1, 3, 3)).length(), 1e-12);
   EXPECT_NEAR(std::get<spec::Amount<spec::Quantity::luminous_intensity>>(point.emission.scale).value, 30,
               1e-12);
-  const auto& spot = std::get<spec::SpotLamp>(made->lights[1].kind);
+  const auto& spot = std::get<spec::SpotLightSource>(made->lights[1].kind);
   EXPECT_LT((spot.source.direction - Imath::V3d(1, 0, 0)).length(), 1e-12);
   EXPECT_NEAR(spot.source.half_angle_deg, 0.5 * 180 / M_PI, 1e-12);
   EXPECT_NEAR(std::get<spec::Amount<spec::Quantity::luminous_intensity>>(spot.emission.scale).value, 20,
               1e-12);
-  const auto& beam = std::get<spec::BeamLamp>(made->lights[2].kind);
+  const auto& beam = std::get<spec::DirectionalLightSource>(made->lights[2].kind);
   EXPECT_EQ(beam.source.towards, Imath::V3d(0, 0, 1));
   EXPECT_NEAR(std::get<spec::Amount<spec::Quantity::illuminance>>(beam.emission->scale).value, 10, 1e-12);
 }
 
-// By the square of what the cosine has left to go: the integral of (c - 1/2)^2/(1/2)^2 from 1/2 to 1 is 1/6.
+// The soft edge is the squared normalised cosine: the integral of (c - 1/2)^2/(1/2)^2 from 1/2 to 1 is 1/6.
 TEST_F(GltfSceneTest, SoftSpotsSendOutAsMuch) {
   const std::string node = R"(, {"extensions": {"KHR_lights_punctual": {"light": 0}}})";
   const std::string light =
       R"(, "extensions": {"KHR_lights_punctual": {"lights": [{"type": "spot", "intensity": 20, "spot": {"outerConeAngle": 1.0471975511965976}}]}})";
   const auto made = convert("a.gltf", gltf(R"({"name": "m"})", node, ", 2", light));
   ASSERT_TRUE(made) << told_;
-  const auto& spot = std::get<spec::SpotLamp>(made->lights.at(0).kind);
+  const auto& spot = std::get<spec::SpotLightSource>(made->lights.at(0).kind);
   EXPECT_NEAR(1 - std::cos(spot.source.half_angle_deg * M_PI / 180), 1.0 / 6, 1e-12);
 }
 
@@ -293,9 +295,9 @@ TEST_F(GltfSceneTest, MaterialsAreReplacedByName) {
 TEST_F(GltfSceneTest, FaultsHaveTheirPlace) {
   const std::vector<DoorFault> faults{
       {"truncated", "{\"asset\": {\n", "a.gltf:2:1: /asset: error:"},
-      {"no scene", "{\n}", "a.gltf:1:1: error: it has no scene"},
+      {"no scene", "{\n}", "a.gltf:1:1: error: the file has no scene"},
       {"light", gltf(R"({"name": "m"})", R"(, {"extensions": {"KHR_lights_punctual": {"light": 0}}})", ", 2"),
-       "an element of \"extensions/KHR_lights_punctual/lights\" that does not exist"},
+       "\"extensions/KHR_lights_punctual/lights\" has no element with this index"},
       {"light's type",
        gltf(R"({"name": "m"})", R"(, {"extensions": {"KHR_lights_punctual": {"light": 0}}})", ", 2",
             R"(, "extensions": {"KHR_lights_punctual": {"lights": [{"type": "pont"}]}})"),

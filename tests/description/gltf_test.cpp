@@ -20,7 +20,7 @@ using test::write;
 
 class GltfTest : public test::MeshFileTest {
  protected:
-  // What is said of a scene with the asset.
+  // Diagnostics of a scene with the asset.
   std::string load_with(const Asset& asset) {
     write(folder_ / "a.gltf", asset.text());
     const Loaded loaded = load(shaped(R"("mesh": "a.gltf")"));
@@ -84,7 +84,8 @@ TEST_F(GltfTest, ReadsPrimitives) {
 TEST_F(GltfTest, NodesPlaceMeshes) {
   Asset asset;
   asset.roots = "[0, 3]";
-  // Scale, turn z to x by a quarter about y, move; the child doubles it all; the last is a mirror.
+  // The parent scales, rotates z to x by 90 degrees about y, and translates. The child doubles everything;
+  // the last node mirrors.
   asset.nodes =
       R"([{"translation": [10, 0, 0], "rotation": [0, 0.70710678118654752, 0, 0.70710678118654752], "children": [1]},
                     {"scale": [2, 2, 2], "children": [2]},
@@ -154,14 +155,14 @@ TEST_F(GltfTest, RefusesBadFiles) {
   Asset within;
   within.buffer = R"({"byteLength": 52})";
   std::string beyond_end = glb(within.text(), triangle_bytes());
-  beyond_end[beyond_end.size() - 52] = 52;  // the length of its last chunk
+  beyond_end[beyond_end.size() - 52] = 52;  // length of its last chunk
   const std::string deep(300, '[');
   std::string chunky = whole;
   chunky[14] = '\x7F';
   expect_refused(
       "bad.gltf",
       {{"no JSON", "solid", in, "malformed JSON"},
-       {"an old version", R"({"asset": {"version": "1.0"}})", in, "no glTF 2.0 asset"},
+       {"an old version", R"({"asset": {"version": "1.0"}})", in, "not a glTF 2.0 asset"},
        {"no scene", R"({"asset": {"version": "2.0"}})", in, "it has no scene"},
        {"a truncated GLB", whole.substr(0, whole.size() - 5), in, "malformed or truncated GLB"},
        {"only a magic", "glTF", in, "malformed or truncated GLB"},
@@ -177,20 +178,20 @@ TEST_F(GltfTest, RefusesBadFiles) {
         "node 1 is reached twice"},
        {"no such node", with(&Asset::roots, "[7]"), in, "a node does not exist"},
        {"no such mesh", with(&Asset::nodes, R"([{"mesh": 1}])"), in, "a mesh does not exist"},
-       {"no positions", with(&Asset::primitive, R"("attributes": {})"), in, "accessor -1: there is none"},
+       {"no positions", with(&Asset::primitive, R"("attributes": {})"), in, "accessor -1: it does not exist"},
        {"a long accessor",
         accessor(R"({"bufferView": 0, "componentType": 5126, "count": 4, "type": "VEC3"})"), in,
-        "accessor 0: it promises more than the buffer holds"},
+        "accessor 0: it needs more bytes than the buffer holds"},
        {"a huge accessor",
         accessor(R"({"bufferView": 0, "componentType": 5126, "count": 4611686018427387905, "type": "VEC3"})"),
-        in, "promises more"},
+        in, "needs more bytes"},
        {"a negative count",
         accessor(R"({"bufferView": 0, "componentType": 5126, "count": -1, "type": "VEC3"})"), in,
         "'count' property is not a positive integer"},
        {"a far offset",
         accessor(
             R"({"bufferView": 0, "byteOffset": 9007199254740000, "componentType": 5126, "count": 3, "type": "VEC3"})"),
-        in, "promises more"},
+        in, "needs more bytes"},
        {"an empty one", accessor(R"({"bufferView": 0, "componentType": 5126, "count": 0, "type": "VEC3"})"),
         in, "it is empty"},
        {"pairs", accessor(R"({"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC2"})"), in,
@@ -206,24 +207,24 @@ TEST_F(GltfTest, RefusesBadFiles) {
        {"sparse",
         accessor(
             R"({"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "sparse": {"count": 1, "indices": {"bufferView": 1, "componentType": 5123}, "values": {"bufferView": 0}}})"),
-        in, "sparse accessors are not read"},
+        in, "sparse accessors are not supported"},
        {"a narrow stride",
         with(
             &Asset::views,
             R"([{"buffer": 0, "byteLength": 36, "byteStride": 4}, {"buffer": 0, "byteOffset": 36, "byteLength": 8}])"),
-        in, "promises more"},
+        in, "needs more bytes"},
        {"a long view",
         with(&Asset::views,
              R"([{"buffer": 0, "byteLength": 45}, {"buffer": 0, "byteOffset": 36, "byteLength": 8}])"),
-        in, "its view leaves the buffer"},
+        in, "its view exceeds the buffer"},
        {"a far view",
         with(
             &Asset::views,
             R"([{"buffer": 0, "byteOffset": 9007199254740992, "byteLength": 36}, {"buffer": 0, "byteLength": 8}])"),
-        in, "its view leaves the buffer"},
+        in, "its view exceeds the buffer"},
        {"no such buffer",
         with(&Asset::views, R"([{"buffer": 1, "byteLength": 36}, {"buffer": 0, "byteLength": 8}])"), in,
-        "its view leaves the buffer"},
+        "its view exceeds the buffer"},
        {"a long buffer",
         with(&Asset::buffer, R"({"byteLength": 44, "uri": "data:application/octet-stream;base64,AAAA"})"), in,
         "Failed to decode 'uri' : data:application/octet-stream;base64,AAAA"},
@@ -235,13 +236,13 @@ TEST_F(GltfTest, RefusesBadFiles) {
        {"no bytes", with(&Asset::buffer, R"({"byteLength": 1})"), in,
         "'uri' is missing from non binary glTF file buffer"},
        {"climbing out", with(&Asset::buffer, R"({"byteLength": 44, "uri": "a/../../secret"})"), in,
-        "beside it only"},
+        "in its folder or below"},
        {"climbing in code", with(&Asset::buffer, R"({"byteLength": 44, "uri": "%2e%2E/secret"})"), in,
-        "beside it only (got \"../secret\")"},
+        "in its folder or below (got \"../secret\")"},
        {"absolute", with(&Asset::buffer, R"({"byteLength": 44, "uri": "/etc/passwd"})"), in,
-        "beside it only"},
+        "in its folder or below"},
        {"a URL", with(&Asset::buffer, R"({"byteLength": 44, "uri": "https://example.org/a"})"), in,
-        "beside it only"},
+        "in its folder or below"},
        {"missing", with(&Asset::buffer, R"({"byteLength": 44, "uri": "gone.bin"})"), in,
         "\"gone.bin\", which it names: no such file"},
        {"a primitive of no attributes", with(&Asset::primitive, R"("attributes": 1)"), in,

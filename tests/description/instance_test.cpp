@@ -18,7 +18,8 @@ using test::Random;
 using test::scene_of;
 using InstanceFileTest = test::DescriptionTest;
 
-// Turned, stretched up to thirtyfold along axes of its own, perhaps a mirror, and moved.
+// A random affine map: a rotation, scales that differ by up to a factor of 30, possibly a mirror, a rotation
+// and a translation.
 M44d random_map(Random& random, bool uniform) {
   const auto turn = [&random] { return M44d().setAxisAngle(random.direction(), random.between(0, 6)); };
   const double size = std::pow(10.0, random.between(-2, 2));
@@ -34,7 +35,7 @@ Shape placed(const PlainShape& shape, const M44d& map) {
   return PlacedShape{make_prototype(shape), std::make_shared<const Placement>(placement(map))};
 }
 
-// The same surface without an instance; for spheres and discs the map must keep angles.
+// The same surface without an instance; for spheres and discs the map must preserve angles.
 Shape written_out(const PlainShape& shape, const M44d& map) {
   const bool mirror = map.determinant() < 0;
   const double scale = std::cbrt(std::abs(map.determinant()));
@@ -60,7 +61,7 @@ Shape written_out(const PlainShape& shape, const M44d& map) {
   return Quad{quad.corner * map, mirror ? v : u, mirror ? u : v};
 }
 
-// Rays around and within a box, the same for both scenes.
+// A ray around or within a box, the same for both scenes.
 Ray ray_near(Random& random, const Imath::Box3d& box) {
   const double size = box.size().length();
   const V3d at = box.center() + random.in_cube(size);
@@ -78,7 +79,7 @@ TEST(Instance, IsTheShapeWrittenOut) {
   for (int k = 0; k < 200; ++k) {
     const PlainShape& shape = shapes[static_cast<std::size_t>(k) % shapes.size()];
     const M44d map = random_map(random, shape.index() == 1 || shape.index() == 2);
-    const Shape beside = Sphere{V3d(0, 0, 3e4), 1};  // so that the shape looked for is not the first
+    const Shape beside = Sphere{V3d(0, 0, 3e4), 1};  // makes the tested shape not the first
     const Shape moved = written_out(shape, map);
     const Imath::Box3d box = bounds(moved);
     const Scene instance = scene_of({beside, placed(shape, map)});
@@ -100,7 +101,7 @@ TEST(Instance, IsTheShapeWrittenOut) {
       ASSERT_EQ(exact.has_value(), truth.has_value()) << k << " " << i;
       EXPECT_EQ(instance.occluded(ray), a.has_value());
       if (a.has_value() != truth.has_value() || b.has_value() != truth.has_value())
-        continue;  // an edge grazed
+        continue;  // grazes an edge
       if (!truth) continue;
       EXPECT_LT((exact->hit.point - truth->hit.point).length(), 1e-11 * near / 1e-5);
       EXPECT_LT((exact->hit.normal - truth->hit.normal).length(), 1e-11);
@@ -154,7 +155,7 @@ TEST(Instance, RaysLeavingItNeverMeetItAgain) {
       V3f out(random.direction());
       if (i % 2 == 0) out = (out - hit->normal * (out.dot(hit->normal) * 0.9999F)).normalized();
       if (out.dot(hit->normal) < 0) out = -out;
-      if (out.dot(hit->normal) < 1e-6F) continue;  // which side is rounding's choice
+      if (out.dot(hit->normal) < 1e-6F) continue;  // rounding decides the side
       ++rays;
       const Ray outward = spawn(hit->point, hit->normal, out, 0);
       acne += scene.intersect(outward).has_value() + scene.occluded(outward);
@@ -220,10 +221,10 @@ TEST_F(InstanceFileTest, PlacesTheShapesOfObjects) {
   EXPECT_EQ(second.of, std::get<PlacedShape>(scene.shapes[0].shape).of);
   EXPECT_EQ(second.at, std::get<PlacedShape>(scene.shapes[3].shape).at);
   EXPECT_LT(second.of->bounds.center().length(), 0.01) << "objects keep their own coordinates small";
-  // (1000, 0, 0) is scaled to (2000, 0, 0), moved to (2000, 10, 0), and turned to (-10 + 7, 2000, 0).
+  // (1000, 0, 0) is scaled to (2000, 0, 0), translated to (2000, 10, 0), and rotated to (-10 + 7, 2000, 0).
   const V3d middle = second.of->bounds.center() * second.at->to_world + scene.origin_m;
   EXPECT_LT((middle * 1000 - V3d(-3, 2000, 0)).length(), 1e-9);
-  // The ellipsoid is as long as its scale says, and the mirrored prism points down.
+  // The extent of the ellipsoid follows its scale, and the mirrored prism points down.
   const auto hit = [&](const V3d& origin, const V3d& direction) {
     return intersect_exact(scene, {origin * 1e-3 - scene.origin_m, direction}, 0);
   };
@@ -252,10 +253,10 @@ TEST_F(InstanceFileTest, CountsForTheNeeds) {
   const std::string ball = R"("sphere": {"center": [0, 0, 0], "radius": 0.5})";
   const std::string disc = R"("disc": {"center": [0, 0, 0], "normal": [0, 0, 1], "radius": 0.5})";
   const Loaded glass = load(fragment("glass", ball));
-  EXPECT_TRUE(glass->needs.dispersion && glass->needs.caustics && glass->needs.light_tracing);
-  EXPECT_TRUE(glass->needs.polarisation_matters) << "two interfaces of one ball";
-  EXPECT_FALSE(load(fragment("glass", disc))->needs.polarisation_matters);
-  EXPECT_FALSE(load(fragment("card", ball))->needs.caustics);
+  EXPECT_TRUE(glass->features.dispersion && glass->features.caustics && glass->features.light_tracing);
+  EXPECT_TRUE(glass->features.polarisation_relevant) << "two interfaces of one ball";
+  EXPECT_FALSE(load(fragment("glass", disc))->features.polarisation_relevant);
+  EXPECT_FALSE(load(fragment("card", ball))->features.caustics);
 }
 
 TEST_F(InstanceFileTest, RefusesWhatCannotBePlaced) {
@@ -281,7 +282,7 @@ TEST_F(InstanceFileTest, RefusesWhatCannotBePlaced) {
        "transform is out of range (got lengths times"},
       {"underflow", placed_by(R"({"scale": 1e-300})"), ErrorCode::scene, "transform is "},
       {"not affine", placed_by(R"({"matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 2]})"),
-       ErrorCode::scene, "a transform is affine (got the last row [0, 0, 0, 2], allowed [0, 0, 0, 1])"},
+       ErrorCode::scene, "a transform must be affine (got the last row [0, 0, 0, 2], allowed [0, 0, 0, 1])"},
       {"13 numbers", placed_by(R"({"matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0]})"), ErrorCode::scene,
        "(got 13 numbers, allowed 12 or 16)"},
       {"matrix and scale", placed_by(R"({"matrix": [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0], "scale": 2})"),

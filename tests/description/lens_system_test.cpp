@@ -5,7 +5,7 @@ namespace {
 
 using LensSystemTest = test::DescriptionTest;
 
-// Once for a glass of two surfaces.
+// One warning for a glass that two surfaces use.
 TEST_F(LensSystemTest, TellsGlassesThatDoNotHoldForAllThatTheSensorSees) {
   const auto through = [&](const std::string& band) {
     return load(R"({"camera": {"lens_system": {"prescription": {"entrance_pupil": 4, "surfaces": [
@@ -19,10 +19,10 @@ TEST_F(LensSystemTest, TellsGlassesThatDoNotHoldForAllThatTheSensorSees) {
   EXPECT_EQ(through("[400, 500]"), "");
   const std::string told = through("[350, 500]");
   const std::string warning =
-      "/camera/lens_system/prescription: warning: N-SF11 holds on [370, 2500] nm, the sensor sees [350, 500] "
-      "nm: ";
+      "/camera/lens_system/prescription: warning: N-SF11 has data on [370, 2500] nm, but the sensor responds "
+      "on [350, 500] nm: ";
   EXPECT_NE(told.find(warning), std::string::npos) << told;
-  EXPECT_EQ(told.find("N-SF11 holds"), told.rfind("N-SF11 holds")) << told;
+  EXPECT_EQ(told.find("N-SF11 has data"), told.rfind("N-SF11 has data")) << told;
 }
 
 TEST_F(LensSystemTest, TellsTheRangeOfEachTable) {
@@ -35,7 +35,8 @@ TEST_F(LensSystemTest, TellsTheRangeOfEachTable) {
         "sensor": {"resolution": [1, 1], "channels": {"a": {"band": [380, 500]}}}})")
           .text();
   for (const char* range : {"[400, 800] nm", "[450, 800] nm"})
-    EXPECT_NE(told.find(fmt::format("holds on {}, the sensor sees [380, 500] nm", range)), std::string::npos)
+    EXPECT_NE(told.find(fmt::format("has data on {}, but the sensor responds on [380, 500] nm", range)),
+              std::string::npos)
         << told;
 }
 
@@ -47,7 +48,7 @@ TEST_F(LensSystemTest, TellsAFocusOfAFilmThatNothingMoves) {
         .text();
   };
   const std::string alone = told(R"("focus": "paraxial")");
-  EXPECT_NE(alone.find("/camera/lens_system/focus: warning: a focus without effect"), std::string::npos)
+  EXPECT_NE(alone.find("/camera/lens_system/focus: warning: focus has no effect"), std::string::npos)
       << alone;
   EXPECT_EQ(told(R"("focus": "paraxial", "focus_distance": 3)"), "");
   EXPECT_EQ(told(R"("focus_distance": 3)"), "");
@@ -65,12 +66,12 @@ TEST_F(LensSystemTest, TellsADefocusThatAFocusDistanceLoses) {
   };
   EXPECT_EQ(told(""), "");
   const std::string lost = told(R"(, "focus_distance": 3)");
-  EXPECT_NE(lost.find("/prescription: warning: a defocus without effect (got 3 mm)"), std::string::npos)
-      << lost;
+  EXPECT_NE(lost.find("/prescription: warning: defocus has no effect (got 3 mm)"), std::string::npos) << lost;
 }
 
-// Relays without power, upside down and upright, by the last bit of doubles and by the digits of a listing:
-// each images its object, 100 mm before it, as large as that is, so that a pixel sees its pitch over 100 mm.
+// Relays without power, inverted and upright, with gaps to the last bit of doubles and to the digits of a
+// listing. Each images its object, 100 mm in front of it, at unit magnification, so a pixel sees its pitch
+// over 100 mm.
 TEST_F(LensSystemTest, RelaysAreLookedThroughWithPixelsThatFloatsTellApart) {
   const auto told = [&](const std::string& gap, bool upright, double pitch_um) {
     const std::string more =
@@ -91,11 +92,11 @@ TEST_F(LensSystemTest, RelaysAreLookedThroughWithPixelsThatFloatsTellApart) {
       EXPECT_EQ(told(gap, upright, 500), "") << gap << upright;
       EXPECT_EQ(told(gap, upright, 0.05), "") << gap << upright;
       const std::string small = told(gap, upright, 0.04);
-      EXPECT_NE(small.find("a pixel sees 4e-07 of a radian"), std::string::npos) << gap << upright << small;
+      EXPECT_NE(small.find("a pixel covers 4e-07 rad"), std::string::npos) << gap << upright << small;
     }
 }
 
-// The stop next to the focus of what is before it, and far from open enough.
+// The stop is close to the focus of the group in front of it, and the requested aperture is far too wide.
 TEST_F(LensSystemTest, OpeningsOfTelecentricLensesAreRefusedInWords) {
   const auto told = [&](const std::string& opening, const std::string& camera) {
     return load(R"({"camera": {"lens_system": {"prescription": {"object_distance": 120, )" + opening +
@@ -107,14 +108,15 @@ TEST_F(LensSystemTest, OpeningsOfTelecentricLensesAreRefusedInWords) {
         .text();
   };
   for (const auto& [said, words] :
-       {std::pair(told("", R"(, "f_number": 0.0004)"), "(got f/0.0004, allowed what its prescription says)"),
-        {told(R"("f_number": 0.0004, )", ""), "(got f/0.0004, allowed what its aperture says)"},
+       {std::pair(told("", R"(, "f_number": 0.0004)"),
+                  "(got f/0.0004, allowed the aperture of its prescription)"),
+        {told(R"("f_number": 0.0004, )", ""), "(got f/0.0004, allowed the aperture of its stop)"},
         {told(R"("entrance_pupil": 2.5e5, )", ""),
-         "(got an entrance pupil of 2.5e+05 mm, allowed what its aperture says)"}})
+         "(got an entrance pupil of 2.5e+05 mm, allowed the aperture of its stop)"}})
     EXPECT_NE(said.find(words), std::string::npos) << said;
 }
 
-// An interference filter counts shorter waves than it lets through along its normal.
+// At oblique incidence an interference filter transmits shorter wavelengths than along its normal.
 TEST_F(LensSystemTest, WhatTheSensorSeesIsSeenAtAnyAngle) {
   const auto told = [&](double line_nm) {
     return load(
@@ -130,8 +132,8 @@ TEST_F(LensSystemTest, WhatTheSensorSeesIsSeenAtAnyAngle) {
   };
   const std::string lit = told(545);
   EXPECT_EQ(lit.find("emits nothing"), std::string::npos) << lit;
-  EXPECT_NE(lit.find("holds on [557, 720] nm, the sensor sees [5"), std::string::npos) << lit;
-  EXPECT_NE(told(515).find("emits nothing that the sensor sees"), std::string::npos);
+  EXPECT_NE(lit.find("has data on [557, 720] nm, but the sensor responds on [5"), std::string::npos) << lit;
+  EXPECT_NE(told(515).find("emits nothing that the sensor records"), std::string::npos);
 }
 
 }  // namespace

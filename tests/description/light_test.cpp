@@ -10,7 +10,7 @@
 #include "spectral/sources.h"
 #include "tests/angles.h"
 
-// Lamps and what they send out, as scene files say it.
+// Lights and their emission in scene files.
 
 namespace abbe {
 namespace {
@@ -60,8 +60,8 @@ TEST_F(DescriptionTest, FluxesAreInWattsPerNm) {
 
 TEST_F(DescriptionTest, RelativeSpectraWithoutAScaleAreTold) {
   const auto told = [&](const std::string& emission) { return load(test::lit(emission)).text(); };
-  const std::string taken = "warning: \"D65\" is taken to be in ";
-  EXPECT_NE(told(R"({"spectrum": "D65"})").find(taken + "W/(sr nm), though its unit is \"relative"),
+  const std::string taken = "warning: \"D65\" is used in ";
+  EXPECT_NE(told(R"({"spectrum": "D65"})").find(taken + "W/(sr nm), but its unit is \"relative"),
             std::string::npos)
       << told(R"({"spectrum": "D65"})");
   EXPECT_NE(told(R"({"spectral_flux_W_per_nm": {"sum": ["D65", 0]}})").find(taken + "W/nm"),
@@ -92,7 +92,7 @@ TEST_F(DescriptionTest, LightsFromInfinityIrradiateASurfaceThatFacesThem) {
   EXPECT_NEAR(photometric(emission(sun, R"({"illuminant": "A", "luminance": 500})")), 500, 1e-9);
   EXPECT_NEAR(emission(sun, R"({"blackbody_K": 5772})")(500), planck_radiance(5772, 500),
               1e-9 * planck_radiance(5772, 500));
-  // In short, by daylight.
+  // The short form without an emission uses D65.
   const Loaded brief = load(R"({"lights": [{"sun": {"towards": [0, 3, 4], "illuminance": 1e5}},
                                            {"directional": {"towards": [0, 3, 4], "irradiance": 7}}]})");
   ASSERT_TRUE(brief.scene) << brief.text();
@@ -130,7 +130,7 @@ TEST_F(DescriptionTest, LampsLightASurfaceAtADistance) {
   EXPECT_NEAR(luminance(R"("quad": {"corner": [-3, 0, 0], "edge_u": [0, 2, 0], "edge_v": [0, 0, 2]})", "1") *
                   4 * kPi * corner,
               500, 1e-9);
-  // Leaning, against a sum over its area.
+  // A skewed quad, compared with a sum over its area.
   double sum = 0;
   for (int i = 0; i < 400; ++i)
     for (int j = 0; j < 400; ++j) {
@@ -157,7 +157,7 @@ TEST_F(DescriptionTest, LampsSendOutTheirSpectralFlux) {
   EXPECT_NEAR(emission(disc + R"(, "two_sided": true)", flux)(550) * kPi * kPi * 8, 0.02, 1e-12);
 }
 
-// Whatever their strengths, lamps of one spectrum hold it once.
+// Lights with the same spectrum store it once, whatever their strengths.
 TEST_F(DescriptionTest, ManyLampsOfOneSpectrumWeighLittle) {
   constexpr std::size_t kLamps = 1000;
   const auto strength = [](std::size_t i) {
@@ -180,7 +180,7 @@ TEST_F(DescriptionTest, ManyLampsOfOneSpectrumWeighLittle) {
     return loaded->memory_bytes();
   };
   EXPECT_LE(weight(kLamps) - weight(2), 300 * kLamps);
-  EXPECT_GT(weight(2), 2 * 800 * 3 * sizeof(double));  // what is shared is counted too
+  EXPECT_GT(weight(2), 2 * 800 * 3 * sizeof(double));  // shared data count too
 }
 
 TEST_F(DescriptionTest, LampsAreShapes) {

@@ -60,7 +60,7 @@ TEST_F(DescriptionTest, AbsorptionGoesWithAnyIndexThatHasNone) {
   expect_refused(
       {{"a table's own",
         R"({"materials": {"m": {"dielectric": {"ior": {"wavelength_nm": [400, 700], "n": [1.5, 1.5], "k": [0, 1e-6]}, "absorption_per_m": 1}}}})",
-        ErrorCode::scene, "absorption_per_m goes with an index without k; this one brings its own"}});
+        ErrorCode::scene, "absorption_per_m requires an index without k; this index already has one"}});
 }
 
 TEST_F(DescriptionTest, ReadsTablesOfIndices) {
@@ -133,7 +133,7 @@ TEST_F(DescriptionTest, ReadsScatteringModels) {
   EXPECT_NEAR(std::get<CoatedDiffuseMaterial>(model(3)).index.n(587.5618), 1.516800, 1e-6);
   EXPECT_NEAR(std::get<SchlickMaterial>(model(4)).reflectance.curve()(550), (0.8 * 0.8 + 9) / (1.2 * 1.2 + 9),
               1e-9);
-  EXPECT_NEAR(std::get<PrincipledMaterial>(model(5)).look.albedo(1).coloured, 0.984, 0.003);
+  EXPECT_NEAR(std::get<PrincipledMaterial>(model(5)).principled.albedo(1).coloured, 0.984, 0.003);
   EXPECT_FALSE(std::get<CosinePowerMaterial>(model(6)).reciprocal);
   EXPECT_TRUE(std::get<CosinePowerMaterial>(model(7)).reciprocal);
 }
@@ -167,8 +167,8 @@ TEST_F(DescriptionTest, PanesAbsorbByTheirThickness) {
         .text();
   };
   const std::string told =
-      "/materials/pane/thin_glass/absorption_per_m: warning: an absorption without effect: without a "
-      "thickness nothing is absorbed";
+      "/materials/pane/thin_glass/absorption_per_m: warning: absorption has no effect in a pane of thickness "
+      "0";
   for (const char* none : {R"(, "absorption_per_m": 10)", R"(, "absorption_per_m": 10, "thickness": 0)"})
     EXPECT_NE(text(none).find(told), std::string::npos) << text(none);
   for (const char* sound : {"", R"(, "absorption_per_m": 10, "thickness": 0.01)", R"(, "thickness": 0.01)"})
@@ -178,9 +178,8 @@ TEST_F(DescriptionTest, PanesAbsorbByTheirThickness) {
   };
   for (const char* absorbing :
        {R"({"n": 1.5, "k": 1e-6})", R"({"wavelength_nm": [400, 700], "n": [1.5, 1.5], "k": [0, 1e-6]})"})
-    EXPECT_NE(
-        of_index(absorbing).find("/materials/pane/thin_glass/ior: warning: an absorption without effect"),
-        std::string::npos)
+    EXPECT_NE(of_index(absorbing).find("/materials/pane/thin_glass/ior: warning: absorption has no effect"),
+              std::string::npos)
         << of_index(absorbing);
   for (const char* clear : {R"({"n": 1.5, "k": 0})", R"("N-BK7")",
                             R"({"wavelength_nm": [400, 700], "n": [1.5, 1.5], "k": [0, 0]})"})
@@ -201,7 +200,8 @@ TEST_F(DescriptionTest, WhatIsTakenAsClearIsClear) {
 TEST_F(DescriptionTest, FilmsTakeNoPriority) {
   const Loaded film =
       load(R"({"materials": {"m": {"film": {"layers": [{"ior": 1.3, "thickness_nm": 9}]}, "priority": 1}}})");
-  EXPECT_NE(film.text().find("a priority goes with matter within a shape"), std::string::npos) << film.text();
+  EXPECT_NE(film.text().find("priority applies only to a medium inside a shape"), std::string::npos)
+      << film.text();
 }
 
 TEST_F(DescriptionTest, ReadsCoatings) {
@@ -230,10 +230,11 @@ TEST_F(DescriptionTest, ReadsCoatings) {
   const std::string narrow = load(R"({"materials": {"m": {"dielectric": {"ior": 1.5, "coating":
       [{"ior": "diamond", "thickness_nm": 9}]}}}})")
                                  .text();
-  EXPECT_NE(narrow.find("diamond holds on [226, 760] nm"), std::string::npos) << narrow;
+  EXPECT_NE(narrow.find("diamond has data on [226, 760] nm"), std::string::npos) << narrow;
 }
 
-// Against the characteristic matrices of 100 nm of 1.38 over 60 nm of 2.3, at 550 nm along the normal.
+// Compares with the characteristic matrices of 100 nm of n = 1.38 over 60 nm of n = 2.3, at 550 nm and normal
+// incidence.
 TEST_F(DescriptionTest, FilmsOfDifferentTablesAreDifferentMaterials) {
   const std::string low = R"({"wavelength_nm": [300, 1100], "n": [1.38, 1.38]})";
   const std::string high = R"({"wavelength_nm": [300, 1100], "n": [2.3, 2.3]})";
@@ -271,10 +272,10 @@ TEST_F(DescriptionTest, WarnsOfAnExtinctionThatEndsBeforeItsIndex) {
                             ior, band))
         .text();
   };
-  EXPECT_NE(
-      told("N-LASF31A", "[300, 330]")
-          .find("N-LASF31A holds on [250, 2500] nm, its k on [334, 2500] nm, the sensor sees [300, 330] nm"),
-      std::string::npos);
+  EXPECT_NE(told("N-LASF31A", "[300, 330]")
+                .find("N-LASF31A has data on [250, 2500] nm, its k on [334, 2500] nm, but the sensor "
+                      "responds on [300, 330] nm"),
+            std::string::npos);
   EXPECT_EQ(told("N-LASF31A", "[400, 700]"), "");
   EXPECT_NE(told("BAF10_hoya", "[600, 710]").find("its k on [340, 700] nm"), std::string::npos);
   EXPECT_EQ(told("N-SF11", "[350, 500]").find("its k"), std::string::npos) << "which begins where n does";
@@ -304,7 +305,7 @@ TEST_F(DescriptionTest, RefusesImpossibleCoatings) {
   holds(told("[" + many + "]"), "too many materials in a coating (allowed 16)");
 }
 
-// A scene named by a path relative to the working directory, as on the command line.
+// A scene whose path is relative to the working directory, as on the command line.
 TEST_F(DescriptionTest, FindsIndicesBesideTheScene) {
   write(folder_ / "own.csv", "# unit: index, nm\nwavelength_nm,n\n300,1.6\n1100,1.6\n");
   write(folder_ / "own.yml",

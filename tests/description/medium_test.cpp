@@ -5,7 +5,7 @@ namespace {
 
 class MediumDescription : public DescriptionTest {
  protected:
-  // The first material, of a scene with a ball of it.
+  // Loads a scene with a ball of this material, which is the first.
   Loaded ball_of(const std::string& material) {
     return load(fmt::format(R"({{"materials": {{"m": {}}},
       "shapes": [{{"sphere": {{"center": [0, 0, 0], "radius": 1}}, "material": "m"}}]}})",
@@ -22,7 +22,7 @@ class MediumDescription : public DescriptionTest {
     for (int i = 0; i < 8; ++i) bytes.append(reinterpret_cast<const char*>(&value), sizeof(value));
     return bytes;
   }
-  // What is said of a grid of this file.
+  // The error code and diagnostics of a grid with this file; empty without an error.
   std::string complaint(const std::string& file) {
     write(folder_ / "g.npy", file);
     const Loaded ball =
@@ -42,20 +42,20 @@ TEST_F(MediumDescription, FillsDielectricsAndStandsAlone) {
   EXPECT_EQ(medium.scattering_per_m(550.0), 1);
   EXPECT_FLOAT_EQ(std::get<HenyeyGreensteinPhase>(medium.phase).g, -0.5F);
   EXPECT_TRUE(is_boundary(fog->materials[0]));
-  EXPECT_TRUE(fog->needs.media && fog->needs.scattering && fog->needs.boundaries);
-  EXPECT_EQ(fog->needs.because.at("scattering"), fog->needs.because.at("boundaries"));
+  EXPECT_TRUE(fog->features.media && fog->features.scattering && fog->features.boundaries);
+  EXPECT_EQ(fog->features.reasons.at("scattering"), fog->features.reasons.at("boundaries"));
 
   const Loaded milk = ball_of(
       R"({"dielectric": {"ior": 1.3, "absorption_per_m": 2, "scattering_per_m": 5, "phase": "rayleigh"}})");
   ASSERT_TRUE(milk.scene) << milk.text();
   EXPECT_EQ(abbe::medium(milk->materials[0])->scattering_per_m(550.0), 5);
   EXPECT_TRUE(std::holds_alternative<RayleighPhase>(abbe::medium(milk->materials[0])->phase));
-  EXPECT_NEAR(interior(milk->materials[0])->absorption_per_m(550.0), 2, 1e-9);
-  EXPECT_TRUE(milk->needs.media && milk->needs.scattering && !milk->needs.boundaries);
+  EXPECT_NEAR(interior_index(milk->materials[0])->absorption_per_m(550.0), 2, 1e-9);
+  EXPECT_TRUE(milk->features.media && milk->features.scattering && !milk->features.boundaries);
 
   const Loaded clear = ball_of(R"({"dielectric": {"ior": 1.3}})");
   EXPECT_EQ(abbe::medium(clear->materials[0]), nullptr);
-  EXPECT_FALSE(clear->needs.scattering);
+  EXPECT_FALSE(clear->features.scattering);
 }
 
 TEST_F(MediumDescription, GridsMoveWithTheScene) {
@@ -90,8 +90,7 @@ TEST_F(MediumDescription, RefusesWhatMatterCannotBe) {
 
 TEST_F(MediumDescription, TellsWhatHasNoEffectWithoutCoefficients) {
   const auto text = [&](const std::string& material) { return ball_of(material).text(); };
-  const std::string phase =
-      "/phase: warning: a phase without effect: without scattering_per_m nothing scatters";
+  const std::string phase = "/phase: warning: phase has no effect without scattering_per_m";
   for (const char* material : {R"({"dielectric": {"ior": 1.3, "phase": "rayleigh"}})",
                                R"({"medium": {"absorption_per_m": 1, "phase": "isotropic"}})"})
     EXPECT_NE(text(material).find(phase), std::string::npos) << text(material);
@@ -104,8 +103,8 @@ TEST_F(MediumDescription, TellsWhatHasNoEffectWithoutCoefficients) {
         R"({{"medium": {{{}"grid": {{"densities": "g.npy", "from": [0, 0, 0], "to": [1, 1, 1]}}}}}})",
         beside));
   };
-  EXPECT_NE(grid("").find("/medium/grid: warning: a grid without effect: without absorption_per_m and "
-                          "scattering_per_m there is nothing"),
+  EXPECT_NE(grid("").find("/medium/grid: warning: grid has no effect: its densities multiply "
+                          "absorption_per_m and scattering_per_m"),
             std::string::npos)
       << grid("");
   EXPECT_EQ(grid(R"("absorption_per_m": 1, )").find("effect"), std::string::npos);
@@ -120,23 +119,23 @@ TEST_F(MediumDescription, RefusesDamagedGrids) {
   };
   fails("no", "4: ");
   fails(npy(kHeader, eight(3)).substr(0, 50), "damaged header");
-  fails(npy(kHeader, eight(3)).substr(0, 140), "is cut or too long for its 8 values");
-  fails(npy(kHeader, eight(3) + "x"), "is cut or too long");
-  fails(npy(kHeader, eight(3), 3), "format 3, allowed 1 or 2");
+  fails(npy(kHeader, eight(3)).substr(0, 140), "the file size does not fit its 8 values");
+  fails(npy(kHeader, eight(3) + "x"), "the file size does not fit");
+  fails(npy(kHeader, eight(3), 3), "unsupported format version (got 3, allowed 1 or 2)");
   fails(npy(kHeader, eight(-1)), "has a density that is not in [0, 1e9]");
   fails(npy(kHeader, eight(NAN)), "has a density that is not in");
   fails(npy("{'descr': '<i4', 'fortran_order': False, 'shape': (2, 2, 2), }", eight(3)),
-        "its numbers are '<i4', allowed '<f4' or '<f8'");
+        "unsupported type of numbers (got '<i4', allowed '<f4' or '<f8')");
   fails(npy("{'descr': '<f4', 'fortran_order': True, 'shape': (2, 2, 2), }", eight(3)), "Fortran");
   fails(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (8,), }", eight(3)), "has 1 axes");
-  fails(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (8, 1, 1), }", eight(3)), "less than 2");
+  fails(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (8, 1, 1), }", eight(3)), "fewer than 2");
   fails(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (2, 2", eight(3)), "damaged header");
   fails(npy("{'fortran_order': False, 'shape': (2, 2, 2), }", eight(3)), "has no descr");
   fails(npy("{'descr': '<f4', 'fortran_order': False, 'shape': (99999999999, 99999999999, 2), }", eight(3)),
         "6: ");
   EXPECT_NE(ball_of(R"({"medium": {"grid": {"densities": "g.npy", "from": [0, 0, 0], "to": [1, 0, 1]}}})")
                 .text()
-                .find("`to` must lie beyond its `from`"),
+                .find("`to` must be greater than its `from`"),
             std::string::npos);
 }
 

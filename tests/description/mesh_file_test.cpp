@@ -10,7 +10,7 @@ namespace {
 
 using MeshFileTest = test::MeshFileTest;
 
-/// A sound file of every format, by name.
+/// A valid file of every format, by name.
 std::map<std::string, std::string> sound_files() {
   return {{"a.glb", test::whole_glb()},
           {"a.gltf", test::Asset().text()},
@@ -19,7 +19,7 @@ std::map<std::string, std::string> sound_files() {
           {"binary.ply", test::binary_ply()}};
 }
 
-// Any prefix of a file, and any byte of it changed, is read or refused: never more.
+// Any prefix of a file, and a file with any byte changed, is read or reported, and never crashes the reader.
 TEST_F(MeshFileTest, SurvivesDamage) {
   test::write(folder_ / "a.mtl", "newmtl red\nKd 0.8 0.1 0.05\n");
   for (const auto& [name, sound] : sound_files()) {

@@ -26,7 +26,7 @@ inline std::string binary_ply() {
          raw<float>({0, 0, 0, 2, 0, 0, 0, 2, 0}) + raw<std::uint16_t>({3}) + raw<std::int32_t>({0, 1, 2});
 }
 
-/// Mesh files of the tests' folder, read alone or as shapes of a scene.
+/// Mesh files in the folder of a test, read alone or as shapes of a scene.
 class MeshFileTest : public DescriptionTest {
  protected:
   MeshFile read(const std::string& name, const std::string& bytes,

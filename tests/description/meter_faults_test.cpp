@@ -17,13 +17,12 @@ using test::metered;
 TEST_F(MeterFaultsTest, AreExplained) {
   const std::vector<Fault> faults{
       {"flux through a point", metered(R"("measures": "flux", "at": [0, 0, 0], "normal": [0, 0, 1])"),
-       ErrorCode::scene,
-       "/meters/m: error: no light goes through a point: its flux needs a quad, disc or sphere"},
+       ErrorCode::scene, "/meters/m: error: a point has no area: its flux needs a quad, disc or sphere"},
       {"radiance from all sides", metered(R"("measures": "radiance", "at": [0, 0, 0], "normal": [0, 0, 1])"),
-       ErrorCode::scene, "a meter of radiance takes light from a cone: it needs an acceptance_deg"},
+       ErrorCode::scene, "a meter of radiance needs an acceptance_deg, the half-angle of its cone"},
       {"cells of a disc",
        metered(R"("disc": {"center": [0, 0, 0], "normal": [0, 0, 1], "radius": 1}, "cells": [2, 2])"),
-       ErrorCode::scene, "/meters/m/cells: error: cells are parts of a quad"},
+       ErrorCode::scene, "/meters/m/cells: error: cells need a quad"},
       {"a meter nowhere", metered(""), ErrorCode::scene, "/meters/m: error: expected exactly one key"},
       {"a meter twice",
        metered(
@@ -34,7 +33,7 @@ TEST_F(MeterFaultsTest, AreExplained) {
       {"a moving meter",
        R"({"camera": {"irradiance_probe": {"at": [0, 0, 0], "normal": [0, 0, 1]},
            "motion": {"keyframes": [{"time_s": 0}, {"time_s": 1, "translate": [1, 0, 0]}]}}})",
-       ErrorCode::scene, "a meter does not move"},
+       ErrorCode::scene, "an irradiance probe cannot move"},
   };
   expect_refused(faults);
 }

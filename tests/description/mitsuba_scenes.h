@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "doors.h"
+#include "importers.h"
 
 namespace abbe::test {
 
@@ -13,8 +13,8 @@ inline std::string whole(const std::string& elements) {
          elements + "\n</scene>\n";
 }
 
-/// Converts scenes of Mitsuba.
-class MitsubaTest : public DoorsTest {
+/// Converts Mitsuba scenes.
+class MitsubaTest : public ImportersTest {
  protected:
   spec::Scene scene(const std::string& elements) {
     auto made = convert("a.xml", whole(elements));

@@ -1,4 +1,4 @@
-// Scenes of Mitsuba, converted.
+// Checks converted Mitsuba scenes.
 #include <cmath>
 
 #include "io/exr.h"
@@ -33,8 +33,8 @@ TEST_F(MitsubaTest, CamerasLookAlongZWithXToTheLeft) {
   const spec::Scene made = scene("");
   const auto& camera = std::get<spec::PinholeCamera>(made.camera->kind);
   EXPECT_EQ(camera.view.to, Imath::V3d(0, 0, 1));
-  EXPECT_FALSE(tells("x is turned round")) << told_;
-  // 40 degrees along 768 pixels, so less along 576.
+  EXPECT_FALSE(tells("x is negated")) << told_;
+  // 40 degrees along 768 pixels, so a smaller angle along 576.
   EXPECT_NEAR(std::get<spec::FieldOfView>(camera.lens.view).value,
               2 * std::atan(std::tan(20 * M_PI / 180) * 576 / 768) * 180 / M_PI, 1e-9);
   const auto mirrored = convert(
@@ -42,7 +42,7 @@ TEST_F(MitsubaTest, CamerasLookAlongZWithXToTheLeft) {
       R"(<scene version="3.0.0"><sensor type="perspective"><transform name="to_world"><scale x="-1"/></transform></sensor>
       <shape type="sphere"><point name="center" x="1" y="0" z="5"/></shape></scene>)");
   ASSERT_TRUE(mirrored) << told_;
-  EXPECT_TRUE(tells("x is turned round")) << told_;
+  EXPECT_TRUE(tells("x is negated")) << told_;
   EXPECT_EQ(std::get<SphereBody>(mirrored->shapes.at(0).kind).surface.center, Imath::V3d(-1, 0, 5));
 }
 
@@ -54,17 +54,17 @@ TEST_F(MitsubaTest, ThinLensesAndFilms) {
       <sampler type="independent"><integer name="sample_count" value="$n"/></sampler><film type="hdrfilm"><integer name="width" value="40"/><integer name="height" value="20"/><rfilter type="gaussian"/></film></sensor></scene>)");
   ASSERT_TRUE(made) << told_;
   EXPECT_EQ(made->render->samples, 7);
-  EXPECT_EQ(made->render->max_depth, 3);  // the light counts there
+  EXPECT_EQ(made->render->max_depth, 3);  // Mitsuba counts the light as a vertex
   EXPECT_EQ(made->sensor->resolution->value, (std::array<std::int64_t, 2>{40, 20}));
   const auto& lens = std::get<spec::ThinLensCamera>(made->camera->kind).lens;
   EXPECT_NEAR(lens.focal_length / lens.aperture.f_number.value() / 2, 0.1, 1e-12);
-  EXPECT_TRUE(tells("a pixel filter has no counterpart here")) << told_;
+  EXPECT_TRUE(tells("pixel filters are not supported")) << told_;
 }
 
 TEST_F(MitsubaTest, Shapes) {
   const auto box = std::get<spec::InlineMesh>(shape<spec::MeshBody>(R"(<shape type="cube"/>)").surface.value);
   EXPECT_EQ(box.triangles.size(), 12U);
-  double volume = 0;  // positive where every triangle faces outwards
+  double volume = 0;  // positive if every triangle faces outwards
   for (const auto& t : box.triangles) {
     const auto at = [&](int i) {
       const auto& v = box.vertices[t[static_cast<std::size_t>(i)]];
@@ -79,7 +79,7 @@ TEST_F(MitsubaTest, Shapes) {
           R"(<shape type="cylinder"><point name="p0" x="1"/><point name="p1" x="4"/><float name="radius" value="2"/></shape>)")
           .surface.value);
   for (const auto& v : tube.vertices) EXPECT_NEAR(std::hypot(v[1], v[2]), 2, 1e-12);
-  EXPECT_TRUE(tells("a cylinder becomes flat triangles")) << told_;
+  EXPECT_TRUE(tells("a cylinder is replaced by triangles")) << told_;
   const auto file =
       shape<spec::MeshBody>(R"(<shape type="ply"><string name="filename" value="square.ply"/></shape>)");
   EXPECT_EQ(std::get<std::string>(file.surface.value), "square.ply");
@@ -90,8 +90,7 @@ TEST_F(MitsubaTest, Shapes) {
 }
 
 TEST_F(MitsubaTest, GroupsArePlacedByTheirInstances) {
-  const spec::Scene made = scene(
-      R"(<shape type="shapegroup" id="g"><shape type="sphere"/></shape>
+  const spec::Scene made = scene(R"(<shape type="shapegroup" id="g"><shape type="sphere"/></shape>
          <shape type="instance"><ref id="g"/><transform name="to_world"><translate x="3"/></transform></shape>)");
   ASSERT_EQ(made.objects.size(), 1U);
   ASSERT_EQ(made.shapes.size(), 1U);
@@ -110,7 +109,7 @@ TEST_F(MitsubaTest, Materials) {
       material<spec::Conductor>(R"(<bsdf type="roughconductor"><float name="alpha" value="0.3"/></bsdf>)");
   const auto& facets = std::get<spec::Facets>(rough.roughness.value().value);
   EXPECT_EQ(std::get<double>(facets.alpha), 0.3);
-  EXPECT_EQ(facets.distribution, FacetShape::beckmann);  // by default there
+  EXPECT_EQ(facets.distribution, FacetShape::beckmann);  // Mitsuba's default
   EXPECT_NEAR(
       std::get<double>(
           material<spec::Dielectric>(
@@ -148,22 +147,24 @@ TEST_F(MitsubaTest, Lights) {
          <emitter type="directional"><vector name="direction" x="0" y="-1" z="0"/><spectrum name="irradiance" value="400:1, 700:2"/></emitter>
          <emitter type="constant"><spectrum name="radiance" type="blackbody"><float name="temperature" value="4000"/></spectrum></emitter>
          <emitter type="spot"><float name="cutoff_angle" value="30"/><float name="beam_width" value="30"/></emitter>)");
-  constexpr double kWhite = 683.002 * 106.856917101;  // of a colour (1, 1, 1): the integral of the CIE y
+  constexpr double kWhite = 683.002 * 106.856917101;  // for a colour (1, 1, 1): the integral of the CIE y
   ASSERT_EQ(made.lights.size(), 4U);
-  const auto& point = std::get<spec::PointLamp>(made.lights[0].kind);
+  const auto& point = std::get<spec::PointLightSource>(made.lights[0].kind);
   EXPECT_EQ(point.source.at, Imath::V3d(1, 2, 3));
   EXPECT_NEAR(std::get<spec::Amount<spec::Quantity::luminous_intensity>>(point.emission.scale).value,
               2 * kWhite, 1e-3);
-  const auto& beam = std::get<spec::BeamLamp>(made.lights[1].kind);
+  const auto& beam = std::get<spec::DirectionalLightSource>(made.lights[1].kind);
   EXPECT_EQ(beam.source.towards, Imath::V3d(0, 1, 0));
   EXPECT_TRUE(std::holds_alternative<std::monostate>(beam.emission->scale));
   EXPECT_EQ(std::get<spec::TableCurve>(
                 std::get<spec::CurveFormula>(std::get<spec::Spectrum>(beam.emission->spectrum).value).of)
                 .values,
             (std::vector<double>{1, 2}));
-  EXPECT_EQ(std::get<spec::Blackbody>(std::get<spec::SkyLamp>(made.lights[2].kind).emission.spectrum).value,
-            4000);
-  EXPECT_EQ(std::get<spec::SpotLamp>(made.lights[3].kind).source.half_angle_deg, 30);
+  EXPECT_EQ(
+      std::get<spec::Blackbody>(std::get<spec::EnvironmentLightSource>(made.lights[2].kind).emission.spectrum)
+          .value,
+      4000);
+  EXPECT_EQ(std::get<spec::SpotLightSource>(made.lights[3].kind).source.half_angle_deg, 30);
 }
 
 TEST_F(MitsubaTest, ImagesLieAsTheyDo) {
@@ -177,10 +178,10 @@ TEST_F(MitsubaTest, ImagesLieAsTheyDo) {
     const auto& paint = std::get<spec::Diffuse>(made.materials.at(0).value.model);
     return std::get<spec::Texture>(paint.reflectance).file.mapping;
   };
-  // Rows run down with v: an image is at 1 - (4 v + 0.25) of what is up.
+  // Rows of the rectangle increase downwards with v, so the mapping is 1 - (4 v + 0.25).
   EXPECT_EQ(mapping(R"(type="rectangle">)").scale, Imath::V2d(2, -4));
   EXPECT_EQ(mapping(R"(type="rectangle">)").offset, Imath::V2d(0.5, 0.75));
-  // v of the file is turned round there: 1 - (4 (1 - v) + 0.25).
+  // Mitsuba reverses v of the file: 1 - (4 (1 - v) + 0.25).
   const std::string obj = R"(type="obj"><string name="filename" value="t.obj"/>)";
   EXPECT_EQ(mapping(obj).scale, Imath::V2d(2, 4));
   EXPECT_EQ(mapping(obj).offset, Imath::V2d(0.5, -3.25));
@@ -192,8 +193,8 @@ TEST_F(MitsubaTest, SkiesHaveTheirMiddleAlongZ) {
   const auto frame = [&](const std::string& transform) {
     const spec::Scene made = scene(R"(<emitter type="envmap"><string name="filename" value="sky.exr"/>)" +
                                    transform + "</emitter>");
-    const auto& image =
-        std::get<spec::SkyImage>(std::get<spec::SkyLamp>(made.lights.at(0).kind).source.image);
+    const auto& image = std::get<spec::EnvironmentImage>(
+        std::get<spec::EnvironmentLightSource>(made.lights.at(0).kind).source.image);
     return environment_frame(image.up.normalized(), image.rotate_deg);
   };
   EXPECT_LT((frame("").up - Imath::V3d(0, 1, 0)).length(), 1e-12);
@@ -217,9 +218,9 @@ TEST_F(MitsubaTest, ReadsIncludedFiles) {
 
 TEST_F(MitsubaTest, FaultsHaveTheirPlace) {
   const std::vector<DoorFault> faults{
-      {"truncated", "<scene>\n<sensor type=\"perspective\">\n", "a.xml:2:28: error: no XML"},
+      {"truncated", "<scene>\n<sensor type=\"perspective\">\n", "a.xml:2:28: error: malformed XML"},
       {"no scene", "<sense/>", "a.xml:1:2: error: expected <scene> (got <sense>)"},
-      {"sensor", "<scene/>", "a.xml:1:2: error: a scene without a sensor"},
+      {"sensor", "<scene/>", "a.xml:1:2: error: the scene has no sensor"},
       {"sensor's type", "<scene><sensor type=\"perspectiv\"/></scene>",
        "unknown sensor \"perspectiv\"; did you mean \"perspective\"?"},
       {"shape", whole("<shape type=\"spere\"/>"),
@@ -237,12 +238,12 @@ TEST_F(MitsubaTest, FaultsHaveTheirPlace) {
       {"number", whole("<shape type=\"sphere\"><float name=\"radius\" value=\"x\"/></shape>"),
        "a.xml:3:23: error: expected a number as \"value\" of <float> (got \"x\")"},
       {"type", whole("<shape type=\"sphere\"><string name=\"radius\" value=\"1\"/></shape>"),
-       "\"radius\" is of another type (got <string>, allowed float, integer)"},
+       "\"radius\" has a wrong type (got <string>, allowed float, integer)"},
       {"default", whole("<shape type=\"$what\"/>"),
        "a.xml:3:2: error: no <default> gives a value to \"$what\""},
       {"mesh", whole("<shape type=\"ply\"><string name=\"filename\" value=\"gone.ply\"/></shape>"),
        "a.xml:3:2: error: "},
-      {"serialized", whole("<shape type=\"serialized\"/>"), "serialized meshes are not read"},
+      {"serialized", whole("<shape type=\"serialized\"/>"), "serialized meshes of Mitsuba are not supported"},
       {"include", whole("<include filename=\"gone.xml\"/>"), "a.xml:3:2: error: "},
       {"metal",
        whole("<shape type=\"sphere\"><bsdf type=\"conductor\"><string name=\"material\" "
@@ -255,7 +256,7 @@ TEST_F(MitsubaTest, FaultsHaveTheirPlace) {
        whole("<shape type=\"sphere\"><transform name=\"to_world\"><rotat z=\"1\"/></transform></shape>"),
        "unknown step of a transform \"rotat\"; did you mean \"rotate\"?"},
       {"same id", whole("<bsdf type=\"diffuse\" id=\"b\"/><bsdf type=\"diffuse\" id=\"b\"/>"),
-       "a second element of the id \"b\""},
+       "duplicate id \"b\""},
   };
   for (const DoorFault& fault : faults) {
     SCOPED_TRACE(fault.what);
@@ -295,7 +296,7 @@ TEST_F(MitsubaTest, ClipPlanesThatCutOffMoreThanUsualAreTold) {
         "a.xml", R"(<scene version="3.0.0"><sensor type="perspective"><float name="fov" value="40"/>)" +
                      std::string(planes) + "</sensor></scene>"))
         << told_;
-    EXPECT_EQ(tells("clip planes have no counterpart here"), *told != 0) << told_;
+    EXPECT_EQ(tells("clip planes are not supported"), *told != 0) << told_;
     EXPECT_TRUE(tells(told)) << told_;
   }
 }

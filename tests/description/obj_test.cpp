@@ -22,7 +22,7 @@ class ObjTest : public test::MeshFileTest {};
 
 constexpr const char* kCorners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n";
 
-// A wheel of as many corners, each second of which is a tooth's.
+// A gear with `corners` corners; every second one is on a tooth.
 std::string gear(int corners) {
   std::string text;
   std::string face = "f";
@@ -44,7 +44,7 @@ TEST_F(ObjTest, ReadsFaces) {
   EXPECT_EQ(cut.vertices.size(), 4U);
 }
 
-// Behind anything; a "#" within a name is none.
+// A comment may follow anything; a "#" within a name does not begin one.
 TEST_F(ObjTest, CommentsEndLines) {
   write(folder_ / "a.mtl", "newmtl red # 2\nKd 0.8 0.1 0.05\nnewmtl plain\nKd 0.5 0.5 0.5 # grey\n");
   const std::string text =
@@ -131,7 +131,7 @@ TEST_F(ObjTest, BringsItsMaterials) {
   write(folder_ / "b.obj", std::string("mtllib two words.mtl\n") + kCorners + "usemtl plain\nf 1 2 3\n");
   EXPECT_TRUE(load(R"({"shapes": [{"mesh": "b.obj"}]})").scene);
 
-  // The scene's hash knows the materials too.
+  // The hash of the scene includes the materials.
   const std::string before = loaded->sha256;
   write(folder_ / "a.mtl", "newmtl red paint\nKd 0.8 0.1 0.06\nnewmtl plain\n");
   EXPECT_NE(
@@ -166,7 +166,7 @@ TEST_F(ObjTest, FilesOfMaterialsStandInOneLine) {
                              {"a second that is missing", "mtllib a.mtl gone.mtl\n", ErrorCode::input,
                               "\"gone.mtl\", which it names: no such file"},
                              {"a second beyond the folder", "mtllib a.mtl ../b.mtl\n", ErrorCode::input,
-                              "it may name files beside it only (got \"../b.mtl\")"}});
+                              "it may name only files in its folder or below (got \"../b.mtl\")"}});
 }
 
 TEST_F(ObjTest, PartsHaveMaterialsOfTheScene) {
@@ -222,10 +222,11 @@ TEST_F(ObjTest, RefusesBadFiles) {
        {"a normal with a comma", "vn 0,6 0.8 1\n", in,
         "line 1: vn 1 needs three finite numbers (got 0,6 0.8 1)"},
        {"empty", "", in, "no faces"},
-       {"no area", std::string(kCorners) + "f 1 1 2\n", in, "a mesh without a triangle of any area"},
+       {"no area", std::string(kCorners) + "f 1 1 2\n", in, "the mesh has no triangle of nonzero area"},
        {"missing library", "mtllib gone.mtl\n", in, "\"gone.mtl\", which it names: no such file"},
-       {"climbing out", "mtllib ../a.mtl\n", in, "it may name files beside it only (got \"../a.mtl\")"},
-       {"absolute", "mtllib /etc/passwd\n", in, "beside it only (got \"/etc/passwd\")"},
+       {"climbing out", "mtllib ../a.mtl\n", in,
+        "it may name only files in its folder or below (got \"../a.mtl\")"},
+       {"absolute", "mtllib /etc/passwd\n", in, "in its folder or below (got \"/etc/passwd\")"},
        {"unknown material", "mtllib bad.mtl\n", in,
         "\"bad.mtl\" line 2: Kd (got 0.1 2 0, allowed three of [0, 1])"},
        {"a curve", "mtllib curve.mtl\n", in,

@@ -3,16 +3,16 @@
 #include <string>
 #include <vector>
 
-#include "doors.h"
+#include "importers.h"
 
 namespace abbe::test {
 
-// A camera that needs no mirror, and what begins a world.
+// A camera that needs no mirror, and the beginning of a world.
 inline const std::string kBegin =
     "Scale -1 1 1\nLookAt 0 0 -5  0 0 0  0 1 0\nCamera \"perspective\" \"float fov\" 40\nWorldBegin\n";
 
-/// Converts worlds of pbrt.
-class PbrtTest : public DoorsTest {
+/// Converts pbrt worlds.
+class PbrtTest : public ImportersTest {
  protected:
   spec::Scene scene(const std::string& world) {
     auto made = convert("a.pbrt", kBegin + world);

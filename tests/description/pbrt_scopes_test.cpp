@@ -1,4 +1,4 @@
-// How far what files of pbrt say holds: files, blocks, names, wavelengths and times.
+// Scopes in pbrt files: files, blocks, names, wavelengths and times.
 #include <string>
 #include <vector>
 
@@ -27,7 +27,7 @@ TEST_F(PbrtTest, TablesAreZeroBeyondTheirEnds) {
     SCOPED_TRACE(spectrum);
     const spec::Scene made = scene("LightSource \"infinite\" \"spectrum L\" " + std::string(spectrum) + "\n");
     ASSERT_EQ(made.lights.size(), 1U);
-    const auto& sky = std::get<spec::SkyLamp>(made.lights[0].kind);
+    const auto& sky = std::get<spec::EnvironmentLightSource>(made.lights[0].kind);
     const Curve light = table_of(std::get<spec::Spectrum>(sky.emission.spectrum));
     EXPECT_EQ(light(589.5), 1);
     EXPECT_EQ(light(550), 0);
@@ -37,7 +37,7 @@ TEST_F(PbrtTest, TablesAreZeroBeyondTheirEnds) {
   EXPECT_EQ(table_of(std::get<spec::Curve>(paint.reflectance))(499), 0);
   const auto metal =
       material<spec::Conductor>("Material \"conductor\" \"spectrum reflectance\" [600 .8 700 .8]");
-  EXPECT_FALSE(tells("is held from the nearer end")) << told_;
+  EXPECT_FALSE(tells("the index of the nearer end is used")) << told_;
   const auto& index = std::get<spec::TableIor>(metal.ior.value);
   const Curve k = table_curve(index.wavelength_nm, index.k.value(), Outside::clamp);
   for (const double nm : {400.0, 599.99, 700.01, 900.0}) EXPECT_EQ(k(nm), 0) << nm;
@@ -71,9 +71,9 @@ TEST_F(PbrtTest, ImportsLeaveWhatHoldsBehindThem) {
   put("close.pbrt", "AttributeEnd\n");
   put("half.pbrt", "Shape \"sphere\" \"float radius\"\n");
   expect_refused({{"a block that goes on", kBegin + "Import \"open.pbrt\"\nAttributeEnd\n",
-                   "open.pbrt:1:1: error: begins here and does not end"},
+                   "open.pbrt:1:1: error: the block that begins here is not closed"},
                   {"a block of another file", kBegin + "AttributeBegin\nImport \"close.pbrt\"\n",
-                   "close.pbrt:1:1: error: AttributeEnd without its beginning"},
+                   "close.pbrt:1:1: error: AttributeEnd without a matching begin directive"},
                   {"a directive that goes on", kBegin + "Import \"half.pbrt\"\n3\n",
                    "half.pbrt:2:1: error: expected a number of \"float radius\" (got \"\")"},
                   {"its coordinate systems", kBegin + "Import \"part.pbrt\"\nCoordSysTransform \"there\"\n",
@@ -111,15 +111,15 @@ TEST_F(PbrtTest, ImportsGoOnWithoutTheSystemsAroundThem) {
         shape<SphereBody>("CoordinateSystem \"here\"\nTranslate 0 4 0\nImport \"part.pbrt\"\n");
     EXPECT_EQ(sphere.surface.center, Imath::V3d(0, 4, 0));
     EXPECT_TRUE(
-        tells(fmt::format("part.pbrt:1:1: warning: an imported file does not know the coordinate "
-                          "system \"{}\" of what is around it: its transform stays as it is",
+        tells(fmt::format("part.pbrt:1:1: warning: the coordinate system \"{}\" is not defined in the "
+                          "imported file: the directive is ignored",
                           name)))
         << told_;
   }
   put("part.pbrt",
       "CoordinateSystem \"mine\"\nTranslate 1 0 0\nCoordSysTransform \"mine\"\nShape \"sphere\"\n");
   EXPECT_EQ(shape<SphereBody>("Import \"part.pbrt\"\n").surface.center, Imath::V3d(0));
-  EXPECT_FALSE(tells("does not know")) << told_;
+  EXPECT_FALSE(tells("is not defined in the imported file")) << told_;
 }
 
 TEST_F(PbrtTest, BlocksOfTransformsAreThoseOfAttributes) {
@@ -181,14 +181,14 @@ TEST_F(PbrtTest, TexturesOfNumbersAndOfSpectraHaveNamesOfTheirOwn) {
 TEST_F(PbrtTest, TimesOfTheShutterAreTold) {
   const auto told_of = [&](const std::string& times) {
     EXPECT_TRUE(convert("a.pbrt", "Camera \"perspective\" " + times + "\nWorldBegin\n")) << told_;
-    return tells("warning: a shutter");
+    return tells("warning: the shutter");
   };
   EXPECT_FALSE(told_of("")) << told_;
   EXPECT_FALSE(told_of("\"float shutteropen\" 0.5 \"float shutterclose\" 1.5")) << told_;
   EXPECT_TRUE(told_of("\"float shutterclose\" 0.5"));
   EXPECT_TRUE(
-      tells("a.pbrt:1:1: warning: a shutter that is open for 0.5 makes a picture as many times as bright "
-            "there: its times are dropped"))
+      tells("a.pbrt:1:1: warning: the shutter is open for 0.5, by which pbrt multiplies the brightness: its "
+            "times are dropped"))
       << told_;
   expect_refused({{"never open", "Camera \"perspective\" \"float shutteropen\" 1\nWorldBegin\n",
                    "a.pbrt:1:1: error: the shutter does not open (got 1 and 1)"},

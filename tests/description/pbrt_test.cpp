@@ -1,4 +1,4 @@
-// Scenes of pbrt, converted.
+// Checks converted pbrt scenes.
 #include "io/exr.h"
 #include "pbrt_scenes.h"
 #include "spectral/rgb.h"
@@ -20,7 +20,7 @@ TEST_F(PbrtTest, TransformsApplyTheLastFirst) {
           .surface;
   EXPECT_LT((sphere.center - Imath::V3d(1, 4, 3)).length(), 1e-12);
   EXPECT_NEAR(sphere.radius, 2, 1e-12);
-  // Matrices column by column: the last four numbers translate.
+  // Matrices are column by column: the last four numbers translate.
   const auto moved =
       shape<SphereBody>(
           "Transform [0 1 0 0  -1 0 0 0  0 0 1 0  5 6 7 1]\nTranslate 1 0 0\nShape \"sphere\"\n")
@@ -51,14 +51,14 @@ TEST_F(PbrtTest, WhatACameraSeesMirroredIsTurnedRound) {
   const std::string world = "WorldBegin\nTranslate 1 2 3\nShape \"sphere\"\n";
   const auto made = convert("a.pbrt", "LookAt 1 0 -5  1 0 0  0 1 0\nCamera \"perspective\"\n" + world);
   ASSERT_TRUE(made) << told_;
-  EXPECT_TRUE(tells("x is turned round")) << told_;
+  EXPECT_TRUE(tells("x is negated")) << told_;
   EXPECT_EQ(std::get<SphereBody>(made->shapes[0].kind).surface.center, Imath::V3d(-1, 2, 3));
   const auto& camera = std::get<spec::PinholeCamera>(made->camera->kind);
   EXPECT_EQ(camera.view.from, Imath::V3d(-1, 0, -5));
   EXPECT_EQ(camera.view.to, Imath::V3d(-1, 0, -4));
   EXPECT_EQ(std::get<spec::FieldOfView>(camera.lens.view).value, 90);
   ASSERT_TRUE(scene("Translate 1 2 3\nShape \"sphere\"\n").camera);
-  EXPECT_FALSE(tells("x is turned round")) << told_;
+  EXPECT_FALSE(tells("x is negated")) << told_;
 }
 
 TEST_F(PbrtTest, FrontsAreWherePbrtHasThem) {
@@ -69,7 +69,7 @@ TEST_F(PbrtTest, FrontsAreWherePbrtHasThem) {
   };
   EXPECT_GT(normal(""), 0);
   EXPECT_LT(normal("ReverseOrientation\n"), 0);
-  EXPECT_GT(normal("Scale -1 1 1\n"), 0);  // the image of the front
+  EXPECT_GT(normal("Scale -1 1 1\n"), 0);  // image of the front
   EXPECT_LT(shape<DiscBody>("ReverseOrientation\nShape \"disk\"\n").surface.normal.z, 0);
 }
 
@@ -80,7 +80,7 @@ TEST_F(PbrtTest, StretchedShapesBecomeInstancesOrTriangles) {
   EXPECT_EQ(std::get<spec::Matrix>(placed.transform.value.at(0)).rows.value,
             (std::vector<double>{1, 0, 0, 0, 0, 2, 0, 0, 0, 0, 3, 0}));
   (void)shape<spec::MeshBody>("AreaLightSource \"diffuse\"\nScale 1 2 3\nShape \"sphere\"\n");
-  EXPECT_TRUE(tells("flat triangles")) << told_;
+  EXPECT_TRUE(tells("replaced by triangles")) << told_;
   const auto file = shape<spec::MeshBody>(
       "Translate 1 0 0\nRotate 90 0 0 1\nScale 2 2 2\nShape \"plymesh\" \"string filename\" "
       "\"square.ply\"\n");
@@ -105,7 +105,7 @@ TEST_F(PbrtTest, ImagesLieAsTheyDo) {
   EXPECT_EQ(file.mapping.scale, Imath::V2d(2, 1));
   EXPECT_EQ(file.mapping.offset, Imath::V2d(0, 0.5));
   EXPECT_TRUE(std::holds_alternative<QuadBody>(plain.shapes.at(0).kind));
-  // Turned round, a parallelogram would turn its image as well.
+  // Reversing a parallelogram would also mirror its texture, so it becomes a mesh.
   const auto turned =
       std::get<spec::InlineMesh>(shape<spec::MeshBody>("Scale -1 1 1\n" + image + patch).surface.value);
   EXPECT_EQ(turned.vertices.at(1), (std::array<double, 3>{-1, 0, 0}));
@@ -115,7 +115,7 @@ TEST_F(PbrtTest, ImagesLieAsTheyDo) {
   (void)shape<spec::Instance>(image + "Rotate 90 1 0 0\nShape \"sphere\"\n");
   const auto bare = shape<spec::MeshBody>(image + "Shape \"plymesh\" \"string filename\" \"square.ply\"\n");
   EXPECT_EQ(bare.material.value().value, "diffuse without images");
-  EXPECT_TRUE(tells("triangles without texture coordinates take no image")) << told_;
+  EXPECT_TRUE(tells("triangles without texture coordinates cannot have an image")) << told_;
 }
 
 TEST_F(PbrtTest, ObjectsArePlacedByTheirInstances) {
@@ -141,7 +141,7 @@ TEST_F(PbrtTest, Conductors) {
   EXPECT_EQ(std::get<std::string>(material<spec::Conductor>("Material \"conductor\"").ior.value),
             "Cu_Johnson");
   const auto rough = material<spec::Conductor>("Material \"conductor\" \"float roughness\" 0.25");
-  EXPECT_EQ(std::get<double>(rough.roughness.value().value), 0.5);  // pbrt takes the root
+  EXPECT_EQ(std::get<double>(rough.roughness.value().value), 0.5);  // pbrt takes the square root
   const auto plain = material<spec::Conductor>(
       "Material \"conductor\" \"float uroughness\" 0.25 \"float vroughness\" 0.5 \"bool remaproughness\" "
       "false");
@@ -189,7 +189,7 @@ TEST_F(PbrtTest, OtherMaterials) {
   EXPECT_EQ(std::get<double>(parts[0].weight.value), 0.75);
   EXPECT_EQ(std::get<double>(parts[1].weight.value), 0.25);
   (void)material<spec::Diffuse>("Material \"hair\"");
-  EXPECT_TRUE(tells("a material \"hair\" has no counterpart here")) << told_;
+  EXPECT_TRUE(tells("a material \"hair\" is not supported")) << told_;
 }
 
 TEST_F(PbrtTest, ColoursAreUpsampledAndNoted) {
@@ -199,14 +199,14 @@ TEST_F(PbrtTest, ColoursAreUpsampledAndNoted) {
   const Curve samples = table_curve(table.wavelength_nm, table.values, table.outside);
   EXPECT_NEAR(linear_rgb(samples)[0], 0.8, 1e-3);
   EXPECT_NEAR(linear_rgb(samples)[1], 0.1, 1e-3);
-  EXPECT_TRUE(tells("a colour has no spectrum")) << told_;
+  EXPECT_TRUE(tells("a colour does not determine a spectrum")) << told_;
   EXPECT_EQ(
       std::get<double>(
           std::get<spec::Curve>(
               material<spec::Diffuse>("Material \"diffuse\" \"rgb reflectance\" [0.3 0.3 0.3]").reflectance)
               .value),
       0.3);
-  EXPECT_FALSE(tells("a colour has no spectrum")) << told_;
+  EXPECT_FALSE(tells("a colour does not determine a spectrum")) << told_;
 }
 
 TEST_F(PbrtTest, LightsHaveTheStrengthThatPbrtGivesThem) {
@@ -216,20 +216,20 @@ TEST_F(PbrtTest, LightsHaveTheStrengthThatPbrtGivesThem) {
       "LightSource \"infinite\" \"spectrum L\" \"stdillum-D50\" \"float scale\" 3\n"
       "LightSource \"spot\" \"float coneangle\" 20 \"float conedeltaangle\" 0 \"float power\" 7\n"
       "AreaLightSource \"diffuse\" \"float power\" 11\nShape \"sphere\"\n");
-  constexpr double kLm = 683.002;  // of one unit there
+  constexpr double kLm = 683.002;  // of one unit of pbrt
   ASSERT_EQ(made.lights.size(), 4U);
-  const auto& point = std::get<spec::PointLamp>(made.lights[0].kind);
+  const auto& point = std::get<spec::PointLightSource>(made.lights[0].kind);
   EXPECT_EQ(point.source.at, Imath::V3d(1, 2, 3));
   EXPECT_EQ(std::get<spec::Blackbody>(point.emission.spectrum).value, 3000);
   EXPECT_NEAR(std::get<spec::Amount<spec::Quantity::luminous_intensity>>(point.emission.scale).value, 2 * kLm,
               1e-9);
-  const auto& beam = std::get<spec::BeamLamp>(made.lights[1].kind);
+  const auto& beam = std::get<spec::DirectionalLightSource>(made.lights[1].kind);
   EXPECT_EQ(beam.source.towards, Imath::V3d(0, 1, 0));
   EXPECT_NEAR(std::get<spec::Amount<spec::Quantity::illuminance>>(beam.emission->scale).value, 5 * kLm, 1e-9);
-  const auto& sky = std::get<spec::SkyLamp>(made.lights[2].kind);
+  const auto& sky = std::get<spec::EnvironmentLightSource>(made.lights[2].kind);
   EXPECT_EQ(std::get<spec::Illuminant>(sky.emission.spectrum).value, "D50");
   EXPECT_NEAR(std::get<spec::Amount<spec::Quantity::luminance>>(sky.emission.scale).value, 3 * kLm, 1e-9);
-  const auto& spot = std::get<spec::SpotLamp>(made.lights[3].kind);
+  const auto& spot = std::get<spec::SpotLightSource>(made.lights[3].kind);
   EXPECT_EQ(spot.source.half_angle_deg, 20);
   EXPECT_NEAR(std::get<spec::Amount<spec::Quantity::luminous_intensity>>(spot.emission.scale).value,
               7 * kLm / (2 * M_PI * (1 - std::cos(20 * M_PI / 180))), 1e-6);
@@ -238,8 +238,8 @@ TEST_F(PbrtTest, LightsHaveTheStrengthThatPbrtGivesThem) {
               1e-9);
 }
 
-// Each triangle or patch is a light of that power there; a ball, or what becomes triangles here alone, is
-// one.
+// In pbrt each triangle or patch is a light with that power. A ball is one light, and so is a shape that only
+// the conversion turns into triangles.
 TEST_F(PbrtTest, EachFaceOfAMeshHasThePower) {
   const auto units = [&](const std::string& shape) {
     const spec::Scene made = scene("AreaLightSource \"diffuse\" \"float power\" 100\nShape " + shape + "\n");
@@ -249,23 +249,23 @@ TEST_F(PbrtTest, EachFaceOfAMeshHasThePower) {
   };
   const std::string square = "\"point3 P\" [-1 -1 0  1 -1 0  1 1 0  -1 1 0] ";
   EXPECT_NEAR(units("\"trianglemesh\" " + square + "\"integer indices\" [0 1 2 0 2 3]"), 200, 1e-9);
-  EXPECT_FALSE(tells("not equally bright")) << told_;
+  EXPECT_FALSE(tells("differ in radiance")) << told_;
   EXPECT_NEAR(units("\"trianglemesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0  5 5 0] \"integer indices\" "
                     "[0 1 2  1 3 2  1 3 2]"),
               300, 1e-9);
-  EXPECT_TRUE(tells("faces of different areas with a \"power\" each are not equally bright")) << told_;
+  EXPECT_TRUE(tells("so that faces of different areas differ in radiance")) << told_;
   const std::string patches = "\"bilinearmesh\" \"point3 P\" [0 0 0  1 0 0  0 1 0  1 1 0  0 2 0  1 2 0] ";
   EXPECT_NEAR(units(patches + "\"integer indices\" [0 1 2 3]"), 100, 1e-9);
   EXPECT_NEAR(units(patches + "\"integer indices\" [0 1 2 3  2 3 4 5]"), 200, 1e-9);
   EXPECT_NEAR(units("\"sphere\""), 100, 1e-9);
   EXPECT_NEAR(units("\"cylinder\""), 100, 1e-9);
-  EXPECT_FALSE(tells("not equally bright")) << told_;
+  EXPECT_FALSE(tells("differ in radiance")) << told_;
   EXPECT_NEAR(units("\"plymesh\" \"string filename\" \"square.ply\""), 200, 1e-9);
-  EXPECT_TRUE(tells("counts as two here")) << told_;
+  EXPECT_TRUE(tells("counts as two triangles in Abbe")) << told_;
 }
 
 TEST_F(PbrtTest, SoftSpotsSendOutAsMuch) {
-  const auto spot = std::get<spec::SpotLamp>(
+  const auto spot = std::get<spec::SpotLightSource>(
       scene("LightSource \"spot\" \"float coneangle\" 60 \"float conedeltaangle\" 60\n").lights.at(0).kind);
   EXPECT_NEAR(std::cos(spot.source.half_angle_deg * M_PI / 180), 0.75, 1e-12);  // between 1 and 1/2
   EXPECT_TRUE(tells("soft edge")) << told_;
@@ -297,7 +297,7 @@ TEST_F(PbrtTest, PictureAndRender) {
 TEST_F(PbrtTest, UnusedParametersAreNoted) {
   (void)scene("Shape \"sphere\" \"float alpha\" 0.5\nShape \"sphere\" \"float alpha\" 0.5\n");
   EXPECT_TRUE(tells("a.pbrt:5:")) << told_;
-  EXPECT_TRUE(tells("\"alpha\" of shape \"sphere\" has no counterpart here: dropped (2 times)")) << told_;
+  EXPECT_TRUE(tells("\"alpha\" of shape \"sphere\" is not supported: dropped (2 times)")) << told_;
 }
 
 TEST_F(PbrtTest, ReadsIncludedFiles) {
@@ -305,7 +305,7 @@ TEST_F(PbrtTest, ReadsIncludedFiles) {
   EXPECT_EQ(scene("Include \"more.pbrt\"\nShape \"sphere\"\n").shapes.size(), 2U);
   put("loop.pbrt", "Include \"loop.pbrt\"\n");
   expect_refused({{"files without end", kBegin + "Include \"loop.pbrt\"\n",
-                   "loop.pbrt:1:1: error: more than 64 files include one another"}});
+                   "loop.pbrt:1:1: error: files are included more than 64 levels deep"}});
 }
 
 TEST_F(PbrtTest, FaultsHaveTheirPlace) {
@@ -324,7 +324,7 @@ TEST_F(PbrtTest, FaultsHaveTheirPlace) {
       {"value", kBegin + "Shape \"sphere\" \"float radius\" x\n",
        "a.pbrt:5:31: error: expected a number of \"float radius\" (got \"x\")"},
       {"type", kBegin + "Shape \"sphere\" \"string radius\" \"x\"\n",
-       "a.pbrt:5:16: error: \"radius\" is of another type (got string, allowed float)"},
+       "a.pbrt:5:16: error: \"radius\" has a wrong type (got string, allowed float)"},
       {"unknown type", kBegin + "Shape \"sphere\" \"flaot radius\" 1\n",
        "a.pbrt:5:16: error: unknown type of parameter \"flaot\"; did you mean \"float\"?"},
       {"integer", "Film \"rgb\" \"integer xresolution\" 1.5\n", "a.pbrt:1:34: error: expected an integer"},
@@ -332,20 +332,21 @@ TEST_F(PbrtTest, FaultsHaveTheirPlace) {
        "takes multiples of 3 values (got 4)"},
       {"corner",
        kBegin + "Shape \"trianglemesh\" \"point3 P\" [0 0 0 1 0 0 0 1 0] \"integer indices\" [0 1 3]\n",
-       "a corner is no point (got 3, allowed [0, 2])"},
+       "an index is out of range (got 3, allowed [0, 2])"},
       {"numbers", "LookAt 0 0 0 1 0\n", "a.pbrt:2:1: error: the file ends within LookAt"},
       {"bracket", kBegin + "Shape \"sphere\" \"float radius\" [1\n",
        "error: the values of \"radius\" have no closing ]"},
       {"quote", kBegin + "Shape \"sphere\n", "a.pbrt:5:7: error: a quoted text without its closing quote"},
-      {"block", kBegin + "AttributeBegin\n", "a.pbrt:5:1: error: begins here and does not end"},
-      {"block's end", kBegin + "AttributeEnd\n", "a.pbrt:5:1: error: AttributeEnd without its beginning"},
+      {"block", kBegin + "AttributeBegin\n", "a.pbrt:5:1: error: the block that begins here is not closed"},
+      {"block's end", kBegin + "AttributeEnd\n",
+       "a.pbrt:5:1: error: AttributeEnd without a matching begin directive"},
       {"object", kBegin + "ObjectInstance \"o\"\n", "a.pbrt:5:1: error: unknown object \"o\""},
       {"include", kBegin + "Include \"gone.pbrt\"\n", "a.pbrt:5:1: error: "},
       {"mesh", kBegin + "Shape \"plymesh\" \"string filename\" \"gone.ply\"\n", "a.pbrt:5:17: error: "},
       {"spectrum", kBegin + "Material \"diffuse\" \"spectrum reflectance\" [500 1 400 1]\nShape \"sphere\"\n",
        "a.pbrt:5:20: error: wavelengths must ascend (got 400 nm after 500 nm)"},
       {"no matrix", kBegin + "Transform [0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1]\n",
-       "a.pbrt:5:1: error: a matrix without an inverse"},
+       "a.pbrt:5:1: error: a matrix is singular"},
   });
   put("cut.ply", "ply\nformat ascii 1.0\nelement vertex 4\n");
   expect_refused({{"cut mesh", kBegin + "Shape \"plymesh\" \"string filename\" \"cut.ply\"\n",

@@ -37,15 +37,15 @@ TEST_F(PlyTest, ReadsPly) {
   write(folder_ / "binary.ply", binary);
   EXPECT_DOUBLE_EQ(area(shape(R"("mesh": "binary.ply")")), 2);
   std::string infinite = binary;
-  infinite[infinite.size() - 15] = '\x7F';  // the high bytes of the last z
+  infinite[infinite.size() - 15] = '\x7F';  // high bytes of the last z
   infinite[infinite.size() - 16] = '\x80';
   write(folder_ / "binary.ply", infinite);
   EXPECT_NE(load(shaped(R"("mesh": "binary.ply")")).text().find("vertex 2 is not finite"), std::string::npos);
   write(folder_ / "binary.ply", binary.substr(0, binary.size() - 1));
-  EXPECT_NE(load(shaped(R"("mesh": "binary.ply")")).text().find("promises more"), std::string::npos);
+  EXPECT_NE(load(shaped(R"("mesh": "binary.ply")")).text().find("declares more"), std::string::npos);
 }
 
-// The library said of these that the file is cut short.
+// The library would report these files as truncated.
 TEST_F(PlyTest, CornersOfFewerBitsAreTold) {
   const std::string square = ply(4, 1, kSquare + "4 0 1 2 3\n");
   for (const char* type : {"uchar", "short", "uint16"}) {
@@ -81,7 +81,7 @@ TEST_F(PlyTest, ReadsPlyWhateverTheLocale) {
   EXPECT_DOUBLE_EQ(half, 0.125);
 }
 
-// As pbrt's scenes have them.
+// pbrt scenes have compressed files.
 TEST_F(PlyTest, ReadsWhatIsPacked) {
   const auto packed = [this](const std::string& bytes) {
     write(folder_ / "packed.ply", bytes);
@@ -94,13 +94,13 @@ TEST_F(PlyTest, ReadsWhatIsPacked) {
   write(folder_ / "packed.PLY.GZ", good);
   EXPECT_DOUBLE_EQ(area(shape(R"("mesh": "packed.PLY.GZ")")), 2);
   std::string other = good;
-  other[other.size() - 6] ^= 1;  // of the checksum
+  other[other.size() - 6] ^= 1;  // a bit of the checksum
   const std::vector<std::pair<std::string, const char*>> faults{
-      {good.substr(0, good.size() - 9), "torn: it ends amid what it packs"},
-      {good.substr(0, good.size() - 1), "torn"},
+      {good.substr(0, good.size() - 9), "truncated: the compressed data are incomplete"},
+      {good.substr(0, good.size() - 1), "truncated: the compressed data are incomplete"},
       {other, "damaged ("},
-      {"", "is not packed by gzip"},
-      {test::binary_ply(), "is not packed by gzip"},
+      {"", "is not a gzip file"},
+      {test::binary_ply(), "is not a gzip file"},
       {packed("solid\n"), "malformed PLY header"}};
   for (const auto& [bytes, message] : faults) {
     write(folder_ / "packed.ply.gz", bytes);
@@ -111,7 +111,7 @@ TEST_F(PlyTest, ReadsWhatIsPacked) {
   write(folder_ / "packed.ply.gz", good);
   const std::size_t size = test::binary_ply().size();
   for (const std::size_t limit : {size, size - 1}) {
-    HeldMemory held(nullptr, 0);
+    MemoryReservation held(nullptr, 0);
     std::string bytes;
     const auto fault = read_gzip_bytes(folder_ / "packed.ply.gz", limit, bytes, held);
     EXPECT_EQ(fault.has_value(), limit < size) << fault.value_or("");
@@ -131,16 +131,15 @@ TEST_F(PlyTest, RefusesBadPly) {
        "triangle 0 names a vertex that does not exist (got 4, allowed [0, 3])"},
       {"30 index of a polygon", ply(4, 1, kSquare + "4 0 1 2 99\n"), ErrorCode::input,
        "triangle 1 names a vertex that does not exist (got 99, allowed [0, 3])"},
-      {"31 nothing left", ply(4, 1, kSquare + "3 0 1 1\n"), ErrorCode::input,
-       "without a triangle of any area"},
+      {"31 nothing left", ply(4, 1, kSquare + "3 0 1 1\n"), ErrorCode::input, "no triangle of nonzero area"},
       {"34 promises", ply(2147483647, 1, kSquare + "3 0 1 2\n"), ErrorCode::input,
-       "the header promises more than the file holds"},
+       "the header declares more than the file holds"},
       {"34 more than memory",
        "ply\nformat ascii 1.0\nelement vertex 1000000000000000\nproperty float x\nproperty float y\nproperty "
        "float z\nend_header\n0\n",
-       ErrorCode::input, "promises more"},
-      {"34 a long list", ply(4, 1, kSquare + "4000000000 0 1 2\n"), ErrorCode::input, "promises more"},
-      {"truncated", ply(4, 2, kSquare + "3 0 1 2\n"), ErrorCode::input, "promises more"},
+       ErrorCode::input, "declares more"},
+      {"34 a long list", ply(4, 1, kSquare + "4000000000 0 1 2\n"), ErrorCode::input, "declares more"},
+      {"truncated", ply(4, 2, kSquare + "3 0 1 2\n"), ErrorCode::input, "declares more"},
       {"no faces", ply(4, 0, kSquare), ErrorCode::input, "no faces"},
       {"no PLY", "solid\n", ErrorCode::input, "malformed PLY header"},
       {"empty", "", ErrorCode::input, "malformed PLY header"},
@@ -198,7 +197,7 @@ TEST_F(PlyTest, RefusesBadPly) {
   const Loaded kept = load(shaped(R"("mesh": "bad.ply")"));
   ASSERT_TRUE(kept.scene);
   EXPECT_EQ(std::get<Mesh>(kept->shapes[0].shape).triangles.size(), 1U);
-  EXPECT_NE(kept.text().find("warning: triangles of zero area dropped: 1"), std::string::npos);
+  EXPECT_NE(kept.text().find("warning: triangles of zero area removed: 1"), std::string::npos);
 }
 
 }  // namespace

@@ -53,10 +53,10 @@ TEST_F(ReadoutDescription, WhatIsNotSaidIsIdeal) {
 TEST_F(ReadoutDescription, ItNeedsChannelsThatCountElectrons) {
   const Loaded loaded = load(read_out_sensor(R"({"gain_e_per_dn": 2, "bits": 12})", "energy"));
   EXPECT_FALSE(loaded.scene);
-  EXPECT_NE(loaded.text().find(
-                "/sensor/readout: error: a read-out needs channels that count electrons (got "
-                "\"all\", whose response is energy, allowed quantum; peak_quantum_efficiency makes it so)"),
-            std::string::npos)
+  EXPECT_NE(
+      loaded.text().find("/sensor/readout: error: a readout needs channels that count electrons (got \"all\" "
+                         "with an energy response, allowed quantum; peak_quantum_efficiency converts it)"),
+      std::string::npos)
       << loaded.text();
 }
 
@@ -88,7 +88,7 @@ TEST_F(ReadoutDescription, FaultsAreNamed) {
         std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "saturation_dn": 300})", "no code of 8 bits (got 300"},
         std::pair{R"({"gain_e_per_dn": 1, "bits": 8, "offset_dn": 9, "saturation_dn": 9})",
                   "offset_dn: error: expected a number (got 9, allowed [0, 9))"},
-        std::pair{R"({"gain_e_per_dn": 1, "iso": 100, "bits": 8})", "a gain or a speed that stands for one"},
+        std::pair{R"({"gain_e_per_dn": 1, "iso": 100, "bits": 8})", "a gain or an ISO speed"},
         std::pair{R"({"iso": 1, "bits": 8, "full_well_e": 10})",
                   "iso: error: the well of 10 electrons is full"},
         std::pair{R"(3)", "/sensor/readout: error: expected an object"}}) {
@@ -115,7 +115,7 @@ TEST_F(ReadoutDescription, DaylightThatEndsWithinWhatIsCountedIsToldOnceWhereItI
     EXPECT_TRUE(loaded.scene) << loaded.text();
     std::size_t told = 0;
     for (std::size_t at = 0;
-         (at = loaded.text().find("\"D55\" is 0 beyond its table", at)) != std::string::npos; ++at)
+         (at = loaded.text().find("\"D55\" is 0 outside its table", at)) != std::string::npos; ++at)
       ++told;
     return told;
   };

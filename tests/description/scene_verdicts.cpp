@@ -1,9 +1,9 @@
-// What the reader of scenes says of scenes, for another validator to compare with:
+// Prints the verdicts of the scene reader on scenes, for comparison with another validator:
 //
 //   scene_verdicts examples   writes the scenes of the tree and the guide's examples, each as a line of JSON
 //   scene_verdicts            answers each line of standard input, a scene, by "ok" or the first complaint
 //
-// Only what tables of fields say is asked for, not what building the scene finds, such as unknown names.
+// The verdict covers the key tables only, not errors found while building the scene, such as unknown names.
 #include <algorithm>
 #include <iostream>
 #include <memory>

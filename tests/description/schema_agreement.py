@@ -1,4 +1,4 @@
-"""Whether docs/scene.schema.json says what the reader of scenes does, by the validator of Debian's python3-jsonschema.
+"""Compares docs/scene.schema.json with the scene reader, by the validator of Debian's python3-jsonschema.
 
 schema_agreement.py SCENE_VERDICTS SCHEMA
 
@@ -35,7 +35,7 @@ samples = Samples(SCHEMA, draw)
 
 
 def walk(value, path=()):
-    """Every place in a JSON value, as its path and what stands there."""
+    """Yields every value within a JSON value, with its path."""
     yield path, value
     within = value.items() if isinstance(value, dict) else enumerate(value) if isinstance(value, list) else ()
     for key, inner in within:
@@ -43,7 +43,7 @@ def walk(value, path=()):
 
 
 def key_of(path):
-    """The last key on a path, by which numbers of an array go too."""
+    """The last key on a path; elements of an array have the key of the array."""
     return next((step for step in reversed(path) if isinstance(step, str)), "")
 
 
@@ -55,7 +55,7 @@ def run(*arguments, text=None):
     return subprocess.run([PROGRAM, *arguments], input=text, capture_output=True, text=True, check=True).stdout.splitlines()
 
 
-# The scenes; of each key its places, as the scene's number and the path, and its values there.
+# The scenes. For each key: where it occurs (number of the scene and path), and its values there.
 SCENES = [json.loads(line) for line in run("examples")]
 PLACES = collections.defaultdict(list)
 VALUES = collections.defaultdict(list)
@@ -65,7 +65,7 @@ for number, scene in enumerate(SCENES):
         VALUES[key_of(path)].append(value)
 KEYS = sorted(PLACES)
 
-# What the schema says of each object's keys, of a key wherever it stands, and of keys that exclude each other.
+# The schema's statements about the keys of each object, about a key wherever it occurs, and about mutually exclusive keys.
 OBJECTS = [dict((key, inner) for _, key, inner in members(node))
            for _, node in walk(SCHEMA) if isinstance(node, dict) and node.get("type") == "object"]
 NODES = collections.defaultdict(list)
@@ -83,7 +83,7 @@ def nearby(node):
     return bounds(node) + [bound for part in inner for bound in nearby(part)]
 
 
-# The mutations: of what stands `at` a key or index of `parent` in `scene`, whose key is `key`. False where one does not apply.
+# The mutations of the value `at` a key or index of `parent` in `scene`, whose key is `key`. They return False if they do not apply.
 def drop(parent, at, key, scene):
     del parent[at]
 
@@ -169,7 +169,7 @@ MUTATIONS = [drop, misspell, add_unknown_key, change_type, scale_number, go_to_b
 
 
 def mutant():
-    """A scene with one mutation, and its name; keys are drawn as often where they are rare."""
+    """A scene with one mutation, and its name; rare and frequent keys are drawn equally often."""
     mutation = draw.choice(MUTATIONS)
     while True:
         number, path = draw.choice(PLACES[draw.choice(KEYS)])
@@ -180,14 +180,14 @@ def mutant():
 
 
 def tell(kind, scene, verdict, validator):
-    """The two verdicts on a scene."""
+    """The verdicts of schema and reader on a scene."""
     error = jsonschema.exceptions.best_match(validator.iter_errors(scene))
     said = f"/{'/'.join(map(str, error.absolute_path))}: {error.message[:300]}" if error else "ok"
     print(f"{kind}: the reader says {verdict}\n  the schema says {said}\n  {json.dumps(scene)[:2000]}")
 
 
 def compare(cases, validator):
-    """How many cases of each kind there are, how many of them are valid and on how many both agree."""
+    """Numbers of cases of each kind: all, valid, and those on which both agree."""
     verdicts = run(text="".join(json.dumps(scene) + "\n" for _, scene in cases))
     figures = collections.defaultdict(collections.Counter)
     complaints = 0

@@ -1,4 +1,4 @@
-"""Values drawn from a JSON schema as io/schema/json_schema.cpp writes it, and a probe of each thing that it says."""
+"""Values drawn from a JSON schema as io/schema/json_schema.cpp writes it, and tests of each of its statements."""
 
 import itertools
 import math
@@ -7,17 +7,17 @@ OTHERS = [None, True, False, "x", "infinity", -1, 0, 0.5, 3, 1e13, 1e39, -1e39, 
 
 
 def bounds(node):
-    """The bounds of the numbers that a node takes."""
+    """The bounds of the numbers that a node accepts."""
     return [float(node[key]) for key in ("minimum", "exclusiveMinimum", "maximum", "exclusiveMaximum") if key in node]
 
 
 def around(bound):
-    """A bound, what is just beyond or within it, and what is further off."""
+    """Values at a bound, just outside and inside it, and farther away."""
     return [bound, math.nextafter(bound, math.inf), math.nextafter(bound, -math.inf), bound + 1, bound - 1, 2 * bound]
 
 
 def clauses(node, keys):
-    """What holds for an object with these keys: what they demand comes before the choice among them."""
+    """The clauses for an object with these keys: those that the keys require, then the choice among them."""
     for key, clause in node.get("dependentSchemas", {}).items():
         if key in keys:
             yield from clauses(clause, keys)
@@ -27,7 +27,7 @@ def clauses(node, keys):
 
 
 def alternatives(clause):
-    """The keys of each choice that a clause leaves, "key/inner" for one of the object under a key; none for the choice of none."""
+    """The keys of each choice that a clause allows, "key/inner" for a key of the object under a key; empty for the choice of none."""
     for choice in clause.get("oneOf", []) + clause.get("anyOf", []):
         under = [f"{key}/{inner}" for key, node in choice.get("properties", {}).items() for inner in node["required"]]
         yield choice.get("required", []) + under
@@ -38,13 +38,13 @@ def is_flat(keys):
 
 
 def element(node):
-    """What an object holds under names that the user chooses; None for one that has keys of its own."""
+    """The schema of the members whose names the user chooses; None for an object with fixed keys."""
     inner = node.get("additionalProperties")
     return inner if isinstance(inner, dict) else None
 
 
 def members(node, owners=()):
-    """The keys of an object: those that bring each about, the key and its schema."""
+    """The keys of an object: those that make each available, the key and its schema."""
     for key, inner in node.get("properties", {}).items():
         if inner is not True:
             yield owners, key, inner
@@ -55,7 +55,7 @@ def members(node, owners=()):
 
 
 class Samples:
-    """Draws from one schema with one generator of random numbers."""
+    """Draws values of one schema with one random number generator."""
 
     def __init__(self, schema, draw):
         self.schema = schema
@@ -65,7 +65,7 @@ class Samples:
         return self.schema["$defs"][node["$ref"].split("/")[-1]] if "$ref" in node else node
 
     def of(self, node):
-        """A value that a node takes."""
+        """A value that a node accepts."""
         node = self.resolved(node)
         if "enum" in node:
             return self.draw.choice(node["enum"])
@@ -99,7 +99,7 @@ class Samples:
         return [self.of(node["items"]) for _ in range(length)]
 
     def object(self, node, keys=(), flat=False):
-        """With these keys at least; if `flat` it is chosen to have keys rather than what is under them."""
+        """An object with at least these keys; `flat` allows only choices that demand nothing under a key."""
         if element(node):
             return {"a": self.of(element(node))}
         keys = dict.fromkeys(keys)
@@ -120,7 +120,7 @@ class Samples:
         return self.object(self.resolved(node), keys) if keys else self.of(node)
 
     def sites(self, node, wrap=lambda value: value, seen=None):
-        """Every node of the schema once, with what makes a whole of a value for it."""
+        """Every node of the schema once, with a function that embeds a value for it in a whole scene."""
         seen = set() if seen is None else seen
         if node.get("$ref") in seen:
             return
@@ -145,7 +145,7 @@ class Samples:
                 yield from self.sites(inner, place, seen)
 
     def probes(self, node):
-        """Values that a node takes and others that it does not, for each thing that it says."""
+        """Values that a node accepts and values that it rejects, for each of its statements."""
         yield from self.draw.sample(OTHERS, 3)
         yield from (value for bound in bounds(node) for value in around(bound))
         yield from (*node.get("enum", []), "unheard_of")
@@ -157,7 +157,7 @@ class Samples:
             yield from self.object_probes(node)
 
     def object_probes(self, node):
-        """Objects that lack a key, that have one more, and that have what excludes each other."""
+        """Objects that lack a key, that have an extra key, and that have mutually exclusive keys."""
         yield {**self.object(node), "unheard_of": 1}
         for owners, key, inner in members(node):
             whole = self.object(node, (*owners, key))

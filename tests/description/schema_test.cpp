@@ -79,20 +79,20 @@ TEST_F(SchemaTest, LightsSayTheirStrengthOnce) {
     EXPECT_EQ(load(R"({"lights": [{)" + light + "}]}").scene.has_value(), allowed) << light;
 }
 
-// Keys that tables name as text are keys of theirs.
+// Keys to which tables refer by name are keys of these tables.
 TEST_F(SchemaTest, TablesHoldTogether) {
   const auto has = [](const schema::Fields& fields, std::string_view key) {
     const auto keys = schema::keys_of(std::vector{&fields});
     return std::any_of(keys.begin(), keys.end(), [&](const schema::Key& known) { return known.name == key; });
   };
-  for (const schema::Place& place : schema::places_below(schema::fields_of<spec::Scene>())) {
-    for (const std::string_view path : place.thing->any_of)
-      EXPECT_TRUE(has(*place.thing, path.substr(0, path.find('/')))) << path;
-    for (const schema::Field& field : place.thing->fields)
-      if (const auto* group = std::get_if<schema::OneOf>(field.part.get()))
+  for (const schema::StructPath& place : schema::structs_below(schema::fields_of<spec::Scene>())) {
+    for (const std::string_view path : place.fields->any_of)
+      EXPECT_TRUE(has(*place.fields, path.substr(0, path.find('/')))) << path;
+    for (const schema::Field& field : place.fields->fields)
+      if (const auto* group = std::get_if<schema::OneOf>(field.content.get()))
         for (const schema::Choice& choice : group->choices)
-          if (!choice.inside) {
-            const auto& beside = std::get<schema::Thing>(choice.alternative.kind->of).fields();
+          if (!choice.nested) {
+            const auto& beside = std::get<schema::Struct>(choice.alternative.type->variant).fields();
             EXPECT_TRUE(has(beside, choice.key)) << choice.key;
             for (const std::string_view path : beside.any_of)
               EXPECT_TRUE(has(beside, path.substr(0, path.find('/')))) << path;
@@ -135,7 +135,7 @@ TEST_F(SchemaTest, ExamplesOfTheGuideLoad) {
   }
 }
 
-// What is written of a scene reads as the same, to the last digit.
+// A written scene reads back as the same scene, to the last digit.
 TEST_F(SchemaTest, ScenesSurviveBeingWritten) {
   const auto said = [](const std::string& text) {
     Diagnostics diagnostics;

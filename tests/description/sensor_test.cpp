@@ -90,11 +90,11 @@ TEST_F(SensorTest, AnInterferenceFilterReachesAsFarAsTheCameraLetsIt) {
       line(R"({"thin_lens": {"focal_length": 0.01, "f_number": 2, "focus_distance": "infinity"}, )" + at);
   ASSERT_TRUE(lens.scene) << lens.text();
   EXPECT_EQ(lens->fill_factor, 0.25);
-  EXPECT_TRUE(lens->needs.angular_response);
-  EXPECT_EQ(lens->needs.because.at("angular_response"), "channel \"line\"");
-  // The far corner, 2.5 mm from the axis, through the far edge of the opening of 2.5 mm radius. The ray
-  // through the lens centre has the cosine c there and the sine c/4. A sharp image of infinity adds c^3/4
-  // [Born1999, sec. 4.5], of which 1/4 is an upper bound.
+  EXPECT_TRUE(lens->features.angular_response);
+  EXPECT_EQ(lens->features.reasons.at("angular_response"), "channel \"line\"");
+  // The ray to the far corner, 2.5 mm from the axis, through the far edge of the aperture of 2.5 mm radius.
+  // The ray through the center of the lens has the cosine c there and the sine c/4. A sharp image of infinity
+  // adds c^3/4 [Born1999, sec. 4.5], of which 1/4 is an upper bound.
   const double c = std::cos(std::atan(0.25));
   const auto edge_at = [](double sine) { return 645 * blue_shift(std::sqrt(1 - sine * sine), 2.0); };
   const Curve& through_lens = envelope(lens->channels.at(0));
@@ -112,7 +112,7 @@ TEST_F(SensorTest, AnInterferenceFilterReachesAsFarAsTheCameraLetsIt) {
   ends_at(line(R"({"pinhole": {"focal_length": 0.01}, )" + at),
           645 * blue_shift(std::cos(std::atan(0.25)), 2.0));
   ends_at(line(R"({"irradiance_probe": {"at": [0, 0, 0], "normal": [0, 0, 1]}})"), 645 * std::sqrt(0.75));
-  EXPECT_FALSE(load("{}")->needs.angular_response);
+  EXPECT_FALSE(load("{}")->features.angular_response);
 }
 
 TEST_F(SensorTest, MosaicsNameTheirChannels) {
@@ -147,7 +147,7 @@ TEST_F(SensorTest, ATStopExposesAsALensWithoutLosses) {
   EXPECT_EQ(std::get<Pinhole>(lens(R"("pinhole": {"focal_length": 0.05})")).aperture_radius, 0.05 / 8);
 }
 
-// Whatever blades take: the f-number stays that of the circle, and T-stops tell how much light comes through.
+// Blades do not change the f-number, which is that of the circle; T-stops include the light they block.
 TEST_F(SensorTest, BladesLeaveTheFNumberAndCountInTheTStop) {
   const auto lens = [this](const std::string& members) {
     const Loaded loaded = load(R"({"camera": {"thin_lens": {"focal_length": 0.05, "blades": 5, )" + members +
@@ -159,7 +159,7 @@ TEST_F(SensorTest, BladesLeaveTheFNumberAndCountInTheTStop) {
   const ThinLens plain = lens(R"("f_number": 2)");
   EXPECT_DOUBLE_EQ(plain.aperture_radius, 0.0125);
   EXPECT_EQ(plain.transmittance, 1);
-  EXPECT_DOUBLE_EQ(plain.iris->share(), share);
+  EXPECT_DOUBLE_EQ(plain.iris->area_fraction(), share);
   const ThinLens both = lens(R"("f_number": 2, "t_stop": 2.5)");
   EXPECT_DOUBLE_EQ(both.aperture_radius, 0.0125);
   EXPECT_DOUBLE_EQ(both.transmittance * share, 0.64);
@@ -195,7 +195,7 @@ TEST_F(SensorTest, RefusesAndExplainsWhatIsWrong) {
        "/camera/pinhole/t_stop: error: expected a number (got 0, allowed [0.5, 1000000])"},
       {"18 a lens that amplifies",
        R"({"camera": {"thin_lens": {"focal_length": 0.1, "f_number": 4, "t_stop": 3.9}, )" + at + "}",
-       ErrorCode::scene, "a T-stop is no faster than its f-number (got 3.9, allowed [4, inf))"},
+       ErrorCode::scene, "a T-stop must not be faster than its f-number (got 3.9, allowed [4, inf))"},
       {"18 no stop at all", R"({"camera": {"thin_lens": {"focal_length": 0.1}, )" + at + "}",
        ErrorCode::scene, "missing key \"f_number\""},
       {"27 empty band", behind(R"({"band": [600, 600]})"), ErrorCode::scene,
@@ -229,18 +229,18 @@ TEST_F(SensorTest, RefusesAndExplainsWhatIsWrong) {
       {"unknown key", sensed(pixel + R"("channels": {"a": {"filters": [], "exposure": 1}})"),
        ErrorCode::scene, "did you mean \"exposure_s\"?"},
       {"an efficiency for a camera", sensed(pixel + R"("camera": "Nikon_D5100", "quantum_efficiency": 0.5)"),
-       ErrorCode::scene, "quantum_efficiency goes with channels (got camera, which has its own)"},
+       ErrorCode::scene, "quantum_efficiency is used with channels only (got camera)"},
       {"a response for an observer", sensed(pixel + R"("observer": 1931, "response": "quantum")"),
-       ErrorCode::scene, "response goes with channels (got observer, which has its own)"},
+       ErrorCode::scene, "response is used with channels only (got observer)"},
       {"an empty mosaic", mosaic("[]"), ErrorCode::scene,
        "expected an array of rows (got 0 of them, allowed [1, inf))"},
       {"an empty row", mosaic("[[]]"), ErrorCode::scene, "/sensor/mosaic/0: error: expected an array"},
       {"a ragged mosaic", mosaic(R"([["a", "b"], ["a"]])"), ErrorCode::scene,
-       "/sensor/mosaic/1: error: rows of a mosaic have one length (got 1, allowed 2)"},
+       "/sensor/mosaic/1: error: rows of a mosaic must have the same length (got 1, allowed 2)"},
       {"an unknown channel", mosaic(R"([["a", "c"]])"), ErrorCode::scene,
        "/sensor/mosaic/0/1: error: unknown channel \"c\""},
       {"a channel without pixels", mosaic(R"([["b"]])"), ErrorCode::scene,
-       "/sensor/mosaic: error: has no place for channel \"a\""},
+       "/sensor/mosaic: error: does not contain channel \"a\""},
       {"no names", mosaic("[[1]]"), ErrorCode::scene, "expected a string (got 1"},
   };
   expect_refused(faults);
@@ -260,7 +260,7 @@ TEST_F(SensorTest, APeakMakesQuantumEfficienciesOfAMeasuredCamera) {
   EXPECT_NEAR(greatest, 0.5, 1e-6);
   const auto red = load_curve("camera", "Nikon_D5100:R", {}, diagnostics)->curve;
   const auto blue = load_curve("camera", "Nikon_D5100:B", {}, diagnostics)->curve;
-  // An efficiency S/lambda for photons counts what the response S counts of energy.
+  // An efficiency S/lambda for photons records the same as the response S to energy.
   EXPECT_NEAR(camera->channels[0].weight(600) / camera->channels[2].weight(460), red(600) / blue(460), 1e-9);
 
   const Loaded own = load(sensed(
@@ -272,17 +272,16 @@ TEST_F(SensorTest, APeakMakesQuantumEfficienciesOfAMeasuredCamera) {
         << "one camera, said in two ways";
 }
 
-// Flat responses to energy S become efficiencies proportional to S/lambda, greatest at 420 nm.
+// Flat responses to energy S become efficiencies proportional to S/lambda, with the maximum at 420 nm.
 TEST_F(SensorTest, APeakScalesChannelsNamedAsTheObserversToo) {
-  const Loaded own = load(sensed(
-      R"("resolution": [1, 1], "peak_quantum_efficiency": 0.5,
+  const Loaded own = load(sensed(R"("resolution": [1, 1], "peak_quantum_efficiency": 0.5,
          "channels": {"X": {"band": [580, 650]}, "Y": {"band": [500, 600]}, "Z": {"band": [420, 490]}})"));
   ASSERT_TRUE(own.scene) << own.text();
   for (const Channel& channel : own->channels) EXPECT_EQ(channel.kind, ResponseKind::quantum);
   EXPECT_NEAR(own->channels[0].weight(600) * photon_energy(600), 0.5 * 420 / 600, 1e-9);
 }
 
-// What a pixel of G counts of an exposure of 1 lx s by daylight, through filter and lens, is what was said.
+// A G pixel counts the requested electrons in an exposure of 1 lx s of daylight through filter and lens.
 TEST_F(SensorTest, ElectronsInDaylightScaleAMeasuredCamera) {
   const std::string camera =
       R"("resolution": [1, 1], "pixel_pitch_um": 5, "fill_factor": 0.8, "camera": "Nikon_D5100",
@@ -301,16 +300,16 @@ TEST_F(SensorTest, ElectronsInDaylightScaleAMeasuredCamera) {
     EXPECT_NEAR(counted->channels[k].weight(560) / peaked->channels[k].weight(560), ratio, 1e-9 * ratio);
   expect_refused(
       {{"both", sensed(camera + R"("electrons_per_lx_s": 9000, "peak_quantum_efficiency": 0.5)"),
-        ErrorCode::scene, "says the scale that peak_quantum_efficiency says too; give one of them"},
+        ErrorCode::scene, "sets the same scale as peak_quantum_efficiency: give only one of them"},
        {"an efficiency", sensed(R"("resolution": [1, 1], "channels": {"a": 1}, "quantum_efficiency": 1,
                              "electrons_per_lx_s": 9000)"),
-        ErrorCode::scene, "electrons_per_lx_s goes without quantum_efficiency"},
+        ErrorCode::scene, "electrons_per_lx_s cannot be combined with quantum_efficiency"},
        {"more than photons", sensed(camera + R"("electrons_per_lx_s": 1e12)"), ErrorCode::scene,
-        "electrons of a photon (allowed up to 10)"},
+        "electrons per photon (allowed up to 10)"},
        {"nothing", sensed(camera + R"("electrons_per_lx_s": 0)"), ErrorCode::scene,
         "/sensor/electrons_per_lx_s"},
        {"an observer", sensed(R"("resolution": [1, 1], "observer": "1931", "electrons_per_lx_s": 1)"),
-        ErrorCode::scene, "electrons_per_lx_s goes with channels"}});
+        ErrorCode::scene, "electrons_per_lx_s is used with channels only"}});
 }
 
 TEST_F(SensorTest, AColumnOfAnyFolderIsACurve) {
@@ -355,7 +354,7 @@ TEST_F(SensorTest, TheSceneReplacesWhatAModelSays) {
   EXPECT_NE(plain->sha256, other->sha256);
 }
 
-// One scale in place of another, and the other way round.
+// Each of the two scales replaces the other.
 TEST_F(SensorTest, TheSceneReplacesTheScaleOfAModel) {
   constexpr const char* kFile = R"({{"title": "t", "source": "s", "status": "example", "sensor": {{
         "resolution": [1, 1], "camera": "Nikon_D5100", {},
@@ -390,9 +389,9 @@ TEST_F(SensorTest, FaultsOfModelsAreNamed) {
         "wrong.json:1:55: /sensor/pich: error: unknown key"},
        {"two efficiencies", sensed(R"("resolution": [1, 1], "channels": {"a": 1}, "quantum_efficiency": 1,
                              "peak_quantum_efficiency": 0.5)"),
-        ErrorCode::scene, "goes without quantum_efficiency"},
+        ErrorCode::scene, "cannot be combined with quantum_efficiency"},
        {"an observer", sensed(R"("resolution": [1, 1], "observer": "1931", "peak_quantum_efficiency": 1)"),
-        ErrorCode::scene, "peak_quantum_efficiency goes with channels"}});
+        ErrorCode::scene, "peak_quantum_efficiency is used with channels only"}});
 }
 
 }  // namespace

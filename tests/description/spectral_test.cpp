@@ -39,12 +39,12 @@ TEST_F(SpectralDescription, FaultsAreNamed) {
            {R"("spectral": {"from_nm": 200, "to_nm": 700, "step_nm": 10})", "(got 200, allowed [300, 1100])"},
            {R"("spectral": {"to_nm": 700, "step_nm": 10})", "missing key \"from_nm\""},
            {bins + R"(, "observer": "1931")",
-            "a sensor counts by one of channels, camera, observer and spectral (got"},
-           {bins + R"(, "quantum_efficiency": 0.5)", "quantum_efficiency goes with channels"},
-           {bins + R"(, "response": "energy")", "response goes with channels"},
-           {bins + R"(, "filters": [0.5])", "filters goes with channels"},
-           {bins + R"(, "lens_transmission": 0.5)", "lens_transmission goes with channels"},
-           {bins + R"(, "mosaic": [["405nm"]])", "mosaic goes with channels"},
+            "a sensor has one of channels, camera, observer and spectral (got"},
+           {bins + R"(, "quantum_efficiency": 0.5)", "quantum_efficiency is used with channels only"},
+           {bins + R"(, "response": "energy")", "response is used with channels only"},
+           {bins + R"(, "filters": [0.5])", "filters is used with channels only"},
+           {bins + R"(, "lens_transmission": 0.5)", "lens_transmission is used with channels only"},
+           {bins + R"(, "mosaic": [["405nm"]])", "mosaic is used with channels only"},
            {bins + R"(, "readout": {"gain_e_per_dn": 1, "bits": 8})", "channels that count electrons"}}) {
     const Loaded loaded = load(spectral_sensor(members));
     EXPECT_FALSE(loaded.scene) << members;

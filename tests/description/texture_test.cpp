@@ -23,7 +23,7 @@ const SampledSpectrum kWavelengths({400, 450, 500, 550, 600, 650, 700, 750});
 
 class TextureTest : public test::MeshFileTest {
  protected:
-  // The reflectance at (u, v) and each of those wavelengths of a material described so.
+  // Reflectance at (u, v), at each of the test wavelengths, of a material with this reflectance.
   SampledSpectrum reflectance(const std::string& json, const V2f& uv) {
     const Loaded loaded = load(painted(json));
     EXPECT_TRUE(loaded.scene) << loaded.text();
@@ -118,8 +118,8 @@ TEST_F(TextureTest, AlphaBesideColoursIsSaidNotToBeHeeded) {
     const Loaded loaded = load(painted(fmt::format(R"({{"image": "veil.exr", {}}})", of)));
     EXPECT_TRUE(loaded.scene) << loaded.text();
     return loaded.text().find(
-               "/reflectance/image: warning: texture \"veil.exr\": its alpha channel is not heeded: colours "
-               "are as the file has them") != std::string::npos;
+               "/reflectance/image: warning: texture \"veil.exr\": its alpha channel is ignored, and colours "
+               "are used as stored") != std::string::npos;
   };
   EXPECT_TRUE(warns(0.5F, R"("rgb": true)"));
   EXPECT_FALSE(warns(1, R"("rgb": true)"));
@@ -127,7 +127,7 @@ TEST_F(TextureTest, AlphaBesideColoursIsSaidNotToBeHeeded) {
 }
 
 TEST_F(TextureTest, PicturesStandUprightAsTheirFilesSay) {
-  // A row of two from the right, 0.25 and 0.5, of which the second is to be on the left.
+  // A row of two texels stored from the right, 0.25 and 0.5; the second must appear on the left.
   write(folder_ / "mirrored.hdr",
         "#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 -X 2\n\x80\x80\x80\x7f\x80\x80\x80\x80");
   const std::string texture = R"({"image": "mirrored.hdr", "weights": {"R": 1}, "filter": "nearest"})";
@@ -139,8 +139,8 @@ TEST_F(TextureTest, ColoursAreSaidToHaveNoSpectrum) {
   const Loaded loaded = load(painted(R"({"image": "photo.exr", "rgb": true})"));
   ASSERT_TRUE(loaded.scene) << loaded.text();
   EXPECT_NE(
-      loaded.text().find("/reflectance/image: warning: texture \"photo.exr\": red, green and blue have no "
-                         "spectrum: the smooth one that looks so under D65 stands in for what was there"),
+      loaded.text().find("/reflectance/image: warning: texture \"photo.exr\": RGB values do not determine a "
+                         "spectrum: the smooth spectrum of the same colour under D65 is used"),
       std::string::npos)
       << loaded.text();
 }
@@ -176,12 +176,12 @@ TEST_F(TextureTest, SlightExcessIsCut) {
   const Loaded loaded = load(painted(R"({"image": "over.exr", "weights": {"a": 1}})"));
   ASSERT_TRUE(loaded.scene) << loaded.text();
   EXPECT_NE(loaded.text().find("texel (1, 0) reflects 1.0005 at"), std::string::npos) << loaded.text();
-  EXPECT_NE(loaded.text().find("cut to [0, 1]"), std::string::npos) << loaded.text();
+  EXPECT_NE(loaded.text().find("clamped to [0, 1]"), std::string::npos) << loaded.text();
   EXPECT_EQ(load(painted(R"({"image": "paint.exr", "weights": {"a": 1}})")).text().find("texture"),
             std::string::npos);
 }
 
-// Only some texels reach 1 in one channel, and none in the sum.
+// Some texels reach 1 in one channel, but none does in the sum.
 TEST_F(TextureTest, ExcessIsToldTexelByTexel) {
   EXPECT_TRUE(load(painted(R"({"image": "paint.exr", "weights": {"a": 1, "b": 1}})")).scene);
   EXPECT_TRUE(load(painted(R"({"image": "paint.exr", "weights": {"a": 0.9, "b": -0.45}})")).scene);
@@ -224,7 +224,7 @@ TEST_F(TextureTest, FaultsAreRefused) {
           "/reflectance/image: error: "}});
 }
 
-// v of OBJ runs upwards, that of glTF downwards.
+// v of OBJ increases upwards, that of glTF downwards.
 TEST_F(TextureTest, MeshFilesBringCoordinates) {
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nvt 0 0\nvt 1 0 0\nvt 1 0.5\n";
   const Loaded obj = load_mesh("a.obj", corners + "f 1/1 2/2 3/3 4/-1\n");
@@ -258,7 +258,7 @@ TEST_F(TextureTest, CoordinatesThatNobodyNeedsAreNotKept) {
   const Loaded plain = load_mesh("a.obj", obj, "0.5");
   ASSERT_TRUE(plain.scene) << plain.text();
   EXPECT_TRUE(std::get<Mesh>(plain->shapes.at(0).shape).coordinates.empty());
-  EXPECT_FALSE(plain->needs.textures);
+  EXPECT_FALSE(plain->features.textures);
   const Loaded mapped = load_mesh("a.obj", obj);
   EXPECT_FALSE(mapped.scene);
   EXPECT_NE(mapped.text().find("line 5: texture coordinates need two finite numbers (got oops)"),

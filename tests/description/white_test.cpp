@@ -13,8 +13,8 @@
 namespace abbe {
 namespace {
 
-// Printed chromaticities of fluorescent lamps are sums over 5 nm, and those of daylight and of A are sums
-// over a wider range, so that sums of every nanometre differ by up to 3e-4.
+// Printed chromaticities of fluorescent lamps are sums at steps of 5 nm; those of daylight and of A are sums
+// over a wider range. Sums at 1 nm differ by up to 3e-4.
 constexpr double kPrinted = 3.5e-4;
 
 std::optional<White> white_of_json(const std::string& text, const WhiteNames& names,
@@ -23,7 +23,7 @@ std::optional<White> white_of_json(const std::string& text, const WhiteNames& na
   return json ? read_white(*json, names, diagnostics) : std::nullopt;
 }
 
-// CIE 15:2018 and CIE 15:2004 print them for both standard observers.
+// CIE 15:2018 and CIE 15:2004 print these values for both standard observers.
 TEST(White, EveryNamedIlluminantHasThePrintedChromaticity) {
   const ReferenceTable table("white_points");
   EXPECT_GE(table.rows(), 60U);

@@ -15,7 +15,7 @@
 #include "tests/develop/films.h"
 #include "tests/sensor/bayer.h"
 
-// Development of mosaics in all four Bayer phases, from the film and from its raw files.
+// Develops mosaics in all four Bayer phases, from the film and from its raw files.
 
 namespace abbe {
 namespace {
@@ -25,7 +25,7 @@ constexpr std::array<float, 3> kElectrons{4000, 16000, 36000};
 constexpr int kBayerWidth = 7;
 constexpr int kBayerHeight = 5;
 
-// A film of an even field whose red, green and blue pixels expect `kElectrons`; its area is 1e-10 m^2.
+// A uniform film whose red, green and blue pixels expect `kElectrons`; their area is 1e-10 m^2.
 Image even_film(const Mosaic& mosaic) {
   Image film = test::counting_film();
   film.width = kBayerWidth;
@@ -43,7 +43,7 @@ Image even_film(const Mosaic& mosaic) {
   return film;
 }
 
-// Each plane is even, to 5 standard deviations of the photon noise of its least electrons (8 %).
+// Each plane is uniform within 5 standard deviations of the photon noise at its smallest signal (8 %).
 void expect_even(const Image& planes, double scale, const std::string& what) {
   ASSERT_EQ(planes.channels.size(), 3U) << what;
   for (std::size_t channel = 0; channel < 3; ++channel) {
@@ -57,7 +57,7 @@ void expect_even(const Image& planes, double scale, const std::string& what) {
 
 ExposedFilm exposed_film(const Image& film) {
   Diagnostics diagnostics;
-  std::optional<FilmSensor> sensor = film_sensor(film, "bayer.exr", {}, {}, {}, diagnostics);
+  std::optional<FilmSensor> sensor = read_film_sensor(film, "bayer.exr", {}, {}, {}, diagnostics);
   EXPECT_TRUE(sensor) << diagnostics.text();
   return {film, *std::move(sensor)};
 }

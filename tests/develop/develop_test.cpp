@@ -22,7 +22,7 @@ using test::counting_film;
 
 ExposedFilm exposed(const std::vector<Override>& overrides = {}, const Image& film = counting_film()) {
   Diagnostics diagnostics;
-  return {film, film_sensor(film, "a.exr", overrides, {}, {}, diagnostics).value()};
+  return {film, read_film_sensor(film, "a.exr", overrides, {}, {}, diagnostics).value()};
 }
 
 TEST(Develop, StepsFollowOneAnother) {
@@ -32,7 +32,7 @@ TEST(Develop, StepsFollowOneAnother) {
   EXPECT_FLOAT_EQ(developed.electrons.channels.front().values[0], 400);
   EXPECT_FLOAT_EQ(developed.electrons.channels.front().values[1], 900);
   const ImageChannel& codes = *developed.codes.find("V");
-  for (std::size_t i = 0; i < 2; ++i)  // gain 1, 0.02 electrons of dark
+  for (std::size_t i = 0; i < 2; ++i)  // gain 1, dark signal 0.02 electrons
     EXPECT_FLOAT_EQ(developed.calibrated.find("V")->values[i], (codes.values[i] - 0.02F) / 1e-10F);
   EXPECT_NEAR(codes.values[1], 900, 6 * std::sqrt(900.0));
 }
@@ -52,18 +52,18 @@ TEST(Develop, FiguresAreMeansAndRootsOfMeanSquares) {
   EXPECT_NEAR(figures[0].mean, 650, 1e-3);
   EXPECT_NEAR(figures[0].render_error.value(), std::sqrt(2e22) * 1e-10, 1e-5);
   EXPECT_NEAR(figures[0].noise.photon_e, std::sqrt(650.0), 1e-3);
-  EXPECT_EQ(figures[0].saturated_share, 0.5);
+  EXPECT_EQ(figures[0].saturated_fraction, 0.5);
 }
 
 TEST(Develop, AnErrorThatTheFilmDoesNotKnowIsNotTold) {
   ExposedFilm film = exposed();
   film.film.metadata["frame_mean_error"] = "inf";
   EXPECT_FALSE(plane_figures(film.sensor, develop(film, 7))[0].render_error);
-  expose_to(film, FlatFrame{});
+  replace_with_frame(film, FlatFrame{});
   EXPECT_EQ(plane_figures(film.sensor, develop(film, 7))[0].render_error, 0) << "a frame of no render";
 }
 
-// Of a bare lamp, whose values single precision holds, but not their squares.
+// The value of a directly visible light fits single precision, but its square does not.
 TEST(Develop, AnErrorWhoseSquareSinglePrecisionDoesNotHoldIsNotTold) {
   Image lamp = counting_film();
   lamp.channels[1].values[1] = std::numeric_limits<float>::infinity();
@@ -93,7 +93,7 @@ TEST(Develop, WithoutAReadOutTheExposureIsAll) {
   EXPECT_NEAR(figures[0].render_error.value(), std::sqrt(2e22), 1e5);
 }
 
-// Whatever noise a full well is read with.
+// Saturation is white whatever the readout noise.
 TEST(Develop, WhatIsSaturatedIsShownAsWhite) {
   constexpr std::size_t kPixels = 200;
   Image film = counting_film();
@@ -113,8 +113,8 @@ TEST(Develop, WhatIsSaturatedIsShownAsWhite) {
     EXPECT_EQ(plane.values, std::vector<float>(kPixels, plane.values[0])) << plane.name;
 }
 
-// A third is white light beyond saturation, a third orange light that fills the red channel alone, a third
-// grey. The orange is brighter in red than any neutral.
+// A third of the pixels is white light above saturation, a third orange light that saturates only red, a
+// third grey. The orange is brighter in red than any neutral.
 TEST(Develop, SaturatedWhiteIsWhiteBesideBrightColours) {
   constexpr std::size_t kPixels = 300;
   Image film = counting_film();
@@ -134,7 +134,7 @@ TEST(Develop, SaturatedWhiteIsWhiteBesideBrightColours) {
   film.metadata.erase("display_exposure");
   const ExposedFilm shot = exposed({}, film);
   const Image planes = display_planes(shot.sensor, develop(shot, 7).calibrated);
-  const double white = shown_as_white(shot.sensor, planes);
+  const double white = display_white(shot.sensor, planes);
   const Image picture = (*shot.sensor.display)(planes, 1 / white).image;
   for (const ImageChannel& plane : picture.channels) {
     EXPECT_NEAR(plane.values[50], 1, 2e-3) << plane.name;
@@ -148,13 +148,13 @@ TEST(Develop, SaturatedWhiteIsWhiteBesideBrightColours) {
 TEST(Develop, AFrameOfNoSceneHasNoErrorOfARender) {
   ExposedFilm film = exposed();
   film.film.metadata["frame_mean_error"] = "0.001";
-  expose_to(film, DarkFrame{});
+  replace_with_frame(film, DarkFrame{});
   EXPECT_FALSE(film.film.metadata.contains("frame_mean_error"));
 }
 
 TEST(Develop, AnEvenFrameTellsTheShareOfSaturationThatItHas) {
   ExposedFilm film = exposed();
-  expose_to(film, FlatFrame{0.25});
+  replace_with_frame(film, FlatFrame{0.25});
   const auto told = [&film] { return develop(film, 7).codes.metadata.at("frame"); };
   EXPECT_EQ(told(), "flat, 0.25 of saturation");
   Diagnostics diagnostics;
@@ -166,7 +166,7 @@ TEST(Develop, AnEvenFrameTellsTheShareOfSaturationThatItHas) {
 
 TEST(Develop, ABiasFrameDevelopsAgainInNoTime) {
   ExposedFilm bias = exposed();
-  expose_to(bias, BiasFrame{});
+  replace_with_frame(bias, BiasFrame{});
   const DevelopedFilm developed = develop(bias, 7);
   bias.film.metadata = developed.exposure.metadata;
   ExposedFilm again = exposed({}, bias.film);
@@ -203,26 +203,27 @@ TEST(Develop, BlackIsTheExpectedDarkSignal) {
   expose_for(film, 0.02, diagnostics);
   EXPECT_EQ(told(), "100");
   EXPECT_EQ(raw_picture(develop(film, 7), film.sensor).black_level_dn, 100);
-  expose_to(film, DarkFrame{});
+  replace_with_frame(film, DarkFrame{});
   EXPECT_EQ(told(), "100");
-  EXPECT_FALSE(own_dark_signals(film.sensor));
+  EXPECT_FALSE(unequal_dark_signals_warning(film.sensor));
   EXPECT_EQ(diagnostics.text(), "");
-  expose_to(film, BiasFrame{});
+  replace_with_frame(film, BiasFrame{});
   EXPECT_EQ(told(), "50");
 }
 
 TEST(Develop, DarkSignalsThatDifferAreNotInTheBlackLevelAndWarnedOf) {
   const ExposedFilm film = exposed({{"/readout/offset_dn", "50"}}, test::mosaic_film());
   EXPECT_EQ(develop(film, 7).codes.metadata.at("black_level_dn"), "50");
-  EXPECT_EQ(own_dark_signals(film.sensor),
-            "channels of exposure times of their own have dark signals of their own (of 5e+03 to 5e+04 "
-            "codes), which the black level of raw files leaves out");
+  EXPECT_EQ(
+      unequal_dark_signals_warning(film.sensor),
+      "channels with different exposure times have different dark signals (5e+03 to 5e+04 DN): the black "
+      "level of raw files does not include them");
   ExposedFilm cooled = film;
   cooled.sensor.readout->dark_e_per_s = 0;
-  EXPECT_FALSE(own_dark_signals(cooled.sensor));
+  EXPECT_FALSE(unequal_dark_signals_warning(cooled.sensor));
 }
 
-// Where all channels have one time of their own, that is the film's: the sensor's is nobody's.
+// If all channels have the same exposure time, it is the film's, and the sensor's is not used.
 TEST(Develop, ATimeIsThatOfAllChannelsWhereTheySayTheSame) {
   Image film = counting_film();
   film.metadata["exposure_s"] = "1";
@@ -267,7 +268,7 @@ TEST(Develop, FilesTellWhatTheyAreShownBy) {
   EXPECT_EQ(own.exposure.metadata.at("to_xyz_d65"), film.metadata.at("to_xyz_d65"));
   Diagnostics diagnostics;
   const Chromaticity a{0.44758, 0.40745};
-  ExposedFilm asked{film, film_sensor(film, "a.exr", {}, {}, a, diagnostics).value()};
+  ExposedFilm asked{film, read_film_sensor(film, "a.exr", {}, {}, a, diagnostics).value()};
   asked.sensor.white_name = "A";
   asked.sensor.display_exposure = 5e12;
   const DevelopedFilm developed = develop(asked, 7);
@@ -317,9 +318,8 @@ std::string warned_of(const std::string& shutter, double seconds) {
 
 TEST(Develop, AnotherTimeThanAShutterThatTakesItsOwnIsWarnedOf) {
   const std::string warning =
-      "--exposure-s: warning: the film's motion blur is that of its own exposure time of 0.01 s, and its "
-      "shutter "
-      "opens, closes and delays rows in the same shares of the new one\n";
+      "--exposure-s: warning: motion blur remains that of the film's own exposure time of 0.01 s; the "
+      "opening, closing and row delay of the shutter are scaled with the exposure time\n";
   for (const char* shape : {R"("rise_s": 0.002)", R"("fall_s": 0.002)", R"("row_delay_s": 0.0002)",
                             R"("transmission": [[0, 0], [1, 1]])"})
     EXPECT_EQ(warned_of(std::string("{") + shape + "}", 0.02), warning) << shape;

@@ -12,7 +12,7 @@ using test::counting_film;
 
 std::optional<FilmSensor> sensor_of(const Image& film, const std::vector<Override>& overrides,
                                     Diagnostics& diagnostics) {
-  return film_sensor(film, "a.exr", overrides, {}, {}, diagnostics);
+  return read_film_sensor(film, "a.exr", overrides, {}, {}, diagnostics);
 }
 
 TEST(FilmSensor, ArisesFromTheMetadata) {
@@ -40,9 +40,10 @@ TEST(FilmSensor, OverridesReachTheReadOutAlone) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ErrorCode::usage);
-    EXPECT_STREQ(error.what(),
-                 "--set: the film was rendered with it (got /exposure_s, allowed /readout and below, "
-                 "/output/white)");
+    EXPECT_STREQ(
+        error.what(),
+        "--set: the render has already used this value (got /exposure_s, allowed /readout and keys below it, "
+        "/output/white)");
   }
 }
 
@@ -53,7 +54,7 @@ TEST(FilmSensor, FaultsOfTheReadOutAreReportedWhereTheyStand) {
   EXPECT_NE(diagnostics.text().find("allowed [1, 16]"), std::string::npos) << diagnostics.text();
 }
 
-// A film of Stokes vectors shows its intensities, and has nothing that a read-out could count.
+// A film of Stokes vectors displays its intensities. Its other planes cannot be read out.
 TEST(FilmSensor, OfStokesVectorsCountsTheirIntensities) {
   Image film = counting_film();
   film.metadata["sensor_channels"] = "V,S1.V,S2.V,S3.V";
@@ -70,7 +71,7 @@ TEST(FilmSensor, OfStokesVectorsCountsTheirIntensities) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ErrorCode::input);
-    EXPECT_STREQ(error.what(), "a.exr: its plane \"S3.V\" has a sign, and no electrons to read out");
+    EXPECT_STREQ(error.what(), "a.exr: plane \"S3.V\" has signed values, not electrons to read out");
   }
 }
 

@@ -4,7 +4,7 @@
 
 namespace abbe::test {
 
-/// A film of two electron-counting pixels, 400 and 900 electrons of area 1e-10 m^2, as a render writes it.
+/// A rendered film of two electron-counting pixels of area 1e-10 m^2, with 400 and 900 electrons.
 inline Image counting_film() {
   Image film{2, 1, {}, {}};
   film.channels = {{"V", {4e12F, 9e12F}}, {"Variance.V", {1e22F, 3e22F}}};
@@ -19,8 +19,8 @@ inline Image counting_film() {
   return film;
 }
 
-/// A film of two dark pixels under filters, of which the first has ten times the sensor's exposure; their
-/// dark current is 1e4 electrons per s.
+/// A film of two dark pixels under filters; the first has ten times the sensor's exposure time. The dark
+/// current is 1e4 electrons/s.
 inline Image mosaic_film() {
   Image film = counting_film();
   film.channels = {{"raw", {0, 0}}, {"Variance.raw", {0, 0}}};

@@ -25,9 +25,8 @@ const std::vector<XYZ>& colors() {
   return kColors;
 }
 
-// X, Y, Z of a chart whose cells fill a parallelogram, in a grey room; patches take 0.88 of their cells'
-// edges and a black frame the rest. Light falls off to half from the left to the right, with noise of 1 % of
-// white.
+// X, Y, Z of a chart in a grey room, with cells that fill a parallelogram. Patches take 0.88 of the cells'
+// edges, a black frame the rest. Light falls off to half from left to right, with noise of 1 % of white.
 Image picture_of_chart(const Corners& corners) {
   const Imath::V2d across = corners[1] - corners[0];
   const Imath::V2d down = corners[3] - corners[0];

@@ -59,12 +59,12 @@ TEST(LinearImage, AFlatTakesVignettingAway) {
         << "each channel keeps its own mean";
     EXPECT_NEAR(patch.channels[0].mean, patches[0].channels[0].mean, 1e-3);
     EXPECT_LT(patch.channels[0].deviation.value(), 1e-3);
-    EXPECT_EQ(patch.channels[0].pixels, 6U * 12);  // of 12 by 12 in the middle 0.6 of 20 by 20
+    EXPECT_EQ(patch.channels[0].pixels, 6U * 12);  // 12 by 12 in the center: 0.6 of 20 by 20
   }
   EXPECT_EQ(refusal([&] { flat_field(image, image_of(60, 39, falloff, kStripes), "f.exr"); }),
-            "f.exr: the flat has other pixels (got 60 x 39, allowed 60 x 40)");
+            "f.exr: the flat has a different size (got 60 x 39, allowed 60 x 40)");
   EXPECT_EQ(refusal([&] { flat_field(image, image_of(60, 40, falloff), "f.exr"); }),
-            "f.exr: the flat has other channels or another mosaic (got raw, allowed the mosaic R,G)");
+            "f.exr: the flat has different channels or a different mosaic (got raw, allowed the mosaic R,G)");
   EXPECT_EQ(refusal([&] {
               flat_field(image,
                          image_of(
@@ -91,7 +91,7 @@ TEST(LinearImage, PatchesCountTheirOwnPixelsAndWhatIsSaturated) {
 
 TEST(ChartCorners, PerspectiveIsSeen) {
   const std::vector<std::string> names{"a", "b", "c", "d"};
-  // A square on a floor, down in the picture where it is near; its middle is where its diagonals cross.
+  // A square on a floor, lower in the picture where it is nearer. Its center is where the diagonals cross.
   const std::array<Imath::V2d, 4> floor{Imath::V2d(-50, 0), {50, 0}, {100, 100}, {-100, 100}};
   const auto outlines = outlines_between(floor, std::vector<std::string>{"all"}, 1);
   const Imath::V2d a = outlines[0].corners[2] - outlines[0].corners[0];
@@ -105,7 +105,7 @@ TEST(ChartCorners, PerspectiveIsSeen) {
             std::string::npos);
 }
 
-// What stands beside the planes of a film is not measured, and its mosaic stays one.
+// Planes other than the film's own are not measured, and a mosaic remains one.
 TEST(LinearImage, OfAFilmItsPlanesAlone) {
   const fs::path path = fs::path(testing::TempDir()) / ("abbe_planes_" + std::to_string(::getpid()) + ".exr");
   write_exr(path, {2,
@@ -124,7 +124,7 @@ TEST(LinearImage, OfAFilmItsPlanesAlone) {
   fs::remove(capitals);
 }
 
-// A 2 x 2 sensor whose codes a response curve bends, under filters that a FITS has no letters of its own for.
+// A 2 x 2 sensor with a nonlinear response curve, under filters that have no letters in FITS.
 RawPicture curved_picture() {
   Readout readout;
   readout.bits = 12;
@@ -176,7 +176,7 @@ TEST(LinearImage, OfARawFileOfAnyKindIsTheSame) {
   fs::remove_all(folder);
 }
 
-// Black between two codes, as dark signals have it, which tags would round.
+// Black between two codes, as with dark signals, which tags would round.
 TEST(LinearImage, BlackIsTheSameInEveryKindOfRawFile) {
   const fs::path folder = fs::path(testing::TempDir()) / ("abbe_black_" + std::to_string(::getpid()));
   fs::create_directories(folder);
@@ -202,7 +202,7 @@ TEST(LinearImage, BlackIsTheSameInEveryKindOfRawFile) {
   fs::remove_all(folder);
 }
 
-// Black between two codes makes of every code a number that is rounded, up or down.
+// Black between two codes makes rounded numbers of all codes.
 TEST(LinearImage, TheCodeOfWhiteIsSaturatedWhateverBlackIs) {
   const fs::path path = fs::path(testing::TempDir()) / ("abbe_white_" + std::to_string(::getpid()) + ".tif");
   for (int tenths = 0; tenths < 10; ++tenths) {
@@ -225,7 +225,7 @@ TEST(LinearImage, TheCodeOfWhiteIsSaturatedWhateverBlackIs) {
   fs::remove(path);
 }
 
-// A TIFF of four planes whose fourth a tag calls alpha: 1, which colours are multiplied by, or 2.
+// A TIFF of four planes whose fourth is tagged as alpha: 1 for associated, 2 for unassociated.
 LinearImage with_alpha(const Image& codes, std::uint16_t alpha) {
   constexpr std::uint16_t kExtraSamples = 338;
   const fs::path path = fs::path(testing::TempDir()) / ("abbe_alpha_" + std::to_string(::getpid()) + ".tif");
@@ -256,7 +256,7 @@ TEST(LinearImage, APlaneOfTheSensorIsNoAlpha) {
       << "a file to which another program has given an alpha channel";
 }
 
-// The gain doubles what the sensor has, also above its white level, and halves nothing's being saturated.
+// The gain doubles values, also above the white level, but does not change which pixels are saturated.
 TEST(LinearImage, OpcodesOfADngChangeValuesButNotWhatIsSaturated) {
   constexpr std::uint16_t kWriter = 305;
   const fs::path path =
@@ -327,7 +327,7 @@ TEST(LinearImage, APixelThatIsNoNumberIsRefused) {
       std::filesystem::temp_directory_path() / ("abbe_nan_" + std::to_string(::getpid()) + ".pfm");
   std::ofstream(path, std::ios::binary) << "Pf\n2 1\n-1.0\n" << std::string("\0\0\0\0\0\0\xc0\x7f", 8);
   EXPECT_EQ(refusal([&] { (void)read_linear_image(path); }),
-            path.string() + ": channel \"Y\" holds no number at pixel 1,0 (got nan)");
+            path.string() + ": channel \"Y\" has a value that is not finite at pixel 1,0 (got nan)");
   std::filesystem::remove(path);
 }
 
@@ -340,7 +340,7 @@ TEST(LinearImage, APictureIsMeasuredAsItStandsInItsFile) {
   std::filesystem::remove(path);
 }
 
-// What a damaged strip unpacks to may be anything; the sensor's codes may not.
+// A damaged strip may decode to any number, but a sensor can only give its codes.
 TEST(LinearImage, ACodeThatTheSensorCannotGiveIsRefused) {
   const auto path =
       std::filesystem::temp_directory_path() / ("abbe_codes_" + std::to_string(::getpid()) + ".tif");
@@ -357,7 +357,7 @@ TEST(LinearImage, ACodeThatTheSensorCannotGiveIsRefused) {
   write_raw_picture(path, raw);
   EXPECT_EQ(refusal([&] { (void)read_linear_image(path); }),
             path.string() +
-                ": damaged, or of another sensor than it says: channel \"raw\" holds the code 4096 at "
+                ": damaged, or from another sensor than it declares: channel \"raw\" has code 4096 at "
                 "pixel 1,1 (allowed 0 to 4095)");
   std::filesystem::remove(path);
 }

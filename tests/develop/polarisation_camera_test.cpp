@@ -11,7 +11,7 @@
 namespace abbe {
 namespace {
 
-// What four polarisers, of which one leaks and counts twice as much, see of one light.
+// Film of one light under four polarisers, of which one leaks and counts twice as much.
 Image film_of_polarisers(int width, int height) {
   const double i = 4;
   const double q = -1;
@@ -38,7 +38,7 @@ void expect_the_light(const Image& stokes) {
     EXPECT_NEAR(told[1], -1, 1e-5) << pixel;
     EXPECT_NEAR(told[2], 2, 1e-5) << pixel;
     EXPECT_EQ(told[3], 0);
-    EXPECT_FALSE(planes[0].tells_circular());
+    EXPECT_FALSE(planes[0].has_circular());
   }
 }
 

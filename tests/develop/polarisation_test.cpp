@@ -10,7 +10,7 @@
 namespace abbe {
 namespace {
 
-// Red light swings upright, green light is twice as much and swings flat.
+// Red light is polarised vertically; green light is twice as strong and polarised horizontally.
 Image colours() {
   Image film{1, 1, {}, {{"sensor_channels", "R,G,B,S1.R,S1.G,S1.B,S2.R,S2.G,S2.B,S3.R,S3.G,S3.B"}}};
   for (const char* name :
@@ -51,7 +51,7 @@ TEST(PolarisationOfFilms, WeighsChannelsAsTheEyeDoes) {
   EXPECT_EQ(seen.angle_deg, 90);
 }
 
-// The eye sees two of the four bands.
+// Two of the four bands are visible.
 TEST(PolarisationOfFilms, LooksAtRadiances) {
   SpectralImage image{1, 1, {{500, {1}}, {600, {1}}, {1060, {100}}, {1080, {100}}}, {}, {}};
   for (std::size_t i = 0; i < 3; ++i)
@@ -72,8 +72,8 @@ TEST(PolarisationOfFilms, NeedsAFilmThatMeasuresIt) {
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ErrorCode::usage);
     EXPECT_STREQ(error.what(),
-                 "--stokes: the film does not measure polarisation: sensor/stokes of a scene makes it, or "
-                 "polarisers of three angles far enough apart");
+                 "--stokes: the film does not measure polarisation: set sensor/stokes in the scene, or use "
+                 "polarisers at three sufficiently different angles");
   }
 }
 

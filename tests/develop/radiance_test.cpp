@@ -35,7 +35,8 @@ TEST(Radiance, ASensorLooksThroughItsExposure) {
                                {"exposure_s", "1"}, {"frame_mean_error", "inf"}, {"seed", "7"}}));
 }
 
-// Else the sensor's pictures would be shown by candelas, its raw files tell of a lens that it never had.
+// Otherwise the sensor's pictures would be scaled by candelas, and its raw files would record a lens that it
+// does not have.
 TEST(Radiance, AFilmTellsOfItsOwnSensorAlone) {
   SpectralImage image = green();
   for (const char* key :
@@ -53,7 +54,7 @@ TEST(Radiance, AFilmTellsOfItsOwnSensorAlone) {
                                                 {"white", "sun"}}));
 }
 
-// What the film says of its error is of its bands, and of no sensor that looks at it.
+// The recorded error of the film is that of its bands, not of a sensor exposed to them.
 TEST(Radiance, TheErrorOfABandIsNoSensors) {
   SpectralImage bands = green();
   for (const SpectralBand& of : green().bands)
@@ -72,7 +73,7 @@ TEST(Radiance, LightThatTheImageLacksIsToldOrRefused) {
   (void)exposed_film(green(), {{band("V", 550, 650)}, {}, {1}, {}}, "a.exr", diagnostics);
   EXPECT_EQ(
       diagnostics.text(),
-      "a.exr: warning: covers 500 to 600 nm only, where 50 % of the response of channel \"V\" is not\n");
+      "a.exr: warning: covers only 500 to 600 nm, but 50 % of the response of channel \"V\" lies outside\n");
   try {
     (void)exposed_film(green(), {{band("V", 650, 700)}, {}, {1}, {}}, "a.exr", diagnostics);
     FAIL();

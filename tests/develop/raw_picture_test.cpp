@@ -20,8 +20,8 @@ Curve light(const std::string& name) {
   return load_illuminant(name, {}, diagnostics).value().curve;
 }
 
-// A camera whose responses are the observer's, mixed by `kFromXyz`: the color matrix of its DNG is that
-// matrix.
+// A camera whose responses are the observer's, mixed by `kFromXyz`, so that this is the color matrix of its
+// DNG.
 std::vector<Channel> mixed_observer() {
   const std::vector<Channel> xyz = observer_channels(Observer::cie1931);
   std::vector<Channel> camera;
@@ -76,7 +76,7 @@ TEST(RawPicture, TellsTheCameraInTheFilmsOwnLight) {
   }
 }
 
-// No eye adapts to a spectral line: what it lights is shown as it looks in daylight, and told so.
+// Adaptation to a spectral line is impossible: its light is displayed and recorded as under daylight.
 TEST(RawPicture, TellsDaylightWhereNoEyeAdapts) {
   const Chromaticity sodium = chromaticity(lines(std::vector<SpectralLine>{{589.3, 1, 1}}));
   const RawPicture raw = picture_in(light("D65"), sodium);
@@ -101,7 +101,7 @@ TEST(RawPicture, MatricesOfACalibrationTakeTheirPlace) {
   EXPECT_TRUE(raw.neutral);
 }
 
-// A raw file has room for one exposure.
+// A raw file records a single exposure time.
 TEST(RawPicture, TellsTheExposureOfAllChannelsAlone) {
   FilmSensor sensor;
   sensor.planes = sensor.channels = {"R", "G"};

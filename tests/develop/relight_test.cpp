@@ -13,7 +13,7 @@
 namespace abbe {
 namespace {
 
-// Two pixels of two planes, lit by two lights.
+// Two pixels of two planes, illuminated by two lights.
 Image film_of_two_lights() {
   return {2,
           1,
@@ -68,11 +68,12 @@ TEST(Relight, AllAlikeTheVarianceIsTheFilms) {
   EXPECT_NEAR(values(image, "Variance.R")[1], 4 * 0.25, 1e-6);
 }
 
-// Deviations of R in the first pixel are 0.2, 0.1 and 0.1 of film, key and sun: both together twice each.
+// Deviations of R in the first pixel are 0.2, 0.1 and 0.1 for film, key and sun.
 TEST(Relight, ElseItIsTheLeastBound) {
-  // |w| 0.2 + |1 - w| 0.1 + |0 - w| 0.1 is 0.1 at w = 0: the key alone.
+  // The minimum of |w| 0.2 + |1 - w| 0.1 + |0 - w| 0.1 is 0.1 at w = 0: the key alone.
   EXPECT_NEAR(values(relit({{"sun", {0}}}), "Variance.R")[0], 0.01, 1e-6);
-  // In the second, 0.5, 0.4 and 0.3: of key and 1.1 sun at w = 1 0.5 + 0.03, at 1.1 0.55 + 0.04, at 0 0.73.
+  // In the second pixel they are 0.5, 0.4 and 0.3. For key and 1.1 sun: 0.5 + 0.03 at w = 1, 0.55 + 0.04 at
+  // 1.1, 0.73 at 0.
   EXPECT_NEAR(values(relit({{"sun", {1.1}}}), "Variance.R")[1], 0.53 * 0.53, 1e-6);
 }
 
@@ -88,7 +89,7 @@ TEST(Relight, AnInfiniteVarianceCountsWhereItsLightDoes) {
   EXPECT_EQ(values(whole, "Variance.R")[0], kInfinite);
 }
 
-// Files keep channels by the alphabet, factors come in the order of the sensor.
+// Files order channels by name; factors are in the order of the sensor.
 TEST(Relight, FactorsAreThoseOfTheSensorsChannels) {
   Image image{
       1,
@@ -102,7 +103,8 @@ TEST(Relight, FactorsAreThoseOfTheSensorsChannels) {
   EXPECT_EQ(image.metadata.at("relit"), "key=10,1,0");
 }
 
-// Bands count by wavelength; the preview follows a light that is dimmed, and goes with one that is coloured.
+// Bands are in order of wavelength. The preview follows a light with one factor, and is removed for one with
+// several.
 TEST(Relight, OfSpectralFilmsBandsAreWeighed) {
   const std::string blue = spectral_channel(450);
   const std::string infrared = spectral_channel(1050);
@@ -138,7 +140,7 @@ std::string relight_refusal(Image image, const std::vector<LightFactor>& factors
 
 TEST(Relight, RefusesWhatTheFilmDoesNotHave) {
   EXPECT_EQ(relight_refusal(film_of_two_lights(), {{"moon", {1}}}),
-            "--light: the film has no layer of it (got \"moon\", allowed key, sun)");
+            "--light: the film has no layer of this light (got \"moon\", allowed key, sun)");
   EXPECT_EQ(relight_refusal(film_of_two_lights(), {{"sun", {1, 2, 3}}}),
             "--light: got 3 factors of \"sun\", allowed 1, or 2 for the planes of the film");
   EXPECT_EQ(relight_refusal(film_of_two_lights(), {{"sun", {1}}, {"sun", {2}}}),
@@ -147,11 +149,11 @@ TEST(Relight, RefusesWhatTheFilmDoesNotHave) {
   std::erase_if(lost.channels,
                 [](const ImageChannel& channel) { return channel.name.starts_with("light."); });
   EXPECT_EQ(relight_refusal(lost, {{"sun", {1}}}),
-            "--light: the film has lost its layers of lights: take the one that render made");
+            "--light: the film no longer has its layers of lights: use the rendered film");
   Image bounces = film_of_two_lights();
   bounces.metadata[kLayersKey] = "bounce0,bounce1plus";
   EXPECT_EQ(relight_refusal(bounces, {{"sun", {1}}}),
-            "--light: the film has no layers of lights: render --layers lights makes them");
+            "--light: the film has no layers of lights: render it with --layers lights");
 }
 
 }  // namespace

@@ -38,7 +38,7 @@ TEST(WhiteField, FlatteningDividesByTheResponseAtTheDistance) {
   const auto value = [&](std::size_t k, std::size_t x, std::size_t y) {
     return static_cast<double>(planes.channels[k].values[8 * y + x]);
   };
-  // The pixel at 4.5, 3.5 is half a pixel from the axis in both directions; the corner is 5 pixels from it.
+  // The pixel at 4.5, 3.5 is half a pixel from the center in both directions; the corner is 5 pixels away.
   const double near = std::hypot(0.5, 0.5) / 5;
   EXPECT_NEAR(value(0, 4, 3), 1 / (1 - 0.05 * 2 * near), 1e-6);
   const double far = std::hypot(3.5, 2.5) / 5;  // in the outer of the two steps
@@ -49,13 +49,14 @@ TEST(WhiteField, FlatteningDividesByTheResponseAtTheDistance) {
 }
 
 TEST(WhiteField, ATintIsWarnedOfAndADimmingIsNot) {
-  const Matrix3 to_xyz(0.41, 0.36, 0.18, 0.21, 0.72, 0.07, 0.02, 0.12, 0.95);  // sRGB, roughly
+  const Matrix3 to_xyz(0.41, 0.36, 0.18, 0.21, 0.72, 0.07, 0.02, 0.12, 0.95);  // approximately sRGB
   EXPECT_LT(neutral_shift({{{1, 1, 1}, {0.5, 0.5, 0.5}}}, to_xyz), 1e-9);
   const double shift = neutral_shift(kTinted, to_xyz);
   EXPECT_GT(shift, 5);
   EXPECT_EQ(neutral_shift({{{0.8, 1, 1.1}, {1, 1, 1}}}, to_xyz), shift) << "wherever it is";
-  EXPECT_FALSE(tinted_corners(1, ""));
-  EXPECT_NE(tinted_corners(2.34, "so be it").value().find("by up to 2.3 ΔE00: so be it"), std::string::npos);
+  EXPECT_FALSE(field_tint_warning(1, ""));
+  EXPECT_NE(field_tint_warning(2.34, "so be it").value().find("by up to 2.3 ΔE00: so be it"),
+            std::string::npos);
 }
 
 TEST(WhiteField, IsReadFromTheFilmAndDividesPicturesOnRequest) {
@@ -70,7 +71,7 @@ TEST(WhiteField, IsReadFromTheFilmAndDividesPicturesOnRequest) {
   film.metadata[kWhiteFieldKey] = to_text(kTinted);
   const auto sensor = [&film] {
     Diagnostics diagnostics;
-    return film_sensor(film, "a.exr", {}, {}, {}, diagnostics).value();
+    return read_film_sensor(film, "a.exr", {}, {}, {}, diagnostics).value();
   };
   FilmSensor shown = sensor();
   ASSERT_TRUE(shown.white_field);

@@ -28,7 +28,7 @@ equal "exit code without the module of pictures" "$code" 4
 contains "message without the module" "$message" "the module that reads and writes pictures does not load: abbe_pictures-"
 [ -s "$scratch/film.exr" ] || fail "no film without the module"
 message=$("$program" measure "$scratch/film.exr" --chart colorchecker24_after_nov2014 --corners find 2>&1) || true
-contains "message without the module" "$message" "the module that finds charts, which Abbe has where it was built with OpenCV, does not load: abbe_charts-"
+contains "message without the module" "$message" "the chart detector, which is part of Abbe if it was built with OpenCV, does not load: abbe_charts-"
 
 # What the tables here say is what it says, and without them it says so; it cannot know the source tree's.
 sed -i 's/SCHOTT Zemax catalog/moved tables/' "$data/glass/dielectrics.csv"

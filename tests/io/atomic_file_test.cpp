@@ -68,7 +68,7 @@ TEST(AtomicFile, WritesNamesAsLongAsFileSystemsTake) {
   EXPECT_NE(companion_stem(std::string(240, 'x') + "1"), companion_stem(std::string(240, 'x') + "2"));
   const fs::path longer = folder / (std::string(252, 'x') + exr);
   EXPECT_EQ(output_error([&] { require_writable(longer); }),
-            longer.string() + ": has a longer name than the file system takes");
+            longer.string() + ": the name is longer than the file system allows");
 }
 
 TEST(AtomicFile, WritesWhereLinksLead) {
@@ -82,7 +82,7 @@ TEST(AtomicFile, WritesWhereLinksLead) {
   EXPECT_TRUE(fs::is_symlink(folder / "link"));
   fs::create_symlink("loop", folder / "loop");
   EXPECT_EQ(output_error([&] { write_atomically(folder / "loop", "x"); }),
-            (folder / "loop").string() + ": is a circle of links");
+            (folder / "loop").string() + ": is a cycle of symbolic links");
 }
 
 // As an owner without the rights of root, who may do all.

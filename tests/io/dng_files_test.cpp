@@ -73,13 +73,12 @@ TEST(Dng, PicturesThatAreNotRawAreRefused) {
     file.set_short(tag, as, value);
     return refusal_of(file.bytes);
   };
-  EXPECT_EQ(
-      told(kSubfileType, kSubfileType, 1),
-      ": it holds no raw picture (got NewSubfileType 1 and PhotometricInterpretation 32803 first, allowed 0 "
-      "and 32803 or 34892, or such a picture among its SubIFDs)");
+  EXPECT_EQ(told(kSubfileType, kSubfileType, 1),
+            ": no raw picture in the file (got NewSubfileType 1 and PhotometricInterpretation 32803 first, "
+            "allowed 0 "
+            "and 32803 or 34892, or such a picture among its SubIFDs)");
   EXPECT_NE(told(kPhotometric, kPhotometric, 2).find("PhotometricInterpretation 2 first"), std::string::npos);
-  EXPECT_EQ(told(kWriter, kLayout, 2),
-            ": the filters of its mosaic are staggered (got CFALayout 2, allowed 1)");
+  EXPECT_EQ(told(kWriter, kLayout, 2), ": the mosaic filters are staggered (got CFALayout 2, allowed 1)");
 }
 
 // As most converters write them.
@@ -92,7 +91,7 @@ TEST(Dng, TheRawPictureBehindAPreviewIsRead) {
   EXPECT_EQ(read.black_level_dn, 16);
   test::TiffEntries two_previews = raw_file();
   two_previews.set_short(kSubfileType, kSubfileType, 1);
-  EXPECT_NE(refusal_of(behind_a_preview(two_previews).bytes).find("it holds no raw picture"),
+  EXPECT_NE(refusal_of(behind_a_preview(two_previews).bytes).find("no raw picture in the file"),
             std::string::npos);
 }
 
@@ -101,8 +100,8 @@ TEST(Dng, CompressionThatIsNotReadIsToldAsSuch) {
   test::TiffEntries file = raw_file();
   file.set_short(kCompression, kCompression, 34892);  // of lossy JPEG
   EXPECT_EQ(refusal_of(file.bytes),
-            ": its raw picture is damaged, or compressed as is not read here (got Compression 34892); a raw "
-            "converter can make an uncompressed DNG of it");
+            ": the raw picture is damaged or has an unsupported compression (got Compression 34892); convert "
+            "it to an uncompressed DNG with a raw converter");
 }
 
 // The file of one row with an opcode list of that tag.
@@ -163,10 +162,9 @@ TEST(DngOpcodes, MandatoryOnesThatAreNotAppliedAreRefusedByName) {
                                  {13U, "ScalePerColumn"},
                                  {99U, "number 99"}}) {
     EXPECT_EQ(opcode_refusal(test::kOpcodeList3, test::opcode_list(id, parameters)),
-              ": it requires corrections that are not made here (got the mandatory opcode " +
-                  std::string(name) +
-                  " of OpcodeList3, allowed GainMap and MapPolynomial); a raw converter can make a linear "
-                  "picture of it");
+              ": a mandatory correction is not supported (got the opcode " + std::string(name) +
+                  " of OpcodeList3, allowed GainMap and MapPolynomial); convert the file to a linear picture "
+                  "with a raw converter");
     const RawPicture read = with_opcodes(test::kOpcodeList3, test::opcode_list(id, parameters, true));
     ASSERT_EQ(read.opcodes.size(), 1U);
     EXPECT_EQ(read.opcodes[0].name, name);
@@ -178,13 +176,13 @@ TEST(DngOpcodes, MandatoryOnesThatAreNotAppliedAreRefusedByName) {
 TEST(DngOpcodes, DamagedListsAreRefused) {
   const std::string sound = test::gain_map({1, 3});
   EXPECT_EQ(opcode_refusal(test::kOpcodeList2, sound.substr(0, sound.size() - 1)),
-            ": its OpcodeList2 is damaged: it ends within an opcode");
+            ": OpcodeList2 is damaged: it ends within an opcode");
   std::string larger = sound;
   larger.at(sound.size() - 49) = 9;  // the last byte of the number of rows
   EXPECT_EQ(opcode_refusal(test::kOpcodeList2, larger),
-            ": its OpcodeList2 is damaged: a GainMap has another size than it states");
+            ": OpcodeList2 is damaged: a GainMap does not have the declared size");
   EXPECT_EQ(opcode_refusal(test::kOpcodeList1, test::map_polynomial({1, std::nan("")})),
-            ": its OpcodeList1 is damaged: a number is not finite");
+            ": OpcodeList1 is damaged: a number is not finite");
 }
 
 }  // namespace

@@ -114,7 +114,7 @@ TEST(Fits, PixelsWithoutAValueAreRefused) {
     FAIL() << "a pixel has no value";
   } catch (const Error& error) {
     EXPECT_EQ(error.what(),
-              path.string() + ": pixels have no value (they hold its BLANK, allowed a code in each)");
+              path.string() + ": pixels are undefined (they hold the value BLANK; every pixel needs a code)");
   }
 }
 
@@ -139,7 +139,7 @@ TEST(Fits, TheFirstImageWithPixelsIsRead) {
     (void)read_raw_picture(path);
     FAIL() << "there is none";
   } catch (const Error& error) {
-    EXPECT_EQ(error.what(), path.string() + ": no FITS image, or a damaged one");
+    EXPECT_EQ(error.what(), path.string() + ": not a FITS image, or damaged");
   }
 }
 

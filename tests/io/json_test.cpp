@@ -17,14 +17,14 @@ JsonValue parsed(const std::string& text) {
 TEST(Json, ReadsEveryKindWithCommentsAndTrailingCommas) {
   const JsonValue root =
       parsed("// c\n{\"a\": [1.5, -2e3, true, false, null,], /* c */ \"b\": {\"s\": \"\\u00e9\\n\"},}");
-  ASSERT_EQ(root.kind(), "an object");
+  ASSERT_EQ(root.type_name(), "an object");
   const auto& a = std::get<JsonValue::Array>(root.find("a")->value);
   ASSERT_EQ(a.size(), 5U);
   EXPECT_EQ(std::get<double>(a[0].value), 1.5);
   EXPECT_EQ(std::get<double>(a[1].value), -2000);
   EXPECT_TRUE(std::get<bool>(a[2].value));
   EXPECT_FALSE(std::get<bool>(a[3].value));
-  EXPECT_EQ(a[4].kind(), "null");
+  EXPECT_EQ(a[4].type_name(), "null");
   EXPECT_EQ(std::get<std::string>(root.find("b")->find("s")->value), "é\n");
   EXPECT_EQ(root.find("c"), nullptr);
   EXPECT_EQ(a[0].find("x"), nullptr);
@@ -110,9 +110,8 @@ TEST(JsonFaults, GrammarNamesWhatWasExpected) {
   EXPECT_EQ(complaint("[1 2]"), "a.json:1:4: error: expected ',' or ']' (got 2)\n[1 2]\n   ^\n");
   EXPECT_EQ(complaint("[nul]"), "a.json:1:2: error: expected a value (got nul)\n[nul]\n ^\n");
   EXPECT_EQ(complaint("[λ]"), "a.json:1:2: error: expected a value (got λ)\n[λ]\n ^\n");
-  EXPECT_EQ(
-      complaint("[\"\\x\"]"),
-      "a.json:1:3: error: expected a printable character or an escape JSON knows (got \\)\n[\"\\x\"]\n  ^\n");
+  EXPECT_EQ(complaint("[\"\\x\"]"),
+            "a.json:1:3: error: expected a printable character or a JSON escape (got \\)\n[\"\\x\"]\n  ^\n");
   EXPECT_EQ(complaint("[1.]"),
             "a.json:1:4: error: expected a digit after the decimal point (got ])\n[1.]\n   ^\n");
 }

@@ -73,7 +73,7 @@ TEST(PictureColors, AreThoseOfAProfileInAnyFile) {
     write_pixel(path, with_profile(profile));
     EXPECT_EQ(told_by(path), std::string("sRGB|") + kP3Text + "|Display P3") << name;
   }
-  EXPECT_EQ(told_with({}).substr(0, 5), "tone ") << "without any of its tags";
+  EXPECT_EQ(told_with({}).substr(0, 16), "unsupported tone") << "without any of its tags";
 }
 
 TEST(PictureColors, AreEncodedByTheCurvesOfAProfile) {
@@ -91,7 +91,7 @@ TEST(PictureColors, AreEncodedByTheCurvesOfAProfile) {
         std::lround(65535 * (code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4)))));
   }
   EXPECT_EQ(encoding_with(curve_tag(table)), "sRGB");
-  const std::string other = "tone curves or primaries of another kind";
+  const std::string other = "unsupported tone curves or primaries";
   EXPECT_EQ(encoding_with(parametric_tag(3, {1 / 0.45, 1 / 1.099, 0.099 / 1.099, 1 / 4.5, 0.081})), other)
       << "of Rec.709";
   EXPECT_EQ(encoding_with(parametric_tag(2, {2.2, 1, 0, 0.1})), other) << "with black at 0.1";
@@ -109,9 +109,9 @@ TEST(PictureColors, OfProfilesWithoutThreePrimariesAreUnknown) {
   ProfileTags table = sound;
   table.emplace_back("A2B0", std::string(32, '\0'));
   for (const ProfileTags& tags : {uneven, lacking})
-    EXPECT_TRUE(told_with(tags).starts_with("tone curves or primaries of another kind|"));
-  EXPECT_TRUE(told_with(table).starts_with("tables of colours or L*a*b*|"));
-  EXPECT_TRUE(told_with({{"kTRC", curve}}, "GRAY").starts_with("tone curves")) << "of grey";
+    EXPECT_TRUE(told_with(tags).starts_with("unsupported tone curves or primaries|"));
+  EXPECT_TRUE(told_with(table).starts_with("colour lookup tables or L*a*b*|"));
+  EXPECT_TRUE(told_with({{"kTRC", curve}}, "GRAY").starts_with("unsupported tone curves")) << "of grey";
 }
 
 TEST(PictureColors, OfGreyNeedNoPrimaries) {
@@ -143,8 +143,10 @@ TEST(PictureColors, OfDamagedProfilesAreUnknown) {
   };
   EXPECT_TRUE(told("rXYZ", 0, "rXYZ").starts_with("Linear|"));
   for (const char* const tag : {"rXYZ", "rTRC"})
-    EXPECT_TRUE(told(tag, 8, std::string(4, '\0')).starts_with("tone curves")) << tag << " of no length";
-  EXPECT_TRUE(told("curv", 8, "\x7F\xFF\xFF\xFF").starts_with("tone curves")) << "of many numbers";
+    EXPECT_TRUE(told(tag, 8, std::string(4, '\0')).starts_with("unsupported tone curves"))
+        << tag << " of no length";
+  EXPECT_TRUE(told("curv", 8, "\x7F\xFF\xFF\xFF").starts_with("unsupported tone curves"))
+      << "of many numbers";
 }
 
 std::string chunk(const std::string& type, const std::string& data) {
@@ -173,7 +175,7 @@ TEST(PictureColors, OfPngsAreThoseOfTheirChunks) {
   write_raw_picture(path, image);
   EXPECT_EQ(told(chunk("cICP", {1, 13, 0, 1})), "sRGB||");
   write_raw_picture(path, image);
-  EXPECT_EQ(told(chunk("iCCP", std::string("p\0\0damaged", 10))), "a profile that is not read||");
+  EXPECT_EQ(told(chunk("iCCP", std::string("p\0\0damaged", 10))), "an ICC profile that cannot be read||");
 }
 
 /// What is told by a PNG of one pixel that OpenImageIO writes, with those chunks.
@@ -208,7 +210,7 @@ TEST(PictureColors, OfPngsAreNotThoseOfChunksThatReadersLeaveOut) {
   const std::string profile = chunk("iCCP", std::string("p\0\0damaged", 10));
   EXPECT_EQ(told_with_chunks(chunk("sRGB", {0}) + profile), "sRGB||");
   EXPECT_EQ(told_with_chunks(profile, 1), "sRGB||") << "of grey";
-  EXPECT_EQ(told_with_chunks(profile), "a profile that is not read||");
+  EXPECT_EQ(told_with_chunks(profile), "an ICC profile that cannot be read||");
   EXPECT_EQ(told_with_chunks(primaries_chunk({0, 0, 0, 0, 0, 0, 0, 0})), "sRGB||");
   EXPECT_EQ(told_with_chunks(primaries_chunk({31270, 32900})), "sRGB||");
   EXPECT_EQ(told_with_chunks(primaries_chunk({31270, 32900, 0xFFFFFFFBU, 33000, 30000, 60000, 15000, 6000})),
@@ -231,9 +233,9 @@ TEST(PictureColors, OfJpegsWithoutAllOfTheirProfileAreUnknown) {
   };
   const auto segment = [](char count) { return std::string("ICC_PROFILE\0\1", 13) + count; };
   EXPECT_TRUE(told(segment(1) + profile).ends_with("|p"));
-  EXPECT_EQ(told(segment(2) + profile.substr(0, 200)), "a profile that is not read||");
-  EXPECT_EQ(told(segment(2) + profile.substr(0, 200), "\xFF\xFF"), "a profile that is not read||");
-  EXPECT_EQ(told(segment(1)), "a profile that is not read||") << "of no bytes";
+  EXPECT_EQ(told(segment(2) + profile.substr(0, 200)), "an ICC profile that cannot be read||");
+  EXPECT_EQ(told(segment(2) + profile.substr(0, 200), "\xFF\xFF"), "an ICC profile that cannot be read||");
+  EXPECT_EQ(told(segment(1)), "an ICC profile that cannot be read||") << "of no bytes";
   EXPECT_EQ(told("MPF and more of that"), "sRGB||");
 }
 
@@ -338,7 +340,7 @@ TEST(PictureColors, OfWebpsWithAProfileAreUnknown) {
   const std::string extended = "WEBPVP8X" + little_endian<std::uint32_t>({10, 0x20}) + std::string(6, '\0') +
                                "ICCP" + little_endian<std::uint32_t>({4}) + "none" + pixels;
   put(path, "RIFF" + little_endian<std::uint32_t>({static_cast<std::uint32_t>(extended.size())}) + extended);
-  EXPECT_EQ(told_by(path), "a profile that is not read||");
+  EXPECT_EQ(told_by(path), "an ICC profile that cannot be read||");
 }
 
 // Of a display with the primaries of P3 and a gamma of 2.6, and of one that nobody knows.

@@ -220,7 +220,7 @@ TEST(Picture, ARawTiffHoldsAnyNumberOfPlanes) {
       ADD_FAILURE() << planes;
     } catch (const Error& error) {
       EXPECT_EQ(error.code, ErrorCode::output);
-      EXPECT_NE(std::string(error.what()).find("allowed any number in a .tif"), std::string::npos);
+      EXPECT_NE(std::string(error.what()).find("a .tif stores any number"), std::string::npos);
     }
   }
   EXPECT_FALSE(std::filesystem::exists(folder / "a.png"));
@@ -287,11 +287,11 @@ TEST(Picture, IsTurnedUprightAsItsFileSays) {
     const Image stored = read_image(path);
     EXPECT_EQ(rows_of(stored), "012/345") << orientation;
     EXPECT_EQ(stored.metadata.contains(kOrientation), orientation > 1) << orientation;
-    const Image turned = upright(stored);
+    const Image turned = apply_orientation(stored);
     EXPECT_EQ(rows_of(turned), upright_rows.at(static_cast<std::size_t>(orientation) - 1)) << orientation;
     EXPECT_FALSE(turned.metadata.contains(kOrientation)) << orientation;
   }
-  EXPECT_EQ(rows_of(upright({2, 1, {{"Y", {0, 1.0F / 255}}}, {{kOrientation, "9"}}})), "01");
+  EXPECT_EQ(rows_of(apply_orientation({2, 1, {{"Y", {0, 1.0F / 255}}}, {{kOrientation, "9"}}})), "01");
 }
 
 /// A Radiance picture of grey pixels, each this many parts of 128.
@@ -317,7 +317,7 @@ TEST(Picture, OfRadianceIsTurnedUprightAsItsResolutionSays) {
       stored += picture[3 * y + x];
     }
     put(path, radiance_file("", axes, stored));
-    const Image turned = upright(read_image(path));
+    const Image turned = apply_orientation(read_image(path));
     ASSERT_EQ(turned.width, 3) << axes;
     for (std::size_t i = 0; i < 6; ++i)
       EXPECT_EQ(turned.channels[0].values[i], static_cast<std::uint8_t>(picture[i]) / 128.0F) << axes << i;
@@ -340,9 +340,9 @@ TEST(Picture, OfRadianceIsWhatItsLinesSay) {
   EXPECT_FALSE(read("GAMMA=1.0\nPRIMARIES=0 0 0 0 0 0 0 0\n").metadata.contains(kPrimariesKey));
   for (const auto& [line, said] :
        {std::pair("GAMMA=2.2", "values are not linear (got \"GAMMA=2.2\", allowed GAMMA=1)"),
-        {"EXPOSURE=0", "pixels were multiplied by (got \"EXPOSURE=0\", allowed > 0)"},
-        {"EXPOSURE=bright", "numbers expected (got \"EXPOSURE=bright\", allowed 1)"},
-        {"PRIMARIES=.64 .33", "numbers expected (got \"PRIMARIES=.64 .33\", allowed 8)"}})
+        {"EXPOSURE=0", "factors of the pixels must be positive (got \"EXPOSURE=0\", allowed > 0)"},
+        {"EXPOSURE=bright", "wrong count of numbers (got \"EXPOSURE=bright\", allowed 1)"},
+        {"PRIMARIES=.64 .33", "wrong count of numbers (got \"PRIMARIES=.64 .33\", allowed 8)"}})
     try {
       static_cast<void>(read(std::string(line) + "\n"));
       ADD_FAILURE() << line;

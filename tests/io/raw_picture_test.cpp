@@ -163,8 +163,7 @@ TEST(Dng, BlackLevelsThatDifferAreRefused) {
   file.set_number(second + 4, 1);
   EXPECT_EQ(
       refusal_of(path, file.bytes),
-      path.string() +
-          ": filters or planes have a black level of their own (got from 64 to 65, allowed one for all)");
+      path.string() + ": filters or planes differ in their black level (got 64 to 65, allowed one value)");
 }
 
 TEST(Dng, FiltersOfOtherColoursAreRefused) {
@@ -175,11 +174,13 @@ TEST(Dng, FiltersOfOtherColoursAreRefused) {
   file.set_longs(kPattern, {0, 1, 1, 3});
   EXPECT_EQ(refusal_of(path, file.bytes),
             path.string() +
-                ": its mosaic has filters other than red, green and blue (got number 3, allowed 0 to 2)");
+                ": the mosaic has filters other than red, green and blue (got number 3, allowed 0 to 2)");
   file.set_longs(kPattern, {0, 1, 1});
-  EXPECT_EQ(refusal_of(path, file.bytes), path.string() + ": it does not tell the pattern of its mosaic");
+  EXPECT_EQ(refusal_of(path, file.bytes),
+            path.string() + ": the mosaic pattern is missing (CFARepeatPatternDim, CFAPattern)");
   file.set_short(kRepeatPatternDim, kSoftware, 0);
-  EXPECT_EQ(refusal_of(path, file.bytes), path.string() + ": it does not tell the pattern of its mosaic");
+  EXPECT_EQ(refusal_of(path, file.bytes),
+            path.string() + ": the mosaic pattern is missing (CFARepeatPatternDim, CFAPattern)");
 }
 
 TEST(Dng, RowsAndColumnsHaveNoBlackLevelOfTheirOwn) {
@@ -191,8 +192,8 @@ TEST(Dng, RowsAndColumnsHaveNoBlackLevelOfTheirOwn) {
     return refusal_of(path, file.bytes);
   };
   const std::string refusal = path.string() +
-                              ": rows or columns have a black level of their own (BlackLevelDeltaV or "
-                              "BlackLevelDeltaH; allowed one for all)";
+                              ": rows or columns differ in their black level (BlackLevelDeltaV or "
+                              "BlackLevelDeltaH; allowed one value)";
   for (const std::uint16_t tag : {kBlackLevelDeltaH, kBlackLevelDeltaV}) {
     EXPECT_EQ(with(tag, {0, 0, 0}), "accepted") << tag;
     EXPECT_EQ(with(tag, {0, 0, 3}), refusal) << tag;
@@ -215,7 +216,7 @@ TEST(Dng, OnlyTheActiveAreaIsRead) {
   EXPECT_EQ(lit.codes, (std::vector<std::uint16_t>{6, 7, 8, 10, 11, 12}));
   EXPECT_EQ(lit.mosaic, raw.mosaic);
   file.set_longs(kActiveArea, {1, 1, 3, 5});
-  EXPECT_EQ(refusal_of(path, file.bytes), path.string() + ": its ActiveArea is no part of it");
+  EXPECT_EQ(refusal_of(path, file.bytes), path.string() + ": the ActiveArea is not inside the image");
 }
 
 TEST(Dng, CodesThatAreFloatsAreRefused) {
@@ -224,7 +225,7 @@ TEST(Dng, CodesThatAreFloatsAreRefused) {
   const auto path = test_folder() / "a.dng";
   EXPECT_EQ(
       refusal_of(path, file.bytes),
-      path.string() + ": its raw picture has no whole numbers without sign (got SampleFormat 3, allowed 1)");
+      path.string() + ": the raw picture is not stored as unsigned integers (got SampleFormat 3, allowed 1)");
 }
 
 std::string bytes_of_fits(const RawPicture& raw) {
@@ -290,10 +291,9 @@ TEST(Fits, APatternIsReadInSmallLettersAndRefusedIfItIsUnknown) {
   const std::string bytes = bytes_of_fits(raw);
   EXPECT_EQ(read_fits_bytes(with_card(bytes, "BAYERPAT", "BAYERPAT= 'bggr    '")).mosaic,
             (std::vector<std::uint8_t>{2, 1, 1, 0}));
-  EXPECT_EQ(refusal_of(path, with_card(bytes, "BAYERPAT", "BAYERPAT= 'CYGM    '")),
-            path.string() +
-                ": BAYERPAT is no pattern of two by two filters R, G and B (got \"CYGM\", allowed "
-                "as \"RGGB\")");
+  EXPECT_EQ(
+      refusal_of(path, with_card(bytes, "BAYERPAT", "BAYERPAT= 'CYGM    '")),
+      path.string() + ": BAYERPAT is not a 2 x 2 pattern of R, G and B (got \"CYGM\", for example \"RGGB\")");
   RawPicture own = raw;
   own.channels = {"M", "G", "Y"};
   own.metadata = {{"mosaic", "M,G/G,Y"}};
@@ -308,8 +308,8 @@ TEST(Fits, APedestalBelowZeroIsRefused) {
   EXPECT_EQ(read_fits_bytes(bytes).black_level_dn, 0.5);
   EXPECT_EQ(refusal_of(path, with_card(bytes, "PEDESTAL", "PEDESTAL=               -100.0")),
             path.string() +
-                ": PEDESTAL is below 0, which programs mean differently (got -100, allowed the code "
-                "of no light, 0 or more)");
+                ": PEDESTAL is negative, which programs interpret differently (got -100, allowed the code "
+                "without light, 0 or more)");
 }
 
 // Channels have letters, digits, - and _ in their names.

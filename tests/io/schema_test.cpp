@@ -16,12 +16,12 @@ namespace abbe::test {
 namespace {
 
 using schema::at_most_one;
-using schema::beside;
 using schema::describe;
 using schema::field;
 using schema::Fields;
+using schema::inlined;
+using schema::inlined_by;
 using schema::Json;
-using schema::lent;
 using schema::Located;
 using schema::Named;
 using schema::one_of;
@@ -92,13 +92,14 @@ struct Lamp {
   return describe(
       "lamp", "What gives light.",
       {field("name", &Lamp::name, "For messages."),
-       one_of(&Lamp::kind, under<Bulb>("bulb", "A ball."), beside<Tube>("tube_length")), lent(&Lamp::place),
-       schema::defaulted("colour", &Lamp::colour, schema::word<Colour>("colour", {"red", "green"}),
+       one_of(&Lamp::kind, under<Bulb>("bulb", "A ball."), inlined_by<Tube>("tube_length")),
+       inlined(&Lamp::place),
+       schema::defaulted("colour", &Lamp::colour, schema::enumeration<Colour>("colour", {"red", "green"}),
                          "Its colour."),
        schema::defaulted("count", &Lamp::count, {1, 9}, "How many."),
        schema::defaulted("limit", &Lamp::limit, Range::positive(), "At most."),
        at_most_one(&Lamp::scale, "a lamp has one scale", under<Power>("power", kLength, "In watts."),
-                   beside<Ratio>("ratio")),
+                   inlined_by<Ratio>("ratio")),
        schema::defaulted("steps", &Lamp::steps, {0, 5}, "Of the dimmer."),
        field("strength", &Lamp::strength,
              schema::forms<Strength>("strength", "a strength: a number or a name",
@@ -182,7 +183,7 @@ TEST(SchemaTest, SaysWhatIsWrong) {
             "a.json:1:21: /bulb/radius: error: expected a number (got 0, allowed (0, 1000000000000])\n");
   EXPECT_EQ(complaints(R"("bulb": {}, )"), "a.json:1:10: /bulb: error: missing key \"radius\"\n");
   EXPECT_EQ(complaints(bulb + R"("width": 1, )"),
-            "a.json:1:25: /width: error: width goes with tube_length, which is not there\n");
+            "a.json:1:25: /width: error: width requires tube_length, which is missing\n");
   EXPECT_EQ(complaints(R"("tube_length": 1, "cold": true, "widht": 1, )"),
             "a.json:1:34: /widht: error: unknown key \"widht\"; did you mean \"width\"?\n");
   EXPECT_EQ(complaints(R"("tube_length": 1, )"), "a.json:1:1: error: missing key \"cold\"\n");
@@ -246,7 +247,7 @@ struct Layer {
                   {schema::defaulted("thickness", &Layer::thickness, {0, 9}, "How thick it is."),
                    field("glass", &Layer::glass, "What it is of."),
                    schema::defaulted("last", &Layer::last, "Whether others follow.")})
-      .or_row(1, 2);
+      .or_array(1, 2);
 }
 
 TEST(Schema, RowsStandForTheFirstKeys) {
@@ -264,7 +265,8 @@ TEST(Schema, RowsStandForTheFirstKeys) {
   EXPECT_TRUE(layer(R"({"thickness": 3, "last": true})")->last);
   std::string complaint;
   EXPECT_FALSE(layer(R"([2, "BK7", true])", &complaint));
-  EXPECT_NE(complaint.find("has thickness, glass here (got 3 values, allowed 1 to 2)"), std::string::npos)
+  EXPECT_NE(complaint.find("has the values thickness, glass (got 3 values, allowed 1 to 2)"),
+            std::string::npos)
       << complaint;
   EXPECT_FALSE(layer("[2, 3]", &complaint));
   EXPECT_NE(complaint.find("1:5: /1: error: expected a string"), std::string::npos) << complaint;

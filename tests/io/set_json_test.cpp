@@ -61,7 +61,7 @@ TEST_F(SetJson, ReportsWhereThereIsNoWay) {
   for (const char* pointer :
        {"/render/samples/x", "/none/x", "/list/9", "/list/x", "/list/01x", "/list/01", "render"})
     EXPECT_EQ(set(pointer, "1"),
-              std::string("--set:1:1: ") + pointer + ": error: no such place in the scene\n1\n^\n");
+              std::string("--set:1:1: ") + pointer + ": error: no value can be set at this pointer\n1\n^\n");
   EXPECT_EQ(set("/list", "[1, 2"),
             "--set:1:6: /list: error: expected ',' or ']' (got the end of the text)\n[1, 2\n     ^\n");
   EXPECT_EQ(std::get<JsonValue::Array>(root_.find("list")->value).size(), 2U);

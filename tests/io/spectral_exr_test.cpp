@@ -70,7 +70,8 @@ TEST(SpectralExr, NamesThatOnlyLookSpectralAreRefused) {
     EXPECT_EQ(complaint_of_channel(name), "a.exr: channel \"" + std::string(name) + "\" names no wavelength");
   for (const char* name : {"S0.550.5nm", "S0.-550nm", "S0.550 nm", "S0.5,5,0nm", "S0.550xm", "S0.fivem"})
     EXPECT_EQ(complaint_of_channel(name),
-              "a.exr: channel \"" + std::string(name) + "\" is not named as a spectral one (as S0.550,5nm)");
+              "a.exr: channel \"" + std::string(name) +
+                  "\" is not a valid spectral name (expected a name like S0.550,5nm)");
 }
 
 TEST(SpectralExr, EveryBitComesBackAndBandsAreSortedByNumber) {
@@ -170,14 +171,15 @@ TEST(SpectralExr, WhatTheLayoutRequiresMustBeThere) {
   };
   EXPECT_EQ(complaint_of([](Image&) {}), "");
   EXPECT_EQ(without("spectralLayoutVersion"),
-            "a.exr: no attribute \"spectralLayoutVersion\" (allowed \"1.0\")");
+            "a.exr: missing attribute \"spectralLayoutVersion\" (allowed \"1.0\")");
   EXPECT_EQ(with("spectralLayoutVersion", "2.0"),
-            "a.exr: another spectralLayoutVersion (got \"2.0\", allowed \"1.0\")");
-  EXPECT_EQ(without("emissiveUnits"), "a.exr: no attribute \"emissiveUnits\" (allowed \"W.m^-2.sr^-1\")");
+            "a.exr: unsupported spectralLayoutVersion (got \"2.0\", allowed \"1.0\")");
+  EXPECT_EQ(without("emissiveUnits"),
+            "a.exr: missing attribute \"emissiveUnits\" (allowed \"W.m^-2.sr^-1\")");
   EXPECT_EQ(with("emissiveUnits", "cd.m^-2"),
-            "a.exr: another emissiveUnits (got \"cd.m^-2\", allowed \"W.m^-2.sr^-1\")");
+            "a.exr: unsupported emissiveUnits (got \"cd.m^-2\", allowed \"W.m^-2.sr^-1\")");
   EXPECT_EQ(complaint_of([](Image& image) { image.channels.resize(4); }),
-            "a.exr: too few bands of radiance to tell their widths (got 1, allowed 2 or more)");
+            "a.exr: too few bands of radiance to infer their widths (got 1, allowed 2 or more)");
 }
 
 TEST(SpectralExr, ReflectancesRepetitionsAndHalfPolarisedImagesAreRefused) {
@@ -196,7 +198,8 @@ TEST(SpectralExr, ReflectancesRepetitionsAndHalfPolarisedImagesAreRefused) {
   EXPECT_EQ(polarised(".1001nm", "right"), "a.exr: S1 has other wavelengths than S0");
   for (const char* handedness : {"", "up"})
     EXPECT_EQ(polarised(".1000,25nm", handedness),
-              "a.exr: polarised, but no attribute \"polarisationHandedness\" (allowed \"left\", \"right\")");
+              "a.exr: polarised, but the attribute \"polarisationHandedness\" is missing or invalid (allowed "
+              "\"left\", \"right\")");
 }
 
 }  // namespace

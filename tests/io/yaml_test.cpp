@@ -38,7 +38,7 @@ TEST(Yaml, GivesScalarsAsTheyAreWrittenWithTheirPlaces) {
     EXPECT_EQ(blocks[0].find("data")->where.offset, mark.size() + text.find('|'));
     EXPECT_EQ(std::get<std::string>(blocks[1].find("n")->value), "1e-3");
     EXPECT_EQ(blocks[1].find("n")->where.pointer, "/B/1/n");
-    EXPECT_EQ(blocks[1].find("none")->kind(), "null");
+    EXPECT_EQ(blocks[1].find("none")->type_name(), "null");
   }
 }
 

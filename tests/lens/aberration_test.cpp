@@ -34,7 +34,7 @@ constexpr std::array<std::array<double, 8>, 12> kListed{{
     {-0.306954, 0.037071, -0.074910, -0.160505, -0.203302, -0.232420, -0.035003, 0.012274},
 }};
 
-// A surface's sums are large and cancel: the 1e-8 that indices are known to here are 1e-6 of them.
+// Surface contributions are large and cancel: the error of 1e-8 in the listed indices is 1e-6 of them.
 TEST(LensSeidel, DoubleGaussHasItsListedThirdOrder) {
   const System system = test::lens_named("double_gauss");
   const System resolved = test::double_gauss_of(test::kResolvedIndices);
@@ -56,7 +56,8 @@ TEST(LensSeidel, DoubleGaussHasItsListedThirdOrder) {
   }
 }
 
-// A real ray close to the axis misses the paraxial focus by S_I/(2 n'u') of its beam, aspheres counted.
+// A real ray close to the axis misses the paraxial focus by S_I/(2 n'u') of its beam, including aspheric
+// terms.
 TEST(LensSeidel, AspheresCountAsRealRaysSee) {
   const System system = test::sound_lens_of(R"({"entrance_pupil": 2, "focus": "paraxial", "surfaces": [
     {"radius": 30, "thickness": 4, "glass": 1.6, "conic": -0.8, "r2": 0.002, "asphere": [2e-5], "stop": true},
@@ -68,7 +69,7 @@ TEST(LensSeidel, AspheresCountAsRealRaysSee) {
   EXPECT_NEAR(path.last.origin.y / (sums.sum.spherical / (2 * sums.image_nu)), 1, 2e-3);
 }
 
-// Off the stop an asphere's coma is that of the spherical aberration it adds, seen eccentrically.
+// An asphere away from the stop has coma because the beam passes its spherical aberration eccentrically.
 TEST(LensSeidel, AspheresOffTheStopGiveDistortion) {
   const std::string text = R"({"entrance_pupil": 0.01, "fields_deg": [3], "focus": "paraxial", "surfaces": [
     {"stop": true, "thickness": 5}, {"thickness": 1, "glass": 1.5, "asphere": [1e-4]}, [-50, 10]]})";
@@ -81,7 +82,7 @@ TEST(LensSeidel, AspheresOffTheStopGiveDistortion) {
   EXPECT_NEAR((chief->height_mm - ideal) / (sums.sum.distortion / (2 * sums.image_nu)), 1, 0.02);
 }
 
-// A stop in the back focus, and that far behind it: the entrance pupil of a near object is at infinity.
+// A stop in the back focus, and as far behind it as that: the entrance pupil of a near object is at infinity.
 System telecentric(double off) {
   System system = test::sound_lens_of(R"({"object_distance": 100, "surfaces": [
     [50, 3, 1.5], [-50, 49.494949494949495], {"stop": true, "aperture": 0.5, "thickness": 50}]})");
@@ -102,7 +103,7 @@ TEST(LensSeidel, TelecentricSumsTellTheDistortionOfRealRays) {
   }
 }
 
-// A plane stop in the focus of a single surface: the pupil is at infinity to the last bit.
+// A plane stop in the focus of a single surface: the pupil is at infinity within rounding.
 TEST(LensField, TelecentricBeamsHaveAWorkingFNumberAlone) {
   System system;
   system.surfaces.resize(2);
@@ -148,7 +149,7 @@ TEST(LensField, DistortionOfTheDoubleGaussIsTheListed) {
   EXPECT_FALSE(chief_ray(at, 0, radius)->distortion);
 }
 
-// An ellipsoid of conic constant -1/n^2 brings light from infinity to a point within glass of index n.
+// An ellipsoid of conic constant -1/n^2 images an object at infinity to a point inside glass of index n.
 System perfect(double defocus) {
   System system;
   system.surfaces.resize(1);
@@ -170,8 +171,8 @@ TEST(LensSpot, PerfectImageIsAPoint) {
   EXPECT_LT(size->rms_mm, 1e-12);
 }
 
-// Out of focus the cone of light is cut in a disc: its root mean square is radius/sqrt(2) and its transform
-// 2 J_1(v)/v, v = 2 pi radius frequency.
+// Out of focus the cone of light forms a disc. Its root mean square is radius/sqrt(2), and its transform 2
+// J_1(v)/v with v = 2 pi radius frequency.
 TEST(LensSpot, DefocusedPointIsADisc) {
   const System system = perfect(2);
   const auto spots = axial_spots(system);
@@ -218,7 +219,8 @@ TEST(LensFocus, FileMayAskForTheLeastSpots) {
   const FirstOrder first = first_order(SystemAt(paraxial, 587.5618));
   EXPECT_EQ(paraxial.surfaces.back().thickness_mm, first.back_focus_mm);
   EXPECT_EQ(with_focus("given").surfaces.back().thickness_mm, 40);
-  // Undercorrected: rays from the edge meet nearer to the lens. No move of the image is better than none.
+  // Undercorrected: rays from the edge meet nearer to the lens. At the best focus, no displacement improves
+  // the spot.
   EXPECT_LT(best.surfaces.back().thickness_mm, first.back_focus_mm - 0.1);
   EXPECT_NEAR(best_focus(best).value(), 0, 1e-3);
   double least = size_of(axial_spots(best))->rms_mm;
@@ -229,7 +231,7 @@ TEST(LensFocus, FileMayAskForTheLeastSpots) {
   }
 }
 
-// A hole alone: the fourth power of the cosine.
+// A bare hole follows the fourth power of the cosine.
 TEST(LensField, HoleDarkensByTheFourthPowerOfTheCosine) {
   System hole;
   hole.surfaces.resize(1);
@@ -246,7 +248,7 @@ TEST(LensField, HoleDarkensByTheFourthPowerOfTheCosine) {
   }
 }
 
-// The same of a near object: what the hole fills of its projected solid angle.
+// A bare hole with a near object: the projected solid angle of the hole.
 TEST(LensField, HoleBeforeANearObjectDarkensAlike) {
   System hole;
   hole.surfaces.resize(1);
@@ -289,7 +291,7 @@ TEST(LensField, SpeedCountsTheLossesOfSurfaces) {
   EXPECT_NEAR(found->f_number, 2.0001, 5e-5);
   // The listed slope of the marginal ray behind the lens.
   EXPECT_NEAR(found->working_f_number, std::sqrt(1 + 1 / (0.258832 * 0.258832)) / 2, 1e-4);
-  double normal = 1;  // of light along the axis
+  double normal = 1;  // for light along the axis
   for (std::size_t i = 0; i < at.size(); ++i) {
     const double r = (at.n[i + 1] - at.n[i]) / (at.n[i + 1] + at.n[i]);
     normal *= 1 - r * r;
@@ -319,7 +321,7 @@ TEST(LensField, VignettingIsTheShareThatAperturesTake) {
   EXPECT_FALSE(Spot{}.vignetting()) << "of no ray that was aimed";
 }
 
-// A plano-convex lens of 100 mm before its stop; its surfaces, or the stop, displaced.
+// A plano-convex lens of 100 mm before its stop; its surfaces or the stop are displaced.
 System displaced_lens(const std::string& lens, const std::string& stop) {
   return test::sound_lens_of(R"({"entrance_pupil": 10, "focus": "paraxial", "surfaces": [
     {"radius": 51.68, "thickness": 4, "glass": 1.5168)" +
@@ -344,11 +346,11 @@ TEST(LensField, SpeedDoesNotDependOnTheDirectionOfADisplacement) {
   expect_alike(speed_of(R"(, "decenter": [4, 0])", ""), upwards, 1e-10);
   expect_alike(speed_of(R"(, "tilt_deg": [5, 0])", ""), speed_of(R"(, "tilt_deg": [0, 5])", ""), 1e-10);
   expect_alike(speed_of("", R"(, "decenter": [-4, 0])"), speed_of("", R"(, "decenter": [0, -4])"), 1e-10);
-  // Aberrations of the pupil make its beam a little less than an ellipse.
+  // Pupil aberrations make the beam slightly smaller than an ellipse.
   expect_alike(speed_of(R"(, "decenter": [2.4, 3.2])", ""), upwards, 1e-6);
 }
 
-// The paraxial height is 0 there, whatever the image's distance from the paraxial focus adds to it.
+// The paraxial height is 0 there, whatever the distance of the image from the paraxial focus.
 TEST(LensField, TiltedLensesHaveNoDistortionOnTheAxis) {
   System system = displaced_lens(R"(, "tilt_deg": [5, 0])", "");
   system.surfaces.back().thickness_mm += 0.3;
@@ -357,7 +359,7 @@ TEST(LensField, TiltedLensesHaveNoDistortionOnTheAxis) {
   EXPECT_FALSE(chief->distortion);
 }
 
-// Half of the beam is cut; blades whose polygon holds the other half take nothing of it.
+// Half of the beam is cut. Blades whose polygon contains the other half do not change it.
 TEST(LensField, TStopCountsAperturesThatCutTheAxialBeam) {
   System system = perfect(0);
   system.surfaces.insert(system.surfaces.begin(), Surface{});

@@ -74,8 +74,8 @@ TEST(LensBeam, NearObjectsFillTheirSolidAngle) {
   EXPECT_NEAR(sum / (3.14159265358979 * 400 / (400 + 900)), 1, 1e-3);
 }
 
-// A stop in the back focus, or so near to it that the entrance pupil is 50 km away: all chief rays of a near
-// object are parallel to the axis, and cross the first vertex at the height of their point.
+// A stop in the back focus, or so near to it that the entrance pupil is 50 km away. All chief rays of a near
+// object are parallel to the axis and cross the first vertex at the height of their point.
 TEST(LensBeam, TelecentricObjectSpaceHasBeamsOfNearObjects) {
   System system = test::sound_lens_of(R"({"object_distance": 100, "focus": "paraxial", "surfaces": [
     [50, 3, 1.5], [-50, 49.494949494949495], {"stop": true, "aperture": 0.5, "thickness": 50}]})");

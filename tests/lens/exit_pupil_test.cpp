@@ -13,8 +13,8 @@
 #include "lenses.h"
 #include "tests/tier.h"
 
-// Rays of a camera that looks through a lens: the same as those of the bench, reversible, and none of them
-// lost by where they are looked for.
+// Rays of a camera through a lens agree with those of the optical bench, are reversible, and stay inside the
+// bounds of the pupil.
 
 namespace abbe::lens {
 namespace {
@@ -26,7 +26,7 @@ class ShippedLens : public ::testing::TestWithParam<std::string> {
  protected:
   System lens = abbe::test::lens_named(GetParam());
   SpectralSystem system{lens, stop_radius(lens)};
-  // As high as the image of the widest field but one, or of 12 degrees.
+  // Image height of the second widest field, or of 12 degrees.
   double image_height = std::abs(first_order(SystemAt(lens, lens.primary_nm())).focal_length_mm) * 0.21;
   std::mt19937 numbers{7};
   double uniform(double low, double high) { return std::uniform_real_distribution(low, high)(numbers); }
@@ -57,14 +57,13 @@ TEST_P(ShippedLens, IsTracedAsOnTheBench) {
   EXPECT_GT(passed, 200);
 }
 
-// Whether a surface ends somewhere, so that no ray passes where it and its neighbour have crossed long
-// before.
+// True if a clear aperture limits a surface, so that no ray passes after it and its neighbour have crossed.
 bool has_clear_apertures(const System& lens) {
   return std::all_of(lens.surfaces.begin(), lens.surfaces.end(),
                      [](const Surface& surface) { return surface.semi_aperture_mm.has_value(); });
 }
 
-// What they stop is none of the light of the image, and no more than that passes them.
+// Clear apertures stop no light of the image, and transmit no more than that.
 TEST_P(ShippedLens, EndsWhereTheLightOfItsPictureDoes) {
   System bare = lens;
   for (Surface& surface : bare.surfaces) surface.semi_aperture_mm.reset();
@@ -92,7 +91,7 @@ TEST_P(ShippedLens, EndsWhereTheLightOfItsPictureDoes) {
   }
 }
 
-// A corner of a triangle of blades, and so the widest beam, is to one side alone.
+// A triangle of blades has a corner, and so the widest beam, on one side only.
 TEST_P(ShippedLens, EndsAllAroundWhereBladesLeaveACorner) {
   for (Surface& surface : lens.surfaces) surface.semi_aperture_mm.reset();
   const V2d half(0.5 * image_height, 0);
@@ -100,7 +99,7 @@ TEST_P(ShippedLens, EndsAllAroundWhereBladesLeaveACorner) {
     return with_clear_apertures(SpectralSystem(lens, system.stop_radius_mm()), half, 400, 700);
   };
   const System round = ended();
-  lens.surfaces[lens.stop].iris = Iris(kLeastBlades, 90);
+  lens.surfaces[lens.stop].iris = Iris(kMinBlades, 90);
   const System bladed = ended();
   EXPECT_TRUE(bladed.surfaces[lens.stop].iris);
   for (std::size_t k = 0; k < lens.surfaces.size(); ++k)
@@ -108,8 +107,8 @@ TEST_P(ShippedLens, EndsAllAroundWhereBladesLeaveACorner) {
         << "surface " << k + 1;
 }
 
-// Rays all over the last element and beyond, from all over the image, at wavelengths between those that the
-// bounds are found at; of lenses without clear apertures those a little beyond the bounds.
+// Rays over the last element and its surroundings, from the whole image, at wavelengths between those of the
+// bounds. For lenses without clear apertures, rays slightly outside the bounds.
 TEST_P(ShippedLens, LosesNothingByTheBoundsOfItsExitPupil) {
   const V2d half(image_height, 0.7 * image_height);
   const ExitPupil pupil(system, half, 400, 700);
@@ -135,7 +134,7 @@ TEST_P(ShippedLens, LosesNothingByTheBoundsOfItsExitPupil) {
     const EntranceDisc& disc = pupil.entrance();
     const V3d in = out->origin + (disc.z - out->origin.z) / out->direction.z * out->direction;
     ASSERT_LT(std::hypot(in.x, in.y), disc.radius) << "comes in beside the disc";
-    EXPECT_GT(depth / std::hypot(depth, (point - image).length()), pupil.least_cosine());
+    EXPECT_GT(depth / std::hypot(depth, (point - image).length()), pupil.min_cosine());
   }
   std::printf("%s: %d of %d rays within the bounds pass\n", GetParam().c_str(), passed, inside);
   EXPECT_GT(passed, 300);
@@ -146,7 +145,7 @@ INSTANTIATE_TEST_SUITE_P(All, ShippedLens,
                          ::testing::Values("landscape", "achromat", "cooke_triplet", "tessar", "double_gauss",
                                            "fisheye"));
 
-// The stop is in the front focus of the lens behind it: points of the image at the distance z see it by the
+// The stop is in the front focus of the lens behind it. From an image point at the distance z it has the
 // angle R/f', straight ahead.
 TEST(FarExitPupil, IsBoundByItsAngle) {
   for (const char* gap : {"99.1597", "99.15966386554621"}) {
@@ -166,7 +165,7 @@ TEST(FarExitPupil, IsBoundByItsAngle) {
   }
 }
 
-// A wedge before the lens and one element aside: nothing is round then.
+// A wedge before the lens and one displaced element, so that nothing has rotational symmetry.
 TEST(DisplacedLens, LosesNothingByTheBoundsOfItsExitPupil) {
   System lens = abbe::test::lens_named("cooke_triplet");
   lens.surfaces[0].tilt_deg = {1.5, -0.7};
@@ -189,8 +188,8 @@ TEST(DisplacedLens, LosesNothingByTheBoundsOfItsExitPupil) {
   EXPECT_GT(passed, 1000);
 }
 
-// A lens with a field stop that lets light to a part of the image smaller than what bounds are found
-// for, next to the image, where the beam is as narrow and moves as far as the point that it goes to.
+// A lens with a field stop that illuminates a part of the image smaller than the grid of the bounds. The stop
+// is next to the image, where the beam is narrow and moves as far as the image point.
 class FieldStop : public ::testing::TestWithParam<double> {
  protected:
   static System lens() {
@@ -240,7 +239,7 @@ TEST_P(FieldStop, LosesNothingByTheBoundsOfTheExitPupil) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Centred, FieldStop, ::testing::Values(0));
-// Whose bounds, nothing being round, take seconds to find.
+// Without rotational symmetry, its bounds take seconds to compute.
 INSTANTIATE_TEST_SUITE_P(NightlyDisplaced, FieldStop, ::testing::Values(1e-6));
 
 }  // namespace

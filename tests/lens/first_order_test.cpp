@@ -83,7 +83,7 @@ TEST(LensFirstOrder, AchromatHasItsFocusByWavelength) {
   }
 }
 
-// Of a ball of index n the focal length is n D/(4 (n - 1)) from its middle.
+// The focal length of a ball of index n is n D/(4 (n - 1)) from its center.
 TEST(LensFirstOrder, BallHasItsPrincipalPlanesInItsMiddle) {
   const System ball = test::sound_lens_of(
       R"({"surfaces": [{"radius": 5, "thickness": 10, "glass": "N-BK7", "stop": true, "aperture": 1}, [-5, 3]]})");
@@ -93,7 +93,7 @@ TEST(LensFirstOrder, BallHasItsPrincipalPlanesInItsMiddle) {
   EXPECT_NEAR(first.rear_principal_mm, -5, 1e-12);
 }
 
-// Newton's equation: the distances of object and image from their focal points multiply to -f^2.
+// Newton's equation: the product of the distances of object and image from their focal points is -f^2.
 TEST(LensFirstOrder, NearObjectHasItsImageByNewtonsEquation) {
   System system = test::lens_named("double_gauss");
   system.object_distance_mm = 400;
@@ -112,7 +112,7 @@ TEST(LensFirstOrder, CoefficientOfTheSquareBendsTheVertex) {
   EXPECT_NEAR(of(bent, 550).focal_length_mm, 40, 1e-12);
 }
 
-// A stop in the focus of what is before it by the last bit of doubles, and by the digits of a listing.
+// A stop in the focus of the surfaces before it, to the last bit of doubles and to the digits of a listing.
 TEST(LensFirstOrder, WhatDigitsAloneKeepFromBeingParallelIs) {
   for (const char* gap : {"99.15966386554621", "99.159664", "99.1597"}) {
     const System system = test::sound_lens_of(
@@ -128,7 +128,7 @@ TEST(LensFirstOrder, WhatDigitsAloneKeepFromBeingParallelIs) {
   }
 }
 
-// Of Kepler's kind, with its eyepiece so far behind the objective [mm].
+// Keplerian telescope with its eyepiece this far behind the objective [mm].
 System telescope(const std::string& gap) {
   return test::sound_lens_of(R"({"entrance_pupil": 5, "fields_deg": [0, 0.02, 2], "surfaces": [
     {"stop": true, "thickness": 2}, [100, 3, 1.5], [-100, )" +
@@ -146,7 +146,7 @@ TEST(LensFirstOrder, AnAfocalTelescopeHasNoFocus) {
   EXPECT_TRUE(std::isinf(speed(at, 2.5, 20)->f_number));
 }
 
-// A plane window has its principal planes anywhere; an erect relay, of a = d = 1, likewise.
+// The principal planes of a plane window are indeterminate, as are those of an erect relay with a = d = 1.
 TEST(LensFirstOrder, WhatHasNoPowerHasNoPrincipalPlanes) {
   const std::string lens = "[100, 5, 1.5], [-100, 198.31932773109242], ";
   for (const std::string& surfaces :
@@ -160,7 +160,7 @@ TEST(LensFirstOrder, WhatHasNoPowerHasNoPrincipalPlanes) {
   }
 }
 
-// Of a paraxial beam a = -0.9066667 of what comes in parallel is its height in the stop, wherever the object.
+// A parallel paraxial beam of height 1 has the height a = -0.9066667 in the stop, for any object distance.
 TEST(LensField, ObjectsNextToALensSeeItsEntrancePupilAsOthersDo) {
   for (const char* distance : {"0.001", "0.002", "1"}) {
     const System system = test::sound_lens_of(std::string(R"({"object_heights": [0], "object_distance": )") +
@@ -177,7 +177,7 @@ TEST(LensField, ObjectsNextToALensSeeItsEntrancePupilAsOthersDo) {
   }
 }
 
-// Behind the eyepiece, of a telescope in focus and of one 5 mm too long.
+// Behind the eyepiece of a telescope in focus, and of one 5 mm too long.
 TEST(LensFirstOrder, DistortionOffTheFocusIsOverTheParaxialChiefRayThere) {
   for (const auto& [gap, percent] : {std::pair("148.9924", -1.403), std::pair("153.9924369321354", -1.526)}) {
     const System system = telescope(gap);

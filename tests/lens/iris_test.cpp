@@ -17,7 +17,7 @@ namespace {
 
 using Imath::V2d;
 
-// Corners by their definition: one is up, or that far from it clockwise, the others evenly around.
+// Corners by definition: one is up, or rotated clockwise by the angle, the others are evenly spaced.
 std::vector<V2d> corners_of(int blades, double rotation_deg) {
   std::vector<V2d> corners;
   for (int k = 0; k < blades; ++k) {
@@ -31,7 +31,7 @@ double cross_product(const V2d& a, const V2d& b) {
   return a.x * b.y - a.y * b.x;
 }
 
-// The least distance from an edge, inwards.
+// Smallest distance from an edge, positive inside.
 double depth(const std::vector<V2d>& corners, const V2d& point) {
   double least = 1;
   for (std::size_t k = 0; k < corners.size(); ++k) {
@@ -68,12 +68,12 @@ TEST(Iris, HasTheShareOfAPolygonInACircle) {
     double area = 0;
     for (std::size_t k = 0; k < corners.size(); ++k)
       area += cross_product(corners[(k + 1) % corners.size()], corners[k]) / 2;
-    EXPECT_NEAR(Iris(count, rotation).share(), area / kPi, 1e-14);
+    EXPECT_NEAR(Iris(count, rotation).area_fraction(), area / kPi, 1e-14);
     EXPECT_NEAR(area / kPi, count / (2 * kPi) * std::sin(2 * kPi / count), 1e-14);
   }
 }
 
-// Onto it, its rim included, and every small square onto as large a share of its area.
+// The map covers the polygon including its rim, and maps every small square to the same fraction of area.
 TEST(Iris, SpreadsTheDiscEvenlyOverThePolygon) {
   constexpr double kStep = 1e-6;
   for (const auto& [count, rotation] : kExamples) {
@@ -89,12 +89,12 @@ TEST(Iris, SpreadsTheDiscEvenlyOverThePolygon) {
       EXPECT_NEAR(inwards, (1 - radius) * std::cos(kPi / count), 1e-12);
       const V2d x = (iris.point(disc + V2d(kStep, 0)) - iris.point(disc - V2d(kStep, 0))) / (2 * kStep);
       const V2d y = (iris.point(disc + V2d(0, kStep)) - iris.point(disc - V2d(0, kStep))) / (2 * kStep);
-      EXPECT_NEAR(cross_product(x, y), iris.share(), 1e-4) << count << " at " << disc;
+      EXPECT_NEAR(cross_product(x, y), iris.area_fraction(), 1e-4) << count << " at " << disc;
     }
   }
 }
 
-// A beam's rays that pass are those of the polygon; what they carry to the image is told by its T-stop.
+// The rays of a beam that pass are those of the polygon. The T-stop gives their power at the image.
 TEST(Iris, StopsRaysOfALensAtItsCorners) {
   System system = test::lens_named("double_gauss");
   const double radius = stop_radius(system);
@@ -108,9 +108,9 @@ TEST(Iris, StopsRaysOfALensAtItsCorners) {
   for (const int blades : {5, 8}) {
     system.surfaces[system.stop].iris = Iris(blades, 10);
     const auto [spot, speed] = seen();
-    const double share = Iris(blades, 10).share();
+    const double share = Iris(blades, 10).area_fraction();
     EXPECT_EQ(spot.filled, round.filled);
-    EXPECT_NEAR(spot.passed / round.passed, share, 0.01);  // the pupil is not quite even over the beam
+    EXPECT_NEAR(spot.passed / round.passed, share, 0.01);  // the pupil is not perfectly uniform over the beam
     EXPECT_EQ(speed.f_number, round_speed.f_number);
     EXPECT_NEAR(std::pow(round_speed.t_stop / speed.t_stop, 2), share, 0.001);
   }

@@ -9,7 +9,7 @@
 #include "lenses.h"
 #include "materials/interface/fresnel.h"
 
-// The lanes of a packet go through a lens together as each of them goes alone.
+// Lanes of a packet pass a lens together exactly like single rays.
 
 namespace abbe::lens {
 namespace {
@@ -51,8 +51,8 @@ std::vector<Case> cases() {
           {"coated", with_coating()}};
 }
 
-// Even where others of the same packet are near grazing or totally reflected: cemented surfaces reflect less
-// than a millionth, which 1 - T does not tell in floats, and nothing of p at Brewster's angle.
+// Also if other lanes of the packet are near grazing incidence or totally reflected. Cemented surfaces
+// reflect less than a millionth, which 1 - T does not resolve in floats, and no p at Brewster's angle.
 TEST(Lanes, ReflectAsEachDoesAlone) {
   constexpr std::array<double, 4> kCosines{0.98, 0.76025933, 0.061, 0.5};
   constexpr std::array<double, 4> kIndices{1.00080872, 1.011, 1.6, 0.612};
@@ -73,10 +73,10 @@ TEST(Lanes, ReflectAsEachDoesAlone) {
   }
 }
 
-// In floats, by way of the image and of a ghost.
+// In floats, along the direct route and along that of a ghost.
 TEST(Lanes, GoThroughALensAsEachDoesAlone) {
   const SampledSpectrum nm(SampledSpectrum::Values{382, 431.5F, 478, 520, 561.25F, 610, 668, 779});
-  int parted = 0;  // rays of which some lanes arrive and others do not
+  int parted = 0;  // rays with some arriving and some missing lanes
   for (const Case& of : cases()) {
     const SpectralSystem system(of.lens, stop_radius(of.lens));
     const std::size_t surfaces = of.lens.surfaces.size();
@@ -97,14 +97,14 @@ TEST(Lanes, GoThroughALensAsEachDoesAlone) {
       for (int j = 0; j < 2 * kLanes; ++j) {
         const auto alone =
             system.to_image(j < kLanes ? ray : other, static_cast<double>(nm[j % kLanes]), route);
-        apart += lanes.arrived[j] != alone.has_value();
-        if (i % 2 == 0 && j < kLanes && lanes.arrived[j]) {
+        apart += lanes.reached_image[j] != alone.has_value();
+        if (i % 2 == 0 && j < kLanes && lanes.reached_image[j]) {
           EXPECT_EQ(lanes.point.x[j], in_own_company.point.x[j]) << "to the bit, whatever goes with it";
           EXPECT_EQ(lanes.transmittance[j], in_own_company.transmittance[j]);
         }
-        if (!alone || !lanes.arrived[j]) continue;
+        if (!alone || !lanes.reached_image[j]) continue;
         ++lanes_arrived;
-        if (alone->direction.z < 0.7) continue;  // of ghosts alone, which magnify what rounding leaves
+        if (alone->direction.z < 0.7) continue;  // only for ghosts, which magnify rounding errors
         const V2d point(Imath::V2f(lanes.point.x[j], lanes.point.y[j]));
         double& distance = furthest[static_cast<std::size_t>(i % 2)];
         distance = std::max(distance, (point - alone->point).length());

@@ -15,7 +15,7 @@
 
 namespace abbe::test {
 
-/// A lens of `data/lens` or of a file, with what was said of it.
+/// Reads a lens of `data/lens` or of a file, with its diagnostics.
 struct LoadedLens {
   std::optional<lens::System> system;
   Diagnostics diagnostics;
@@ -35,7 +35,7 @@ inline lens::System lens_named(const std::string& name) {
   return *std::move(loaded.system);
 }
 
-/// A lens of a text in a file of this extension.
+/// Reads a lens from a text in a file with this extension.
 inline LoadedLens lens_of(const std::string& text, const std::string& extension = ".json") {
   const std::filesystem::path folder =
       std::filesystem::temp_directory_path() / ("abbe_lens_test_" + std::to_string(getpid()));
@@ -53,7 +53,7 @@ inline lens::System sound_lens_of(const std::string& text, const std::string& ex
   return *std::move(loaded.system);
 }
 
-/// What is said of a text that is no lens, of which this must be said at that place.
+/// Expects that a text is not a lens, with this message at this position.
 inline LoadedLens unsound_lens_of(const std::string& text, const std::string& extension,
                                   const std::string& place, const std::string& message) {
   LoadedLens loaded = lens_of(text, extension);
@@ -65,10 +65,10 @@ inline LoadedLens unsound_lens_of(const std::string& text, const std::string& ex
 
 /// Indices of the double Gauss at 587.6 nm: of N-SSK2, N-SK2, F5 and N-SK16.
 using GaussIndices = std::array<double, 4>;
-/// As its listing states them.
+/// Indices as the listing states them.
 inline constexpr GaussIndices kStatedIndices{1.622292, 1.607379, 1.603417, 1.620408};
-/// Numbers that round to these and bring the listed axial ray, which six digits of the indices leave
-/// uncertain by 5e-5 mm, to within its own rounding.
+/// Indices that round to these and reproduce the listed axial ray within its rounding. Six digits of the
+/// indices leave that ray uncertain by 5e-5 mm.
 inline constexpr GaussIndices kResolvedIndices{1.62229151, 1.60737891, 1.60341715, 1.62040786};
 
 /// The double Gauss with these indices at every wavelength.

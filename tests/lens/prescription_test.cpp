@@ -14,7 +14,7 @@ namespace {
 using test::lens_of;
 using test::sound_lens_of;
 
-// A singlet with something in the place of its surfaces or beside them.
+// A singlet in which something replaces or accompanies the surfaces.
 std::string singlet(const std::string& surfaces, const std::string& beside = R"("entrance_pupil": 5)") {
   return "{" + beside + ",\n \"surfaces\": [" + surfaces + "]}";
 }
@@ -85,7 +85,7 @@ TEST(LensPrescription, WavelengthsBeyondAGlassAreTold) {
   EXPECT_EQ(diagnostics.all().size(), 2U) << diagnostics.text();
 }
 
-// The lens stays as it stands.
+// The lens does not change.
 TEST(LensPrescription, OtherWavelengthsKeepStopAndFocus) {
   Diagnostics diagnostics;
   const auto other = load_lens("fisheye", diagnostics, nullptr, {}, {450});
@@ -99,9 +99,9 @@ TEST(LensPrescription, OtherWavelengthsKeepStopAndFocus) {
 }
 
 TEST(LensPrescription, LensHasOneStop) {
-  expect_json_fault(singlet("[50, 4, 1.5], [-50, 40]"), "1:1", "no surface is the stop");
+  expect_json_fault(singlet("[50, 4, 1.5], [-50, 40]"), "1:1", "no surface is marked as the stop");
   expect_json_fault(singlet(kFront + R"(, {"radius": -50, "thickness": 9, "stop": true})"),
-                    "2:", "a second stop: surface 1");
+                    "2:", "a lens has one stop: surface 1");
 }
 
 TEST(LensPrescription, AperturesEndWhereTheirSurfaceDoes) {
@@ -119,8 +119,9 @@ std::string stopped_lens(const std::string& opening, double stop_aperture, doubl
 }
 
 TEST(LensPrescription, StopOpensAsFarAsItsAperture) {
-  expect_json_fault(stopped_lens(R"("f_number": 5)", 6, 12.5),
-                    "3:", "the stop does not open so far, its aperture being 6 mm (got f/5, allowed f/7.7");
+  expect_json_fault(
+      stopped_lens(R"("f_number": 5)", 6, 12.5),
+      "3:", "the stop cannot open that far, because its clear aperture is 6 mm (got f/5, allowed f/7.7");
   expect_json_fault(stopped_lens(R"("entrance_pupil": 20)", 6, 12.5),
                     "3:", "(got an entrance pupil of 20 mm, allowed an entrance pupil of 12.9");
   for (const char* sound : {R"("f_number": 7.8)", R"("entrance_pupil": 12.9)", R"("title": "as its stop")"}) {
@@ -132,10 +133,9 @@ TEST(LensPrescription, StopOpensAsFarAsItsAperture) {
 TEST(LensPrescription, AperturesThatCutTheAxialBeamAreTold) {
   const auto cut = lens_of(stopped_lens(R"("f_number": 5)", 12.5, 6));
   ASSERT_TRUE(cut.system) << cut.text();
-  EXPECT_NE(
-      cut.text().find("warning: the axial beam that fills the stop does not get to the image whole: its "
-                      "rim is stopped by the aperture of surface 1"),
-      std::string::npos)
+  EXPECT_NE(cut.text().find("warning: part of the axial beam that fills the stop does not reach the image: "
+                            "its rim is stopped by the aperture of surface 1"),
+            std::string::npos)
       << cut.text();
   const auto whole = lens_of(stopped_lens(R"("f_number": 5)", 12.5, 10.005));
   EXPECT_TRUE(whole.system && whole.diagnostics.all().empty()) << whole.text();
@@ -145,14 +145,14 @@ TEST(LensPrescription, SurfacesDoNotCross) {
   expect_json_fault(singlet(kFront + ", [-10, 40, null, 9]"), "2:", "surface 1 crosses surface 2");
   EXPECT_TRUE(lens_of(singlet(kFront + ", [-10, 40, null, 6]")).system);
   expect_json_fault(singlet(R"([50, -1, 1.5], {"thickness": 1, "stop": true})"), "2:", "got a gap of -1 mm");
-  // A stop in air may stand within what is before it.
+  // A stop in air may be in front of the preceding vertex.
   EXPECT_TRUE(lens_of(singlet(R"([50, 4, 1.5], [50, -1], {"thickness": 30, "stop": true})")).system);
 }
 
 TEST(LensPrescription, ConditionsMustFit) {
   expect_json_fault(
       singlet(R"({"radius": 50, "thickness": 4, "glass": 1.5, "stop": true}, [0, 9])", R"("title": "x")"),
-      "1:1", "how wide is the lens open?");
+      "1:1", "the lens has no aperture");
   expect_json_fault(singlet(kFront, R"("entrance_pupil": 5, "f_number": 2)"),
                     "1:", "a lens has one aperture");
   expect_json_fault(singlet(kFront + ", [-50, 40]", R"("object_heights": [1])"), "1:1",
@@ -173,7 +173,7 @@ TEST(LensPrescription, AfocalLensesHaveNoFocus) {
   EXPECT_TRUE(lens_of(singlet(hole, R"("focus": "given")")).system);
   expect_json_fault(
       singlet(kFront + ", [-50, 40]", R"("entrance_pupil": 5, "focus": "best", "fields_deg": [100])"), "1:1",
-      "no beam of the lens comes together");
+      "no beam of the lens converges");
 }
 
 TEST(LensPrescription, FieldsOfAnyKindBecomeDirectionsOrHeights) {
@@ -192,8 +192,7 @@ TEST(LensPrescription, AnglesOfANearObjectAreLessThanARightAngle) {
   for (const char* angle : {"90", "-95"})
     expect_json_fault(singlet(kFront + ", [-50, 40]",
                               fmt::format(R"("object_distance": 200, "fields_deg": [0, {}])", angle)),
-                      "1:1",
-                      fmt::format("less than 90 degrees from the axis (got {}, allowed (-90, 90))", angle));
+                      "1:1", fmt::format("within 90 degrees of the axis (got {}, allowed (-90, 90))", angle));
 }
 
 TEST(LensPrescription, TelecentricLensesTakeObjectHeights) {
@@ -202,21 +201,21 @@ TEST(LensPrescription, TelecentricLensesTakeObjectHeights) {
                    R"("object_distance": 100, )" + fields);
   };
   expect_json_fault(telecentric(R"("fields_deg": [0, 5])"), "1:1",
-                    "this lens is telecentric: say object_heights");
+                    "this lens is telecentric: use object_heights");
   EXPECT_EQ(sound_lens_of(telecentric(R"("fields_deg": [0])")).fields[0], 0);
   EXPECT_EQ(sound_lens_of(telecentric(R"("object_heights": [0, 5])")).fields[1], 5);
 }
 
 TEST(LensPrescription, ImagesAreInAir) {
   expect_json_fault(singlet(kFront),
-                    "2:", "the image of a lens is in air (got N-BK7 behind the last surface)");
+                    "2:", "the image of a lens must be in air (got N-BK7 behind the last surface)");
   EXPECT_TRUE(lens_of(singlet(kFront + ", [-50, 40, 1.0]")).system);
 }
 
 TEST(LensPrescription, ImageHeightsNeedAnImage) {
   const std::string plate = R"({"thickness": 4, "glass": 1.5, "stop": true}, [0, 40])";
   expect_json_fault(singlet(plate, R"("entrance_pupil": 5, "image_heights": [0, 3])"), "1:1",
-                    "image_heights need an image, and the lens has it at infinity: say fields_deg");
+                    "image_heights need an image at a finite distance: use fields_deg");
 }
 
 TEST(LensPrescription, UnknownLensIsToldWithTheNearest) {

@@ -34,13 +34,13 @@ TEST(LensProfile, ConicsAreHitWhereTheirEquationsSay) {
 TEST(LensProfile, RaysThatMissEndWithoutAPoint) {
   EXPECT_FALSE(Profile({0.1, 0, {}}).intersect(parallel(10.5)));
   EXPECT_FALSE(Profile({0.1, 0, {}}).intersect(parallel(std::numeric_limits<double>::quiet_NaN())));
-  // Through the back half of the sphere alone, and through the other sheet of a hyperboloid.
+  // Through the back half of the sphere only, and through the other sheet of a hyperboloid.
   EXPECT_FALSE(Profile({0.1, 0, {}}).intersect({V3d(0, 0, 15), V3d(0, 1, 0)}));
   EXPECT_FALSE(Profile({0.1, -5, {}}).intersect({V3d(0, 8, -20), V3d(0, 0.99, std::sqrt(1 - 0.99 * 0.99))}));
   EXPECT_FALSE(Profile({0.1, 0, {0, 1e-6}}).intersect(parallel(10.5)));
 }
 
-// Light that ghosts turn back comes to planes from behind.
+// Light reflected back by ghosts arrives at planes from behind.
 TEST(LensProfile, RaysThatLeadAwayFromAPlaneDivideByNothing) {
   std::feclearexcept(FE_ALL_EXCEPT);
   EXPECT_FALSE(Profile({0, 0, {}}).intersect({V3d(1, 2, 15), V3d(0.6, 0, -0.8)}));
@@ -49,7 +49,7 @@ TEST(LensProfile, RaysThatLeadAwayFromAPlaneDivideByNothing) {
   EXPECT_EQ(std::fetestexcept(FE_DIVBYZERO | FE_INVALID | FE_OVERFLOW), 0);
 }
 
-// Of the two points of a sphere that on its front half, also of a ray across the axis.
+// Of the two intersections with a sphere, the one on the front half counts, also for a ray across the axis.
 TEST(LensProfile, RaysAcrossTheAxisPassFromFrontToBack) {
   const Profile sphere{0.1, 0, {}};
   const auto t = sphere.intersect({V3d(0, 0, 2), V3d(0, 1, 0)});

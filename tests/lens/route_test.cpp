@@ -16,7 +16,7 @@
 #include "materials/interface/fresnel_mueller.h"
 #include "spectral/stokes.h"
 
-// Light that surfaces of a lens reflect twice.
+// Ghosts: light that surfaces of a lens reflect twice.
 
 namespace abbe::lens {
 namespace {
@@ -63,7 +63,7 @@ TEST(Ghosts, GoThroughTheLensTheSameWayBackwards) {
     std::mt19937 numbers(5);
     const auto uniform = [&](double reach) { return std::uniform_real_distribution(-reach, reach)(numbers); };
     const std::vector<Ghost> of = ghosts(lens, kNm, kNm);
-    std::size_t seen = 0;  // of which some ray passes
+    std::size_t seen = 0;  // ghosts with at least one passing ray
     for (const Ghost& ghost : of) {
       const Route route = route_of(ghost, lens.surfaces.size());
       int passed = 0;
@@ -98,7 +98,8 @@ System stop_and_plate(double n, double thickness_mm) {
   return lens;
 }
 
-// s and p of a plane plate do not mix: each loses T^2 R^2, and leaves 2 d tan(t) further along the plate.
+// A plane plate does not mix s and p: each has the factor T^2 R^2, and leaves 2 d tan(t) farther along the
+// plate.
 TEST(Ghosts, OfAPlateHavePowerAndPlaceInClosedForm) {
   const double n = 1.9;
   const double thickness = 3;
@@ -119,8 +120,7 @@ TEST(Ghosts, OfAPlateHavePowerAndPlaceInClosedForm) {
   }
 }
 
-// Airy's sum for one film between two media, of refracted angles that Snell's law gives: the same from both
-// sides.
+// Airy's sum for a film between two media, with angles from Snell's law, is the same from both sides.
 double film_reflectance(const std::array<double, 3>& n, double thickness_nm, double sine, bool p) {
   std::array<double, 3> cosine{};
   for (std::size_t i = 0; i < 3; ++i) cosine[i] = std::sqrt(1 - std::pow(sine / n[i], 2));
@@ -156,7 +156,7 @@ TEST(Ghosts, OfACoatedPlateHavePowerInClosedForm) {
   }
 }
 
-// It goes three times through the plate where the image goes once.
+// A ghost crosses the plate three times, the image once.
 TEST(Ghosts, AreAbsorbedOnTheirWholeWay) {
   const double thickness = 3;
   const double extinction = 5e-6;
@@ -177,7 +177,7 @@ TEST(Ghosts, AreAbsorbedOnTheirWholeWay) {
   EXPECT_NEAR(std::log(left(route)), -3 * depth, 1e-6);
 }
 
-// A thin lens of power 1/f sends what it reflects twice within to f (n - 1)/(3 n - 1).
+// A thin lens of power 1/f focuses light reflected twice inside it at f (n - 1)/(3 n - 1).
 TEST(Ghosts, OfAThinLensHaveItsFocus) {
   const double n = 1.6;
   const double focal_length = 80;
@@ -215,7 +215,7 @@ TEST(Ghosts, OfRaysNearTheAxisMeetWhereParaxialOpticsSays) {
   }
 }
 
-// What the stop lets pass of a small beam, wherever the ghost comes through it, makes a disc of that
+// The part of a small beam that the stop transmits, wherever the ghost passes it, forms a disc of that
 // diameter.
 TEST(Ghosts, EndAtTheStopOnTheirOwnWay) {
   System lens = lens_named("double_gauss");
@@ -238,7 +238,7 @@ TEST(Ghosts, EndAtTheStopOnTheirOwnWay) {
   EXPECT_GT(threefold, 10);
 }
 
-// What two surfaces of equal indices reflect is nothing, at wavelengths at which they are.
+// Two surfaces of equal indices reflect nothing at the wavelengths where they are equal.
 TEST(Ghosts, OfEqualIndicesAreNone) {
   System lens = stop_and_plate(1.5, 3);
   lens.surfaces[2].behind = Glass{"like", RefractiveIndex(1.5)};
@@ -251,7 +251,7 @@ TEST(Ghosts, OfEqualIndicesAreNone) {
   EXPECT_EQ(ghost->transmittance, 0);
 }
 
-// By Mueller matrices about the normal of each plane of incidence, an axis at a time.
+// Mueller matrices about the normal of each plane of incidence, one axis at a time.
 class MuellerChain {
  public:
   MuellerChain(const V3d& axis, const StokesSpectrum& light) : axis_(axis), light_(light) {}
@@ -275,21 +275,21 @@ class MuellerChain {
   StokesSpectrum light_;
 };
 
-// Both fields of light that comes along the normal are turned alike; at other angles s and p are as Fresnel's
-// amplitudes, on either side of Brewster's angle.
+// At normal incidence both fields are reversed alike. At other angles s and p follow Fresnel's amplitudes, on
+// both sides of Brewster's angle.
 TEST(Ghosts, ReflectedFieldsHaveFresnelsSigns) {
   const double n = 1.7;
   const System lens = stop_and_plate(n, 3);
   const SystemAt at(lens, kNm);
   const SurfaceBetween<double> front{at.surface(1), at.frames[1], 1, n};
-  for (const double angle : {1e-4, 0.5, 0.9, 1.2, 1.5}) {  // Brewster's is 1.04
+  for (const double angle : {1e-4, 0.5, 0.9, 1.2, 1.5}) {  // Brewster's angle is 1.04
     const V3d from(std::sin(angle) * 0.6, std::sin(angle) * 0.8, std::cos(angle));
     const Crossing<double> crossing = reflect(front, Ray{{0, 0, 0}, from}, true);
     EXPECT_NEAR(crossing.hit.direction.z, -from.z, 1e-12);
-    WeakenedLight<double> light(from);
+    UnpolarisedFields<double> light(from);
     const V3d first = light.first();
     const V3d second = light.second();
-    light.meet(front, kNm, from, crossing.hit, {true, true});
+    light.apply(front, kNm, from, crossing.hit, {true, true});
     const V3d s(0.8, -0.6, 0);
     const V3d p = s.cross(from);
     const V3d p_behind = s.cross(crossing.hit.direction);
@@ -303,7 +303,7 @@ TEST(Ghosts, ReflectedFieldsHaveFresnelsSigns) {
   }
 }
 
-// What fields along both axes become tells what the matrices of all surfaces do to any polarisation.
+// The fields along both axes determine the effect of all surfaces' matrices on any polarisation.
 TEST(Ghosts, AndTheImageArePolarisedByEverySurface) {
   System lens = lens_named("tessar");
   lens.surfaces[0].decenter_mm = {0.4, -0.3};
@@ -328,9 +328,9 @@ TEST(Ghosts, AndTheImageArePolarisedByEverySurface) {
       const double turn = uniform(3);
       const double cosine = std::cos(turn);
       const double sine = std::sin(turn);
-      const V3d field = first * cosine + second * sine;  // of linearly polarised light
+      const V3d field = first * cosine + second * sine;  // for linearly polarised light
 
-      const V3d axis = WeakenedLight<double>(start.direction).first();
+      const V3d axis = UnpolarisedFields<double>(start.direction).first();
       MuellerChain chain(axis,
                          {SampledSpectrum(1.0F), SampledSpectrum(static_cast<float>(std::cos(2 * turn))),
                           SampledSpectrum(static_cast<float>(std::sin(2 * turn))), SampledSpectrum()});

@@ -14,7 +14,7 @@ namespace abbe::lens {
 namespace {
 
 using Imath::V3d;
-constexpr double kPrinted = 1e-6;  // the last digit of the listing, which is rounded by half of it
+constexpr double kPrinted = 1e-6;  // half of the last digit of the listing
 
 // The listing of the double Gauss: heights at each surface and slopes behind it.
 constexpr std::array<double, 11> kAxial{25,        24.109772, 22.844992, 20.958242, 16.784894, 15.702464,
@@ -24,7 +24,7 @@ constexpr std::array<double, 11> kAxialSlope{-0.185302, -0.200953, -0.394267, -0
 constexpr std::array<double, 11> kChief{-10.199122, -8.751050, -8.439261, -5.580229, -4.530431, 0,
                                         3.832982,   4.755774,  7.078566,  7.404392,  8.254743};
 
-// A ray beside the planes of symmetry, from the listing's "1.00 -0.01".
+// A ray outside the planes of symmetry, from the listing's "1.00 -0.01".
 constexpr std::array<double, 11> kSkewX{25,        24.207033, 22.813382, 21.169658, 16.783340, 15.727108,
                                         14.651350, 15.952291, 16.995052, 16.682332, 16.407589};
 constexpr std::array<double, 11> kSkewY{-9.180390, -8.423361, -6.659673, -5.647541, -2.946639, -0.223552,
@@ -46,7 +46,7 @@ TEST(LensTrace, AxialRayOfTheDoubleGaussHasTheListedHeights) {
   expect_axial(test::double_gauss_of(test::kResolvedIndices), kPrinted);
 }
 
-// The catalogue's indices are 7e-8 off those, and six digits of them up to 5e-7.
+// The catalogue's indices differ from those by 7e-8, six digits of them by up to 5e-7.
 TEST(LensTrace, CatalogueAndStatedIndicesGiveTheListedHeightsAsFarAsTheyKnowThem) {
   expect_axial(test::lens_named("double_gauss"), 5e-6);
   expect_axial(test::double_gauss_of(test::kStatedIndices), 5e-5);
@@ -107,7 +107,7 @@ TEST(LensTrace, PlateTransmitsWhatFresnelSays) {
   EXPECT_NEAR(transmitted(plate(1.5, 2, {60, 0}), axial), (f.Ts * f.Ts + f.Tp * f.Tp) / 2, 1e-14);
 }
 
-// What is s for a plate tilted about x is p for one tilted about y.
+// s for a plate tilted about x is p for one tilted about y.
 TEST(LensTrace, PolarisationIsCarriedFromPlateToPlate) {
   System crossed = plate(1.5, 2, {60, 0});
   crossed.surfaces[1].thickness_mm = 40;
@@ -123,7 +123,7 @@ TEST(LensTrace, GlassAbsorbsAlongTheRay) {
               1e-12);
 }
 
-// A quarter wave of index sqrt(1.5) on both sides takes the reflections away, entering and leaving.
+// A quarter wave of index sqrt(1.5) on both sides removes the reflections on entering and leaving.
 TEST(LensTrace, CoatingsCountFromEitherSide) {
   System coated = plate(1.5, 2);
   const double n = std::sqrt(1.5);
@@ -132,7 +132,7 @@ TEST(LensTrace, CoatingsCountFromEitherSide) {
   EXPECT_NEAR(transmitted(coated, {V3d(0, 0, -1), V3d(0, 0, 1)}), 1, 1e-12);
 }
 
-// Layers lie from the air inwards on either face: of two unlike ones, both faces let the same through.
+// Layers are listed from the air inwards on either face. Two unlike layers transmit the same on both faces.
 TEST(LensTrace, CoatingsLieFromTheAirInwards) {
   const Coating layers{{{"low", RefractiveIndex(1.38)}, {"high", RefractiveIndex(2.1)}}, {{0, 90}, {1, 40}}};
   System front = plate(1.7, 2);
@@ -144,7 +144,7 @@ TEST(LensTrace, CoatingsLieFromTheAirInwards) {
   EXPECT_GT(transmitted(front, axial), transmitted(plate(1.7, 2), axial) + 0.01);
 }
 
-// A prism's second face: beyond the critical angle of 41.8 degrees.
+// A prism's second face beyond the critical angle of 41.8 degrees.
 TEST(LensTrace, RaysThatEndSayWhyAndWhere) {
   System system = plate(1.5, 20);
   system.surfaces[1].tilt_deg = {45, 0};
@@ -170,7 +170,7 @@ TEST(LensTrace, DecentredSurfaceStandsAside) {
   EXPECT_LT((moved.last.origin - centred.last.origin - V3d(1, 2, 0)).length(), 1e-13);
 }
 
-// A plane mirrored by its own tilt: the ray leaves by Snell's law at the tilted normal.
+// A plane surface with a tilt: the ray leaves by Snell's law at the tilted normal.
 TEST(LensTrace, TiltTurnsAboutXThenAboutTheTiltedY) {
   System system = plate(1.5, 5);
   system.surfaces[0].tilt_deg = {20, 10};
@@ -178,7 +178,7 @@ TEST(LensTrace, TiltTurnsAboutXThenAboutTheTiltedY) {
   const RayPath path = trace(at, {V3d(0, 0, -1), V3d(0, 0, 1)}, Apertures::obeyed);
   const double a = 20 * kDegree;
   const double b = 10 * kDegree;
-  // z turned about x by a, then about the y that has been turned with it by b.
+  // z rotated about x by a, then about the rotated y by b.
   const V3d normal(std::sin(b), -std::sin(a) * std::cos(b), std::cos(a) * std::cos(b));
   EXPECT_LT((path.hits[0].normal - normal).length(), 1e-14);
 }

@@ -11,7 +11,7 @@ namespace {
 using test::lens_of;
 using test::sound_lens_of;
 
-// A cemented achromat as makers' files have it.
+// A cemented achromat in the form of manufacturers' files.
 const std::string kAchromat = R"(VERS 120928 0 30221
 MODE SEQ
 NAME AC254-100-A POSITIVE ACHROMAT
@@ -91,7 +91,7 @@ TEST(LensZemax, MakersAchromatIsTheShippedOne) {
   EXPECT_NEAR(found.focal_length_mm, expected.focal_length_mm, 1e-11);
   EXPECT_NEAR(found.back_focus_mm, expected.back_focus_mm, 1e-11);
   EXPECT_EQ(*read.surfaces[0].semi_aperture_mm, 12.7);
-  EXPECT_FALSE(read.surfaces[2].semi_aperture_mm);  // worked out by Zemax
+  EXPECT_FALSE(read.surfaces[2].semi_aperture_mm);  // computed by Zemax
   EXPECT_EQ(read.surfaces[1].behind->name, "schott/SF5");
 }
 
@@ -105,7 +105,7 @@ TEST(LensZemax, Utf16IsReadAsUtf8Is) {
     }
 }
 
-// With letters of Latin-1, and the quotes and the dash that Windows-1252 has beside them.
+// Letters of Latin-1, and the quotes and the dash of Windows-1252.
 TEST(LensZemax, Windows1252IsReadAsUtf8Is) {
   std::string bytes = replaced(kAchromat, "AC254-100-A POSITIVE", "\x93M\xFCller\x94 \x96 20\xB0 5\xB5m");
   bytes = replaced(bytes, "ENVD", "NOTE 0 f\xFCr\nENVD");
@@ -132,43 +132,44 @@ TEST(LensZemax, OtherEncodingsAreErrors) {
 
 TEST(LensZemax, FaultsAreToldAtTheirPlace) {
   expect_zemax_fault(replaced(kAchromat, "GLAS SF5", "GLAS N-SF555"), "35:8", "did you mean");
-  expect_zemax_fault(replaced(kAchromat, "  STOP\n", ""), "", "no surface is the stop");
-  expect_zemax_fault(replaced(kAchromat, "  DISZ 2.5", "  STOP\n  DISZ 2.5"), "31:1", "a second stop");
+  expect_zemax_fault(replaced(kAchromat, "  STOP\n", ""), "", "no surface is marked as the stop");
+  expect_zemax_fault(replaced(kAchromat, "  DISZ 2.5", "  STOP\n  DISZ 2.5"), "31:1", "a lens has one stop");
   expect_zemax_fault(replaced(kAchromat, "TYPE STANDARD\n  CURV -2", "TYPE COORDBRK\n  CURV -2"), "32:8",
                      "got COORDBRK");
-  expect_zemax_fault(replaced(kAchromat, "GLAS SF5", "GLAS MIRROR"), "35:8", "mirrors are not understood");
+  expect_zemax_fault(replaced(kAchromat, "GLAS SF5", "GLAS MIRROR"), "35:8", "mirrors are not supported");
   expect_zemax_fault(replaced(kAchromat, "MODE SEQ", "MODE NSC"), "2:6", "only sequential lenses");
   expect_zemax_fault(replaced(kAchromat, "UNIT MM", "UNIT FT"), "4:6", "unknown unit");
   expect_zemax_fault(replaced(kAchromat, "FTYP 0", "FTYP 3"), "8:6", "fields of this kind");
-  expect_zemax_fault(replaced(kAchromat, "XFLN 0 0", "XFLN 0 2"), "9:8", "along y alone");
+  expect_zemax_fault(replaced(kAchromat, "XFLN 0 0", "XFLN 0 2"), "9:8", "only fields along y");
   expect_zemax_fault(replaced(kAchromat, "DISZ 4.0", "DISZ four"), "28:8", "got \"four\"");
   expect_zemax_fault(replaced(kAchromat, "  COMM front", "  GRAT 600"), "23:3",
                      "unknown keyword of Zemax \"GRAT\"");
   expect_zemax_fault(replaced(kAchromat, "ENPD 2.286E+1", "ENPD 0"), "5:6", "got 0, allowed (0, 1e+09]");
   expect_zemax_fault(replaced(kAchromat, "MNUM 1 1", "MNUM 3 1"), "47:6", "several configurations");
-  expect_zemax_fault(replaced(kAchromat, "-2.187705097352880100E-002", "-0.2"), "31:1", "beyond the edge");
+  expect_zemax_fault(replaced(kAchromat, "-2.187705097352880100E-002", "-0.2"), "31:1",
+                     "larger than the surface");
 }
 
 TEST(LensZemax, ObjectsAndImagesOfOtherKindsAreErrorsAtTheirLine) {
   const std::string object = "  CURV 0.0 0 0 0 0 \"\"\n  DISZ INFINITY";
   expect_zemax_fault(replaced(kAchromat, "  DISZ INFINITY", "  GLAS N-BK7\n  DISZ 200"), "20:8",
-                     "an object in glass is not understood (got N-BK7, allowed air)");
+                     "an object in glass is not supported (got N-BK7, allowed air)");
   expect_zemax_fault(replaced(kAchromat, object, "  CURV 0.01\n  DISZ 200"), "19:8",
-                     "a curved object is not understood (got 0.01, allowed 0)");
+                     "a curved object is not supported (got 0.01, allowed 0)");
   expect_zemax_fault(replaced(kAchromat, "STANDARD\n" + object, "EVENASPH\n CURV 0\n PARM 2 1e-5\n DISZ 200"),
-                     "20:9", "a curved object is not understood (got 1e-5, allowed 0)");
+                     "20:9", "a curved object is not supported (got 1e-5, allowed 0)");
   expect_zemax_fault(replaced(kAchromat, "  DISZ INFINITY", "  STOP\n  DISZ 200"), "20:3",
                      "the object cannot be the stop");
   expect_zemax_fault(replaced(kAchromat, "FTYP 0 0", "FTYP 0 1"), "8:8",
-                     "a telecentric object space is not understood (got 1, allowed 0)");
+                     "a telecentric object space is not supported (got 1, allowed 0)");
   expect_zemax_fault(replaced(kAchromat, "2 3 0 0 0", "2 3 0 0 1"), "8:18",
-                     "an afocal image space is not understood (got 1, allowed 0)");
+                     "an afocal image space is not supported (got 1, allowed 0)");
   expect_zemax_fault(replaced(kAchromat, "SURF 4\n  TYPE STANDARD\n", "SURF 4\n TYPE EVENASPH\n PARM 1 1\n"),
                      "42:1", "the last surface, which is the image, must be plane");
   EXPECT_TRUE(lens_of(replaced(kAchromat, "FTYP 0 0 2 3 0 0 0", "FTYP 0 0.0 2 3"), ".zmx").system);
 }
 
-// As older files say it.
+// Syntax of older files.
 TEST(LensZemax, ObjectsBeyondADistanceAreAtInfinity) {
   const auto with = [](const std::string& distance) { return replaced(kAchromat, "INFINITY", distance); };
   for (const char* far : {"1.000000000000000000E+010", "1e11"})
@@ -191,12 +192,12 @@ TEST(LensZemax, WhatASystemSaysTwiceOrNotInFullIsAnError) {
                      "7:6", "no wavelength of the file has this number (got 1, allowed none without WAVM)");
   const std::string heights = "YFLN 0 1 0 0 0 0 0 0 0 0 0 0\n";
   expect_zemax_fault(replaced(kAchromat, heights, "YFLN 0\n"), "10:1",
-                     "fewer fields along y than FTYP says (got 1, expected 2)");
+                     "fewer fields along y than FTYP declares (got 1, expected 2)");
   expect_zemax_fault(replaced(kAchromat, heights, ""), "8:10",
-                     "fewer fields along y than FTYP says (got 0, expected 2)");
+                     "fewer fields along y than FTYP declares (got 0, expected 2)");
   EXPECT_TRUE(lens_of(replaced(replaced(kAchromat, heights, ""), "FTYP 0 0 2", "FTYP 0 0 1"), ".zmx").system);
   expect_zemax_fault(replaced(kAchromat, "WAVM 3 6.563E-1 1\n", ""), "8:12",
-                     "fewer wavelengths (WAVM) than FTYP says (got 2, expected 3)");
+                     "fewer wavelengths (WAVM) than FTYP declares (got 2, expected 3)");
   EXPECT_TRUE(lens_of(replaced(kAchromat, "WAVM 4 5.5E-1 1\n", ""), ".zmx").system);
   for (const std::string second : {"FNUM 4 0", "ENPD 20", "FLOA"})
     expect_zemax_fault(
@@ -226,7 +227,7 @@ TEST(LensZemax, ModelGlassesAreOfTwoNumbersThatAGlassCanHave) {
     return replaced(kAchromat, "GLAS N-BK7 0 0 0 0 0", "GLAS ___BLANK 1 0 " + numbers);
   };
   expect_zemax_fault(with("1.6 50 0.01"), "29:28",
-                     "a partial dispersion of its own is not understood (got 0.01, allowed 0)");
+                     "a deviating partial dispersion is not supported (got 0.01, allowed 0)");
   expect_zemax_fault(with("1.6 -50 0"), "29:25",
                      "Abbe number out of range (got -50, allowed [1, 1000] or 0)");
   expect_zemax_fault(with("0.9 50 0"), "29:21", "index out of range (got 0.9, allowed [1, 4])");
@@ -237,19 +238,18 @@ TEST(LensZemax, ModelGlassesAreOfTwoNumbersThatAGlassCanHave) {
 TEST(LensZemax, AnglesHaveTheRangeOfJson) {
   expect_zemax_fault(replaced(kAchromat, "YFLN 0 1 ", "YFLN 0 200 "), "10:8",
                      "field out of range (got 200 degrees, allowed [-120, 120] degrees)");
-  EXPECT_TRUE(
-      lens_of(replaced(kAchromat, "YFLN 0 1 0", "YFLN 0 1 200"), ".zmx").system);  // not one of the two
+  EXPECT_TRUE(lens_of(replaced(kAchromat, "YFLN 0 1 0", "YFLN 0 1 200"), ".zmx")
+                  .system);  // neither of the two values
 }
 
-// FCD1 is Hoya's.
+// FCD1 is a glass of Hoya.
 TEST(LensZemax, GlassesOfOtherCataloguesAreTold) {
   const std::string other = replaced(kAchromat, "GLAS N-BK7", "GLAS FCD1");
   const auto loaded = lens_of(other, ".zmx");
   ASSERT_TRUE(loaded.system) << loaded.text();
-  EXPECT_NE(
-      loaded.text().find("lens.zmx:29:8: warning: FCD1 is in none of the file's catalogues that are known "
-                         "here (got GCAT schott infrared misc): it is looked for in all"),
-      std::string::npos)
+  EXPECT_NE(loaded.text().find("lens.zmx:29:8: warning: FCD1 is in none of the file's catalogues known to "
+                               "Abbe (got GCAT schott infrared misc): all catalogues are searched"),
+            std::string::npos)
       << loaded.text();
   for (const std::string& sound :
        {kAchromat, replaced(other, "GCAT SCHOTT", "GCAT SCHOTT HOYA"),
@@ -264,15 +264,16 @@ TEST(LensZemax, WhatIsLeftOutIsTold) {
       << loaded.text();
   loaded = lens_of(replaced(kAchromat, "  COMM front", "  COAT THORA"), ".zmx");
   ASSERT_TRUE(loaded.system);
-  EXPECT_NE(loaded.text().find("the coating THORA is left out"), std::string::npos) << loaded.text();
+  EXPECT_NE(loaded.text().find("the coating THORA is ignored"), std::string::npos) << loaded.text();
   loaded = lens_of(replaced(kAchromat, "WAVM 2 5.876E-1 1", "WAVM 2 5.876E-1 0"), ".zmx");
   ASSERT_TRUE(loaded.system);
   EXPECT_EQ(loaded.system->wavelengths_nm.size(), 3U);
-  EXPECT_NE(loaded.text().find("lens.zmx:13:17: warning: the weights of WAVM are left out: all wavelengths "
-                               "count alike"),
-            std::string::npos)
+  EXPECT_NE(
+      loaded.text().find(
+          "lens.zmx:13:17: warning: the weights of WAVM are ignored: all wavelengths have equal weights"),
+      std::string::npos)
       << loaded.text();
-  // Of a place that is not used.
+  // Values for an unused entry.
   EXPECT_EQ(lens_of(replaced(kAchromat, "WAVM 4 5.5E-1 1", "WAVM 4 5.5E-1 0"), ".zmx").text(), "");
 }
 

@@ -10,12 +10,12 @@
 
 namespace abbe {
 
-/// Some instances of a scattering model, for the laws that all of them obey: a test over the list does not
-/// compile before its newest member has them.
+/// Instances of a scattering model for the laws that all models obey. A test over the list compiles only if
+/// its newest member has them.
 template <typename Model>
 std::vector<Model> examples();
 
-/// How far from 1 what leaves may be in all, if nothing is absorbed; nothing for matter that absorbs.
+/// Tolerance of the total albedo against 1 if the model does not absorb; empty if it does.
 template <typename Model>
 std::optional<double> lossless_within(const Model& /*model*/) {
   return std::nullopt;
@@ -41,7 +41,7 @@ inline std::optional<double> lossless_within(const RoughConductorBsdf& model) {
   return model.index->n(500.0) == 0 ? std::optional(5e-3) : std::nullopt;
 }
 
-/// Whether several lobes send light the same way, so that a density is the sum of what each leads there.
+/// True if several lobes scatter into the same direction, so that the pdf is a sum.
 template <typename Model>
 inline constexpr bool kLobesOverlap = false;
 template <>
@@ -55,7 +55,7 @@ inline constexpr bool kLobesOverlap<PrincipledBsdf> = true;
 
 template <>
 inline std::optional<double> lossless_within(const CoatedDiffuseBsdf& model) {
-  return model.n[0] == 1.5F ? std::optional(1e-3) : std::nullopt;  // the white one
+  return model.n[0] == 1.5F ? std::optional(1e-3) : std::nullopt;  // the white instance
 }
 template <>
 inline std::optional<double> lossless_within(const ThinGlassBsdf& model) {
@@ -85,8 +85,8 @@ inline std::vector<ConductorBsdf> examples() {
   return {{ramp(0.1F, 1.4F), ramp(7, 2)}, {SampledSpectrum(1.5F), SampledSpectrum(0)}};
 }
 
-// Matter under films that live as long as the tests: a broad coat, a mirror stack, an absorbing film; on
-// glass, on plain matter, on nothing.
+// Media under films with the lifetime of the tests: a broad-band coat, a mirror stack and an absorbing film,
+// on dispersive glass, on a constant index and without a substrate.
 struct Coated {
   RefractiveIndex index;
   Coating coating;
@@ -128,7 +128,7 @@ inline std::vector<CoatedConductorBsdf> examples() {
   return models;
 }
 
-// Rough matter that lives as long as the tests.
+// Rough materials with the lifetime of the tests.
 inline Microfacets<float> facets_of(FacetShape shape, float alpha_x, float alpha_y) {
   return {shape, alpha_x, alpha_y};
 }
@@ -190,10 +190,10 @@ inline std::vector<OrenNayarBsdf> examples() {
 
 template <>
 inline std::vector<PrincipledBsdf> examples() {
-  static const Principled plain(PrincipledLook{});
-  static const Principled cloth(PrincipledLook{.roughness = 1, .specular = 0.2F, .sheen = 1});
-  static const Principled metal(PrincipledLook{.metallic = 1, .roughness = 0.3F});
-  static const Principled lacquer(PrincipledLook{
+  static const Principled plain(PrincipledParameters{});
+  static const Principled cloth(PrincipledParameters{.roughness = 1, .specular = 0.2F, .sheen = 1});
+  static const Principled metal(PrincipledParameters{.metallic = 1, .roughness = 0.3F});
+  static const Principled lacquer(PrincipledParameters{
       .metallic = 0.4F, .roughness = 0.6F, .specular = 1, .clearcoat = 1, .clearcoat_gloss = 0.3F});
   return {{SampledSpectrum(1), &plain},
           {SampledSpectrum(1), &cloth},
@@ -236,9 +236,9 @@ inline std::vector<DepolariserBsdf> examples() {
   return {{{SampledSpectrum(1)}}, {{ramp(0, 0.9F)}}};
 }
 
-// A mirror, Lambert's matter and rougher; a sheet of glass with holes and spots; a spotted film, which
-// absorbs more from one side. Of each only one reflects in a single direction, so that its way back is told
-// from others'.
+// A mirror with Lambertian and rougher materials; a sheet of glass with holes and spots; a spotted film,
+// which absorbs more from one side. Only one component of each reflects specularly, so that its reverse
+// direction is unambiguous.
 inline const std::vector<MixtureMaterial>& mixtures() {
   const auto part = [](double red, double blue, MaterialModel model) {
     return MixtureMaterial::Component{Curve({{390, blue}, {770, red}}),

@@ -12,7 +12,7 @@
 namespace abbe {
 namespace {
 
-// The quarter wave of MgF2 at 550 nm: the customary coat.
+// A quarter wave of MgF2 at 550 nm, the usual antireflection coating.
 Coating coat(double thickness_nm = 99.6) {
   return {{{"MgF2", index_of("MgF2")}}, {{0, thickness_nm}}};
 }
@@ -83,7 +83,7 @@ TEST(Coating, MakesItsMaterialsScatterByIt) {
   EXPECT_GT(std::abs(double(r->weight[4]) - fresnel_conductor(0.5, 2.9, 3.0).R()), 0.01);
 }
 
-// All eight lanes pass plain matter together, and what their films absorb is lost lane by lane.
+// All eight wavelengths pass a medium of constant index together, and each loses what its film absorbs.
 TEST(Coating, PlainMatterPassesEveryLane) {
   SampledSpectrum::Values nm;
   for (std::size_t j = 0; j < kLanes; ++j) nm[j] = 400.0F + 40.0F * static_cast<float>(j);

@@ -14,7 +14,7 @@ using Imath::V3f;
 const BsdfRandom kReflect{0, {}};
 const BsdfRandom kRefract{0x1.fffffep-1F, {}};
 
-// The index of lane 0, then those of dispersive glass.
+// The index `first` at the first wavelength, then those of dispersive glass.
 DielectricBsdf glass(float first = 1.5F) {
   SampledSpectrum::Values n{first};
   for (std::size_t j = 1; j < kLanes; ++j) n[j] = 1.5F + 0.02F * static_cast<float>(j);
@@ -39,7 +39,8 @@ TEST(DielectricBsdf, ReflectionKeepsEveryLane) {
 }
 
 TEST(DielectricBsdf, TotalReflectionIsCertainOnlyForItsLanes) {
-  const DielectricBsdf bsdf = glass(1.2F);  // critical angle 56.4 degrees; 41.8 and less for the others
+  const DielectricBsdf bsdf =
+      glass(1.2F);  // critical angle 56.4 degrees; 41.8 and less at the other wavelengths
   const V3f wo = direction(-std::sqrt(0.5), 0);
   const auto total = bsdf.sample(wo, kRefract, 4, TransportMode::radiance);
   ASSERT_TRUE(total);
@@ -74,8 +75,8 @@ TEST(DielectricBsdf, PlainRefractionKeepsEveryLane) {
   EXPECT_EQ(s->lane_pdf[6], 1);
 }
 
-// L/n^2 is what an interface conserves: seen from outside, light inside has lost n^2; seen from inside, it
-// has gained it.
+// An interface conserves L/n^2. Radiance inside divides by n^2 seen from outside, and multiplies by n^2 seen
+// from inside.
 TEST(DielectricBsdf, RefractionScalesRadianceByTheSquaredIndex) {
   const DielectricBsdf bsdf{SampledSpectrum(1.5F), false};
   const auto in = bsdf.sample(direction(0.6, 0), kRefract, 0, TransportMode::radiance);
@@ -118,7 +119,7 @@ TEST(DielectricBsdf, EqualIndicesPassEverythingUnchanged) {
   }
 }
 
-// At grazing incidence 1 - R has no digits left; T has all of them.
+// At grazing incidence 1 - R has no significant digits left, but T has all of them.
 TEST(DielectricBsdf, GrazingTransmissionIsUnbiased) {
   const DielectricBsdf bsdf{SampledSpectrum(1.5F), false};
   const V3f wo(1, 0, 1e-5F);

@@ -14,7 +14,7 @@ DispersionFormula formula(int id, std::initializer_list<double> c) {
   return f;
 }
 
-// One formula of every kind, with coefficients of the size real ones have.
+// One formula of every kind, with realistic coefficients.
 const DispersionFormula kAll[] = {
     formula(1, {0, 0.6961663, 0.0684043, 0.4079426, 0.1162414, 0.8974794, 9.896161}),
     formula(2, {0, 1.03961212, 0.00600069867, 0.231792344, 0.0200179144, 1.01046945, 103.560653}),
@@ -27,7 +27,7 @@ const DispersionFormula kAll[] = {
     formula(9, {2.3, 0.02, 0.02, 0.01, 1.5, 1}),
 };
 
-// The table of formulas again, written out as it stands, at L = 0.6 um.
+// The documented formulas written out at L = 0.6 um.
 TEST(Dispersion, FollowsTheTableOfFormulas) {
   const double L = 0.6, L2 = L * L;
   const double expected[] = {
@@ -54,7 +54,7 @@ TEST(Dispersion, FollowsTheTableOfFormulas) {
 
 TEST(Dispersion, LeavesOutAbsentTerms) {
   const DispersionFormula constant = formula(4, {2.25});
-  EXPECT_EQ(dispersion_index(constant, 1.0), 1.5);  // where an absent resonance 0/(L^2 - 0^0) would be 0/0
+  EXPECT_EQ(dispersion_index(constant, 1.0), 1.5);  // an absent resonance 0/(L^2 - 0^0) would be 0/0
   DispersionFormula padded = formula(5, {1.5, 0.0042, -2});
   padded.terms = 17;
   EXPECT_EQ(dispersion_index(padded, 0.5), 1.5 + 0.0042 / 0.25);

@@ -4,7 +4,7 @@
 
 namespace abbe {
 
-/// Both distributions of facets.
+/// Both slope distributions.
 inline constexpr FacetShape kFacetShapes[] = {FacetShape::ggx, FacetShape::beckmann};
 
 }  // namespace abbe

@@ -1,5 +1,4 @@
-// The closed forms against the textbook ones in a type of 113 bits, on the very inputs the function sees
-// (rounded before).
+// The closed forms against the textbook formulas in a type of 113 bits, for the same inputs after rounding.
 #include <gtest/gtest.h>
 
 #include <boost/multiprecision/cpp_bin_float.hpp>
@@ -15,15 +14,15 @@ namespace {
 
 using Quad = boost::multiprecision::cpp_bin_float_quad;
 
-// By day one of thirty, of the same kinds.
+// Runs that are not nightly use one of thirty inputs, of the same kinds.
 int inputs() {
   return test::nightly() ? 1'000'000 : 33'000;
 }
 
 struct Tolerance {
-  double relative;  ///< Of T, A away from the critical angle.
-  double zone;      ///< |1 - sin/eta| of that.
-  double absolute;  ///< Of R everywhere, of T within the zone.
+  double relative;  ///< Of T and A outside the zone around the critical angle.
+  double zone;      ///< Half width of that zone in |1 - sin/eta|.
+  double absolute;  ///< Of R everywhere, and of T within the zone.
 };
 template <typename T>
 constexpr Tolerance kTolerance{};
@@ -46,8 +45,8 @@ FresnelPower<Quad> textbook_conductor(const Quad& c, const Quad& n, const Quad& 
   const Quad re = n * n - k * k - sin2;
   const Quad im = 2 * n * k;
   const Quad size = sqrt(re * re + im * im);
-  // The larger part by the sum; the other as im/2 over it, which in any precision keeps what size - |re|
-  // loses.
+  // The larger part comes from the sum, the other from im/2 divided by it. This preserves at any precision
+  // what size - |re| loses.
   const Quad large = sqrt((size + (re < 0 ? -re : re)) / 2);
   const Quad small = large > 0 ? Quad(im / (2 * large)) : Quad(0);
   const Quad a = re < 0 ? small : large;
@@ -75,7 +74,7 @@ void expect_close(const FresnelPower<T>& got, const FresnelPower<Quad>& exact, d
   ASSERT_NEAR(got.Tp, to_double(exact.Tp), bound(to_double(exact.Tp))) << at;
 }
 
-// Cosines that visit all angles, grazing ones, and those around the critical angle of `eta`.
+// Cosines that cover all angles, grazing angles, and those around the critical angle of `eta`.
 class Angles {
  public:
   double cosine(double eta) {

@@ -1,4 +1,4 @@
-// The makers' glasses: their names, and that each formula gives the numbers its maker prints.
+// Names of the makers' glasses, and agreement of each formula with the numbers that its maker prints.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,7 +27,7 @@ std::string name_of(const std::string& name) {
   return glass ? glass->name : "";
 }
 
-// By day every fourth is loaded; the numbers of all are compared below.
+// Runs that are not nightly load every fourth glass; the numbers of all are compared below.
 bool is_skipped(std::size_t i) {
   return !test::nightly() && i % 4 != 0;
 }
@@ -73,16 +73,16 @@ TEST(Glasses, SayWhereTheyComeFrom) {
   EXPECT_TRUE(source.ends_with("database/data/specs/hoya/optical/FCD1.yml")) << source;
 }
 
-// How far a printed number may be from the true one: half of its last digit.
+// Tolerance of a printed number: half of its last digit.
 double last_digit(const std::string& printed) {
   const std::size_t point = printed.find('.');
   const int decimals = point == std::string::npos ? 0 : static_cast<int>(printed.size() - point - 1);
   return std::pow(10.0, -decimals);
 }
 
-// nd as printed, to its last digit but no closer than 1e-5; the Abbe number to what 1e-5 in the indices
-// leaves of it. Sumita's formulas are apart from its tables by a little more, and Schott prints the Abbe
-// number of one glass otherwise than its formula.
+// nd agrees to its last printed digit, but to no more than 1e-5; the Abbe number to the effect of 1e-5 in the
+// indices. Sumita's formulas differ slightly more from its tables, and for one glass Schott's printed Abbe
+// number differs from its formula.
 TEST(Glasses, AgreeWithTheNumbersTheirMakersPrint) {
   Diagnostics diagnostics;
   int compared = 0;

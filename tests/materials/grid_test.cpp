@@ -19,7 +19,7 @@ PlacedGrid ragged() {
   return {std::make_shared<const DensityGrid>(std::move(grid)), {-1, 2, 0}, {3, 4, 0.5}};
 }
 
-// Trilinear from the definition.
+// Trilinear interpolation from the definition.
 double density(const PlacedGrid& placed, const Imath::V3d& at) {
   const auto& n = placed.grid->size;
   double sum = 0;
@@ -55,7 +55,7 @@ TEST(DensityGrid, ColumnsAreTheIntegralOfDensity) {
   for (int i = 0; i < 100; ++i) {
     const Line line = random_line(random);
     const float distance = i % 4 == 0 ? kForever : 8 * random();
-    const GridStretch stretch = grid.march(line.origin, line.direction, distance, kForever);
+    const GridSegment stretch = grid.march(line.origin, line.direction, distance, kForever);
     constexpr int kSteps = 20000;
     const double length = std::min(12.0, static_cast<double>(distance));
     double sum = 0;
@@ -76,20 +76,20 @@ TEST(DensityGrid, AColumnEndsWhereItIsReached) {
   for (int i = 0; i < 2000; ++i) {
     const Line line = random_line(random);
     const float whole = grid.march(line.origin, line.direction, kForever, kForever).column;
-    if (whole == 0) continue;  // past the grid
+    if (whole == 0) continue;  // outside the grid
     const float column = whole * (1.2F * random() + 1e-3F);
-    const GridStretch stretch = grid.march(line.origin, line.direction, kForever, column);
+    const GridSegment stretch = grid.march(line.origin, line.direction, kForever, column);
     ASSERT_EQ(stretch.reached, column <= whole) << column / whole;
     if (!stretch.reached) continue;
     ++reached;
     ASSERT_EQ(stretch.column, column);
-    const GridStretch part = grid.march(line.origin, line.direction, stretch.distance, kForever);
+    const GridSegment part = grid.march(line.origin, line.direction, stretch.distance, kForever);
     ASSERT_NEAR(part.column, column, 3e-6F + 1e-5F * column) << i;
   }
   EXPECT_GT(reached, 500);
 }
 
-// Along an axis and through nodes, from within and from without, and past the grid.
+// Rays along an axis and through nodes, from inside and from outside, and past the grid.
 TEST(DensityGrid, EvenDensityIsTheLength) {
   const PlacedGrid even{
       std::make_shared<const DensityGrid>(DensityGrid{{3, 3, 3}, std::vector<float>(27, 2)}),

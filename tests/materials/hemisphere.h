@@ -20,8 +20,8 @@ double integral_over_cosines(F f, int steps = 400) {
   return sum * std::numbers::pi / (static_cast<double>(steps) * steps);
 }
 
-/// What light from `from`, z > 0, leaves to the same side by spread events, in one lane: the
-/// directional-hemispherical reflectance without what is mirrored.
+/// Directional-hemispherical reflectance for light from `from`, z > 0, at one wavelength, without delta
+/// lobes.
 inline double spread_reflectance(const Bsdf& bsdf, const Imath::V3f& from, int lane = 0) {
   return integral_over_cosines([&](const Imath::V3f& to) {
     return static_cast<double>(eval(bsdf, from, to, TransportMode::power)[lane]);

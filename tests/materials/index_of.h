@@ -8,7 +8,7 @@
 
 namespace abbe {
 
-/// The material of that name, which must load without complaint.
+/// The refractive index of that name, which must load without errors.
 inline RefractiveIndex index_of(const std::string& name) {
   Diagnostics diagnostics;
   const auto named = load_index(name, {}, diagnostics);

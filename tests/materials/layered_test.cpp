@@ -43,7 +43,7 @@ CoatedDiffuseBsdf coated(float n, float rho) {
                         SampledSpectrum(static_cast<float>(diffuse_reflectance_inside(n))), false);
 }
 
-// What the ground sends up is let out by the share 1 - r, and else comes back to the ground.
+// Of the light that the ground scatters up, the fraction 1 - r leaves; the rest returns to the ground.
 TEST(CoatedDiffuseBsdf, SumsAllReflectionsBetweenGroundAndCoat) {
   const double r = 0.59634576;
   for (const double rho : {0.0, 0.3, 1.0})
@@ -88,7 +88,7 @@ TEST(CoatedDiffuseMaterial, SeesTheIndexAtEachWavelength) {
   }
 }
 
-// Of all that happens: the share reflected and let pass, of one lane.
+// Reflectance and transmittance at one wavelength.
 struct Balance {
   double reflected, transmitted;
 };
@@ -113,7 +113,7 @@ TEST(ThinGlassBsdf, AbsorbsAlongTheWayInside) {
   const ThinGlassBsdf grey{SampledSpectrum(1.5F), SampledSpectrum(1)};
   EXPECT_NEAR(balance(grey, 1).transmitted, 0.33911112, 1e-6);
   EXPECT_NEAR(balance(grey, 1).reflected, 0.04499008, 1e-6);
-  const double cos_t = std::sqrt(1 - 0.75 / 2.25);  // at 60 degrees the way is longer
+  const double cos_t = std::sqrt(1 - 0.75 / 2.25);  // the path is longer at 60 degrees
   const ThinGlassBsdf thinner{SampledSpectrum(1.5F), SampledSpectrum(static_cast<float>(cos_t))};
   const FresnelPower<double> f = fresnel_dielectric(0.5, 1.5);
   const double a = std::exp(-1.0);
@@ -165,7 +165,7 @@ TEST(SchlickBsdf, IsTheNamedApproximation) {
   EXPECT_NEAR(s->weight[0], 0.07, 1e-6);
 }
 
-// The figure of docs/materials.md, the largest over all wavelengths and angles.
+// The figure in docs/materials.md: the largest error over all wavelengths and angles.
 TEST(SchlickBsdf, IsOffByTheFigureOfTheDocsForAluminium) {
   const RefractiveIndex aluminium = index_of("Al_Rakic");
   double largest = 0;

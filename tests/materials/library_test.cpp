@@ -13,7 +13,7 @@
 namespace abbe {
 namespace {
 
-// A user's table in a folder of its own, removed with it.
+// A user's table in a temporary folder.
 class UserTable : public testing::Test {
  protected:
   UserTable() { std::filesystem::create_directories(folder_); }
@@ -127,7 +127,7 @@ TEST_F(UserTable, IsRefusedByWhatItMayHaveMeant) {
             std::string::npos);
   for (const char* column : {"K", "kappa"})
     EXPECT_NE(complaint(fmt::format("wavelength_nm,n,{}\n400,1.6,0.1\n700,1.5,0.1\n", column))
-                  .find(fmt::format("column \"{}\" (k is called k)", column)),
+                  .find(fmt::format("column \"{}\" (the extinction column must be called k)", column)),
               std::string::npos);
 }
 
@@ -144,7 +144,8 @@ TEST_F(UserTable, IsRefusedWithColumnsOrRangesThatNoIndexHas) {
       std::string::npos)
       << alpha;
   const std::string zero = complaint("# outside: zero\nwavelength_nm,n\n400,1.6\n700,1.5\n");
-  EXPECT_NE(zero.find("no index is 0 beyond its rows (got \"# outside: zero\", allowed clamp, error"),
+  EXPECT_NE(zero.find("an index cannot be 0 outside the rows of its table (got \"# outside: zero\", allowed "
+                      "clamp, error"),
             std::string::npos)
       << zero;
 }

@@ -20,7 +20,7 @@ TEST(Material, DiffuseTakesItsReflectanceAtThePacket) {
   EXPECT_FLOAT_EQ(std::get<DiffuseBsdf>(bsdf).reflectance[1], 0.28F);
   EXPECT_FALSE(lobes(card).delta);
   EXPECT_FALSE(is_dispersive(card));
-  EXPECT_EQ(interior(card), nullptr);
+  EXPECT_EQ(interior_index(card), nullptr);
 }
 
 TEST(Material, DielectricIsRelativeToAir) {
@@ -28,8 +28,8 @@ TEST(Material, DielectricIsRelativeToAir) {
   const Bsdf bsdf = make_bsdf(drop, {visible()});
   ASSERT_TRUE(std::holds_alternative<DielectricBsdf>(bsdf));
   const auto& model = std::get<DielectricBsdf>(bsdf);
-  EXPECT_NEAR(model.n[2], interior(drop)->n(480.0), 1e-6);
-  EXPECT_LT(model.n[2], interior(drop)->catalogued_n(480.0) - 2e-4);
+  EXPECT_NEAR(model.n[2], interior_index(drop)->n(480.0), 1e-6);
+  EXPECT_LT(model.n[2], interior_index(drop)->catalogued_n(480.0) - 2e-4);
   EXPECT_TRUE(model.dispersive);
   EXPECT_TRUE(lobes(drop).delta);
   EXPECT_TRUE(is_dispersive(drop));
@@ -46,7 +46,7 @@ TEST(Material, ConductorLetsNoLightIn) {
   EXPECT_NEAR(std::get<ConductorBsdf>(bsdf).k[3], index_of("Al_Rakic").k(520.0), 1e-5);
   EXPECT_TRUE(lobes(mirror).delta);
   EXPECT_FALSE(is_dispersive(mirror));
-  EXPECT_EQ(interior(mirror), nullptr);
+  EXPECT_EQ(interior_index(mirror), nullptr);
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ using Imath::V2f;
 using Imath::V3d;
 using Imath::V3f;
 
-// 20 widths from 1e-3 to 1, every second one stretched along y.
+// 20 widths from 1e-3 to 1; every second one is anisotropic.
 std::vector<Microfacets<double>> all_facets() {
   std::vector<Microfacets<double>> facets;
   for (const FacetShape shape : kFacetShapes)
@@ -31,8 +31,8 @@ V3d unit_vector(double cos, double phi) {
   return {sin * std::cos(phi), sin * std::sin(phi), cos};
 }
 
-// Integral of f over all h, in polar coordinates of their slopes scaled by alpha: narrow peaks are as good as
-// wide ones there.
+// Integral of f over all h, in polar coordinates of the slopes scaled by alpha. Narrow peaks are then
+// resolved like wide ones.
 template <typename F>
 double over_facets(const Microfacets<double>& facets, F f) {
   constexpr int kRadii = 600;
@@ -55,7 +55,7 @@ TEST(Microfacets, CoverTheSurface) {
     EXPECT_NEAR(over_facets(facets, [&](const V3d& h) { return facets.D(h) * h.z; }), 1, 1e-4);
 }
 
-// As G1 and D must agree, this is a test of lambda too.
+// G1 and D must agree, so this also tests lambda.
 TEST(Microfacets, VisibleOnesCoverWhatIsSeen) {
   for (const auto& facets : all_facets())
     for (const double cos : {1.0, 0.9, 0.5, 0.2, 0.03}) {
@@ -65,7 +65,7 @@ TEST(Microfacets, VisibleOnesCoverWhatIsSeen) {
     }
 }
 
-// The chapter's form, with the cos^4 and the leading 1 that its print lacks.
+// The formula of the chapter, with the cos^4 and the leading 1 that the print lacks.
 TEST(Microfacets, AnisotropicGgxIsTheClosedForm) {
   const Microfacets<double> facets{FacetShape::ggx, 0.2, 0.5};
   for (const double theta : {0.0, 0.3, 1.2})
@@ -111,7 +111,7 @@ TEST(Microfacets, SlopesAreDrawnByTheirShare) {
   }
 }
 
-// Of float directions; what is rounded off a direction is not the formulas' fault.
+// Both use the float directions, since rounding of a direction is not an error of the formulas.
 TEST(Microfacets, FloatsKeepTheirDigits) {
   for (const auto& facets : all_facets()) {
     const Microfacets<float> narrow{facets.shape, static_cast<float>(facets.alpha_x),

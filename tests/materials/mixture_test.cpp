@@ -1,4 +1,5 @@
-// Mixtures are what their parts are: a part alone, or the mean by the power that each sends.
+// A mixture of one component equals the component. Other mixtures are means weighted by the power that each
+// component scatters.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +23,7 @@ namespace {
 
 using Imath::V3f;
 
-// Every model that may be mixed, those that polarise in several kinds.
+// All models that may be mixed, with several kinds of those that polarise.
 const std::vector<MaterialModel>& mixable() {
   static const RefractiveIndex gold(0.2, 3);
   static const std::vector<MaterialModel> all{
@@ -39,7 +40,7 @@ const std::vector<MaterialModel>& mixable() {
       DepolariserMaterial{{Curve(0.9)}},
       DiffuseMaterial{Curve(0.5)},
       OrenNayarMaterial{Curve(0.7), 30},
-      PrincipledMaterial{Curve(0.5), Principled(PrincipledLook{})},
+      PrincipledMaterial{Curve(0.5), Principled(PrincipledParameters{})},
       CosinePowerMaterial{Curve(0.5), 3, true},
       PhongMaterial{Curve(0.5), 20},
       RetroreflectorMaterial{Curve(0.5), 20}};
@@ -50,7 +51,7 @@ MixtureMaterial::Component part(double weight, MaterialModel model) {
   return {Curve(weight), std::make_shared<const Material>(Material{"part", std::move(model)})};
 }
 
-// From both sides, at small angles and large ones.
+// Directions on both sides, at small and large angles.
 std::vector<V3f> ways_from_both_sides() {
   return {direction(0.98, 1), direction(0.4, 2), direction(0.1, 3), direction(-0.7, 4), direction(-0.2, 5)};
 }
@@ -68,7 +69,7 @@ void expect_near(const SampledSpectrum& a, const SampledSpectrum& b, double rela
     EXPECT_NEAR(a[lane], b[lane], relative * std::abs(b[lane]) + 1e-6) << "lane " << lane;
 }
 
-// At the lanes to which light comes.
+// Compares the matrices at wavelengths that receive light.
 void expect_same(const std::optional<MuellerMatrix>& a, const std::optional<MuellerMatrix>& b,
                  const SampledSpectrum& weight) {
   ASSERT_EQ(a.has_value(), b.has_value());
@@ -84,8 +85,8 @@ void expect_same(const std::optional<MuellerMatrix>& a, const std::optional<Muel
 }
 
 void expect_same_events(const Bsdf& mixed, const Bsdf& alone, const V3f& wo, TransportMode mode) {
-  constexpr double kRounding = 2e-3;  // of directions, which are much of narrow lobes
-  // Compilers fuse multiplications and additions where a function is inlined, and not where it is called.
+  constexpr double kRounding = 2e-3;  // of directions; it is large relative to narrow lobes
+  // Compilers fuse multiplications and additions where a function is inlined, but not where it is called.
   constexpr float kLastDigits = 4 * std::numeric_limits<float>::epsilon();
   Uniform random(5);
   for (int i = 0; i < 40; ++i) {
@@ -119,7 +120,7 @@ TEST(Mixture, OfOnePartIsThatPart) {
   }
 }
 
-// Seen at an angle near Brewster's of the film, which reflects mostly what is polarised across the plane.
+// Directions near Brewster's angle of the film, whose reflection is mainly s-polarised.
 TEST(Mixture, OfFilmAndMirrorIsTheMeanByTheirPowers) {
   constexpr double kCos = 0.56;
   const Coating film{{{"2", RefractiveIndex(2)}}, {{0, 100}}};
@@ -151,7 +152,7 @@ void expect_elements(const std::optional<MuellerMatrix>& m, int lane, const Muel
   EXPECT_NEAR(m ? m->s[lane] : 0, traced.s, 2 * kMuellerFloat);
 }
 
-// What a ray's trace tells in double precision, and what paths carry.
+// A ray trace in double precision agrees with the matrices of paths.
 void expect_traced(const Material& material, const V3f& wo) {
   const SampledSpectrum nm = packet();
   const Bsdf bsdf = make_bsdf(material, {nm});
@@ -162,8 +163,8 @@ void expect_traced(const Material& material, const V3f& wo) {
     ASSERT_TRUE(power && traced);
     EXPECT_NEAR(delta_power(bsdf, wo, false)[lane], power->R(), kMuellerFloat);
     EXPECT_NEAR(delta_power(bsdf, wo, true)[lane], power->transmitted(), kMuellerFloat);
-    expect_elements(mueller(bsdf, wo, {-wo.x, -wo.y, wo.z}, true), lane, traced->ways.reflected);
-    expect_elements(mueller(bsdf, wo, -wo, true), lane, traced->ways.through);
+    expect_elements(mueller(bsdf, wo, {-wo.x, -wo.y, wo.z}, true), lane, traced->matrices.reflected);
+    expect_elements(mueller(bsdf, wo, -wo, true), lane, traced->matrices.through);
   }
 }
 

@@ -2,7 +2,7 @@
 
 namespace abbe {
 
-/// How far elements of Mueller matrices in float may be from theirs in double.
+/// Tolerance of Mueller elements in float against those in double.
 inline constexpr double kMuellerFloat = 1e-5;
 
 }  // namespace abbe

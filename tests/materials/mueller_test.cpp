@@ -1,4 +1,4 @@
-// What surfaces and matter do to polarised light, against textbook amplitudes.
+// Mueller matrices of surfaces and media against textbook amplitudes.
 #include "materials/interface/mueller.h"
 
 #include <gtest/gtest.h>
@@ -27,7 +27,8 @@ using Imath::V3f;
 
 constexpr double kMuellerDouble = 1e-12;
 
-// By the definition, from amplitudes of the fields across the plane of incidence and in it.
+// Elements by the definition, from amplitudes of the fields perpendicular to the plane of incidence and in
+// it.
 MuellerElements<double> of_amplitudes(const Amplitude& s, const Amplitude& p) {
   const double sum = std::norm(s) + std::norm(p);
   const Amplitude sp = 2.0 * s * std::conj(p) / sum;
@@ -44,8 +45,8 @@ double difference(const MuellerElements<T>& a, const MuellerElements<double>& b)
 struct Incidence {
   float cos_i, eta, k;
 };
-// Angles and indices drawn at random, with those where digits are lost: along the normal, at grazing angles,
-// near Brewster's angle and the critical one, and near equal indices.
+// Random angles and indices, and those with cancellation: along the normal, at grazing angles, near
+// Brewster's angle and the critical angle, and for nearly equal indices.
 std::vector<Incidence> incidences(bool absorbing) {
   std::mt19937 rng(7);
   std::uniform_real_distribution<double> u(0, 1);
@@ -69,7 +70,7 @@ TEST(Mueller, FollowsFromFresnelsAmplitudes) {
   for (const bool absorbing : {false, true})
     for (const auto& [cos_i, eta, k] : incidences(absorbing)) {
       const FresnelAmplitudes f = fresnel_amplitudes(cos_i, {eta, k});
-      // The textbook amplitudes themselves lose what the difference of the indices loses.
+      // The textbook amplitudes themselves lose precision when the indices are nearly equal.
       const double lost = std::abs(Amplitude(eta, k) - 1.0);
       if (lost < 1e-3 || cos_i < 1e-4F) continue;
       const auto reflected = of_amplitudes(f.rs, f.rp);
@@ -95,7 +96,7 @@ TEST(Mueller, KeepsItsDigitsInFloat) {
     }
 }
 
-// S/(S + P) of the elements is what the powers say.
+// S/(S + P) of the elements agrees with the powers.
 TEST(Mueller, AgreesWithThePowers) {
   for (const bool absorbing : {false, true})
     for (const auto& [cos_i, eta, k] : incidences(absorbing)) {
@@ -106,7 +107,7 @@ TEST(Mueller, AgreesWithThePowers) {
       if (absorbing) continue;
       const auto t = refraction_mueller<double>(cos_i, eta);
       ASSERT_NEAR(t.d * f.transmitted(), (f.Ts - f.Tp) / 2, 1e-12);
-      // Nothing is lost of either polarisation.
+      // Neither polarisation loses power.
       ASSERT_NEAR((1 + r.d) * f.R() + (1 + t.d) * f.transmitted(), 1, 1e-12);
       ASSERT_NEAR((1 - r.d) * f.R() + (1 - t.d) * f.transmitted(), 1, 1e-12);
     }
@@ -131,7 +132,8 @@ TEST(Mueller, OfTotalReflectionIsTheTextbooksPhase) {
 }
 
 TEST(Mueller, OfTwoTotalReflectionsInFresnelsRhombIsAQuarterWave) {
-  // At 51.3 degrees in glass of index 1.51 each takes an eighth. [Born1999, sec. 1.5.4]
+  // In glass of index 1.51, reflection at 48 degrees 37' or 54 degrees 37' shifts by an eighth of a wave.
+  // [Born1999, sec. 1.5.4]
   const auto quarter = [](double degrees) {
     const auto m = reflection_mueller(std::cos(degrees * kDegree), 1 / 1.51, 0.0);
     return 2 * std::atan2(m.s, m.c);
@@ -162,7 +164,7 @@ TEST(Mueller, OfEqualIndicesIsTheIdentity) {
   EXPECT_TRUE(std::isfinite(along.d) && std::isfinite(along.c));
 }
 
-// Where reflection by the front face alone adds to what comes back from the other, order by order.
+// The sheet's reflection is that of the front face plus that of the back face, order by order.
 TEST(Mueller, OfASheetAddsUpItsOrders) {
   for (const double eta : {1.5, 2.4, 0.8})
     for (const double cos_i : {1.0, 0.8, 0.62}) {
@@ -203,7 +205,7 @@ TEST(Mueller, OfNoFilmsIsThatOfTheInterface) {
     }
 }
 
-// One film by Airy's sums, which know nothing of matrices. [Born1999, sec. 1.6.4]
+// A single film by Airy's sums, which use no matrices. [Born1999, sec. 1.6.4]
 TEST(Mueller, OfOneFilmFollowsFromItsInternalReflections) {
   const double n1 = 1.9;
   const double n2 = 1.52;

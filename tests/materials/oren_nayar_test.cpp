@@ -18,7 +18,7 @@ TEST(OrenNayarBsdf, IsLambertsWithoutRoughness) {
   }
 }
 
-// The shape of the qualitative model of Oren and Nayar for the same sigma.
+// The shape of the qualitative model of [OrenNayar1994] for the same sigma.
 TEST(OrenNayarBsdf, HasTheRatioOfTheQualitativeModel) {
   const double s2 = std::pow(30 * std::numbers::pi / 180, 2);
   const double ratio = 0.45 * s2 / (s2 + 0.09) / (1 - 0.5 * s2 / (s2 + 0.33));
@@ -34,8 +34,8 @@ TEST(OrenNayarBsdf, WhiteMatterReturnsAllFromEveryDirection) {
     }
 }
 
-// Grey matter scatters again what it did not send out at once, by rho each time: from the mean over diffuse
-// light of what leaves at once, E, rho E + rho^2 E (1 - E)/(1 - rho (1 - E)).
+// Light that grey facets scatter repeatedly is multiplied by rho each time. With E the mean single-scattering
+// albedo of diffuse light, the diffuse albedo is rho E + rho^2 E (1 - E)/(1 - rho (1 - E)).
 TEST(OrenNayarBsdf, GreyMatterLosesWithEachScattering) {
   const float r = 1;
   const double rho = 0.5;

@@ -18,11 +18,11 @@ struct Example {
   const char* name;
   PhaseFunction phase;
   double mean_cosine;
-  double mean_square;  ///< Of the cosine.
+  double mean_square;  ///< Mean of the squared cosine.
 };
 Example peaked(const char* name, float g) {
   const double h = static_cast<double>(g);
-  return {name, HenyeyGreensteinPhase{g}, h, (1 + 2 * h * h) / 3};  // Legendre coefficients g^n
+  return {name, HenyeyGreensteinPhase{g}, h, (1 + 2 * h * h) / 3};  // the Legendre coefficients are g^n
 }
 const std::vector<Example>& phase_examples() {
   static const std::vector<Example> all{{"isotropic", IsotropicPhase{}, 0, 1.0 / 3},
@@ -42,8 +42,8 @@ Imath::V3f turned_by(double angle) {
   return Imath::V3f(Imath::V3d(std::sin(angle), 0, std::cos(angle)));
 }
 
-// Of f times the density over the sphere, by Simpson's rule in the logarithm of the angle to the sharp end,
-// in double; the density itself is the float of the program.
+// Integral of f times the pdf over the sphere, by Simpson's rule in the logarithm of the angle from the peak.
+// It is computed in double from the program's float pdf.
 double over_sphere(const PhaseFunction& phase, const std::function<double(double)>& f, bool back) {
   constexpr int kSteps = 20000;
   const double low = std::log(1e-7);
@@ -77,7 +77,7 @@ TEST(Phase, DensitiesIntegrateToTheirMoments) {
   }
 }
 
-// Cells of equal probability in the angle by the closed forms of the distributions, and of azimuth.
+// Cells of equal probability, by the closed forms of the distributions in the angle, and in azimuth.
 double cumulative(const PhaseFunction& phase, const Imath::V3d& w) {
   const double back = (Imath::V3d(0, 0, 1) - w).length2() / 2;  // 1 - cos
   const double c = 1 - back;
@@ -85,7 +85,8 @@ double cumulative(const PhaseFunction& phase, const Imath::V3d& w) {
   const auto* peak = std::get_if<HenyeyGreensteinPhase>(&phase);
   const double g = peak == nullptr ? 0 : static_cast<double>(peak->g);
   if (std::abs(g) < 1e-3) return back / 2 - 3 * g / 4 * (1 - c * c);
-  // The share turned by less: 1 - (1 - g^2)/(2 g) (1/sqrt(...) - 1/(1 + g)), from the sharp end.
+  // Cumulative probability of smaller deflections, from the peak: 1 - (1 - g^2)/(2 g) (1/sqrt(...) - 1/(1 +
+  // g)).
   const double sharp = g > 0 ? back : (Imath::V3d(0, 0, 1) + w).length2() / 2;
   const double h = std::abs(g);
   const double root = std::sqrt((1 - h) * (1 - h) + 2 * h * sharp);
@@ -95,7 +96,8 @@ double cumulative(const PhaseFunction& phase, const Imath::V3d& w) {
 
 TEST(Phase, SamplesFollowTheDensityUpToTheSharpestPeaks) {
   constexpr int kRows = 50, kColumns = 8, kSamples = 400000;
-  const double level = 1 - std::pow(1 - 0.01, 1.0 / static_cast<double>(phase_examples().size()));  // Sidak
+  const double level =
+      1 - std::pow(1 - 0.01, 1.0 / static_cast<double>(phase_examples().size()));  // Sidak correction
   for (const Example& e : phase_examples()) {
     Uniform random(29);
     std::vector<double> counted(kRows * kColumns, 0.0);

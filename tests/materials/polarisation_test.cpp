@@ -1,5 +1,4 @@
-// What scattering models do to polarised light: laws that all of them obey, and what they make of their
-// parts.
+// Laws that the Mueller matrices of all scattering models obey, and the matrices of mixtures.
 #include "materials/bsdf/polarisation.h"
 
 #include <gtest/gtest.h>
@@ -18,9 +17,9 @@ namespace {
 
 using Imath::V3f;
 
-// Laws of all models. What is done to polarisation is passive where no Stokes vector gains power, either way,
-// and physical where Cloude's coherency matrix has no negative eigenvalue: of the form that matrices have
-// here its eigenvalues are (1 + p +- 2 |(d, c + is)|)/4 and (1 - p)/4 twice.
+// Laws of all models. A matrix is passive if no Stokes vector gains power in either direction. It is physical
+// if Cloude's coherency matrix has no negative eigenvalue. For matrices of this form the eigenvalues are (1 +
+// p +- 2 |(d, c + is)|)/4 and, twice, (1 - p)/4.
 void expect_physical(const MuellerMatrix& m, const V3f& wo, const V3f& wi) {
   EXPECT_NEAR(m.axis.length(), 1, 1e-5);
   EXPECT_NEAR(m.axis.dot(wo), 0, 1e-5);
@@ -34,7 +33,7 @@ void expect_physical(const MuellerMatrix& m, const V3f& wo, const V3f& wi) {
   }
 }
 
-// Largest of the shares that either of two crossed polarisations keeps.
+// The larger of the fractions that survive of two orthogonal polarisations.
 double greatest_share(const SampledSpectrum& power, const MuellerMatrix& m) {
   double greatest = 0;
   for (int lane = 0; lane < kLanes; ++lane)
@@ -86,7 +85,7 @@ TYPED_TEST(MuellerLaws, EventsArePhysicalAndTheSameBothWays) {
   }
 }
 
-// Of events of a single direction neither polarisation gains power, of all of them together.
+// In delta events and in all events together, neither polarisation gains power.
 TYPED_TEST(MuellerLaws, NeitherPolarisationGainsPower) {
   for (const TypeParam& model : examples<TypeParam>()) {
     const Bsdf bsdf = model;
@@ -101,7 +100,7 @@ TYPED_TEST(MuellerLaws, NeitherPolarisationGainsPower) {
   }
 }
 
-// Light that one facet has scattered has its polarisation, all other none.
+// Light scattered by a single facet has its polarisation; multiply scattered light has none.
 template <typename Rough>
 void expect_facets(const Rough& rough, const V3f& wo, const V3f& wi, const MuellerElements<double>& facet) {
   const auto m = mueller(Bsdf(rough), wo, wi, false);
@@ -126,8 +125,8 @@ TEST(Mueller, OfRoughMatterIsThatOfItsFacets) {
   expect_facets(glass, below, wo, refraction_mueller(std::abs(facet.dot(Imath::V3d(wo))), 1.5));
 }
 
-// A share of the light that the mixture's mirror sends on is polarised as the mirror says, the rest as the
-// others do.
+// The specular part of the mixture's light has the polarisation of its mirror, the rest that of the other
+// components.
 TEST(Mueller, OfAMixtureIsTheMeanOfWhatItsPartsSend) {
   const auto part = [](double weight, MaterialModel model) {
     return MixtureMaterial::Component{Curve(weight),

@@ -10,8 +10,8 @@ namespace {
 using Imath::V3f;
 const SampledSpectrum kWhite(1);
 
-// Energy is conserved up to C = 1/pi, of light's direction alone, and to C = (a + 2)/(2 pi), of both: white
-// matter has that C.
+// Energy is conserved up to C = 1/pi for the one-sided lobe and up to C = (a + 2)/(2 pi) for the reciprocal
+// one. A reflectance of 1 gives these values.
 TEST(CosinePowerBsdf, WhiteHasTheLargestConstantThatConservesEnergy) {
   for (const double a : {0.0, 1.0, 4.5}) {
     const auto exponent = static_cast<float>(a);
@@ -39,8 +39,8 @@ TEST(CosinePowerBsdf, OfOneDirectionTellsWhichWayLightGoes) {
   EXPECT_NEAR(bsdf.eval(steep, flat, TransportMode::power)[0], 0.81 / kPi, 1e-6);
 }
 
-// Along the normal the lobe, cut by nothing, keeps (n + 1)/(n + 2). Towards grazing incidence more leaves
-// than arrives, without bound; the numbers in between by quadrature.
+// Along the normal the lobe is not cut by the horizon, and its albedo is (n + 1)/(n + 2). Towards grazing
+// incidence it grows without bound; the values between are by quadrature.
 TEST(PhongBsdf, ReturnsMoreThanArrives) {
   const PhongBsdf phong{kWhite, 10};
   EXPECT_NEAR(spread_reflectance(phong, V3f(0, 0, 1)), 11.0 / 12, 1e-4);

@@ -7,7 +7,7 @@
 
 namespace abbe {
 
-/// Numbers in [0, 1) with 24 bits, as samplers give them.
+/// Random numbers in [0, 1) with 24 bits, like those of samplers.
 class Uniform {
  public:
   explicit Uniform(unsigned seed) : rng_(seed) {}

@@ -77,7 +77,7 @@ TEST(RefractiveIndex, ExtinctionsOfVacuumTablesAreDividedByAirToo) {
   for (const RefractiveIndex& index : {vacuum, formula}) {
     EXPECT_DOUBLE_EQ(index.k(550.0), k(550) / air_index(550));
     EXPECT_NEAR(index.k(SampledSpectrum(550))[0], index.k(550.0), 3e-7);
-    // k and the wavelength are both shorter in air, so that a metre takes the same share.
+    // k and the wavelength are both smaller in air, so a metre absorbs the same fraction.
     const double alpha = 4e9 * std::numbers::pi * k(550) / air_to_vacuum(550);
     EXPECT_NEAR(index.absorption_per_m(550.0), alpha, 1e-8 * alpha);
   }
@@ -87,15 +87,15 @@ TEST(RefractiveIndex, ExtinctionsOfVacuumTablesAreDividedByAirToo) {
 TEST(RefractiveIndex, KnowsWhereItsExtinctionIsMeasured) {
   const RefractiveIndex glass(kBk7, Extinction{Curve({{400, 1e-6}, {500, 1e-7}}), {400, 500}},
                               IndexMedium::air, 300, 2500);
-  EXPECT_FALSE(glass.knows_k(399));
-  EXPECT_TRUE(glass.knows_k(400));
-  EXPECT_FALSE(glass.knows_k(501));
+  EXPECT_FALSE(glass.has_measured_k(399));
+  EXPECT_TRUE(glass.has_measured_k(400));
+  EXPECT_FALSE(glass.has_measured_k(501));
   EXPECT_EQ(glass.k(350.0), 1e-6) << "held";
   const RefractiveIndex clear(kBk7, std::nullopt, IndexMedium::air, 300, 2500);
   EXPECT_FALSE(clear.k_range());
   EXPECT_EQ(clear.k(500.0), 0);
-  EXPECT_TRUE(RefractiveIndex(1.5).knows_k(500)) << "which is said to be 0";
-  EXPECT_FALSE(RefractiveIndex(Curve(1.5), Curve(), IndexMedium::air, 400, 700).knows_k(350));
+  EXPECT_TRUE(RefractiveIndex(1.5).has_measured_k(500)) << "which is said to be 0";
+  EXPECT_FALSE(RefractiveIndex(Curve(1.5), Curve(), IndexMedium::air, 400, 700).has_measured_k(350));
 }
 
 TEST(RefractiveIndex, ConstantsAndTablesKnowTheirNature) {

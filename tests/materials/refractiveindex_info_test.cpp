@@ -51,7 +51,7 @@ class Entry : public testing::Test {
     EXPECT_TRUE(entry && diagnostics.all().empty()) << diagnostics.text();
     return entry ? entry->index : RefractiveIndex(1.0);
   }
-  // "line:column: message" of the first complaint about DATA made of `blocks`, whose first line is 1.
+  // "line:column: message" of the first error in a file whose DATA consists of `blocks`, beginning at line 1.
   std::string fault(const std::string& blocks) { return fault_of("DATA: \n" + blocks); }
   std::string fault_of(const std::string& text) {
     Diagnostics diagnostics;
@@ -94,7 +94,7 @@ TEST_F(Entry, MayHoldAnyFormula) {
                 "\n    wavelength_range: 0.4 0.8\n    coefficients: " + coefficients + "\n")
         .n(500.0);
   };
-  // At 0.5 um, by hand.
+  // Values at 0.5 um, computed by hand.
   EXPECT_NEAR(n(1, "0 1.25 0.1"), std::sqrt(1 + 1.25 * 0.25 / 0.24), 1e-14);
   EXPECT_NEAR(n(2, "0 1.25 0.01"), std::sqrt(1 + 1.25 * 0.25 / 0.24), 1e-14);
   EXPECT_NEAR(n(3, "2 0.1 2 0.01 -2"), std::sqrt(2 + 0.1 * 0.25 + 0.01 * 4), 1e-14);
@@ -154,8 +154,8 @@ TEST_F(Entry, SaysWhatItIsRelativeTo) {
   EXPECT_EQ(table.low_nm(), 100);
 }
 
-// Ciddor's formula of air at 15 degrees, of index and wavelengths in vacuum, which an edition spelt so: the
-// air around has the index 1 relative to itself.
+// Ciddor's formula for air at 15 degrees, with index and wavelengths in vacuum, in the spelling of an earlier
+// edition. The index of air relative to air is 1.
 TEST_F(Entry, SaysItAsEarlierEditionsDid) {
   const std::string air =
       "DATA:\n  - type: formula 6\n    wavelength_range: 0.23 1.690\n"
@@ -185,7 +185,7 @@ TEST_F(Entry, SaysItInWordsThatAreKnown) {
 
 TEST_F(Entry, SaysItWhereItIsHeeded) {
   const std::string table = "  - type: tabulated n\n    data: |\n      0.4 1\n      0.5 1.5\n";
-  const std::string allowed = " is not heeded there (allowed under SPECS, CONDITIONS, PROPERTIES alone)";
+  const std::string allowed = " is ignored here (allowed only under SPECS, CONDITIONS, PROPERTIES)";
   EXPECT_EQ(fault(table + "n_is_absolute: true\n"), "6:16: n_is_absolute" + allowed);
   EXPECT_EQ(fault(table + "    wavelength_is_vacuum: true\n"), "6:27: wavelength_is_vacuum" + allowed);
   EXPECT_EQ(fault(table + "SPEC:\n  n_is_absolute: false\n"), "7:18: n_is_absolute" + allowed);
@@ -202,9 +202,9 @@ TEST_F(Entry, KnowsWhereItsExtinctionIsMeasured) {
   EXPECT_EQ(both.k_range()->low_nm, 500);
   EXPECT_EQ(both.k_range()->high_nm, 600);
   EXPECT_EQ(both.k(450.0), 1e-5);
-  EXPECT_FALSE(both.knows_k(450));
-  EXPECT_TRUE(both.knows_k(500) && both.knows_k(600));
-  EXPECT_FALSE(both.knows_k(650));
+  EXPECT_FALSE(both.has_measured_k(450));
+  EXPECT_TRUE(both.has_measured_k(500) && both.has_measured_k(600));
+  EXPECT_FALSE(both.has_measured_k(650));
 }
 
 TEST_F(Entry, IsRefusedWithoutAnIndex) {

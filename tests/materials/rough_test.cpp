@@ -21,8 +21,7 @@ using Imath::V3f;
 
 constexpr float kFullTurn = 2 * std::numbers::pi_v<float>;
 
-// Point i of an evenly spread sequence in three dimensions: multiples of the powers of a generalised golden
-// ratio.
+// Point i of a uniform sequence in three dimensions: multiples of the powers of a generalised golden ratio.
 BsdfRandom event(int i) {
   const auto part = [i](double step) {
     const double x = 0.5 + step * i;
@@ -31,7 +30,7 @@ BsdfRandom event(int i) {
   return {part(0.8191725133961645), {part(0.6710436067037893), part(0.5497004779019703)}};
 }
 
-// Mean of what leaves `wo` in lane `lane`, weighed by `light`, over events drawn by that lane.
+// Mean of the light from `wo` at the wavelength `lane`, weighted by `light`, over events sampled by it.
 using LightField = std::function<double(const V3f&)>;
 double leaving(const Bsdf& bsdf, const V3f& wo, int lane, const LightField& light, int events = 1 << 15) {
   double sum = 0;
@@ -72,7 +71,7 @@ TEST(RoughConductor, PerfectMirrorLosesNothing) {
   std::printf("largest error of a mirror %.2g\n", worst);
 }
 
-// By day each of the facets has one of the indices, in turn.
+// Runs that are not nightly use one index for each kind of facets, in turn.
 std::vector<float> indices_for(std::size_t facets) {
   const std::vector<float> all{1.33F, 1.5F, 2.4F, 0.7F};
   return test::nightly() ? all : std::vector{all[facets % all.size()]};
@@ -95,7 +94,7 @@ TEST(RoughDielectric, LosslessMatterLosesNothing) {
   std::printf("largest error of a dielectric %.2g\n", worst);
 }
 
-// Between the indices it was tabulated at.
+// Indices between those of the table.
 TEST(RoughDielectric, LosesNothingAtAnyIndexOfItsRange) {
   const RoughInterface surface({FacetShape::ggx, 0.8F, 0.8F}, 1.4F, 2.0F);
   const Bsdf bsdf = RoughDielectricBsdf{ramp(1.4F, 2.0F), &surface};
@@ -103,8 +102,8 @@ TEST(RoughDielectric, LosesNothingAtAnyIndexOfItsRange) {
     for (const double cos : {0.7, -0.5}) EXPECT_NEAR(leaving(bsdf, direction_at(cos, 1), lane, all), 1, 4e-3);
 }
 
-// The light that single and multiple scattering send on, in the lane of index n: the energy of single
-// scattering by its own quadrature, and the rest of `eval` over all directions.
+// Albedo of single and multiple scattering at the wavelength of index n: single scattering by its own
+// quadrature, the rest of `eval` over all directions.
 double evaluated_albedo(const RoughDielectricBsdf& bsdf, const V3f& wo, int lane) {
   const bool inside = wo.z < 0;
   const float eta = inside ? 1 / bsdf.n[lane] : bsdf.n[lane];
@@ -117,7 +116,7 @@ double evaluated_albedo(const RoughDielectricBsdf& bsdf, const V3f& wo, int lane
     V3f wi = cosine_hemisphere(event(i).direction);
     for (int side = 0; side < 2; ++side, wi.z = -wi.z)
       multiple += static_cast<double>(bsdf.eval(wo, wi, TransportMode::power)[lane] *
-                                      (1 - bsdf.single_share(wo, wi)[lane])) *
+                                      (1 - bsdf.single_fraction(wo, wi)[lane])) *
                   std::numbers::pi / kDirections;
   }
   return single + multiple;
@@ -126,7 +125,7 @@ double evaluated_albedo(const RoughDielectricBsdf& bsdf, const V3f& wo, int lane
 constexpr std::array kMediumIndices{1.0, 1.33, 1.7, 2.4};
 constexpr std::array kMediumAlphas{0.1F, 0.2F, 0.5F, 1.0F};
 
-// Glass in a medium, and a cavity with that medium in glass.
+// Glass in a medium, and a cavity of that medium in glass.
 TEST(RoughDielectric, LosesNothingInAnyMedium) {
   double worst = 0;
   for (const double medium_index : kMediumIndices)
@@ -148,8 +147,8 @@ TEST(RoughDielectric, LosesNothingInAnyMedium) {
   std::printf("largest error in a medium %.2g\n", worst);
 }
 
-// The relative index passes 1 within the packet, or comes close to it: there the energies of single
-// scattering change within a hundredth of the index, the faster the smoother the surface is.
+// The relative index crosses 1 within the packet, or comes close to it. There the energy of single scattering
+// changes within a hundredth of the index, faster for smoother surfaces.
 TEST(RoughDielectric, LosesNothingWhereIndicesCross) {
   double worst = 0;
   for (const float alpha : {0.1F, 0.3F, 0.8F})
@@ -181,8 +180,8 @@ TEST(RoughDielectric, HasATableForEachRelativeIndex) {
   EXPECT_EQ(std::get<RoughDielectricBsdf>(glass.bsdf({packet()})).surface, glass.surface.get());
 }
 
-// The throughput of a path is a product of weights, which must not spread: light leaves a ball of index 4
-// after some twenty events.
+// The throughput of a path is a product of weights, which must not scatter. Light leaves a ball of index 4
+// after about twenty events.
 TEST(RoughDielectric, WeightsAreOneHoweverHighTheIndex) {
   double largest = 0;
   for (const float n : {1.33F, 1.5F, 2.4F, 4.0F, 0.7F, 0.25F})
@@ -201,8 +200,8 @@ TEST(RoughDielectric, WeightsAreOneHoweverHighTheIndex) {
   EXPECT_LT(largest, 1.1);
 }
 
-// The tables add to facets of little slope no more than some alpha^2 (1 + tan^2), which is what these lose,
-// and a perfect mirror reflects no more than all.
+// For facets of small slope, single scattering loses about alpha^2 (1 + tan^2), so the tables may add no
+// more. A perfect mirror has an albedo of at most 1.
 TEST(RoughConductor, OfLittleRoughnessReflectsNoMoreThanAll) {
   for (const FacetShape shape : kFacetShapes) {
     for (const float alpha : {1e-3F, 5e-3F, 0.02F}) {
@@ -210,7 +209,7 @@ TEST(RoughConductor, OfLittleRoughnessReflectsNoMoreThanAll) {
       const EnergyCompensation lost = RoughMetal(facets).lost;
       for (const double cos : {1.0, 0.8, 0.5, 0.2, 0.05}) {
         const double alpha2 = static_cast<double>(alpha * alpha);
-        EXPECT_LT(lost.at(EnergyCompensation::place(facets, direction_at(cos, 1))),
+        EXPECT_LT(lost.at(EnergyCompensation::table_coordinates(facets, direction_at(cos, 1))),
                   alpha2 * (4 + (1 - cos * cos) / (cos * cos)) + 1e-6)
             << alpha << " cos " << cos;
       }
@@ -221,21 +220,22 @@ TEST(RoughConductor, OfLittleRoughnessReflectsNoMoreThanAll) {
   }
 }
 
-// A few rough directions against the quadrature, everywhere else against the table.
+// Compares with the quadrature in a few rough directions, elsewhere with the table.
 TEST(EnergyCompensation, IsWhatTheTableSays) {
   for (const auto& facets : furnace_facets()) {
     const EnergyCompensation lost = RoughMetal(facets).lost;
     for (const double cos : {0.9, 0.43, 0.11})
       for (const double phi : {0.05, 0.6, 1.5, 2.9, 4.4}) {
         const V3f w = direction_at(cos, phi);
-        EXPECT_NEAR(lost.at(EnergyCompensation::place(facets, w)), 1 - mirror_energy(facets, w), 1e-2)
+        EXPECT_NEAR(lost.at(EnergyCompensation::table_coordinates(facets, w)), 1 - mirror_energy(facets, w),
+                    1e-2)
             << facets.alpha_x << " " << facets.alpha_y << " cos " << cos << " phi " << phi;
       }
   }
 }
 
 TEST(EnergyCompensation, IsSoonTabulated) {
-  // Calls of the quadrature, not time.
+  // Counts calls of the quadrature instead of time.
   int calls = 0;
   const auto count = [&](const V3f&, std::span<double> energies) {
     ++calls;
@@ -247,7 +247,7 @@ TEST(EnergyCompensation, IsSoonTabulated) {
   EXPECT_LE(calls, 650);
 }
 
-// Metal: by its mean reflectance, in the series of scatterings, added up one by one here.
+// The colour of metal from its mean reflectance, with the series of scatterings summed one by one.
 TEST(RoughConductor, IsColouredByEveryScattering) {
   const Microfacets<float> facets{FacetShape::ggx, 1, 1};
   const RoughConductorMaterial metal("metal", RefractiveIndex(0.2, 3), facets);
@@ -274,11 +274,11 @@ TEST(RoughConductor, IsColouredByEveryScattering) {
       once += static_cast<double>(fresnel_conductor(wo.dot(h), 0.2F, 3.0F).R() * (1 + facets.lambda(wo)) /
                                   (1 + facets.lambda(wo) + facets.lambda(wi)));
   }
-  const double expected = once / kFacets + lost.at(EnergyCompensation::place(facets, wo)) * often;
+  const double expected = once / kFacets + lost.at(EnergyCompensation::table_coordinates(facets, wo)) * often;
   EXPECT_NEAR(leaving(metal.bsdf({packet()}), wo, 2, all), expected, 2e-3);
 }
 
-// By the mean over the hemisphere, too.
+// The mean over the hemisphere agrees too.
 TEST(RoughConductor, InMatterIsTheRelativeIndexInAir) {
   const RefractiveIndex oil(1.5);
   for (const float alpha : {0.05F, 0.3F, 0.5F, 1.0F}) {
@@ -334,7 +334,7 @@ TEST(RoughDielectric, OfLeastRoughnessIsSmooth) {
   }
 }
 
-// Each lane by the balance over eight heroes, against a packet of that lane's index alone.
+// Each wavelength by the balance heuristic over eight heroes, against a packet of that index alone.
 TEST(RoughDielectric, BalancedLanesAreUnbiased) {
   for (const float alpha : {0.03F, 0.3F}) {
     const RoughInterface surface({FacetShape::ggx, alpha, alpha}, 1.4F, 2.0F);
@@ -378,7 +378,7 @@ TEST(RoughDielectric, RefractionScalesRadianceLaneByLane) {
   }
 }
 
-// Facets of little slope cannot help what is beyond the critical angle through.
+// Facets of small slope cannot transmit light above the critical angle.
 TEST(RoughDielectric, ReflectsTotally) {
   const RoughInterface surface({FacetShape::beckmann, 0.01F, 0.01F}, 1.5F, 1.5F);
   const Bsdf bsdf = RoughDielectricBsdf{SampledSpectrum(1.5F), &surface};
@@ -388,9 +388,9 @@ TEST(RoughDielectric, ReflectsTotally) {
               fresnel_dielectric(0.9, 1 / 1.5).transmitted(), 5e-3);
 }
 
-// Samples of a perfect mirror differ in weight from 1 by as much as 1 - E varies within half a cell of its
-// density, or 3.4 % of the tangent at the least roughness: 1 - E rises with the tangent to a power of 2 of
-// GGX facets, and of at most 7 of Beckmann's, of which few are steep.
+// Weights of a perfect mirror differ from 1 by the variation of 1 - E within half a cell of its density. Half
+// a cell is 3.4 % of the tangent at the smallest roughness. 1 - E rises with the tangent to the power 2 for
+// GGX, and at most 7 for Beckmann, which has few steep facets.
 TEST(RoughSurfaces, WeighSamplesEvenly) {
   double largest = 0;
   int single = 0;
@@ -401,12 +401,12 @@ TEST(RoughSurfaces, WeighSamplesEvenly) {
     const Bsdf bsdf = mirror.bsdf({packet()});
     for (const double cos : kCosines) {
       const V3f wo = direction_at(cos, 0.5 + cos);
-      const float lost = mirror.surface->lost.at(EnergyCompensation::place(facets, wo));
+      const float lost = mirror.surface->lost.at(EnergyCompensation::table_coordinates(facets, wo));
       for (int i = 0; i < 2048; ++i) {
         BsdfRandom u = event(i);
         if (const auto s = sample(bsdf, wo, u, 0, TransportMode::power))
           largest = std::max(largest, static_cast<double>(s->weight[0]));
-        u.lobe = 0;  // off a facet
+        u.lobe = 0;  // reflection off a facet
         const auto s = sample(bsdf, wo, u, 0, TransportMode::power);
         if (s && lost < 1e-3F) {
           ++single;
@@ -425,12 +425,12 @@ TEST(RoughMaterials, TellHowTheySendLight) {
                        RoughDielectricMaterial("n", RefractiveIndex(1.5), {FacetShape::ggx, 0.1F, 0.1F})};
   EXPECT_TRUE(lobes(glass).spread);
   EXPECT_FALSE(lobes(glass).delta);
-  EXPECT_NE(interior(glass), nullptr);
+  EXPECT_NE(interior_index(glass), nullptr);
   EXPECT_FLOAT_EQ(index_inside(make_bsdf(glass, {packet()}), 2), 1.5F);
   const Material metal{"metal",
                        RoughConductorMaterial("n", RefractiveIndex(0.2, 3), {FacetShape::ggx, 0.1F, 0.1F})};
   EXPECT_TRUE(lobes(metal).spread);
-  EXPECT_EQ(interior(metal), nullptr);
+  EXPECT_EQ(interior_index(metal), nullptr);
 }
 
 TEST(RoughMaterials, AreNeverWithoutContrast) {

@@ -1,5 +1,5 @@
-// Interfaces where numbers are at their worst, in the float of the render. docs/validation.md lists all
-// stress tests.
+// Interfaces in numerically difficult cases, in the float precision of the render. docs/validation.md lists
+// all stress tests.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -20,14 +20,14 @@ namespace {
 using Imath::V3d;
 using Imath::V3f;
 
-// Relative; `exact` as computed in long double.
+// Relative comparison with `exact`, which is computed in long double.
 void expect_digits(float got, long double exact, double tolerance, const std::string& at) {
   const auto reference = static_cast<double>(exact);
   EXPECT_NEAR(got, reference, tolerance * reference) << at;
 }
 
-// Steps of 1e-9 rad, up to 1e-7 on both sides of the critical angle, between real pairs of matter and nearly
-// equal ones.
+// Steps of 1e-9 rad within 1e-7 on both sides of the critical angle, between pairs of real media and of
+// nearly equal ones.
 TEST(Stress, CriticalAngleWithinATenMillionthKeepsReflectanceInBounds) {
   for (const double n : {1.0001, 1.01, 1.128, 1.333, 1.5, 2.417, 4.0}) {
     const double critical = std::asin(1 / n);
@@ -98,7 +98,7 @@ TEST(Stress, IndicesAMillionthApartBendByAMillionth) {
   }
 }
 
-// From mirrors that absorb a millionth to matter that hardly reflects.
+// From mirrors that absorb a millionth to metals that hardly reflect.
 TEST(Stress, ExtremeMetalsKeepFourDigitsOfAbsorptance) {
   for (const auto& [n, k] : {std::pair{1e-3F, 1e3F}, {1e3F, 1e-3F}, {0.01F, 50.0F}, {1e-3F, 1.0F}}) {
     for (const float c : {1e-7F, 1e-3F, 0.1F, 0.5F, 0.99F, 1.0F}) {

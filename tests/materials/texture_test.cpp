@@ -12,7 +12,7 @@ using Imath::V2f;
 
 const SampledSpectrum kWavelengths({400, 450, 500, 550, 600, 650, 700, 750});
 
-// Two rows of three texels: 0 1 2 on top, 3 4 5 below.
+// Two rows of three texels: 0 1 2 at the top, 3 4 5 below.
 TextureImage counted(const TextureMapping& mapping) {
   return {3, 2, 1, {0, 1, 2, 3, 4, 5}, mapping};
 }

@@ -1,4 +1,4 @@
-// Polarisers and wave plates against the textbook, met from both sides and at an angle.
+// Polarisers and wave plates against textbook results, from both sides and at oblique incidence.
 #include "materials/model/thin_element.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ using Imath::V3f;
 
 constexpr double kFloat = 1e-6;
 
-// One Stokes vector, told in a frame whose first axis is `axis`; the second is k x axis.
+// A Stokes vector in a frame whose first axis is `axis`; the second is k x axis.
 struct Light {
   V3d k, axis;
   double i, q, u, v;
@@ -33,7 +33,7 @@ struct Light {
   }
 };
 
-// What of it an element lets through, which it meets from -k.
+// The light that an element transmits; it arrives from -k.
 Light through(const MaterialModel& model, const Light& light, double nm = 550) {
   const SampledSpectrum wavelengths(static_cast<float>(nm));
   const Bsdf bsdf = make_bsdf({"element", model}, {wavelengths});
@@ -70,7 +70,7 @@ WavePlateMaterial wave_plate(double retardance_deg, double angle_deg) {
   return {{Curve(1.0)}, WavePlateMaterial::Ideal{retardance_deg * kDegree}, angle_deg * kDegree};
 }
 
-// [Born1999, sec. 10.9] has Malus' law as two polarisers of Mueller's kind say it.
+// [Born1999, sec. 10.9] derives Malus' law; two polarisers with Mueller matrices obey it.
 TEST(Polariser, ObeysMalusLawFromBothSides) {
   for (const V3d& k : {kDown, kUp})
     for (const double angle : {0.0, 20.0, 45.0, 90.0, 130.0}) {
@@ -97,15 +97,15 @@ TEST(Polariser, LetsThroughWhatItsExtinctionRatioSays) {
   EXPECT_NEAR(power->transmitted(), 0.408, 1e-12);
 }
 
-// Between crossed polarisers one more at 45 degrees lets an eighth through.
+// A polariser at 45 degrees between crossed polarisers transmits an eighth.
 TEST(Polariser, BetweenCrossedOnesLetsLightThrough) {
   const Light last =
       through(polariser(90), through(polariser(45), through(polariser(0), unpolarised(kDown))));
   EXPECT_NEAR(last.i, 0.125, kFloat);
 }
 
-// Seen at an angle its axis is projected across the light: fields in the plane of incidence pass one whose
-// axis lies in it.
+// At oblique incidence the axis is projected perpendicular to the ray. Fields in the plane of incidence pass
+// a polariser whose axis is in that plane.
 TEST(Polariser, HasItsProjectedAxisForObliqueLight) {
   const V3d k = V3d(0.8, 0, -0.6);
   const Light light{k, V3d(0, 1, 0), 1, 0, 0, 0};
@@ -114,8 +114,8 @@ TEST(Polariser, HasItsProjectedAxisForObliqueLight) {
   EXPECT_NEAR(through(polariser(90), along).i, 0, kFloat);
 }
 
-// Fast axis along x: the field along y lags a quarter behind, so that linear light at 45 degrees to it
-// becomes circular; seen by the receiver counterclockwise, V < 0, as E_y = i E_x at exp(-i omega t).
+// Fast axis along x: the field along y lags by a quarter wave, so linear light at 45 degrees becomes
+// circular. The receiver sees it turn counterclockwise, V < 0, since E_y = i E_x at exp(-i omega t).
 TEST(WavePlate, MakesCircularLightOfLinear) {
   for (const V3d& k : {kDown, kUp}) {
     const V3d y = k.cross(kX);
@@ -133,7 +133,7 @@ TEST(WavePlate, OfHalfAWaveTurnsLinearLightToTheOtherSideOfItsAxis) {
   EXPECT_NEAR(turned.q, 1, kFloat);
 }
 
-// Quartz 0.1 mm thick, by its birefringence relative to air.
+// Quartz of 0.1 mm, with its birefringence relative to air.
 TEST(WavePlate, RetardsByBirefringenceAndThickness) {
   const WavePlateMaterial plate{{Curve(1.0)}, WavePlateMaterial::Crystal{1e-4, Curve(0.0092)}, 0};
   const Light diagonal{kDown, at_angle(45), 1, 1, 0, 0};

@@ -1,4 +1,4 @@
-// Coherent layers against closed forms, laws, and the textbook matrices in 128 bits.
+// Coherent layers against closed forms, conservation laws and the textbook matrices in 128 bits.
 #include "materials/interface/thin_film.h"
 
 #include <gtest/gtest.h>
@@ -17,7 +17,7 @@ using Layers = std::vector<FilmLayer<double>>;
 FresnelPower<double> stack(double cos_i, const Layers& layers, double eta, double k = 0) {
   return film_power<double>(cos_i, layers, eta, k);
 }
-// A layer as thick as `quarters` quarter waves at normal incidence from air.
+// A layer of `quarters` quarter waves at normal incidence from air.
 FilmLayer<double> quarter(double n, double quarters = 1) {
   return {n, 0, quarters / (4 * n)};
 }
@@ -82,7 +82,8 @@ TEST(ThinFilm, QuarterWaveStacksMatchTheirClosedForm) {
   }
 }
 
-// Between two equal mirrors a half wave opens a band: all passes at its middle, whatever the mirrors.
+// A half wave between two equal mirrors opens a pass band: its center transmits everything, whatever the
+// mirrors.
 TEST(ThinFilm, BandpassOpensAtItsMiddle) {
   Layers filter;
   for (int i = 0; i < 6; ++i) filter.insert(filter.end(), {quarter(2.35), quarter(1.38)});
@@ -110,7 +111,7 @@ TEST(ThinFilm, WithoutLayersOrThicknessIsTheBareInterface) {
   }
 }
 
-// A layer of the substrate's or of the first medium's own matter is not there, at Brewster's angle least.
+// A layer with the index of the substrate or of the first medium has no effect, even at Brewster's angle.
 TEST(ThinFilm, BrewstersAngleReflectsNoP) {
   const double n = 1.5;
   const double cos_b = 1 / std::sqrt(1 + n * n);
@@ -134,7 +135,7 @@ TEST(ThinFilm, TotalReflectionStaysTotal) {
     EXPECT_EQ(f.Tp, 0);
     EXPECT_EQ(f.cos_t, 0);
   }
-  // Through a gap of air thinner than the wave some gets across, and the thinner the more.
+  // Light tunnels through an air gap thinner than the wavelength, more for thinner gaps.
   double before = 1;
   for (const double gap : {0.01, 0.1, 0.3, 1.0, 3.0}) {
     const auto f = stack(0.5, {{1 / 1.5, 0, gap}}, 1);
@@ -164,7 +165,7 @@ TEST(ThinFilm, LosesOnlyWhatLayersAbsorb) {
   }
 }
 
-// Stokes: a stack between transparent media transmits the same both ways, even when it absorbs.
+// Stokes: a stack between transparent media transmits equally in both directions, even if it absorbs.
 TEST(ThinFilm, TransmitsTheSameBothWays) {
   std::mt19937 rng(9);
   std::uniform_real_distribution<double> u(0, 1);
@@ -192,7 +193,7 @@ TEST(ThinFilm, ThickMetalIsOpaqueAndHidesItsSubstrate) {
       EXPECT_EQ(f.transmitted(), 0);
     }
   }
-  Layers opaque;  // 400 layers whose fields would leave the range of float
+  Layers opaque;  // 400 layers whose fields would overflow float
   std::vector<FilmLayer<float>> in_float;
   for (int i = 0; i < 400; ++i) {
     opaque.push_back(quarter(i % 2 ? 1.38 : 4));
@@ -237,7 +238,7 @@ TEST(ThinFilm, HoldsAtTheCriticalAngleOfALayer) {
 using Wide = boost::multiprecision::cpp_complex_quad;
 using Quad = Wide::value_type;
 
-// The textbook: fields E, H of each polarisation through [[cos d, -i sin d/Y], [-i Y sin d, cos d]].
+// The textbook method: fields E, H of each polarisation through [[cos d, -i sin d/Y], [-i Y sin d, cos d]].
 FresnelPower<Quad> textbook(const Quad& cos_i, const Layers& layers, const Quad& eta, const Quad& k) {
   const Quad sin2 = 1 - cos_i * cos_i;
   const auto normal = [&](const Wide& n) {

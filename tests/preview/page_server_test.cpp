@@ -42,7 +42,7 @@ int port_of(const PageServer& server) {
   return std::stoi(url.substr(url.rfind(':') + 1));
 }
 
-// A connection of bytes, closed at the end.
+// A TCP connection, closed by the destructor.
 class Socket {
  public:
   explicit Socket(int port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
@@ -60,7 +60,7 @@ class Socket {
   bool say(const std::string& text) const {
     return ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL) == static_cast<ssize_t>(text.size());
   }
-  // Whether the other end closes within so long; what it says before goes to `heard`.
+  // True if the other end closes within `time`; what it sends before is appended to `heard`.
   bool closes_within(std::chrono::milliseconds time, std::string* heard = nullptr) const {
     const auto until = Clock::now() + time;
     std::vector<char> buffer(1 << 20);
@@ -74,7 +74,7 @@ class Socket {
     return false;
   }
 
-  // True if the other end has closed by now, without having said anything.
+  // True if the other end has closed by now without sending anything.
   [[nodiscard]] bool is_closed() const {
     char byte = 0;
     return ::recv(socket_, &byte, 1, MSG_DONTWAIT) == 0;
@@ -123,7 +123,7 @@ TEST(PageServer, OnOpenAddressesRefusesThemTooButItsOwnName) {
     EXPECT_EQ(client.Get("/there", {{"Host", host}})->status, 200) << host;
 }
 
-// The status of the answer to a question with these header lines.
+// Status line of the answer to a request with these header lines.
 std::string status_of(const PageServer& server, const std::string& headers) {
   const Socket socket(port_of(server));
   std::string heard;
@@ -149,7 +149,7 @@ TEST(PageServer, RefusesQuestionsByNoNameByTwoAndByMalformedOnes) {
   }
 }
 
-// Many overlapping parts would make a large answer of a small page.
+// Many overlapping ranges would make a large answer from a small page.
 TEST(PageServer, GivesTheWholeToThoseWhoAskForParts) {
   const PageServer server({}, echo);
   httplib::Client client("127.0.0.1", port_of(server));
@@ -182,7 +182,7 @@ TEST(PageServer, DropsLongQuestions) {
   }
 }
 
-// Each byte may come soon after the last one.
+// Each byte arrives soon after the last one.
 TEST(PageServer, DropsSlowQuestions) {
   const PageServer server({}, echo);
   const Socket socket(port_of(server));
@@ -192,7 +192,7 @@ TEST(PageServer, DropsSlowQuestions) {
   EXPECT_LT(Clock::now() - begin, 3s);
 }
 
-// Opens so many connections, each of which says `text` and no more.
+// Opens many connections, each of which sends `text` and nothing more.
 std::vector<std::unique_ptr<Socket>> connections(const PageServer& server, std::size_t count,
                                                  const std::string& text) {
   std::vector<std::unique_ptr<Socket>> all;
@@ -210,7 +210,7 @@ void expect_prompt_answer(const PageServer& server) {
   const auto answer = client.Get("/there?word=glass");
   ASSERT_TRUE(answer);
   EXPECT_EQ(answer->body, "glass");
-  EXPECT_LT(Clock::now() - begin, 1s);  // before the server drops those that ask slowly
+  EXPECT_LT(Clock::now() - begin, 1s);  // before the server drops slow requests
 }
 
 TEST(PageServer, ManySlowQuestionsKeepNobodyWaiting) {
@@ -219,7 +219,7 @@ TEST(PageServer, ManySlowQuestionsKeepNobodyWaiting) {
   expect_prompt_answer(server);
 }
 
-// Both ends of all connections are files of this process.
+// Both ends of all connections are open files of this process.
 TEST(PageServer, AnswersBesideManyMoreIdleConnectionsThanItKeeps) {
   constexpr rlim_t kFiles = 4000;
   rlimit files{};

@@ -12,7 +12,7 @@
 #include "tests/preview/tev_listener.h"
 #include "tests/tier.h"
 
-// A render that is watched while it runs.
+// A render whose preview is requested while it runs.
 
 namespace abbe::test {
 namespace {
@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 using Json = nlohmann::json;
 using Clock = std::chrono::steady_clock;
 
-// A render in the background, which is asked by its page.
+// A render in the background, with requests to its page.
 class Watched {
  public:
   explicit Watched(const std::string& options, const std::string& scene = ball()) {
@@ -61,9 +61,9 @@ class Watched {
     const auto answer = client_->Get(path);
     return answer ? answer->status : 0;
   }
-  // Its files are written and free then, even if nobody has asked yet how it ended.
+  // Waits until the files are written and unlocked, even if nobody has asked for the exit status.
   void wait_for_exit() const { (void)shell("while [ -e /proc/" + pid_ + "/exe ]; do sleep 0.02; done"); }
-  // Its state once that is as wanted.
+  // The state, once `wanted` holds for it.
   template <typename Wanted>
   Json wait_for(Wanted wanted) {
     Json state;
@@ -97,7 +97,7 @@ TEST(Preview, ThePictureComesSoonAfterTheFirstPass) {
   EXPECT_EQ(render.json("/pixel?x=100&y=75")["values"].size(), 3U);
 }
 
-// Linux lets files have names of any bytes.
+// File names in Linux may contain any bytes.
 TEST(Preview, ASceneMayHaveANameThatIsNoUtf8) {
   const auto scene = scratch().write("caf\xE9.json", ball_scene());
   Watched render("--time 20s -o " + file("latin1.exr"), scene.string());

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "film/sensor_identity.h"
+#include "film/film_attributes.h"
 #include "tests/scenes/scene_fixture.h"
 #include "transport/render/part.h"
 
@@ -15,7 +15,7 @@ struct RenderedScene {
   RenderPart part;
 };
 
-/// The Cornell box with some settings replaced.
+/// The rendered Cornell box with some settings replaced.
 inline RenderedScene rendered_cornell(const std::vector<Override>& settings, std::optional<Crop> crop = {}) {
   Scene scene = load("cornell.json", settings);
   RenderResult result = render(scene, {.threads = 2, .crop = crop});

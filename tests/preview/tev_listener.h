@@ -18,7 +18,7 @@
 
 namespace abbe::test {
 
-/// What a packet of tev's holds, taken from its front.
+/// Reads the contents of a tev packet from the front.
 class PacketReader {
  public:
   explicit PacketReader(std::string bytes) : bytes_(std::move(bytes)) {}
@@ -41,7 +41,7 @@ class PacketReader {
   std::size_t at_ = 0;
 };
 
-/// Takes the packets of one connection as tev does, and ends it after so many.
+/// Receives the packets of one connection like tev, and closes it after a number of packets.
 class TevListener {
  public:
   explicit TevListener(int packets = 1 << 30) : most_(packets), listener_(::socket(AF_INET, SOCK_STREAM, 0)) {

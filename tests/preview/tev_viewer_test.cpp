@@ -24,7 +24,7 @@ TEST(TevViewer, IsSentTheFilm) {
   {
     TevViewer sender(made.scene, made.part.identity, viewer.address(), 2,
                      [](const std::string& text) { FAIL() << text; });
-    EXPECT_TRUE(sender.wants_to_see());
+    EXPECT_TRUE(sender.viewer_is_ready());
     sender.show(made.part.result);
     sender.end(made.part.result);
   }
@@ -32,7 +32,7 @@ TEST(TevViewer, IsSentTheFilm) {
   EXPECT_EQ(viewer.name.substr(0, 14), "cornell.json (");
   EXPECT_EQ(viewer.width, 700);
   EXPECT_EQ(viewer.height, 401);
-  EXPECT_EQ(viewer.updates, 12);  // two packets of each channel, twice
+  EXPECT_EQ(viewer.updates, 12);  // two packets for each of the channels, twice
   const Image film = film_image(made.part);
   ASSERT_EQ(viewer.channels.size(), 3U);
   for (const auto& [channel, values] : viewer.channels)
@@ -49,7 +49,7 @@ TEST(TevViewer, OneThatGoesAwayIsToldOnceAndLeftAlone) {
     sender.show(made.part.result);
     viewer.wait();
     for (int i = 0; i < 3; ++i) sender.end(made.part.result);
-    EXPECT_FALSE(sender.wants_to_see());
+    EXPECT_FALSE(sender.viewer_is_ready());
   }
   EXPECT_EQ(warnings, 1);
 }

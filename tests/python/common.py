@@ -1,4 +1,4 @@
-"""What the tests of the package share: scenes, the command, a scratch folder."""
+"""Common parts of the package's tests: scenes, the command, a scratch folder."""
 import os
 import pathlib
 import subprocess
@@ -8,16 +8,16 @@ import unittest
 DATA = pathlib.Path(os.environ["ABBE_DATA"])
 SCENES = DATA / "scenes"
 CORNELL = SCENES / "cornell.json"
-NIGHTLY = "ABBE_NIGHTLY" in os.environ  # whether there is time to do more
+NIGHTLY = "ABBE_NIGHTLY" in os.environ  # run longer tests too
 
 
 def cornell_sensor(edge):
-    """The Cornell box's sensor with so many pixels each way, which sees the same."""
+    """The Cornell box's sensor with another number of pixels per side and the same field of view."""
     return {"resolution": [edge, edge], "pixel_pitch_um": 97.65625 * 256 / edge, "observer": "1931"}
 
 
 def box(**keys):
-    """A grey floor under an even sky, seen by two channels of 8 x 6 pixels."""
+    """A grey floor under a uniform sky, with a sensor of two channels and 8 x 6 pixels."""
     scene = {
         "camera": {"pinhole": {"fov_deg": 40}, "from": [0, -5, 2], "to": [0, 0, 0], "up": [0, 0, 1]},
         "sensor": {"resolution": [8, 6], "pixel_pitch_um": 10,
@@ -31,7 +31,7 @@ def box(**keys):
 
 
 class Test(unittest.TestCase):
-    """A test with a folder of its own."""
+    """A test with its own folder."""
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -39,11 +39,11 @@ class Test(unittest.TestCase):
         self.scratch = pathlib.Path(folder.name)
 
     def command(self, *arguments):
-        """What the command line prints."""
+        """Standard output of the command."""
         return self.run_command(*arguments, check=True).stdout
 
     def refused(self, *arguments):
-        """What the command line says of arguments that it does not take."""
+        """The command's error for invalid arguments."""
         ended = self.run_command(*arguments)
         self.assertEqual(ended.returncode, 2, ended)
         return ended.stderr

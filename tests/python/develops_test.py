@@ -1,4 +1,4 @@
-"""Films developed, compared, and read out by their charts; cameras calibrated: the numbers of the command."""
+"""Developing, comparing and measuring films, and calibrating cameras: the results equal those of the command."""
 import json
 import unittest
 
@@ -37,9 +37,9 @@ class Develops(Test):
         plain = abbe.develop(film)
         numpy.testing.assert_array_equal(plain.calibrated, film.array)
         self.assertIsNone(plain.codes)
-        with self.assertRaisesRegex(abbe.UsageError, "no read-out"):
+        with self.assertRaisesRegex(abbe.UsageError, "no readout"):
             plain.write(self.scratch / "c.tif")
-        with self.assertRaisesRegex(abbe.UsageError, "^seed: the film has no read-out whose noise it could draw$"):
+        with self.assertRaisesRegex(abbe.UsageError, "^seed: the film has no readout, so that there is no noise to seed$"):
             abbe.develop(film, seed=7)
         for seed in (-1, 2 ** 53):
             with self.assertRaisesRegex(abbe.UsageError, rf"^seed: got {seed}, allowed whole numbers in \[0, 9007199254740991\]$"):
@@ -57,7 +57,7 @@ class Develops(Test):
         seen = abbe.develop(film, scene=eye)
         self.assertEqual(seen.planes, ["X", "Y", "Z"])
         numpy.testing.assert_allclose(seen.exposure.mean((0, 1)), abbe.render(eye, spp=256).array.mean((0, 1)), rtol=0.05)
-        with self.assertRaisesRegex(abbe.UsageError, "^readout: a spectral film has no sensor to read out: `scene` gives it one$"):
+        with self.assertRaisesRegex(abbe.UsageError, "^readout: a spectral film has no sensor to read out; `scene` supplies one$"):
             abbe.develop(film, readout={"bits": 12})
         with self.assertRaises(abbe.Error) as caught:
             abbe.develop(film, scene=eye, readout={"bits": numpy.nan})
@@ -85,7 +85,7 @@ class Develops(Test):
         untold = OpenImageIO.ImageBuf(str(self.scratch / "told.exr"))
         untold.specmod().erase_attribute("channel.short")
         untold.write(str(self.scratch / "untold.exr"))
-        with self.assertWarnsRegex(abbe.SceneWarning, "only one of the films tells the unit of channel short"):
+        with self.assertWarnsRegex(abbe.SceneWarning, "only one of the films declares the unit of channel short"):
             self.assertEqual(abbe.compare(film, abbe.Film.read(self.scratch / "untold.exr"))["mean_ratio"], 1)
 
     def test_the_pixels_that_films_of_crops_have_in_common_are_told_as_the_command_does(self):
@@ -129,7 +129,7 @@ class Develops(Test):
         self.assertEqual(quantum, told["dE00_mean"])
 
     def write_photographs_of_gamma_2(self):
-        """Grey steps, and the raw values of a chart, as a camera of that response photographs them."""
+        """Photographs of grey steps, and raw values of a chart, by a camera with that response."""
         exposures = []
         for stop in range(-6, 2):
             steps = numpy.sqrt(numpy.minimum(1, numpy.arange(1, 49) / 48 * 2.0**stop))

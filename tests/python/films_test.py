@@ -1,4 +1,4 @@
-"""What films tell, how they are written, read and added up."""
+"""Attributes of films, and writing, reading and merging them."""
 import importlib.util
 import json
 import pathlib
@@ -63,7 +63,7 @@ class Films(Test):
             numpy.testing.assert_array_equal(abbe.Film.read(self.scratch / name).array, film.array)
 
     def write_bands(self, middles_nm, unit="W.m^-2.sr^-1"):
-        """A spectral image of one pixel, of 100 W/(m^2 sr) in each band."""
+        """A spectral image of one pixel with 100 W/(m^2 sr) in each band."""
         layout = OpenImageIO.ImageSpec(1, 1, len(middles_nm), "float")
         layout.channelnames = [f"S0.{nm},000000nm" for nm in middles_nm]
         layout.attribute("spectralLayoutVersion", "1.0")
@@ -75,8 +75,8 @@ class Films(Test):
         return abbe.Film.read(self.scratch / "bands.exr")
 
     def test_spectra_in_another_unit_or_without_widths_are_refused(self):
-        for film, message in ((self.write_bands([400, 500, 600], "W.m^-2.sr^-1.nm^-1"), '^film: another emissiveUnits .got "W'),
-                              (self.write_bands([550]), "^film: too few bands of radiance to tell their widths .got 1, allowed 2 or more.$")):
+        for film, message in ((self.write_bands([400, 500, 600], "W.m^-2.sr^-1.nm^-1"), '^film: unsupported emissiveUnits .got "W'),
+                              (self.write_bands([550]), "^film: too few bands of radiance to infer their widths .got 1, allowed 2 or more.$")):
             for call in (lambda: film.wavelengths, lambda: film.spectrum(0, 0), lambda: abbe.plot_spectrum(film, (0, 0))):
                 with self.subTest(message=message), self.assertRaisesRegex(abbe.InputError, message):
                     call()
@@ -173,7 +173,7 @@ class Films(Test):
             merged.write(self.scratch / "m.exr")
             whole.write(self.scratch / "w.exr")
             self.assertEqual((self.scratch / "m.exr").read_bytes(), (self.scratch / "w.exr").read_bytes())
-        with self.assertRaisesRegex(abbe.InputError, "samples 8:16 are missing"):
+        with self.assertRaisesRegex(abbe.InputError, "samples 8:16 of the render are missing"):
             abbe.merge(parts[:1])
         self.assertEqual(abbe.merge(parts[:1], partial=True).stats["samples_per_pixel"], 8)
         self.assertEqual(whole.stats["samples_per_pixel"], 16)
@@ -215,7 +215,7 @@ class Films(Test):
         alike = {name: {"band": [400, 500]} for name in "abc"}
         film = abbe.render(abbe.Scene(box(sensor={"resolution": [8, 6], "channels": alike})))
         for picture in (film.picture, abbe.develop(film).picture):
-            with self.assertRaisesRegex(abbe.UsageError, "channels a, b, c do not tell colours apart"):
+            with self.assertRaisesRegex(abbe.UsageError, "channels a, b, c do not distinguish colours"):
                 picture()
 
     def test_notebooks_show_films_without_a_picture_as_text(self):
@@ -230,7 +230,7 @@ class Films(Test):
                     self.assertIsNone(shown._repr_png_())
                     with self.assertRaisesRegex(abbe.UsageError, "one or three channels"):
                         shown.picture()
-        with self.assertRaisesRegex(abbe.InputError, "another emissiveUnits"):
+        with self.assertRaisesRegex(abbe.InputError, "unsupported emissiveUnits"):
             self.write_bands([400, 500, 600], "W.m^-2.sr^-1.nm^-1")._repr_png_()
 
     def test_names_of_channels_that_are_not_utf_8_are_told(self):

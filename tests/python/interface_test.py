@@ -1,4 +1,4 @@
-"""What the package offers: its types as the stub has them, and words for all of it."""
+"""The interface of the package: its types equal those of the stub, and everything has a docstring."""
 import ast
 import inspect
 import pathlib

@@ -1,4 +1,4 @@
-"""Meters of scenes, against what the command reads of them."""
+"""Meters of scenes: the results equal those of the command."""
 import json
 import math
 import os
@@ -46,7 +46,7 @@ class Meters(Test):
         self.compare(abbe.meter(abbe.Scene(self.scratch / "scene.json")), told)
         self.compare(abbe.meter(abbe.Scene(scene)), told)
         self.assertEqual(found["grid"]["cells"]["photons"].shape, (2, 3))
-        # Of a sky of 1 W/(m2 sr nm) over 300-1100 nm.
+        # A sky of 1 W/(m2 sr nm) over 300-1100 nm.
         self.assertAlmostEqual(found["floor"]["radiant"]["value"], 800 * math.pi, delta=3 * found["floor"]["radiant"]["half_interval_95"] + 1e-6)
 
     def test_arguments_are_the_options_of_the_command(self):
@@ -63,7 +63,7 @@ class Meters(Test):
             warnings.simplefilter("always")
             abbe.meter(scene, spp=1)
         self.assertEqual([str(warning.message) for warning in told],
-                         ['the lamp "light 0" lies on "shape 0", which may be met instead: keep them apart'])
+                         ['the light "light 0" coincides with "shape 0", which rays may hit instead: separate them'])
 
     def test_a_scene_with_meters_needs_no_camera(self):
         scene = self.scene()
@@ -100,7 +100,7 @@ class Meters(Test):
             abbe.meter(scene, integrator="paths")
         with self.assertRaises(TypeError):
             abbe.meter(scene, only=3)
-        with self.assertWarnsRegex(abbe.SceneWarning, "meter sight: a pilot found no light there: error had nothing to wait for"):
+        with self.assertWarnsRegex(abbe.SceneWarning, "meter sight: a pilot found no light at the meter: error has no effect"):
             abbe.meter({**scene, "lights": [{"directional": {"towards": [0, 0, -1], "irradiance": 1}}]}, only="sight", error=0.01)
 
     def test_progress_ends_it(self):

@@ -1,11 +1,11 @@
-"""The notebooks of docs/notebooks: they hold no outputs, and every cell runs, by day of one alone."""
+"""The notebooks of docs/notebooks have no outputs, and every cell runs; without ABBE_NIGHTLY only one notebook is run."""
 import os
 import pathlib
 import unittest
 import warnings
 
-warnings.simplefilter("default")  # nbconvert's own are none of ours
-os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"  # of which the kernel would tell
+warnings.simplefilter("default")  # ignores those of nbconvert itself
+os.environ["PYDEVD_DISABLE_FILE_VALIDATION"] = "1"  # avoids a message of the kernel
 os.environ["MPLBACKEND"] = "agg"
 try:
     import nbformat

@@ -1,4 +1,4 @@
-"""What matter does, tables and colours, over arrays: the numbers of the command."""
+"""Materials, tables and colours over arrays: the results equal those of the command."""
 import json
 import time
 import unittest
@@ -12,7 +12,7 @@ LINES = [486.1327, 587.5618, 656.2725]
 
 
 def objects(*elements):
-    """A one-dimensional array that holds these objects as they are."""
+    """A one-dimensional array of these objects."""
     array = numpy.empty(len(elements), object)
     for i, element in enumerate(elements):
         array[i] = element
@@ -94,7 +94,7 @@ class Queries(Test):
 
     def test_tables_at_wavelengths(self):
         self.assertEqual(abbe.illuminant("A", 560.0), 100)
-        beyond = [300.0, 830.0, 900.0, 1100.0]  # of the table, from where on A is defined
+        beyond = [300.0, 830.0, 900.0, 1100.0]  # outside the table, where illuminant A is defined by its formula
         self.assertEqual(abbe.curve("illuminant", "A", beyond).tolist(), abbe.illuminant("A", beyond).tolist())
         self.assertGreater(abbe.curve("illuminant", "A", 1100.0), 280)
         self.assertEqual(abbe.observer(wavelengths_nm=555.0)["y"], 1)
@@ -108,18 +108,18 @@ class Queries(Test):
         for call in (lambda nm: abbe.illuminant("A", nm), lambda nm: abbe.curve("reflectance", "Blue Sky", nm),
                      lambda nm: abbe.observer("1931", wavelengths_nm=nm), lambda nm: abbe.camera("Nikon_D5100", nm)):
             for nm in (numpy.nan, 299, [500, 1101]):
-                with self.subTest(nm=nm), self.assertRaisesRegex(abbe.UsageError, r"^wavelengths_nm: .* has no data there \(got (nan|299|1101) nm, allowed \[300, 1100\] nm\)$"):
+                with self.subTest(nm=nm), self.assertRaisesRegex(abbe.UsageError, r"^wavelengths_nm: .* has no data at this wavelength \(got (nan|299|1101) nm, allowed \[300, 1100\] nm\)$"):
                     call(nm)
         percent = self.scratch / "percent.csv"
         percent.write_text("# unit: %\n# outside: clamp\nwavelength_nm,T\n380,0.3\n780,0.6\n")
         ended = self.scratch / "ended.csv"
         ended.write_text("# unit: electrons per photon\nwavelength_nm,QE\n380,0.2\n780,0.2\n")
         for call, error, message in ((lambda: abbe.curve("camera", f"{ended}:QE", [500, 1000]), abbe.InputError, "covers 380 to 780 nm, but 380 to 1000 nm are needed"),
-                                     (lambda: abbe.camera(str(ended), 500), abbe.InputError, "covers 380 to 780 nm only, where 58.6 % of what channel \"QE\" counts is not"),
+                                     (lambda: abbe.camera(str(ended), 500), abbe.InputError, "covers only 380 to 780 nm, but 58.6 % of the integral for channel \"QE\" lies outside"),
                                      (lambda: abbe.ior("N-BK", 500), abbe.InputError, 'did you mean "N-BK7"'),
-                                     (lambda: abbe.ior("N-BK7", [500, 200]), abbe.UsageError, "wavelengths_nm: N-BK7 has no data there"),
+                                     (lambda: abbe.ior("N-BK7", [500, 200]), abbe.UsageError, "wavelengths_nm: N-BK7 has no data at this wavelength"),
                                      (lambda: abbe.ior("N-BK7", 2000), abbe.UsageError,
-                                      r"^wavelengths_nm: beyond the wavelengths of Abbe, though within the data of N-BK7 \(got 2000 nm, allowed \[300, 1100\] nm\)$"),
+                                      r"^wavelengths_nm: outside the wavelengths that Abbe supports, although N-BK7 has data there \(got 2000 nm, allowed \[300, 1100\] nm\)$"),
                                      (lambda: abbe.ior("N-BK7", [numpy.nan]), abbe.UsageError, "got nan nm"),
                                      (lambda: abbe.reflectance("N-BK7", 500, 91), abbe.UsageError, "angle_deg: got 91"),
                                      (lambda: abbe.names("lens"), abbe.UsageError, "unknown kind"),
@@ -130,8 +130,8 @@ class Queries(Test):
                                      (lambda: abbe.color(([380, 780], [-1, 1])), abbe.UsageError, "illuminant: curve out of range"),
                                      (lambda: abbe.color("D65", ([0.38, 0.78], [0.5, 0.5])), abbe.UsageError, r"^spectrum: wavelengths from 0.38 to 0.78 nm lie outside \[300, 1100\] nm; is the unit right\?$"),
                                      (lambda: abbe.color(([3800, 7800], [1, 1])), abbe.UsageError, "^spectrum: wavelengths from 3800 to 7800 nm lie outside"),
-                                     (lambda: abbe.color("D65", f"{percent}:T"), abbe.InputError, "allowed shares of 1"),
-                                     (lambda: abbe.camera(f"{percent}:T", 500, response="quantum"), abbe.InputError, "allowed shares of 1"),
+                                     (lambda: abbe.color("D65", f"{percent}:T"), abbe.InputError, "allowed fractions of 1"),
+                                     (lambda: abbe.camera(f"{percent}:T", 500, response="quantum"), abbe.InputError, "allowed fractions of 1"),
                                      (lambda: abbe.camera("Nikon_D5100", 500, response="photons"), abbe.UsageError, "response: got \"photons\", allowed energy, quantum"),
                                      (lambda: abbe.delta_e([1, 2], [1, 2]), abbe.UsageError, "last axis"),
                                      (lambda: abbe.delta_e([1, 2], [1, 2, 3]), abbe.UsageError, "lab1: has no shape in common with lab2")):
@@ -183,7 +183,7 @@ class Queries(Test):
 
     def test_a_million_sellmeier_formulas_take_50_ms(self):
         wavelengths = numpy.linspace(400, 1000, 1_000_000)
-        abbe.ior("N-BK7", 500.0)  # which reads the table
+        abbe.ior("N-BK7", 500.0)  # reads the table
         costs = []
         for _ in range(5):
             begin = time.process_time()

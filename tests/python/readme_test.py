@@ -1,4 +1,4 @@
-"""The example of the README, as it stands there."""
+"""The example of the README runs as printed."""
 import contextlib
 import io
 import os
@@ -22,7 +22,7 @@ class Readme(Test):
         os.chdir(self.scratch)
         said = io.StringIO()
         with contextlib.redirect_stdout(said), warnings.catch_warnings():
-            warnings.simplefilter("ignore")  # a caustic is not reached
+            warnings.simplefilter("ignore")  # a caustic cannot be sampled
             exec(compile(example, "README.md", "exec"), {})
         self.assertRegex(said.getvalue(), r"100% after \d+\.\d s\n\['R', 'G', 'B'\] \(360, 640, 3\)")
         self.assertRegex(said.getvalue(), r"\[1\.8065\d* 1\.7847\d* 1\.7759\d*\]")

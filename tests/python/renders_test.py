@@ -81,7 +81,7 @@ class Renders(Test):
             abbe.render(abbe.Scene(CORNELL), spp=100000)
         timer.join()
         self.assertLess(time.monotonic() - begin, 30)
-        self.assertEqual(abbe.render(abbe.Scene(box())).stats["samples_per_pixel"], 4)  # and the next runs as ever
+        self.assertEqual(abbe.render(abbe.Scene(box())).stats["samples_per_pixel"], 4)  # the next render is not affected
 
     def test_python_ends_while_a_thread_of_its_own_renders(self):
         for call in ("abbe.render(abbe.Scene(box()), spp=10**6, threads=1)", "abbe.render(abbe.Scene(box()), spp=10**6, threads=1, progress=lambda p: sum(range(20000)))",
@@ -154,7 +154,7 @@ class Renders(Test):
             film.picture()
             if i == 9:
                 early = memory_kb()
-        # A leak of a film a render would be 70 MB, by day 12 MB.
+        # A leak of one film per render would be 70 MB, without ABBE_NIGHTLY 12 MB.
         self.assertLess(memory_kb() - early, 4000)
 
     @unittest.skipUnless(NIGHTLY, "for the night")
@@ -173,8 +173,8 @@ class Renders(Test):
         def of_module(spp):
             return instructions(sys.executable, "-B", "-c", f"import abbe; abbe.render(abbe.Scene({str(scene)!r}), spp={spp}, threads=1).array")
 
-        # What the samples cost, of which both begin with as much as they need to start; counts, since times of the same program differ by more from
-        # one start of it to the next, as memory has it.
+        # The cost of the samples, after the same cost to start. It is counted in instructions, because times differ more between runs of the same
+        # program, depending on the memory layout.
         own, command = (cost(2080) - cost(32) for cost in (of_module, of_command))
         paths = 2048 * 8 * 6
         print(f"Instructions of a path: {own / paths:.0f} in Python, {command / paths:.0f} by the command: {own / command:.4f}")

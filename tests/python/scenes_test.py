@@ -1,4 +1,4 @@
-"""Scenes from paths, dicts and keywords, and what is wrong with them."""
+"""Scenes from paths, dicts and keywords, and their errors."""
 import json
 import pathlib
 import pickle
@@ -12,14 +12,14 @@ from common import CORNELL, SCENES, Test, box
 
 
 class Own:
-    """Converts to its own kind."""
+    """Converts to its own type."""
 
     def tolist(self):
         return Own()
 
 
 class Turning:
-    """Converts to another kind, which converts back."""
+    """Converts to another type, which converts back."""
 
     def tolist(self):
         class Back:
@@ -68,12 +68,12 @@ class Scenes(Test):
     def test_what_json_cannot_hold_is_refused_where_it_stands(self):
         endless = []
         endless.append(endless)
-        for value, message in ((float("nan"), "expected a finite number (got nan)"), ({1, 2}, "expected what JSON can hold (got a set)"),
+        for value, message in ((float("nan"), "expected a finite number (got nan)"), ({1, 2}, "expected a value that JSON can represent (got a set)"),
                                ({1: 2}, "expected keys that are strings (got a int)"), (10 ** 400, "expected a finite number"),
-                               (10 ** 5000, "expected a finite number (got an int of 16610 bits)"), (b"text", "expected what JSON can hold (got a bytes)"),
-                               (2 ** 53 + 1, "expected a number that a double holds (got 9007199254740993)"),
+                               (10 ** 5000, "expected a finite number (got an int of 16610 bits)"), (b"text", "expected a value that JSON can represent (got a bytes)"),
+                               (2 ** 53 + 1, "expected a number that a double represents exactly (got 9007199254740993)"),
                                (numpy.longdouble("1e400"), "expected a finite number (got 1e+400)"),
-                               (numpy.clongdouble(1), "expected what JSON can hold (got a complex256)"), (Own(), "expected what JSON can hold (got a Own)")):
+                               (numpy.clongdouble(1), "expected a value that JSON can represent (got a complex256)"), (Own(), "expected a value that JSON can represent (got a Own)")):
             with self.subTest(message=message), self.assertRaises(abbe.SceneError) as caught:
                 abbe.Scene(box(lights=[{"a/b": value}]))
             self.assertEqual(caught.exception.diagnostics[0].pointer, "/lights/0/a~1b")
@@ -88,7 +88,7 @@ class Scenes(Test):
             with self.subTest(value=value), self.assertRaises(abbe.SceneError) as caught:
                 abbe.Scene(box(sensor={**box()["sensor"], "exposure_s": value}))
             told = caught.exception.diagnostics[0]
-            self.assertEqual((told.pointer, told.message), ("/sensor/exposure_s", f"expected what JSON can hold (got a {value.dtype})"))
+            self.assertEqual((told.pointer, told.message), ("/sensor/exposure_s", f"expected a value that JSON can represent (got a {value.dtype})"))
         with self.assertRaises(abbe.SceneError) as caught:
             abbe.Scene(box(camera={**box()["camera"], "from": numpy.array([0, numpy.timedelta64(-5, "ns"), 2], object)}))
         self.assertEqual(caught.exception.diagnostics[0].pointer, "/camera/from/1")
@@ -118,7 +118,7 @@ class Scenes(Test):
                 abbe.Scene(source)
         with self.assertRaisesRegex(TypeError, r"^folder: expected a path \(got a int\)$"):
             abbe.Scene(box(), folder=3)
-        with self.assertRaisesRegex(abbe.UsageError, "^folder: is where files that a dict names are looked for"):
+        with self.assertRaisesRegex(abbe.UsageError, "^folder: applies only to files that a dict names"):
             abbe.Scene(CORNELL, folder=self.scratch)
 
     def test_paths_that_are_not_utf_8_are_told(self):
@@ -150,11 +150,11 @@ class Scenes(Test):
                 with self.subTest(half=half, pointer=pointer), self.assertRaises(abbe.SceneError) as caught:
                     call()
                 told = caught.exception.diagnostics[0]
-                self.assertEqual((told.pointer, told.message), (pointer, f"expected text that UTF-8 can hold (got {half!r})"))
+                self.assertEqual((told.pointer, told.message), (pointer, f"expected text that UTF-8 can represent (got {half!r})"))
         for call in (lambda name: abbe.color(name), lambda name: abbe.meter(box(meters={"a": {"at": [0, 0, 1], "normal": [0, 0, 1]}}), only=name)):
             with self.assertRaisesRegex(abbe.Error, "caf[?\udce9]"):
                 call("caf\udce9")
-            with self.assertRaisesRegex(abbe.UsageError, r"^expected text that UTF-8 can hold \(got 'caf\\ud800'\)$"):
+            with self.assertRaisesRegex(abbe.UsageError, r"^expected text that UTF-8 can represent \(got 'caf\\ud800'\)$"):
                 call("caf\ud800")
 
     def test_errors_cross_processes(self):
@@ -182,19 +182,19 @@ class Scenes(Test):
             warnings.simplefilter("always")
             abbe.Scene(SCENES / "spectrograph.json")
         self.assertEqual([w.category for w in heard], [abbe.SceneWarning])
-        self.assertIn("F2 holds on [320, 2500] nm", str(heard[0].message))
+        self.assertIn("F2 has data on [320, 2500] nm", str(heard[0].message))
 
     def test_renders_warn_of_light_that_is_missing(self):
         lamp = {"name": "lamp", "point": {"at": [0, 0, 3]}, "emission": {"spectrum": 1}}
         glass = {"sphere": {"center": [0, 0, 1], "radius": 0.5}, "material": "glass"}
         scene = abbe.Scene(box(lights=[lamp], materials={**box()["materials"], "glass": {"dielectric": {"ior": 1.5}}},
                                shapes=[*box()["shapes"], glass], render={"samples": 1, "integrator": "path"}))
-        with self.assertWarnsRegex(abbe.SceneWarning, 'light that integrator "path" does not reach is missing'):
+        with self.assertWarnsRegex(abbe.SceneWarning, 'integrator "path" cannot sample some light paths, whose light is missing'):
             abbe.render(scene)
 
     def test_renders_warn_of_a_sensor_that_measures_polarisation_left_out(self):
         sensor = {**box()["sensor"], "stokes": True}
-        with self.assertWarnsRegex(abbe.SceneWarning, '^the sensor measures how light is polarised, and render/polarisation is "off"'):
+        with self.assertWarnsRegex(abbe.SceneWarning, '^the sensor measures polarisation, but render/polarisation is "off"'):
             abbe.render(abbe.Scene(box(sensor=sensor, render={"samples": 1, "polarisation": "off"})))
         with warnings.catch_warnings(record=True) as heard:
             warnings.simplefilter("always")
@@ -203,7 +203,7 @@ class Scenes(Test):
 
     def test_renders_warn_of_an_error_that_no_light_tells(self):
         scene = abbe.Scene(box(lights=[{"directional": {"towards": [0, 0, -1], "irradiance": 1}}]))
-        with self.assertWarnsRegex(abbe.SceneWarning, "^a pilot found no light on the film: error had nothing to wait for$"):
+        with self.assertWarnsRegex(abbe.SceneWarning, "^a pilot found no light on the film, so that error had no effect$"):
             abbe.render(scene, error=0.01)
 
     def test_renders_warn_of_what_does_nothing(self):
@@ -213,10 +213,10 @@ class Scenes(Test):
             warnings.simplefilter("always")
             abbe.render(scene)
         self.assertEqual([str(w.message).split(":")[0] for w in heard], [
-            'without effect, as integrator "path" makes no use of it', "no light was found by 1 samples per pixel, although lights emit what the sensor sees"])
+            'integrator "path" does not use these settings', "no light reached the sensor in 1 samples per pixel, although lights emit in its wavelength range"])
 
     def test_docstrings_tell_what_the_tables_of_keys_say(self):
-        self.assertIn("  camera: What looks at the scene. (object, required without meters)", abbe.Scene.__doc__)
+        self.assertIn("  camera: The camera or irradiance probe that records the scene. (object, required without meters)", abbe.Scene.__doc__)
         self.assertEqual(abbe.help("sensor/readout/bits"), self.command("help", "scene", "sensor/readout/bits"))
         with self.assertRaisesRegex(abbe.UsageError, "did you mean"):
             abbe.help("camra")

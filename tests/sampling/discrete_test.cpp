@@ -21,7 +21,7 @@ TEST(Discrete, StepsAreFoundWhereTheyBegin) {
 }
 
 TEST(Discrete, StepsOfNoProbabilityAreNeverFound) {
-  const std::array<float, 5> cdf{0, 0.5F, 0.5F, 0.999F, 0.999F};  // a sum rounded below 1
+  const std::array<float, 5> cdf{0, 0.5F, 0.5F, 0.999F, 0.999F};  // a sum rounded to below 1
   const std::span<const float> view(cdf);
   for (const double u : {0.0, 0.4999, 0.5, 0.9989, 0.9995, std::nextafter(1.0, 0.0)}) {
     const CdfStep<double> step = invert_cdf(view, u);
@@ -33,7 +33,8 @@ TEST(Discrete, StepsOfNoProbabilityAreNeverFound) {
   EXPECT_EQ(invert_cdf(view, 0.0).index, 1U);
 }
 
-/// Evenly spread numbers find each step as often as its weight says, and leave even numbers behind.
+/// Evenly spaced numbers select each step in proportion to its weight, and leave evenly spaced positions
+/// inside it.
 TEST(Discrete, FrequenciesFollowTheWeights) {
   const std::array weights{3.0, 0.0, 1.0, 4.0};
   std::vector<double> cdf;

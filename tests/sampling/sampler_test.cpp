@@ -102,7 +102,7 @@ TEST(Sampler, PartsOfPathsFollowEachOtherInOneSequence) {
           const Sampler whole(1, Purpose::camera, 0, 3, i, replicate);
           const Sampler part(1, Purpose::camera, 0, 3, (i << bits) + number, replicate);
           for (std::uint32_t group = 0; group < 4; ++group)
-            EXPECT_EQ(whole.part(number, bits).group(group), part.group(group)) << i << " " << number;
+            EXPECT_EQ(whole.split_child(number, bits).group(group), part.group(group)) << i << " " << number;
         }
 }
 
@@ -114,7 +114,7 @@ TEST(Sampler, TwoGroupsAreThoseOfEach) {
   }
 }
 
-// How many boxes of 2^a x 2^b the first two numbers of these points lie in.
+// Number of boxes of 2^a x 2^b that contain one of these points.
 std::size_t boxes(const std::vector<std::array<float, 4>>& points, std::uint32_t a, std::uint32_t b) {
   std::set<std::uint32_t> met;
   for (const std::array<float, 4>& u : points)
@@ -123,8 +123,8 @@ std::size_t boxes(const std::vector<std::array<float, 4>>& points, std::uint32_t
   return met.size();
 }
 
-// The first n points of R replicates are a net of Rn points in every shape, and those of each are one
-// themselves, but that two may share a box.
+// The first n points of R replicates are a net of Rn points for every box shape. Those of each replicate are
+// a net too, except that two points may fall into the same box.
 TEST(Sampler, ReplicatesArePartsOfOneNet) {
   constexpr std::uint32_t kDigits = 6;
   for (const std::uint32_t digits : {1U, 2U, 3U})
@@ -143,7 +143,7 @@ TEST(Sampler, ReplicatesArePartsOfOneNet) {
     }
 }
 
-// What means over points leave of variance, and what the spread of the replicates tells of it.
+// Variance of means over points, and its estimate from the spread of the replicates.
 struct Spread {
   double variance = 0;
   double told = 0;
@@ -175,8 +175,8 @@ Spread spread(const Function& function, bool parted) {
   return found;
 }
 
-// Independent sequences tell what variance they have; parts of one have less, and tell more than that. What
-// two groups make together is left to chance by both.
+// Independent sequences estimate their own variance. Replicates of one sequence have less, and estimate more
+// than they have. Products of two groups are random in both cases.
 TEST(Sampler, ReplicatesRepelEachOther) {
   using Numbers = std::array<float, 4>;
   const auto smooth = [](const Numbers& u, const Numbers&) {
@@ -197,8 +197,8 @@ TEST(Sampler, ReplicatesRepelEachOther) {
   EXPECT_LT(ours.variance, 1.1 * spread(product, false).variance);
 }
 
-// Bit by bit: the index is shuffled, and each dimension of its point scrambled as [Burley2020] does, both
-// between reversals of bits.
+// Bit by bit: the index is shuffled, and each dimension of its point scrambled as in [Burley2020], both
+// between bit reversals.
 std::uint32_t reversed(std::uint32_t x) {
   std::uint32_t y = 0;
   for (int bit = 0; bit < 32; ++bit) y |= ((x >> bit) & 1U) << (31 - bit);
@@ -224,8 +224,8 @@ std::uint32_t shuffled(std::uint32_t x, std::uint32_t seed) {
     x ^= x * factor;
   return reversed(x) ^ reversed(seed & 0xe0000000U);
 }
-// The first two dimensions of Sobol's sequence, bits reversed and Pascal's triangle, and the first three bits
-// of that by which replicates are parted.
+// The first two dimensions of Sobol's sequence (bit reversal and Pascal's triangle), and the first three bits
+// of the dimension that numbers the replicates.
 std::array<std::uint32_t, 3> sobol(std::uint32_t i) {
   std::array<std::uint32_t, 3> point{};
   std::uint32_t column = 1U << 31;

@@ -42,7 +42,7 @@ TEST(Camera, ImageIsUpright) {
   EXPECT_NEAR(top_edge.z / -top_edge.y, 0.010 / 0.05, 1e-6) << "upwards";
 }
 
-// To the right of what any kind shows; with the way of the light it makes up.
+// Expects `film_right` to point to the right of the image. With the direction of the light it determines up.
 void expect_right_is_right(const Camera& camera, float time) {
   const auto right = film_right(camera, time);
   ASSERT_TRUE(right);
@@ -67,7 +67,7 @@ TEST(Camera, TellsTheRightOfItsPicture) {
 }
 
 TEST(Camera, ExposureIsThatOfTheLensFormula) {
-  // In focus at infinity: E = pi L cos^4 / (4 N^2).
+  // For focus at infinity: E = pi L cos^4 / (4 N^2).
   const double n = 4;
   const Camera camera{ThinLens{frame(), 0.05, INFINITY, 0.05 / (2 * n)}, 6, 4, 0.005};
   EXPECT_NEAR(static_cast<double>(ray_of(camera, {3, 2}, {0.3F, 0.9F}).weight[0]), kPi / (4 * n * n), 1e-8);
@@ -95,9 +95,9 @@ TEST(Camera, RaysOfAFilmPointMeetInThePlaneInFocus) {
   }
 }
 
-// A narrow opening: the ray runs straight from the film to the lens.
+// With a narrow opening the ray is straight from the film to the lens.
 TEST(Camera, FilmCosineIsThatOfTheRayInsideTheCamera) {
-  // The right edge of the picture is on the left of the film, which lies behind the lens.
+  // The right edge of the picture is on the left of the film, which is behind the lens.
   const double opening = 0.0005;
   const Camera narrow{ThinLens{frame(), 1 / (1 / 0.05 - 1 / 0.5), 0.5, opening}, 6, 4, 0.005};
   const V3d film_point = V3d(1, 2, 3) + V3d(1, 0, 0) * 0.015 + V3d(0, 1, 0) * *traits(narrow).image_distance;
@@ -109,8 +109,8 @@ TEST(Camera, FilmCosineIsThatOfTheRayInsideTheCamera) {
   }
 }
 
-// On the axis the lens exposes by E = pi sin^2 U', U' being the half-angle of the cone of light on the film,
-// up to f/0.5 that fills the hemisphere; light of a uniform scene is uniform in the cone's projected solid
+// On the axis the exposure is E = pi sin^2 U', where U' is the half-angle of the cone of light on the film,
+// up to f/0.5, which fills the hemisphere. Light of a uniform scene is uniform in the cone's projected solid
 // angle.
 TEST(Camera, ExposesByTheConeOfLightOnItsFilm) {
   constexpr int kSide = 200;
@@ -141,12 +141,12 @@ TEST(Camera, ExposesByTheConeOfLightOnItsFilm) {
     }
 }
 
-// Nothing comes to the film under a larger angle than the bound by which wavelengths are drawn.
+// No light arrives at a larger angle than the bound that limits the wavelengths.
 TEST(Camera, FilmAnglesStayWithinTheirBound) {
   Random random(11);
   for (const Camera& camera :
        {narrow_pinhole(), wide_pinhole(), lens(), bladed_lens(), turned_lens(), wide_lens()}) {
-    const double least = least_film_cosine(camera);
+    const double least = min_film_cosine(camera);
     double found = 1;
     for (int i = 0; i < 20000; ++i) {
       const V2f film(i % 2 == 0 ? 0 : 6 * random.uniform(), i % 2 == 0 ? 0 : 4 * random.uniform());
@@ -168,8 +168,8 @@ TEST(Camera, LensPointsFillTheAperture) {
   EXPECT_NEAR(mean_square / (0.0125 * 0.0125), 0.5, 0.01);
 }
 
-// As the camera looks along -y, right is -x: a corner at the clockwise angle c is at (-sin c, cos c) of x and
-// z. What leaves it by itself comes in where rays leave, and nowhere else.
+// The camera looks along -y, so that right is -x: a corner at the clockwise angle c is at (-sin c, cos c) in
+// x and z. Light rays can hit the opening exactly where camera rays leave it.
 TEST(Camera, BladesLeaveAPolygonOfTheAperture) {
   const Camera camera = bladed_lens();
   const Opening opening = traits(camera).opening.value();
@@ -192,12 +192,12 @@ TEST(Camera, BladesLeaveAPolygonOfTheAperture) {
       EXPECT_TRUE(!crossed || point.length() < 1 + 1e-3);
       within += crossed;
     }
-  EXPECT_NEAR(4.0 * within / kSide / kSide / kPi, iris.share(), 0.002);
+  EXPECT_NEAR(4.0 * within / kSide / kSide / kPi, iris.area_fraction(), 0.002);
 }
 
-// Whatever rounding makes of the edge is still of the last pixel.
+// Rounding at the edge still gives the last pixel.
 TEST(Camera, EdgesOfMetersAreOnTheirFilm) {
-  const Camera meter{Probe{Quad{{0, 0, 0}, {0.9, 0, 0}, {0, 0.7, 0}}}, 48, 64, 1};
+  const Camera meter{IrradianceProbe{Quad{{0, 0, 0}, {0.9, 0, 0}, {0, 0.7, 0}}}, 48, 64, 1};
   const Ray light{{0.9F, 0.7F, 1}, {0, 0, -1}};
   const auto seen = connection_through(meter, traits(meter).opening.value(), light, SampledSpectrum(550));
   ASSERT_TRUE(seen);
@@ -206,7 +206,7 @@ TEST(Camera, EdgesOfMetersAreOnTheirFilm) {
   EXPECT_GT(seen->lens_point.z, 0) << "off what the meter lies on";
 }
 
-// From without and from within, to the near side or the far one.
+// From outside and inside, to the near side and the far one.
 TEST(Camera, RaysComeToTheSideOfASphereThatTakesThem) {
   const SphereSide out{{{1, 0, 0}, 2}, false};
   const SphereSide in{{{1, 0, 0}, 2}, true};
@@ -238,7 +238,7 @@ TEST(Camera, ConnectionsAreTheReverseOfRays) {
       EXPECT_LT((back->film - film).length(), 1e-3F);
       EXPECT_LT((back->lens_point - start.ray.origin).length(), 1e-6F);
       EXPECT_NEAR(back->cos_film, start.cos_film, 1e-5);
-      // Both weights are of the same lens element and the same pixel: one per film area, one per solid angle.
+      // Both weights belong to the same lens element and pixel: one is per film area, one per solid angle.
       const double cosine = -static_cast<double>(start.ray.direction.y);
       const double film_per_sr = std::pow(*traits(camera).image_distance, 2) / std::pow(cosine, 3);
       EXPECT_NEAR(static_cast<double>(back->weight[0]) * d * d * camera.pixel_pitch * camera.pixel_pitch /
@@ -252,7 +252,7 @@ TEST(Camera, NothingBehindOrBesideIsImaged) {
   EXPECT_FALSE(connection(narrow_pinhole(), {1, 2, 4}, {0, 0})) << "in the plane of the lens";
   EXPECT_FALSE(connection(narrow_pinhole(), {0.5F, 1, 3}, {0, 0})) << "beyond the right edge";
   EXPECT_TRUE(connection(narrow_pinhole(), {0.75F, 1, 3}, {0, 0}));
-  const Camera probe{Probe{Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, 1, 1, 1};
+  const Camera probe{IrradianceProbe{Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}}, 1, 1, 1};
   EXPECT_FALSE(connection(probe, {0, 0, 1}, {0, 0}));
 }
 
@@ -301,8 +301,9 @@ TEST(Camera, BothWaysCollectTheSameEnergy) {
   }
 }
 
-// Rounding of the cosine on the film when a ray is looked up again: of the direction, and through a lens that
-// of the lens point, 1.2e-7 m along each axis at coordinates of 2 to 4 m, over the image distance.
+// Rounding of the cosine on the film when a ray is evaluated again: that of the direction. Through a lens it
+// also includes that of the lens point, 1.2e-7 m per axis at coordinates of 2 to 4 m, divided by the image
+// distance.
 double film_cosine_rounding(const Camera& camera, const CameraRay& ray) {
   constexpr double kDirection = 1e-5;
   const CameraTraits of = traits(camera);
@@ -356,8 +357,8 @@ TEST(Camera, DensitiesCountPointsByAreaUnlessThereIsOne) {
   EXPECT_EQ(ray_of(meter(), {1, 1}, {0.5F, 0.5F}).ray.time, 0.25F);
 }
 
-// Through one point of the lens, in focus and out, near the axis and in the corner: a part of the pixel sees
-// a solid angle that holds the part's share of the directions.
+// Through one lens point, in focus and out of focus, near the axis and in the corner: a part of the pixel
+// sees a solid angle with the same fraction of the directions.
 TEST(Camera, DirectionsThroughAPixelIntegrateToOne) {
   constexpr int kParts = 64;
   const V2f u(0.9F, 0.3F);
@@ -395,7 +396,7 @@ TEST(Camera, NothingIsSeenBackwardsOrBesideTheFilm) {
 }
 
 TEST(Probe, MeasuresTheHemisphere) {
-  const Camera probe{Probe{Quad{{1, 1, 1}, {2, 0, 0}, {0, -4, 0}}}, 2, 4, 1};
+  const Camera probe{IrradianceProbe{Quad{{1, 1, 1}, {2, 0, 0}, {0, -4, 0}}}, 2, 4, 1};
   Random random(5);
   double mean_cosine = 0;
   constexpr int kCount = 20000;

@@ -4,7 +4,7 @@
 
 namespace abbe::test {
 
-// Looking along -y from (1, 2, 3), up is z, so right is -x.
+// A frame at (1, 2, 3) that looks along -y with z up, so that right is -x.
 inline CameraFrame frame() {
   return {{1, 2, 3}, {-1, 0, 0}, {0, 0, 1}, {0, -1, 0}};
 }
@@ -12,15 +12,15 @@ inline CameraFrame frame() {
 inline Camera narrow_pinhole() {
   return {Pinhole{frame(), 0.05, 0.00625}, 6, 4, 0.005};
 }
-// The corners of its film are at 75 degrees.
+// A pinhole with the corners of its film at 75 degrees.
 inline Camera wide_pinhole() {
   return {Pinhole{frame(), 0.005, 0.001, 0.7}, 6, 4, 0.005};
 }
-// Focal length 50 mm in focus at 0.5 m, f/2.
+// A thin lens of 50 mm focal length, in focus at 0.5 m, at f/2.
 inline Camera lens() {
   return {ThinLens{frame(), 1 / (1 / 0.05 - 1 / 0.5), 0.5, 0.0125}, 6, 4, 0.005};
 }
-// The same with five blades, and with seven that are turned and a radius of as much light.
+// That lens with five blades, and with seven rotated blades and a radius that transmits as much light.
 inline Camera bladed_lens() {
   return {ThinLens{frame(), 1 / (1 / 0.05 - 1 / 0.5), 0.5, 0.0125, 1, lens::Iris(5, 0)}, 6, 4, 0.005};
 }
@@ -30,18 +30,18 @@ inline Camera turned_lens() {
 inline Camera wide_lens() {
   return {ThinLens{frame(), 0.006, 0.03, 0.002, 0.7}, 6, 4, 0.005};
 }
-// The parallelogram meter's pixels are skew.
+// A probe on a parallelogram, whose pixels are skew.
 inline Camera meter() {
-  return {Probe{Quad{{1, 1, 1}, {2, 0, 0}, {1, -4, 0}}}, 2, 4, 1};
+  return {IrradianceProbe{Quad{{1, 1, 1}, {2, 0, 0}, {1, -4, 0}}}, 2, 4, 1};
 }
 inline Camera disc_meter() {
-  return {Probe{Disc{{1, 1, 1}, Imath::V3d(0, 0.6, 0.8), 2}, 0.3}, 2, 4, 1};
+  return {IrradianceProbe{Disc{{1, 1, 1}, Imath::V3d(0, 0.6, 0.8), 2}, 0.3}, 2, 4, 1};
 }
 inline Camera sphere_meter() {
-  return {Probe{SphereSide{{{1, 1, 1}, 2}, true}}, 2, 4, 1};
+  return {IrradianceProbe{SphereSide{{{1, 1, 1}, 2}, true}}, 2, 4, 1};
 }
 inline Camera point_meter() {
-  return {Probe{PointOfMeter{{1, 1, 1}, {0, 0, -1}}}, 2, 4, 1};
+  return {IrradianceProbe{ProbePoint{{1, 1, 1}, {0, 0, -1}}}, 2, 4, 1};
 }
 
 inline const SampledSpectrum kWavelengths(550);

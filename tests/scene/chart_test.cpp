@@ -14,7 +14,7 @@ using Imath::V3d;
 using ChartFileTest = test::DescriptionTest;
 using test::Loaded;
 
-// A chart of 6 x 4 m seen squarely from 10 m, 20 pixels per metre.
+// A chart of 6 x 4 m viewed perpendicularly from 10 m, with 20 pixels per metre.
 std::string chart_scene(const std::string& chart, const std::string& more = "") {
   return R"({"camera": {"pinhole": {"focal_length": 0.001}, "from": [0, 0, 10], "to": [0, 0, 0], "up": [0, 1, 0]},
   "sensor": {"resolution": [160, 120], "pixel_pitch_um": 5, "channels": {"all": 1}},
@@ -31,7 +31,7 @@ V3d middle_of(const Quad& quad) {
   return quad.corner + (quad.edge_u + quad.edge_v) / 2;
 }
 
-// A film whose values are column + 1000 row, each known to a variance of 2.
+// A film with values column + 1000 row, each with a variance of 2.
 Image ramp() {
   Image film{160, 120, {{"all", {}}}, {}};
   for (int y = 0; y < 120; ++y)
@@ -128,8 +128,8 @@ TEST_F(ChartFileTest, ReadOutFindsEachPatchOnTheFilm) {
   ASSERT_TRUE(scene.scene);
   const std::vector<PatchReading> patches = read_patches(*scene.scene, scene->charts[0], ramp(), {"all"});
   ASSERT_EQ(patches.size(), 24U);
-  // The middle 0.602 m of the cell around (-2.5, 1.5) m is 12.04 pixels wide: whole ones from 24 to 35, both
-  // ways.
+  // The inner 0.602 m of the cell around (-2.5, 1.5) m are 12.04 pixels wide: the whole ones are 24 to 35 in
+  // both directions.
   EXPECT_EQ(patches[0].name, "dark skin");
   EXPECT_EQ(patches[0].pixels, 144U);
   EXPECT_NEAR(patches[0].mean[0], 29.5 + 1000 * 29.5, 1e-2);
@@ -137,8 +137,8 @@ TEST_F(ChartFileTest, ReadOutFindsEachPatchOnTheFilm) {
   EXPECT_NEAR((*patches[18].reflectance)(550), 0.9, 0.03);
 }
 
-// Rays of the camera from where a patch is found on the film come to its corners, off the axis of a lens
-// whose pupil moves so far with the field that none comes through the middle of where all of them come in.
+// Camera rays from the film outline of a patch hit the corners of the patch. This also holds off the axis of
+// a lens whose pupil moves so much with the field that no ray passes the center of the entrance.
 TEST_F(ChartFileTest, ReadOutFindsPatchesThroughAFisheye) {
   const auto seen = [this](const std::string& corner) {
     return load(R"({"camera": {"lens_system": {"prescription": "fisheye"},
@@ -187,16 +187,16 @@ TEST_F(ChartFileTest, ReadOutRefusesOtherFilms) {
   };
   const Loaded scene = load(chart_scene(kTable + kPlaced));
   refused(*scene.scene, {2, 120, {{"all", std::vector<float>(240)}}, {}}, "all",
-          "none of this scene's camera");
+          "does not have the size of this scene's camera");
   refused(*scene.scene, {160, 1, {{"all", std::vector<float>(160)}}, {}}, "all",
-          "none of this scene's camera");
+          "does not have the size of this scene's camera");
   refused(*scene.scene, ramp(), "Y", "no channel Y");
   const Loaded aside =
       load(chart_scene(kTable + R"("corner": [3, -2, 0], "edge_u": [6, 0, 0], "edge_v": [0, 4, 0])"));
-  refused(*aside.scene, ramp(), "all", "beyond the film");
+  refused(*aside.scene, ramp(), "all", "its inner part is outside the film");
   const Loaded small =
       load(chart_scene(kTable + R"("corner": [0, 0, 0], "edge_u": [0.6, 0, 0], "edge_v": [0, 0.4, 0])"));
-  refused(*small.scene, ramp(), "all", "too coarse");
+  refused(*small.scene, ramp(), "all", "contains no whole pixel");
 }
 
 }  // namespace

@@ -3,9 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/shading_point.h"
 #include "scene/shapes/coordinates.h"
 #include "scene/shapes/placed.h"
-#include "scene/surface.h"
 #include "scenes.h"
 #include "tests/scene/expect_near.h"
 
@@ -20,7 +20,7 @@ using test::Random;
 
 constexpr double kTight = 1e-12;
 
-// The tangents are the derivatives of the point that `point_at` puts at (u, v).
+// The tangents are the derivatives of the position that `point_at` assigns to (u, v).
 template <typename PointAt>
 void expect_coordinates(const Shape& shape, const V2d& uv, const PointAt& point_at,
                         std::size_t triangle = 0) {
@@ -40,7 +40,7 @@ TEST(Coordinates, OfAQuadRunAlongItsEdges) {
                        [&](double u, double v) { return quad.corner + quad.edge_u * u + quad.edge_v * v; });
 }
 
-// Each way it may face, with what lies to the right and above as seen from its front.
+// All orientations, with what is to the right and above as seen from the front.
 TEST(Coordinates, OfADiscFillTheSquareAroundIt) {
   struct Facing {
     V3d normal, right, up;
@@ -70,7 +70,7 @@ TEST(Coordinates, OfASphereAreLongitudeAndLatitude) {
   EXPECT_EQ(pole.dp_du, V3d(0));
 }
 
-// An affine map of the plane onto the triangles, which meet at a seam.
+// An affine map of the plane to the triangles, which meet at a seam.
 TEST(Coordinates, OfAMeshAreInterpolatedOnEachTriangle) {
   const Mesh mesh{{{0, 0, 0}, {2, 0, 0}, {0, 1, 1}, {2, 1, 1}},
                   {{0, 1, 2}, {3, 2, 1}},
@@ -84,7 +84,7 @@ TEST(Coordinates, OfAMeshAreInterpolatedOnEachTriangle) {
       mesh, {-0.25, -0.5}, [](double u, double v) { return V3d(2 + 2 * u, 1 + v, 1 + v); }, 1);
 }
 
-// Nowhere mirrored as seen from outside, and each face filled.
+// Nowhere mirrored as seen from outside, and each face is filled.
 TEST(Coordinates, OfAPrismStandOnItsFaces) {
   const Mesh prism = make_prism(50, 2, 3);
   ASSERT_EQ(prism.coordinates.size(), prism.triangles.size());
@@ -117,8 +117,8 @@ TEST(Coordinates, OfAnInstanceAreItsPrototypes) {
   expect_coordinates(placed, {0.3, 0.8}, [](double u, double v) { return V3d(5 + 2 * u, 6 + 6 * v, 7); });
 }
 
-// A quad of two triangles as a mesh, alone and as an instance, met by rays: the hit says which triangle, and
-// the place where.
+// A quad of two triangles as a mesh, alone and as an instance. The hit of a ray states the triangle and the
+// position.
 TEST(Coordinates, AreFoundWhereARayMeetsASurface) {
   const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {1, 1, 0}},
                   {{0, 1, 2}, {3, 2, 1}},
@@ -131,15 +131,15 @@ TEST(Coordinates, AreFoundWhereARayMeetsASurface) {
   scene.shapes.push_back({"instance", PlacedShape{make_prototype(mesh), at}, 0});
   scene.shapes.push_back({"plain", Quad{{0, 0, 10}, {1, 0, 0}, {0, 1, 0}}, 1});
   scene.commit();
-  EXPECT_TRUE(scene.needs.textures);
-  EXPECT_EQ(scene.needs.because.at("textures"), "shape \"mesh\"");
+  EXPECT_TRUE(scene.features.textures);
+  EXPECT_EQ(scene.features.reasons.at("textures"), "shape \"mesh\"");
   Random random(1);
   for (int i = 0; i < 200; ++i) {
     const V2f p = random.pair();
     for (const float z : {0.0F, 5.0F, 10.0F}) {
       const auto hit = scene.intersect({{p.x, p.y, z + 1}, {0, 0, -1}});
       ASSERT_TRUE(hit);
-      const SurfacePlace place = textured_place(scene, *hit, 0);
+      const ShadingPoint place = textured_shading_point(scene, *hit, 0);
       const V2f expected = z == 10 ? V2f(0, 0) : p.x + p.y <= 1 ? p : p + V2f(1, 1);
       EXPECT_LE((place.uv - expected).length(), 1e-5F) << p << " " << place.uv;
       EXPECT_LE((place.frame.x - Imath::V3f(1, 0, 0)).length(), 1e-6F);

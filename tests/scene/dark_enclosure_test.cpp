@@ -9,7 +9,7 @@ namespace {
 
 using Imath::V3d;
 
-// A shell around the camera, which stands at the origin, and a lamp.
+// A shell around the camera at the origin, and a light.
 Scene shell(const Shape& shape, Material material, const V3d& lamp) {
   Scene scene{};
   scene.camera = test::pinhole();

@@ -25,7 +25,8 @@ TEST(Emission, OfAllKinds) {
   EXPECT_EQ(kinds.size(), std::variant_size_v<decltype(Light::kind)>);
 }
 
-// Over all directions, by strata of height and azimuth; of a narrow sun within a cone of twice its height.
+// Integrates over all directions, by strata of height and azimuth; for a narrow sun within a cone of twice
+// its height.
 TEST(Emission, DirectionsIntegrateToOne) {
   for (const auto& [name, scene] : all_light_kinds()) {
     const Light& light = scene.lights[0];
@@ -57,7 +58,7 @@ TEST(Emission, DirectionsAreDrawnAsTheDensitySays) {
     const Light& light = scene.lights[0];
     if (light.at_infinity()) continue;
     const V3f normal = V3f(0.6F, 0, 0.8F);
-    // Both are functions of the cosine with the axis: the share within each of some bins of it.
+    // Both are functions of the cosine with the axis. The test compares the fraction in each of several bins.
     const auto* spot = std::get_if<SpotLight>(&light.kind);
     const V3f axis = light.is<AreaLight>() ? normal : spot != nullptr ? spot->axis : V3f(0, 0, 1);
     constexpr int kBins = 20;
@@ -94,15 +95,15 @@ TEST(Emission, PointsAreDrawnAsTheDensitySays) {
   }
 }
 
-// The density with which a point of the scene draws one of the light: per solid angle there, pdf_solid_angle
-// |cos|/d^2 per area of the light, over which it integrates to 1.
+// The density with which a scene point samples a point of the light: pdf_solid_angle |cos|/d^2 per area of
+// the light, which integrates to 1.
 TEST(Emission, DensityPerAreaIsThatPerSolidAngleTimesCosineOverDistanceSquared) {
   const V3f from(0.1F, -0.2F, 0.05F);
   for (const auto& [name, scene] : all_light_kinds()) {
     const Light& light = scene.lights[0];
     if (light.is_delta() || light.at_infinity()) continue;
     const double radius =
-        std::holds_alternative<Sphere>(scene.shapes[0].shape) ? 1 : 0;  // whose far side is hidden
+        std::holds_alternative<Sphere>(scene.shapes[0].shape) ? 1 : 0;  // the far side is hidden
     double sum = 0;
     Random random(3);
     constexpr int kSide = 400;

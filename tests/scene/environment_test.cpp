@@ -37,7 +37,7 @@ Texels noise(std::size_t count) {
 }
 
 TEST(EnvironmentImage, FacesWhereItSays) {
-  // One row of four columns around, between a white top and a black bottom.
+  // One row of four columns between a white top row and a black bottom row.
   Texels texels(12, {0, 0, 0});
   for (std::size_t i = 0; i < 4; ++i) texels[i] = {9, 9, 9};
   for (std::size_t i = 0; i < 4; ++i) texels[4 + i] = std::array<float, 3>{};
@@ -48,16 +48,16 @@ TEST(EnvironmentImage, FacesWhereItSays) {
   const EnvironmentFrame upright = environment_frame({0, 0, 1}, 0);
   EXPECT_NEAR(seen(upright, {0.1F, 0.2F, 0.9F}), 9, 1e-5);
   EXPECT_NEAR(seen(upright, {0.1F, 0.2F, -0.9F}), 0, 1e-5);
-  // The middle, between the second and third columns, is +y; to its right is +x.
+  // The center, between the second and third columns, is +y; +x is to its right.
   EXPECT_NEAR(seen(upright, {-0.1F, 1, 0}), 2, 1e-5);
   EXPECT_NEAR(seen(upright, {0.1F, 1, 0}), 3, 1e-5);
   EXPECT_NEAR(seen(upright, {1, -0.1F, 0}), 4, 1e-5);
   EXPECT_NEAR(seen(upright, {-1, -0.1F, 0}), 1, 1e-5);
-  // Turned by a quarter about up, the middle is -x.
+  // Rotated by a quarter turn about up, the center is -x.
   const EnvironmentFrame turned = environment_frame({0, 0, 1}, 90);
   EXPECT_NEAR(seen(turned, {-1, -0.1F, 0}), 2, 1e-5);
   EXPECT_NEAR(seen(turned, {-1, 0.1F, 0}), 3, 1e-5);
-  // With y up the middle is +x, and right of it is +z.
+  // With y up the center is +x, and +z is to its right.
   const EnvironmentFrame tilted = environment_frame({0, 1, 0}, 0);
   EXPECT_NEAR(seen(tilted, {0.1F, 0.9F, 0}), 9, 1e-5);
   EXPECT_NEAR(seen(tilted, {1, 0, 0.1F}), 3, 1e-5);
@@ -69,7 +69,7 @@ TEST(EnvironmentImage, DensityIsThatOfItsSamples) {
   constexpr int kHeight = 7;
   const EnvironmentImage image =
       image_of(kWidth, kHeight, noise(kWidth * kHeight), environment_frame(V3d(1, 2, -1).normalized(), 35));
-  // It integrates to 1, and so do samples over it: the mean of f/pdf is the integral of f, for any f.
+  // The density integrates to 1. The mean of f/pdf over samples is the integral of f for any f.
   Random random(22);
   double total = 0;
   double moment = 0;
@@ -97,7 +97,7 @@ TEST(EnvironmentImage, DensityIsThatOfItsSamples) {
 }
 
 TEST(EnvironmentImage, TexelsAreSampledByTheirSolidAngle) {
-  // A white upper half in one texel: cos theta is uniform on [0, 1], with mean 1/2 and variance 1/12.
+  // A white upper half in one texel: cos theta is uniform in [0, 1], with mean 1/2 and variance 1/12.
   const EnvironmentImage half = image_of(1, 2, {{1, 1, 1}, {0, 0, 0}});
   Random random(25);
   double sum = 0;
@@ -148,7 +148,7 @@ TEST(EnvironmentImage, OneHotTexelLightsAsItShould) {
   const Light sky{
       "sky", EnvironmentLight{std::make_shared<const EnvironmentImage>(image_of(kWidth, kHeight, texels))},
       Curve(2.0)};
-  // Onto a level surface: the integral of cos theta sin theta over the texel.
+  // On a horizontal surface: the integral of cos theta sin theta over the texel.
   const double top = kPi * kRow / kHeight;
   const double bottom = kPi * (kRow + 1) / kHeight;
   const double irradiance =
@@ -181,7 +181,7 @@ TEST_F(EnvironmentFileTest, ReadsImages) {
   ASSERT_TRUE(loaded.scene) << loaded.text();
   ASSERT_EQ(loaded->background().size(), 1U);
   const Light& sky = loaded->lights[0];
-  // The image's left edge lies behind its middle, which looks along -x: towards +x, above.
+  // The image's left edge is opposite its center, which looks along -x: it is at +x, above.
   EXPECT_NEAR(emission_from(sky, {0.7F, 0.7F, 0.1F}, SampledSpectrum(650))[0] /
                   (8 * static_cast<float>(sky.emission(650.0))),
               1, 0.02);
@@ -195,15 +195,13 @@ TEST_F(EnvironmentFileTest, ReadsImages) {
   EXPECT_NE(load(text)->sha256, loaded->sha256);
   image.channels[0].values[3] = -1;
   write_exr(folder_ / "sky.exr", image);
-  EXPECT_NE(
-      load(text).text().find(
-          "/lights/0/environment/image: warning: environment \"sky.exr\": negative values taken as 0: 1"),
-      std::string::npos);
+  EXPECT_NE(load(text).text().find(
+                "/lights/0/environment/image: warning: environment \"sky.exr\": negative values set to 0: 1"),
+            std::string::npos);
   write_exr(folder_ / "sky.exr", {2, 1, {{"Y", {1, 2}}}, {}});
   EXPECT_TRUE(load(text).scene) << "grey";
   write_exr(folder_ / "sky.exr", {2, 1, {{"Y", {-1, 2}}}, {}});
-  EXPECT_NE(load(text).text().find("negative values taken as 0: 1\n"), std::string::npos)
-      << load(text).text();
+  EXPECT_NE(load(text).text().find("negative values set to 0: 1\n"), std::string::npos) << load(text).text();
   write_exr(folder_ / "sky.exr", {2, 1, {{"Y", {1, 2}}}, {}});
   std::filesystem::rename(folder_ / "sky.exr", folder_ / "SKY.EXR");
   EXPECT_TRUE(load(std::regex_replace(text, std::regex("sky.exr"), "SKY.EXR")).scene) << "in capitals";
@@ -212,7 +210,7 @@ TEST_F(EnvironmentFileTest, ReadsImages) {
 TEST_F(EnvironmentFileTest, PicturesOfRadianceAreWhatTheirLinesSay) {
   const std::string text =
       R"({"lights": [{"environment": {"image": "sky.hdr"}, "emission": {"spectrum": 1}}]})";
-  // Grey texels of 1 and 2, one above the other.
+  // Grey texels of 1 and 2 on top of each other.
   const auto load_sky = [&](const std::string& lines, const std::string& resolution) {
     write_atomically(folder_ / "sky.hdr", "#?RADIANCE\n" + lines + "FORMAT=32-bit_rle_rgbe\n\n" + resolution +
                                               "\n\x80\x80\x80\x81\x80\x80\x80\x82");
@@ -247,9 +245,10 @@ TEST_F(EnvironmentFileTest, RefusesWhatIsNoSky) {
   write_exr(folder_ / "nan.exr", {2, 1, {{"R", {1, NAN}}, {"G", {1, 1}}, {"B", {1, 1}}}, {}});
   write_exr(folder_ / "depth.exr", {2, 1, {{"Z", {1, 1}}}, {}});
   expect_refused(R"("image": "nan.exr")", ErrorCode::input, "texel (1, 0) (got nan, allowed [0, 1e+30])");
-  expect_refused(R"("image": "depth.exr")", ErrorCode::input, "no channels R, G, B, or Y alone");
+  expect_refused(R"("image": "depth.exr")", ErrorCode::input,
+                 "the image needs channels R, G and B, or only Y");
   write_exr(folder_ / "xyz.exr", {1, 1, {{"X", {1}}, {"Y", {1}}, {"Z", {1}}}, {}});
-  expect_refused(R"("image": "xyz.exr")", ErrorCode::input, "no channels R, G, B, or Y alone");
+  expect_refused(R"("image": "xyz.exr")", ErrorCode::input, "the image needs channels R, G and B, or only Y");
   const std::vector<ImageChannel> rgb{{"R", {1}}, {"G", {1}}, {"B", {1}}};
   write_exr(folder_ / "wide.exr",
             {1, 1, rgb, {{kPrimariesKey, "0.708 0.292 0.17 0.797 0.131 0.046 0.3127 0.329"}}});
@@ -264,7 +263,7 @@ TEST_F(EnvironmentFileTest, RefusesWhatIsNoSky) {
   expect_refused(R"("image": "sky.png")", ErrorCode::input,
                  "linear values are needed (got \".png\", allowed .exr, .hdr)");
   expect_refused(R"("image": "http://x/sky.exr")", ErrorCode::input, "expected a file");
-  expect_refused(R"("up": [0, 0, 1])", ErrorCode::scene, "up goes with image, which is not there");
+  expect_refused(R"("up": [0, 0, 1])", ErrorCode::scene, "up requires image, which is missing");
   expect_refused(R"("image": "nan.exr", "up": [0, 0, 0])", ErrorCode::scene, "a direction must not be zero");
   EXPECT_THROW((void)loaded_with(R"("image": "gone.exr")"), Error);
 }

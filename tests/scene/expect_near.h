@@ -4,7 +4,7 @@
 
 namespace abbe::test {
 
-/// Of vectors of two or three dimensions.
+/// Expects two vectors of two or three dimensions to be near.
 template <typename V>
 void expect_near(const V& a, const V& b, double tolerance) {
   EXPECT_LE(static_cast<double>((a - b).length()), tolerance) << a << " and " << b;

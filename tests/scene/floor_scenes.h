@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scene/shapes/placed.h"
-#include "scene/unreached.h"
+#include "scene/unsampled_paths.h"
 #include "scenes.h"
 
 namespace abbe::test {
@@ -16,7 +16,7 @@ inline constexpr std::uint32_t kDiffuse = 0;
 inline constexpr std::uint32_t kMirror = 1;
 inline constexpr std::uint32_t kGlass = 2;
 
-/// A diffuse floor, looked at by a pinhole; the tests add to it.
+/// A diffuse floor viewed by a pinhole; the tests add to it.
 inline Scene floor_scene() {
   Scene scene{};
   scene.camera = pinhole();
@@ -46,7 +46,7 @@ inline Shape placed(PlainShape shape, const Imath::M44d& at) {
 
 inline std::vector<std::string> unreached_expressions(const Scene& scene, bool light_tracing) {
   std::vector<std::string> expressions;
-  for (const PathClass& path : unreached(scene, scene.needs, light_tracing))
+  for (const PathClass& path : unsampled_paths(scene, scene.features, light_tracing))
     expressions.push_back(path.substr(0, path.find(':')));
   return expressions;
 }

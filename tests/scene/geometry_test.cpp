@@ -20,7 +20,7 @@ using test::expect_near;
 using test::Random;
 using test::scene_of;
 
-// A sphere as triangles, outward, closed.
+// A closed sphere of triangles that face outward.
 Mesh globe(double radius, int rings, int sectors) {
   Mesh mesh;
   for (int i = 0; i <= rings; ++i)
@@ -92,7 +92,7 @@ TYPED_TEST(ShapeTest, FlatShapesAreMetWhereTheyAre) {
   EXPECT_FALSE(this->hit(mesh, V(TypeParam(0.9), TypeParam(0.9), 0), V(0, 0, 1)));
 }
 
-// Told before anything is divided by zero.
+// Detected before any division by zero.
 TYPED_TEST(ShapeTest, NothingIsMetAlongAFlatShapeNorWhereThereIsNone) {
   using V = typename TestFixture::V;
   using Ray = typename TestFixture::Ray;
@@ -131,7 +131,7 @@ TEST(Shape, SharedEdgesOfAMeshAreMet) {
   ASSERT_TRUE(enter);
   Random random(2);
   for (int i = 0; i < 1000; ++i) {
-    // Any point of the diagonal that splits the face, seen from anywhere in front.
+    // Any point of the diagonal that splits the face, seen from any point in front.
     const auto& mesh = std::get<Mesh>(prism);
     const double s = random.between(0.01, 0.99);
     const V3d target = mesh.vertices[1] * (1 - s) + mesh.vertices[5] * s;
@@ -159,7 +159,7 @@ TEST(Shape, PrismIsClosedAndHasItsAngles) {
   EXPECT_NEAR(volume, base_area * length, 1e-18);
   EXPECT_NEAR(area(prism), 2 * base_area + 3 * side * length, 1e-15);
 
-  // The axis is equally far from the three faces, and the two equal faces enclose the apex angle.
+  // The axis has equal distances to the three faces, and the two equal faces enclose the apex angle.
   const double inradius = side * std::sqrt(3.0) / 6;
   const auto right = intersect<double>(prism, {{0, 0, 0}, V3d(1, 0, 0.5).normalized()}, 0);
   const auto down = intersect<double>(prism, {{0, 0, 0}, {0, 0, -1}}, 0);
@@ -202,7 +202,7 @@ TEST(Shape, AreaSamplesAreUniform) {
   EXPECT_EQ(triangle_cdf(mesh)[1], 1.0F);
 }
 
-// The direction pressed almost onto the surface.
+// The direction rotated almost into the surface.
 V3f grazing(const V3f& direction, const V3f& normal) {
   return (direction - normal * (direction.dot(normal) * 0.9999F)).normalized();
 }
@@ -219,7 +219,7 @@ TEST(SceneIntersection, AgreesWithTheExactOne) {
     const auto fast = scene.intersect(ray);
     const auto exact = intersect_exact(scene, {V3d(ray.origin), V3d(ray.direction)}, 0);
     if (fast.has_value() != exact.has_value() || (fast && fast->shape != exact->shape))
-      continue;  // an edge grazed
+      continue;  // grazes an edge
     if (!fast) continue;
     ++hits;
     EXPECT_NEAR(fast->t, exact->hit.t, 1e-5);
@@ -235,7 +235,7 @@ TEST(SceneIntersection, AgreesWithTheExactOne) {
   EXPECT_GT(hits, 15000);
 }
 
-// Meshes of small and of large triangles, alone and as an instance, centred at up to 1e5 along any axis.
+// Meshes of small and of large triangles, alone and as an instance, with centers at up to 1e5 along any axis.
 TEST(SceneIntersection, MeshesFarFromTheOriginAreMetWhereTheyAre) {
   Random random(10);
   for (const double far : {500.0, 1500.0, 2e4, 1e5})
@@ -258,7 +258,7 @@ TEST(SceneIntersection, MeshesFarFromTheOriginAreMetWhereTheyAre) {
             const Ray ray{origin, direction};
             const auto hit = scene.intersect(ray);
             ASSERT_TRUE(hit) << far << ' ' << size;
-            const double rounding = 4e-7 * (far + 3 * size);  // of coordinates in single precision
+            const double rounding = 4e-7 * (far + 3 * size);  // of single-precision coordinates
             EXPECT_NEAR(hit->t, exact->hit.t, 20 * rounding) << far << ' ' << size;
             expect_near(V3d(hit->point), exact->hit.point, 20 * rounding);
             EXPECT_TRUE(scene.occluded(ray)) << far << ' ' << size;
@@ -285,7 +285,7 @@ TEST(SceneIntersection, RaysLeavingASphereNeverMeetItAgain) {
         V3f out(random.direction());
         if (i % 2 == 0) out = grazing(out, hit->normal);
         if (out.dot(hit->normal) < 0) out = -out;
-        if (out.dot(hit->normal) < 1e-7F) continue;  // which side is rounding's choice
+        if (out.dot(hit->normal) < 1e-7F) continue;  // rounding decides the side
         rays += 2;
         acne += scene.intersect(spawn(hit->point, hit->normal, out, 0)).has_value();
         acne += scene.occluded(spawn(hit->point, hit->normal, out, 0));
@@ -328,8 +328,8 @@ TEST(SceneIntersection, RaysLeavingATriangleNeverMeetItAgain) {
   EXPECT_EQ(acne, 0);
 }
 
-// In a scene of micrometres as in one of kilometres, so that they start in the same matter: by powers of two,
-// which round nothing.
+// Scenes of micrometres and of kilometres, scaled by powers of two without rounding, so that rays start in
+// the same medium.
 TEST(SceneIntersection, RaysStartAsFarOffAsTheSizeOfTheSceneSays) {
   Random random(9);
   for (const float scale : {0x1p-20F, 0x1p-10F, 0x1p10F, 0x1p20F})
@@ -342,7 +342,7 @@ TEST(SceneIntersection, RaysStartAsFarOffAsTheSizeOfTheSceneSays) {
 }
 
 TEST(SceneIntersection, ShadowRaysSeeWhatTheyEndOn) {
-  // A lamp across the origin of a large room: points on it are far more precise than the way to it.
+  // A light at the far end of a large room: points on it are far more precise than the path to it.
   Random random(6);
   const Quad floor{{-40, -40, -3}, {80, 1, 0}, {0, 80, 2}};
   const std::vector<Shape> lamps = {Quad{{-0.5, -0.6, -0.1}, {1.2, 0, 0.2}, {0, 1.1, 0.1}},
@@ -359,7 +359,8 @@ TEST(SceneIntersection, ShadowRaysSeeWhatTheyEndOn) {
       const SurfacePoint below = sample_area(floor, {}, random.pair());
       const SurfacePoint above = sample_area(lamp, cdf, random.pair());
       const V3f wi = (above.point - below.point).normalized();
-      if (convex && wi.dot(above.normal) > -1e-5F) continue;  // its far side, or the crease of two triangles
+      // the far side, or the crease between two triangles
+      if (convex && wi.dot(above.normal) > -1e-5F) continue;
       const V3f from = offset_point(below.point, below.normal, wi);
       const V3f to = offset_point(above.point, above.normal, -wi);
       ++pairs;

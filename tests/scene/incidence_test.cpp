@@ -17,7 +17,7 @@ double sine2(double cosine) {
   return 1 - cosine * cosine;
 }
 
-// First and second moment of the squared sine.
+// First and second moments of the squared sine.
 struct Moments {
   double mean = 0;
   double square = 0;
@@ -32,7 +32,7 @@ Moments moments(const std::vector<Incidence>& angles) {
   return sum;
 }
 
-// The same of rays that are drawn at random, as renders draw them.
+// The moments of randomly sampled rays, as in renders.
 Moments drawn_moments(const Camera& camera, V2f film) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> u(0, 1);
@@ -62,7 +62,7 @@ TEST(Incidence, HasTheAnglesOfTheRaysThatRendersDraw) {
     }
 }
 
-// All of a hemisphere of even radiance: sin^2 is uniform in [0, 1].
+// A whole hemisphere of uniform radiance: sin^2 is uniform in [0, 1].
 TEST(Incidence, OfAMeterIsThatOfAFullCone) {
   const std::vector<Incidence> angles = incidence_angles(test::meter(), {1, 1});
   double below = 0;

@@ -9,8 +9,8 @@ namespace {
 using Imath::V3d;
 using Imath::V3f;
 
-// Embree tells places on a ground twenty kilometres wide a millimetre apart, and takes the half on the one
-// side of its diagonal for that on the other.
+// On a ground twenty kilometres wide Embree resolves millimetres, and it confuses the halves on both sides of
+// the diagonal.
 TEST(LargeQuad, IsMetBesideItsDiagonalWhereTheRayCrossesIt) {
   test::Random random(3);
   const Scene scene = test::scene_of({Quad{{-1e4, -1e4, 0}, {2e4, 0, 0}, {0, 2e4, 0}}});
@@ -26,7 +26,7 @@ TEST(LargeQuad, IsMetBesideItsDiagonalWhereTheRayCrossesIt) {
   EXPECT_LT(furthest, 2e-8);
 }
 
-// Beside the edges themselves points stay off them.
+// Points stay off the edges themselves.
 TEST(LargeQuad, PointsKeepOffItsEdges) {
   test::Random random(4);
   const Scene scene = test::scene_of({Quad{{1, 1, 0}, {2, 0, 0}, {0, 4, 0}}});

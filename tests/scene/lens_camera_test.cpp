@@ -11,7 +11,7 @@
 #include "scenes.h"
 #include "tests/angles.h"
 
-// A real lens before the film sees what the bench says that it does.
+// A real lens in front of the film gives the results of the lens bench.
 
 namespace abbe {
 namespace {
@@ -36,8 +36,8 @@ TEST(LensCamera, ImageIsUpright) {
   EXPECT_GT(top.z, 0.02F) << "upwards";
 }
 
-// The mean weight of rays to a film position, from jittered places of the pupil: its irradiance by an evenly
-// bright world.
+// Mean weight of rays to a film position over jittered pupil points: its irradiance in a uniformly bright
+// world.
 double irradiance(const Camera& camera, const V2f& film, float nm, int side) {
   Random random(9);
   double sum = 0;
@@ -50,8 +50,7 @@ double irradiance(const Camera& camera, const V2f& film, float nm, int side) {
   return sum / side / side;
 }
 
-// The sine of the angle under which the middle of the image sees the rim of the stop through what is behind
-// it.
+// Sine of the angle at which the image center sees the rim of the stop through the surfaces behind it.
 double sine_of_rim(const lens::SpectralSystem& system, double nm) {
   const double depth = system.image_z() - system.last_z();
   double within = 0;
@@ -65,7 +64,7 @@ double sine_of_rim(const lens::SpectralSystem& system, double nm) {
   return within / std::hypot(within, depth);
 }
 
-// E = pi tau sin^2 U' of radiance 1: pi/4 over the square of the T-stop, measured where the film is.
+// E = pi tau sin^2 U' for radiance 1: pi/4 divided by the squared T-number, measured at the film.
 TEST(LensCamera, ExposesByItsStop) {
   for (const char* name : {"double_gauss", "cooke_triplet", "tessar", "achromat"}) {
     const lens::System lens = lens_named(name);
@@ -84,9 +83,9 @@ TEST(LensCamera, ExposesByItsStop) {
   }
 }
 
-// A stop in the front focus of the lens behind it by the digits of a listing, and by the last bit of doubles:
-// no clear aperture ends what is let through far off the axis. From f/16 on, spherical aberration moves rays
-// of the film's middle by less than 0.003 of the light.
+// A stop in the front focus of the lens behind it, once to the digits of a listing and once to the last bit
+// of double. No clear aperture limits the light far off the axis. From f/16 on, spherical aberration changes
+// the light at the film center by less than 0.003.
 TEST(LensCamera, ExposesByItsTStopWhereItsExitPupilIsFarAway) {
   for (const char* gap : {"99.1597", "99.15966386554621"})
     for (const double f_number : {16.0, 25.0}) {
@@ -103,8 +102,8 @@ TEST(LensCamera, ExposesByItsTStopWhereItsExitPupilIsFarAway) {
     }
 }
 
-// What the T-stop leaves of the light of the stop, where something else cuts the beam to half its width; at
-// f/30, where spherical aberration does not take rays of the film's middle elsewhere in the stop.
+// The light that the T-stop leaves, if another aperture cuts the beam to half its width. At f/30, spherical
+// aberration does not move rays of the film center within the stop.
 TEST(LensCamera, ExposesByItsTStopWhereAnApertureCutsTheAxialBeam) {
   lens::System lens = lens_named("landscape");
   const double stop = lens::stop_radius(lens) / 3;
@@ -141,7 +140,7 @@ TEST(LensCamera, DarkensTowardsTheCornersAsOnTheBench) {
   }
 }
 
-// The image of a far point, through points all over the front of the lens.
+// Image of a distant point through the whole front of the lens.
 struct PointImage {
   V2d centroid{0, 0};
   double rms = 0;
@@ -149,7 +148,7 @@ struct PointImage {
 PointImage image_of_far_point(const Camera& camera, double angle_deg, int lane) {
   const double angle = angle_deg * kPi / 180;
   const V3d towards(0, -std::cos(angle), std::sin(angle));
-  const V3f point(V3d(1, 2, 3) + 1e5 * towards);  // above the axis: light goes down, the picture is up
+  const V3f point(V3d(1, 2, 3) + 1e5 * towards);  // above the axis: light propagates down, the picture is up
   Random random(11);
   double sum = 0;
   V2d first(0, 0);
@@ -175,12 +174,13 @@ TEST(LensCamera, ImagesAPointAsTheTracedSpot) {
     for (const double field : {0.0, 8.0})
       for (const int lane : {0, 4, 7}) {
         const lens::SystemAt at(lens, static_cast<double>(spread_wavelengths()[lane]));
-        // Light from above the axis goes downwards.
+        // Light from above the axis propagates downwards.
         const lens::Spot spot = lens::spot(*lens::Beam::of(at, -field, stop), -field, 128);
         const auto size = lens::size_of({&spot, 1});
         ASSERT_TRUE(size);
         const PointImage image = image_of_far_point(camera, field, lane);
-        // The picture is turned; 1/sqrt(20000) of the spot is the noise of the centroid, 4 of it the margin.
+        // The picture is inverted. The noise of the centroid is 1/sqrt(20000) of the spot; the margin is 4
+        // times that.
         EXPECT_NEAR(image.centroid.y, -size->centroid.y, 0.03 * size->rms_mm + 2e-4)
             << name << ", " << field << " degrees, lane " << lane;
         EXPECT_NEAR(image.centroid.x, 0, 0.03 * size->rms_mm + 2e-4);
@@ -191,7 +191,7 @@ TEST(LensCamera, ImagesAPointAsTheTracedSpot) {
 
 TEST(LensCamera, DistortsAndPartsColoursAsItsChiefRays) {
   const lens::System lens = lens_named("landscape");
-  const double stop = lens::stop_radius(lens) / 20;  // so that the centroid is the chief ray's
+  const double stop = lens::stop_radius(lens) / 20;  // makes the centroid that of the chief ray
   const Camera camera = looking_through(lens, stop, 1600);
   for (const double field : {4.0, 8.0, 12.0}) {
     std::array<double, 2> seen{};
@@ -220,14 +220,14 @@ TEST(LensCamera, IsAnEventForPolarisedLight) {
   scene.materials = {test::glass()};
   scene.channels.push_back(energy_channel("Y", Curve(1.0)));
   scene.commit();
-  EXPECT_FALSE(scene.needs.polarisation_matters);
+  EXPECT_FALSE(scene.features.polarisation_relevant);
   scene.shapes = {{"pane", Quad{{-1, -1, 2}, {0, 2, 0}, {2, 0, 0}}, 0}};
   scene.commit();
-  EXPECT_TRUE(scene.needs.polarisation_matters);
+  EXPECT_TRUE(scene.features.polarisation_relevant);
 }
 
-// A thick lens has 1/f' = (n - 1)(2/R - (n - 1) t/(n R^2)), and its principal planes are f' (n - 1) t/(n R)
-// within its vertices: its image of what is 150 mm before it is 1/(1/f' - 1/u) behind the second.
+// A thick lens has 1/f' = (n - 1)(2/R - (n - 1) t/(n R^2)). Its principal planes are f' (n - 1) t/(n R)
+// inside its vertices. The image of an object 150 mm in front is 1/(1/f' - 1/u) behind the second one.
 TEST(LensCamera, TellsHowFarItsFilmIsFromThePrincipalPlane) {
   const lens::System lens = test::sound_lens_of(R"({"entrance_pupil": 2, "object_distance": 149,
       "focus": "paraxial", "surfaces": [{"stop": true, "thickness": 1}, [50, 3, 1.5], [-50, 70]]})");
@@ -245,8 +245,8 @@ TEST(LensCamera, TellsOfItself) {
   const Camera camera = looking_through(lens, lens::stop_radius(lens));
   EXPECT_NEAR(*traits(camera).f_number, 2, 0.01);
   EXPECT_NEAR(*traits(camera).image_distance, 0.1, 0.001);
-  EXPECT_TRUE(traits(camera).displaces_lanes);
-  EXPECT_FALSE(traits(Camera{}).displaces_lanes);
+  EXPECT_TRUE(traits(camera).displaces_wavelengths);
+  EXPECT_FALSE(traits(Camera{}).displaces_wavelengths);
   EXPECT_FALSE(sample_towards(camera, {1, 3, 3}, {0.5F, 0.5F}, SampledSpectrum(550), 0)) << "behind";
   Ray back = sample_ray(camera, {200, 200}, {0.5F, 0.5F}, SampledSpectrum(550), 0, 0).ray;
   EXPECT_TRUE(density(camera, back, SampledSpectrum(550)));

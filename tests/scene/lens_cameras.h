@@ -11,7 +11,8 @@
 
 namespace abbe::test {
 
-/// Looking along -y from (1, 2, 3), up is z; the film reaches 15 degrees from its middle to its sides.
+/// A camera at (1, 2, 3) that looks along -y with z up; its film extends 15 degrees from the center to the
+/// sides.
 inline Camera looking_through(const lens::System& lens, double stop_radius, int side = 400,
                               LensOptics::Ghosts ghosts = LensOptics::Ghosts::left_out) {
   const lens::FirstOrder first = lens::first_order(lens::SystemAt(lens, lens.primary_nm()));
@@ -23,14 +24,14 @@ inline Camera looking_through(const lens::System& lens, double stop_radius, int 
           grid.width, grid.height, grid.pixel_pitch};
 }
 
-/// Eight wavelengths that glass tells well apart.
+/// Eight wavelengths that glass separates well.
 inline SampledSpectrum spread_wavelengths() {
   SampledSpectrum::Values nm;
   for (std::size_t j = 0; j < kLanes; ++j) nm[j] = 420.0F + 35 * static_cast<float>(j);
   return SampledSpectrum(nm);
 }
 
-/// In mm above the middle of the picture, where an object that is below the axis has its image.
+/// Height [mm] above the center of the picture; an object below the axis is imaged there.
 inline double height_mm(const Camera& camera, float film_y) {
   return (camera.height / 2.0 - static_cast<double>(film_y)) * camera.pixel_pitch * 1e3;
 }

@@ -9,7 +9,7 @@
 #include "scene/camera/camera_rays.h"
 #include "scenes.h"
 
-// Rays and connections of a real lens, by way of the image and by its ghosts, are each other's reverse.
+// Rays and connections of a real lens, by the image and by its ghosts, are reverses of each other.
 
 namespace abbe {
 namespace {
@@ -26,12 +26,12 @@ using test::Random;
 using test::spread_wavelengths;
 using Ghosts = LensOptics::Ghosts;
 
-// Of lanes that a ghost's way ends for, by an edge or total reflection, too.
+// Includes wavelengths whose path through a ghost ends at an edge or by total reflection.
 TEST(LensCamera, TellsFiniteNumbersOfEveryLane) {
   const lens::System lens = lens_named("double_gauss");
   const Camera camera = looking_through(lens, lens::stop_radius(lens), 16, Ghosts::enumerated);
   Random random(3);
-  int parted = 0;  // ghosts by which some lanes come and others do not
+  int parted = 0;  // ghosts by which only some wavelengths arrive
   for (int i = 0; i < 60000; ++i) {
     const V2f film(16 * random.uniform(), 16 * random.uniform());
     const CameraRay ray = sample_ray(camera, film, random.pair(), spread_wavelengths(), i % kLanes, 0);
@@ -50,7 +50,7 @@ TEST(LensCamera, TellsFiniteNumbersOfEveryLane) {
   EXPECT_GT(parted, 300);
 }
 
-// The entrance pupil of the last lies 58 mm behind its first vertex, in the plane of which rays end.
+// The entrance pupil of the last lens is 58 mm behind its first vertex, in whose plane rays end.
 TEST(LensCamera, ConnectionsOfNearPointsWeighAsDensitiesTell) {
   const SampledSpectrum wavelengths = spread_wavelengths();
   Random random(8);
@@ -111,7 +111,7 @@ TEST(LensCamera, TellsTheSameOfARayFromBothEnds) {
   EXPECT_GT(passed, 1500);
 }
 
-// A lens with strong ghosts, of light that its own surfaces bound.
+// A lens with strong ghosts, limited by its own surfaces.
 lens::System dense_tessar() {
   lens::System lens = lens_named("tessar");
   for (lens::Surface& surface : lens.surfaces)
@@ -127,7 +127,8 @@ TEST(LensCamera, GhostsTellTheSameOfARayFromBothEnds) {
   const Camera camera = looking_through(lens, lens::stop_radius(lens), 100, Ghosts::enumerated);
   const LensOptics& optics = *std::get<LensSystem>(camera.kind).optics;
   EXPECT_EQ(optics.routes.size(), 22U) << "the image, and seven surfaces of glass in pairs";
-  EXPECT_NEAR(std::accumulate(optics.route_share.begin(), optics.route_share.end(), 0.0), 1, 1e-12);
+  EXPECT_NEAR(std::accumulate(optics.route_probability.begin(), optics.route_probability.end(), 0.0), 1,
+              1e-12);
   const SampledSpectrum wavelengths = spread_wavelengths();
   Random random(2);
   std::vector<int> passed(optics.routes.size(), 0);
@@ -137,7 +138,7 @@ TEST(LensCamera, GhostsTellTheSameOfARayFromBothEnds) {
     const CameraRay start = sample_ray(camera, film, random.pair(), wavelengths, hero, 0);
     if (start.weight.is_zero()) continue;
     ++passed[start.route];
-    EXPECT_GE(start.cos_film, least_film_cosine(camera));
+    EXPECT_GE(start.cos_film, min_film_cosine(camera));
     EXPECT_NEAR(start.images->x[hero], film.x, 0.1) << "floats tell a ray's direction to 6e-8";
     EXPECT_NEAR(start.images->y[hero], film.y, 0.1);
     const auto of = density(camera, start.ray, wavelengths, start.route);
@@ -160,7 +161,7 @@ TEST(LensCamera, GhostsTellTheSameOfARayFromBothEnds) {
   EXPECT_GT(std::count_if(came.begin(), came.end(), [](int count) { return count > 0; }), 18);
 }
 
-// Those that are traced together are what each is alone, however many there are.
+// Rays traced together equal those traced alone, whatever their number.
 TEST(LensCamera, RaysTogetherAreThoseAlone) {
   const lens::System lens = dense_tessar();
   Camera camera = looking_through(lens, lens::stop_radius(lens), 100, Ghosts::enumerated);
@@ -195,13 +196,13 @@ TEST(LensCamera, RaysTogetherAreThoseAlone) {
   EXPECT_GT(ghosts, 3);
 }
 
-// The flux of a far point that ghosts bring through a curved front to the film, by a grid of parallel rays.
+// The flux of a distant point through ghosts of a curved front to the film, by a grid of parallel rays.
 TEST(LensCamera, GhostsTakeInTheFluxOfAFarPoint) {
   lens::System lens = lens_named("achromat");
   for (lens::Surface& surface : lens.surfaces)
     if (surface.behind) surface.behind->index = RefractiveIndex(surface.behind->index.n(550) + 0.7);
   lens.surfaces[0].profile.curvature *= 4;
-  lens.surfaces.back().thickness_mm = 10;  // so near that most of it falls on the film
+  lens.surfaces.back().thickness_mm = 10;  // so near that most of the light falls on the film
   const Camera camera = looking_through(lens, lens::stop_radius(lens), 400, Ghosts::enumerated);
   const LensOptics& optics = *std::get<LensSystem>(camera.kind).optics;
   const double angle = 0.1;
@@ -235,7 +236,7 @@ TEST(LensCamera, GhostsTakeInTheFluxOfAFarPoint) {
   EXPECT_NEAR(drawn / flux, 1, 0.01);
 }
 
-// What stands for a pixel where nothing is drawn is the image, of which the middle numbers draw the middle.
+// The central ray of a pixel is that of the image, which the center of the random numbers selects.
 TEST(LensCamera, GhostsLeaveTheCentralRay) {
   const lens::System lens = dense_tessar();
   const double stop = lens::stop_radius(lens);
@@ -269,12 +270,12 @@ TEST(LensCamera, PolarisesAboutAxesThatMoveWithIt) {
   EXPECT_NEAR(back->images->jones.axis.dot(way), 0, 1e-5F);
 }
 
-// Irradiance of cells of the film by a patch of radiance 1, lane by lane, from the film and from the patch.
+// Irradiance of cells of the film by a patch of radiance 1, per wavelength, from the film and from the patch.
 struct CellEstimate {
   static constexpr int kCells = 4;
   std::array<std::array<double, kCells * kCells>, kLanes> mean{};
   std::array<std::array<double, kCells * kCells>, kLanes> square{};
-  void add(const Camera& camera, const LaneImages& images, const SampledSpectrum& values) {
+  void add(const Camera& camera, const WavelengthImages& images, const SampledSpectrum& values) {
     for (int j = 0; j < kLanes; ++j) {
       if (values[j] == 0) continue;
       const auto cell = [&](float at, int size) {
@@ -288,7 +289,7 @@ struct CellEstimate {
   }
 };
 
-// By way of the image, or of ghosts alone.
+// By the image, or by ghosts alone.
 void expect_both_ways_collect_the_same(const Camera& camera, const Disc& patch, bool of_ghosts) {
   const SampledSpectrum wavelengths = spread_wavelengths();
   const double pixels = static_cast<double>(camera.width) * camera.height;
@@ -326,12 +327,12 @@ void expect_both_ways_collect_the_same(const Camera& camera, const Disc& patch, 
 }
 
 TEST(LensCamera, BothWaysCollectTheSameEnergyInEveryLane) {
-  const lens::System lens = lens_named("landscape");  // which parts the lanes most
+  const lens::System lens = lens_named("landscape");  // separates the wavelengths most
   expect_both_ways_collect_the_same(looking_through(lens, lens::stop_radius(lens), 300),
                                     {{1.04, 1.4, 2.98}, V3d(0.1, 1, 0.2).normalized(), 0.1}, false);
 }
 
-// A meniscus, which has but one ghost, of strongly curved surfaces.
+// A meniscus with strongly curved surfaces, which has a single ghost.
 lens::System dense_meniscus() {
   lens::System lens = lens_named("landscape");
   for (lens::Surface& surface : lens.surfaces)
@@ -347,8 +348,8 @@ TEST(LensCamera, BothWaysCollectTheSameEnergyOfGhosts) {
                                     {{1.04, 1.4, 2.98}, V3d(0.1, 1, 0.2).normalized(), 0.4}, true);
 }
 
-// In an evenly bright world: the integral of T cos over the directions from which a ghost's light comes to a
-// film point, by a grid in the tangent plane of the last vertex.
+// In a uniformly bright world: the integral of T cos over the directions from which a ghost's light arrives
+// at a film point, by a grid in the tangent plane of the last vertex.
 TEST(LensCamera, GhostsExposeByTheirSolidAngle) {
   const lens::System lens = dense_meniscus();
   const Camera camera = looking_through(lens, lens::stop_radius(lens), 100, Ghosts::enumerated);

@@ -7,7 +7,7 @@
 
 namespace abbe::test {
 
-/// A light of each kind and of each shape that one may have, alone in a committed scene around the origin.
+/// A light of each kind and with each possible shape, alone in a committed scene around the origin.
 struct LightKind {
   std::string name;
   Scene scene;

@@ -15,8 +15,8 @@ using test::lit_by;
 using test::Random;
 using test::solid_angle;
 
-// Irradiance [W/m^2] of a surface element over pi, by light sampling on a grid of strata: its configuration
-// factor, as radiance is 1.
+// Irradiance [W/m^2] of a surface element divided by pi, by light sampling on a grid of strata. For radiance
+// 1 it is the configuration factor.
 double configuration_factor(const Scene& scene, const V3f& point, const V3f& normal, int side = 256,
                             std::uint32_t seed = 1) {
   Random random(seed);
@@ -40,8 +40,7 @@ double solid_angle(const Quad& q, const V3d& from) {
          solid_angle(a + q.edge_u + q.edge_v, a + q.edge_v, a + q.edge_u);
 }
 
-// The unit square at z = 1, facing down, as a quad, as a mesh, and as a parallelogram's worth of the same
-// rectangle.
+// The unit square at z = 1, facing down, as a quad, as a mesh, and as parts of a parallelogram.
 Shape square_mesh() {
   return Mesh{{{0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}}, {{0, 3, 2}, {0, 2, 1}}};
 }
@@ -63,8 +62,7 @@ TEST(AreaLights, PerpendicularRectangle) {
 }
 
 TEST(AreaLights, ParallelogramByArea) {
-  // Two skew halves of the unit square's neighbourhood: one parallelogram and the mesh of the same triangles
-  // must agree.
+  // A parallelogram near the unit square and the mesh of the same triangles must agree.
   const Quad skew{{0, 0, 1}, {0.5, 1, 0}, {1, 0, 0}};
   const Scene quad = lit_by(skew);
   const Scene mesh = lit_by(Mesh{{{0, 0, 1}, {0.5, 1, 1}, {1, 0, 1}, {1.5, 1, 1}}, {{0, 1, 2}, {3, 2, 1}}});
@@ -80,7 +78,7 @@ TEST(AreaLights, DiscOnAndOffItsAxis) {
 }
 
 TEST(AreaLights, FormFactorsBetweenSurfaces) {
-  // Mean configuration factor over a receiver: opposite and adjacent faces of a cube, coaxial discs.
+  // Mean configuration factor over a receiver: opposite and adjacent faces of a cube, and coaxial discs.
   const auto mean = [](const Scene& scene, const V3f& normal, auto&& receiver) {
     double sum = 0;
     std::uint32_t seed = 0;
@@ -116,7 +114,7 @@ TEST(AreaLights, SphereFromInside) {
   const V3f inside(0.2F, 0.3F, -0.4F);
   EXPECT_EQ(configuration_factor(lit_by(Sphere{{0, 0, 0}, 1}), inside, {0, 0, 1}), 0);
   EXPECT_NEAR(configuration_factor(lit_by(Sphere{{0, 0, 0}, 1}, true), inside, {0, 0, 1}), 1, 2e-3);
-  // On the sphere itself, rounded to either side of it.
+  // On the sphere itself, rounded to either side.
   const Scene sphere = lit_by(Sphere{{0, 0, 0}, 1}, true);
   Random random(2);
   for (int i = 0; i < 100; ++i) {
@@ -138,7 +136,7 @@ TEST(AreaLights, OneSidedOnesAreDarkFromBehind) {
   }
 }
 
-// Lights and points around them, near and far.
+// Lights, and near and far points around them.
 struct View {
   Shape shape;
   V3f point;
@@ -164,7 +162,7 @@ TEST(AreaLights, DensityIsThatOfTheSamples) {
       ASSERT_TRUE(sample);
       const auto hit = scene.intersect({point, sample->wi});
       if (!hit || std::abs(hit->t - sample->distance) > 1e-3F * sample->distance)
-        continue;  // a rim, or seen through the light
+        continue;  // at a rim, or through the light
       const float grazing = std::abs(hit->normal.dot(sample->wi));
       if (grazing < 1e-3F) continue;
       EXPECT_NEAR(light_pdf(scene.lights[0], scene.shapes, {point}, sample->wi, hit->point, hit->normal, 0) /
@@ -184,7 +182,7 @@ TEST(AreaLights, DensityIntegratesToOne) {
     constexpr int kSide = 700;
     for (int i = 0; i < kSide; ++i)
       for (int j = 0; j < kSide; ++j) {
-        // Directions on a grid in the cosine of the angle with z and the azimuth.
+        // Directions on a grid in the cosine with z and the azimuth.
         const double z = 2 * (i + static_cast<double>(random.uniform())) / kSide - 1;
         const double phi = 2 * kPi * (j + static_cast<double>(random.uniform())) / kSide;
         const double ring = std::sqrt((1 - z) * (1 + z));
@@ -200,11 +198,11 @@ TEST(AreaLights, DensityIntegratesToOne) {
   }
 }
 
-// From three heights, and from beside it.
+// From three heights, and from the side.
 TEST(SphericalRectangle, IsUniformInSolidAngle) {
   const Quad quad{{-1, -0.5, 0.3}, {3, 0, 0}, {0, 2, 0}};
   for (const V3d& from : {V3d(0.4, 0.1, 0), V3d(0.4, 0.1, 0.29), V3d(0.4, 0.1, 1.9), V3d(-1.3, 0.7, 0.5)}) {
-    const auto rectangle = SphericalRectangle::seen_from(Rectangle::of(quad).value(), from);
+    const auto rectangle = SphericalRectangle::project(Rectangle::of(quad).value(), from);
     ASSERT_TRUE(rectangle);
     EXPECT_NEAR(rectangle->solid_angle(), solid_angle(quad, from), 1e-12);
     const Quad part{quad.corner, quad.edge_u * 0.3, quad.edge_v * 0.6};
@@ -222,9 +220,9 @@ TEST(SphericalRectangle, IsUniformInSolidAngle) {
 
 TEST(SphericalRectangle, LeavesTheRestToArea) {
   const Rectangle square = Rectangle::of({{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}).value();
-  EXPECT_TRUE(SphericalRectangle::seen_from(square, {0, 0, 0}));
-  EXPECT_FALSE(SphericalRectangle::seen_from(square, {0, 0, -30})) << "small";
-  EXPECT_FALSE(SphericalRectangle::seen_from(square, {0.5, 0.5, 1})) << "inside its plane";
+  EXPECT_TRUE(SphericalRectangle::project(square, {0, 0, 0}));
+  EXPECT_FALSE(SphericalRectangle::project(square, {0, 0, -30})) << "small";
+  EXPECT_FALSE(SphericalRectangle::project(square, {0.5, 0.5, 1})) << "inside its plane";
   EXPECT_FALSE(Rectangle::of({{0, 0, 1}, {1, 0.1, 0}, {0, 1, 0}})) << "no rectangle";
 }
 
@@ -270,7 +268,7 @@ TEST(EnvironmentLights, ComeFromEverywhere) {
   EXPECT_NEAR(irradiance / kCount, kPi, 0.03);
 }
 
-// So that each direction tells the irradiance of a surface that sees all of the sky.
+// Each direction gives the irradiance of a surface that sees the whole sky.
 TEST(EnvironmentLights, ComeToASideByTheCosine) {
   const Light sky{"sky", EnvironmentLight{}, Curve(1.0)};
   const V3f normal(0.48F, -0.6F, 0.64F);
@@ -302,8 +300,7 @@ TEST(DeltaLights, ABeamComesFromOneDirection) {
   EXPECT_TRUE(beam.is_delta());
 }
 
-// Of any size a sun's directions are uniform in its disc, and surfaces that lean are irradiated by pi sin^2
-// cos.
+// Directions are uniform in the disc of a sun of any size. Tilted surfaces have the irradiance pi sin^2 cos.
 TEST(Suns, AreDiscsAtInfinity) {
   for (const double half_angle_deg : {0.005, 0.2665, 5.0, 30.0}) {
     const double sine = std::sin(half_angle_deg * kPi / 360);
@@ -321,8 +318,8 @@ TEST(Suns, AreDiscsAtInfinity) {
                          {(static_cast<float>(i) + 0.5F) / kSide, (static_cast<float>(j) + 0.5F) / kSide}, 0);
         ASSERT_TRUE(s && std::isinf(s->distance));
         irradiance += V3d(s->wi).dot(normal) / static_cast<double>(s->pdf);
-        inner += SunLight{kind.towards, kind.cap / 4}.shows(s->wi);
-        // One on the rim may fall off it by rounding.
+        inner += SunLight{kind.towards, kind.cap / 4}.contains(s->wi);
+        // A direction on the rim may fall off it by rounding.
         if (i < kSide - 8) {
           ASSERT_EQ(light_pdf(sun, {}, {{1, 2, 3}}, s->wi, V3f(0), V3f(0), 0), s->pdf);
         }
@@ -331,7 +328,7 @@ TEST(Suns, AreDiscsAtInfinity) {
     EXPECT_NEAR(irradiance / (kSide * kSide) / (all * axis.dot(normal)), 1, 1e-5) << half_angle_deg;
     EXPECT_NEAR(kind.projected_solid_angle() / all, 1, 1e-6);
     EXPECT_NEAR(inner / double(kSide * kSide), 0.25, 2e-3) << half_angle_deg;
-    // The share of directions that show it, from a cone of twice its height.
+    // The fraction of directions in a cone of twice its height that hit it.
     Random random(7);
     int shown = 0;
     constexpr int kCount = 400000;

@@ -21,7 +21,7 @@ using test::turned_lens;
 using test::wide_lens;
 using test::wide_pinhole;
 
-// Life size at f/1, the fastest of close-ups.
+// Life size at f/1, an extreme close-up.
 Camera macro_lens(std::optional<lens::Iris> iris = {}) {
   return {ThinLens{frame(), 0.2, 0.2, 0.05, 0.7, iris}, 6, 4, 0.02};
 }
@@ -30,8 +30,8 @@ double mean_weight_at(const Camera& camera, V2f film) {
   return mean_weight(camera, opening_tangent(camera), film);
 }
 
-// On the axis pi a^2 tau / (v^2 (1 + a^2/s^2)), as of all lenses that meet Abbe's sine condition; a pinhole's
-// rays are one, and those of a lens in focus at infinity have one direction.
+// On the axis pi a^2 tau / (v^2 (1 + a^2/s^2)), as for all lenses that fulfil Abbe's sine condition. A
+// pinhole has one ray, and the rays of a lens in focus at infinity have one direction.
 TEST(MeanWeight, IsThatOfTheSineConditionOnTheAxis) {
   EXPECT_NEAR(mean_weight_at(macro_lens(), {3, 2}), kPi * 0.0025 * 0.7 / 0.04 / 1.0625, 1e-7);
   EXPECT_NEAR(mean_weight_at(lens(), {3, 2}), kPi * 0.25 * 0.25 * 0.81 / (1 + 0.025 * 0.025), 1e-7);

@@ -13,7 +13,7 @@
 
 namespace abbe::test {
 
-/// Twelve triangles that face outward; the sides of z are the last four.
+/// Twelve triangles that face outward; the last four are perpendicular to z.
 inline Mesh box(const Imath::V3d& low, const Imath::V3d& high) {
   Mesh mesh;
   for (int i = 0; i < 8; ++i)
@@ -23,7 +23,7 @@ inline Mesh box(const Imath::V3d& low, const Imath::V3d& high) {
   return mesh;
 }
 
-/// The same facing inward.
+/// The mesh with inverted orientation.
 inline Mesh inside_out(Mesh mesh) {
   for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
   return mesh;
@@ -36,7 +36,7 @@ inline Mesh joined(Mesh first, const Mesh& second) {
   return first;
 }
 
-/// Every triangle with corners of its own, as where texture coordinates or normals have a seam.
+/// The mesh with separate corners for every triangle, as at seams of texture coordinates or normals.
 inline Mesh torn(const Mesh& mesh) {
   Mesh apart;
   for (const auto& triangle : mesh.triangles) {
@@ -54,7 +54,7 @@ inline double volume(const Mesh& mesh) {
   return sum;
 }
 
-/// As "mesh" of a scene file.
+/// The value of "mesh" in a scene file.
 inline std::string inline_mesh(const Mesh& mesh) {
   std::string vertices;
   for (const auto& v : mesh.vertices)
@@ -65,8 +65,7 @@ inline std::string inline_mesh(const Mesh& mesh) {
   return fmt::format(R"({{"vertices": [{}], "triangles": [{}]}})", vertices, triangles);
 }
 
-/// The unit ball as an icosahedron whose triangles are quartered `times` times, with the ball's normals if
-/// asked for.
+/// The unit sphere as an icosahedron subdivided `times` times, with the sphere's normals if `smooth`.
 inline Mesh icosphere(int times, bool smooth) {
   const double golden = (1 + std::sqrt(5.0)) / 2;
   Mesh mesh;
@@ -110,7 +109,7 @@ inline Mesh icosphere(int times, bool smooth) {
   return mesh;
 }
 
-/// As an OBJ file, with its normals if it has some.
+/// The text of an OBJ file, with normals if the mesh has some.
 inline std::string obj_text(const Mesh& mesh) {
   std::string text;
   for (const auto& v : mesh.vertices) text += fmt::format("v {} {} {}\n", v.x, v.y, v.z);

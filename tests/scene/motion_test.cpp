@@ -36,7 +36,7 @@ TEST(Motion, TurnsAboutOneAxisByTheWholeAngle) {
   EXPECT_LT(apart(applied(back.pose(0.5), {1, 0, 0}), {std::cos(2.0), std::sin(2.0), 0}), 1e-13);
 }
 
-// Slerp is the shorter way at a constant rate: half way is as far from both ends.
+// Slerp is the shortest rotation at a constant rate: the midpoint is equally far from both ends.
 TEST(Motion, GoesTheShorterWayBetweenAxes) {
   const Motion turned({{0, {1, 0, 0}, 0.4, {0, 0, 0}}, {1, {0, 1, 0}, 0.9, {0, 0, 0}}});
   for (const double t : {0.0, 1.0})
@@ -58,12 +58,12 @@ TEST(Motion, StandsStillBeyondItsKeyframes) {
   EXPECT_EQ(motion.pose(0), motion.pose(0.25));
   EXPECT_EQ(motion.pose(1), motion.pose(0.75));
   EXPECT_DOUBLE_EQ(motion.pose(0.5)[3][0], 0.5);
-  EXPECT_FALSE(motion.still());
-  EXPECT_TRUE(Motion({{-2, {0, 0, 0}, 0, {0, 0, 0}}, {-1, {0, 0, 0}, 0, {1, 0, 0}}}).still());
-  EXPECT_TRUE(Motion({{1, {0, 0, 0}, 0, {0, 0, 0}}, {2, {0, 0, 0}, 0, {1, 0, 0}}}).still());
+  EXPECT_FALSE(motion.is_static());
+  EXPECT_TRUE(Motion({{-2, {0, 0, 0}, 0, {0, 0, 0}}, {-1, {0, 0, 0}, 0, {1, 0, 0}}}).is_static());
+  EXPECT_TRUE(Motion({{1, {0, 0, 0}, 0, {0, 0, 0}}, {2, {0, 0, 0}, 0, {1, 0, 0}}}).is_static());
 }
 
-// The corners of a hull at many times of a slice; where they turn, they come furthest between the steps of
+// The corners of a hull at many times of a slice. If they rotate, their extremes are between the steps of
 // `sweep`.
 TEST(Motion, SweepsABoxAroundAllPlaces) {
   Motion motion(
@@ -89,7 +89,7 @@ std::shared_ptr<const Placement> moving(const Imath::M44d& opening, const Motion
   return std::make_shared<const Placement>(at);
 }
 
-// A rotor of a blade, a ball and a disc that makes 20 turns, beside what stands still.
+// A rotor of a blade, a ball and a disc that makes 20 turns next to static shapes.
 Scene rotor() {
   Scene scene{};
   scene.camera = {Pinhole{}, 1, 1, 0.01};
@@ -112,7 +112,7 @@ Scene rotor() {
 
 TEST(Motion, LosesNoHitOfAFastRotor) {
   const Scene scene = rotor();
-  EXPECT_TRUE(scene.needs.motion);
+  EXPECT_TRUE(scene.features.motion);
   test::Random random(11);
   constexpr std::size_t kRays = 40000;
   std::vector<Ray> rays;
@@ -139,7 +139,7 @@ TEST(Motion, LosesNoHitOfAFastRotor) {
       ASSERT_EQ(alone->normal, hits[i]->normal);
     }
     EXPECT_EQ(scene.occluded(ray), alone.has_value());
-    // Corners are held in float, so that a ray in ten thousand passes the other side of an edge.
+    // Corners are stored in float, so that one ray in ten thousand passes on the other side of an edge.
     if (exact.has_value() != alone.has_value() || (exact && exact->shape != alone->shape)) {
       ++differing;
       continue;
@@ -153,7 +153,7 @@ TEST(Motion, LosesNoHitOfAFastRotor) {
   EXPECT_LE(differing, 4);
 }
 
-// S of a shutter that opens, stays and closes, at the share s of the exposure.
+// S of a shutter that opens, stays open and closes, at the fraction s of the exposure.
 double trapezoid(double s) {
   return s < 0 || s >= 1 ? 0 : s < 0.25 ? s / 0.25 : s < 0.5 ? 1 : (1 - s) / 0.5;
 }
@@ -161,7 +161,7 @@ double trapezoid(double s) {
 TEST(Shutter, PassesItsIntegral) {
   const Shutter box;
   EXPECT_EQ(box.mean(), 1);
-  EXPECT_EQ(box.draw(7, 0.25F), 0.25F);
+  EXPECT_EQ(box.sample(7, 0.25F), 0.25F);
   EXPECT_EQ(box.weight(7, 0.25F), 1);
   const Shutter shutter({{0, 0}, {0.25, 1}, {0.5, 1}, {1, 0}}, 0, 10);
   EXPECT_DOUBLE_EQ(shutter.mean(), 0.625);
@@ -170,13 +170,13 @@ TEST(Shutter, PassesItsIntegral) {
   for (int i = 0; i < kCount; ++i) {
     const auto u = static_cast<float>((i + 0.5) / kCount);
     passed += static_cast<double>(shutter.weight(3, u)) / kCount;
-    // What is drawn has the distribution function of S.
-    const double t = static_cast<double>(shutter.draw(3, u));
+    // Samples have the distribution function of S.
+    const double t = static_cast<double>(shutter.sample(3, u));
     const double below = t < 0.25 ? t * t / 0.5 : t < 0.5 ? 0.125 + (t - 0.25) : 0.625 - (1 - t) * (1 - t);
     EXPECT_NEAR(below / 0.625, u, 1e-6);
   }
   EXPECT_NEAR(passed, 0.625, 1e-6);
-  EXPECT_EQ(shutter.where_nothing_moves().weight(0, 0.9F), 0.625F);
+  EXPECT_EQ(shutter.static_equivalent().weight(0, 0.9F), 0.625F);
 }
 
 TEST(Shutter, RollsFromRowToRow) {
@@ -191,7 +191,7 @@ TEST(Shutter, RollsFromRowToRow) {
       const auto weight = static_cast<double>(rolling.weight(row, static_cast<float>(time)));
       EXPECT_NEAR(weight, 4.5 * trapezoid(time * 4.5 - 0.5 * row), 1e-5);
       passed += weight / kCount;
-      const auto drawn = static_cast<double>(rolling.draw(row, static_cast<float>(time)));
+      const auto drawn = static_cast<double>(rolling.sample(row, static_cast<float>(time)));
       EXPECT_GT(trapezoid(drawn * 4.5 - 0.5 * row), 0);
     }
     EXPECT_NEAR(passed, rolling.mean(), 1e-5);

@@ -17,7 +17,7 @@ using Imath::V3f;
 using test::Random;
 using test::scene_of;
 
-// A block whose faces lie twice in the same place, with a quad on one of them: every ray to it has ties.
+// A block with duplicate faces, and a quad on one of them: every ray to it has ties.
 Mesh doubled_block() {
   Mesh mesh;
   for (int i = 0; i < 8; ++i) mesh.vertices.emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
@@ -44,7 +44,7 @@ Scene crowded(bool instances) {
   return scene_of(std::move(shapes));
 }
 
-// Rays at corners, along edges, at touching faces, and at random.
+// Rays at corners, along edges, at coincident faces, and at random.
 std::vector<Ray> rays_at(int count) {
   Random random(1);
   std::vector<Ray> rays;
@@ -71,7 +71,7 @@ struct Answers {
   std::vector<std::uint8_t> blocked;
 };
 
-// In packets of rays that follow each other in `order`, `together` at a time.
+// Traces packets of consecutive rays in the given `order`, `together` at a time.
 Answers ask(const Scene& scene, const std::vector<Ray>& rays, const std::vector<std::size_t>& order,
             std::size_t together) {
   Answers answers{std::vector<std::optional<SurfaceHit>>(rays.size()),
@@ -104,8 +104,8 @@ int differences(const Answers& a, const Answers& b) {
   return count;
 }
 
-// An answer does not depend on the rays that travel along, ties included: bits of a render depend neither on
-// how paths are batched nor on when each of them ends.
+// A hit does not depend on the other rays of a packet, ties included. Therefore the bits of a render do not
+// depend on how paths are batched or on when they end.
 class Packets : public ::testing::TestWithParam<bool> {};
 
 TEST_P(Packets, AnswerEachRayAsIfItWereAlone) {

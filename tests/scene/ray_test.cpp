@@ -12,7 +12,7 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// The float next to x on the side that a ray comes from, or x itself where that is all but a float.
+// The float next to x towards the ray's origin, or x itself if it is practically a float.
 float expected_back(double x, double direction) {
   const auto nearest = static_cast<float>(x);
   const double past = static_cast<double>(nearest) - x;

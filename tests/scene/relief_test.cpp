@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "scene/shading_point.h"
 #include "scene/shapes/placed.h"
-#include "scene/surface.h"
 #include "scenes.h"
 #include "tests/angles.h"
 #include "tests/description/mesh_files.h"
@@ -25,14 +25,14 @@ Scene in_relief(Shape shape, Relief relief) {
   scene.commit();
   return scene;
 }
-// What scattering takes for the normal at a point met from above.
+// The shading normal at a point hit from above.
 V3f normal_at(const Scene& scene, float x, float y) {
   const auto hit = scene.intersect({{x, y, 5}, {0, 0, -1}});
   EXPECT_TRUE(hit);
-  return hit ? textured_place(scene, *hit, 0).frame.z : V3f(0);
+  return hit ? textured_shading_point(scene, *hit, 0).frame.z : V3f(0);
 }
 
-// Leaning by (0.36, 0.48) of its length along u and v.
+// Tilted by (0.36, 0.48) of its length along u and v.
 NormalMap leaning() {
   return {TextureImage(1, 1, 3, {0.68F, 0.74F, 0.9F}, {})};
 }
@@ -40,16 +40,16 @@ NormalMap leaning() {
 TEST(Relief, NormalsLeanAlongTheCoordinates) {
   const Scene turned = in_relief(Quad{{2, 0, 0}, {0, 3, 0}, {-2, 0, 0}}, leaning());
   EXPECT_LT((normal_at(turned, 1, 1) - V3f(-0.48F, 0.36F, 0.8F)).length(), 1e-5F);
-  // Mirrored coordinates, in which u runs against x.
+  // Mirrored coordinates with u against x.
   const Mesh mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}, {{{{1, 0}, {0, 0}, {1, 1}}}}};
   EXPECT_LT((normal_at(in_relief(mesh, leaning()), 0.2F, 0.2F) - V3f(-0.36F, 0.48F, 0.8F)).length(), 1e-5F);
-  // Outward is outward of an instance too.
+  // Outward remains outward for an instance.
   const auto below = std::make_shared<Placement>(placement(Imath::M44d().setScale(V3d(2, 1, -1))));
   const Shape placed = PlacedShape{make_prototype(Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}), below};
   EXPECT_LT((normal_at(in_relief(placed, leaning()), 0.5F, 0.5F) - V3f(0.36F, 0.48F, -0.8F)).length(), 1e-5F);
 }
 
-// A plane wave of heights on a skewed quad of 2 m x 1 m, against the normals of its gradient.
+// A plane wave of heights on a skewed quad of 2 m x 1 m, compared with the normals of its gradient.
 TEST(Relief, HeightsTurnNormalsByTheirGradient) {
   constexpr int kSide = 512;
   constexpr double kHeight = 0.01;
@@ -110,15 +110,15 @@ TEST_F(ReliefTest, FaultsAreRefused) {
   write_exr(folder_ / "beyond.exr", {1, 1, {{"R", {0.5F}}, {"G", {0.5F}}, {"B", {1.5F}}}, {}});
   DescriptionTest::expect_refused(
       {{"two channels for normals", glossy(R"("normal_map": {"image": "paint.exr"})"), ErrorCode::input,
-        "texture \"paint.exr\": a normal map has channels R, G, B (got 2 channels)"},
+        "texture \"paint.exr\": a normal map needs channels R, G, B (got 2 channels)"},
        {"three for heights", glossy(R"("bump_map": {"image": "photo.exr", "height": 1})"), ErrorCode::input,
-        "texture \"photo.exr\": a bump map has one channel (got 3 channels)"},
+        "texture \"photo.exr\": a bump map needs one channel (got 3 channels)"},
        {"inward", glossy(R"("normal_map": {"image": "inward.exr"})"), ErrorCode::input,
-        "texel (0, 1) has a normal that does not point outward (got B = 0.5, allowed (0.5, 1])"},
+        "texel (0, 1) is a normal that does not point outward (got B = 0.5, allowed (0.5, 1])"},
        {"components in place of codes", glossy(R"("normal_map": {"image": "signed.exr"})"), ErrorCode::input,
-        "texel (0, 1) has a normal that is not encoded (got G = -0.25, allowed [0, 1])"},
+        "texel (0, 1) is not an encoded normal (got G = -0.25, allowed [0, 1])"},
        {"more than 1", glossy(R"("normal_map": {"image": "beyond.exr"})"), ErrorCode::input,
-        "texel (0, 0) has a normal that is not encoded (got B = 1.5, allowed [0, 1])"},
+        "texel (0, 0) is not an encoded normal (got B = 1.5, allowed [0, 1])"},
        {"no height", glossy(R"("bump_map": {"image": "sky.exr"})"), ErrorCode::scene, "height"},
        {"both",
         glossy(R"("normal_map": {"image": "photo.exr"}, "bump_map": {"image": "sky.exr", "height": 1})"),

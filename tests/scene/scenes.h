@@ -12,7 +12,7 @@
 
 namespace abbe::test {
 
-/// The same random numbers on every platform.
+/// Random numbers that are the same on every platform.
 class Random {
  public:
   explicit Random(std::uint32_t seed) : engine_(seed) {}
@@ -54,7 +54,7 @@ inline Camera pinhole() {
   return {Pinhole{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.05, 0.005}, 4, 4, 0.01};
 }
 
-/// A scene of shapes, all of one material; committed.
+/// A committed scene of shapes with one material.
 inline Scene scene_of(std::vector<Shape> shapes) {
   Scene scene{};
   scene.camera = pinhole();
@@ -64,7 +64,7 @@ inline Scene scene_of(std::vector<Shape> shapes) {
   return scene;
 }
 
-/// A scene of one emitting shape with radiance 1; committed.
+/// A committed scene of one emitting shape with radiance 1.
 inline Scene lit_by(Shape shape, bool two_sided = false) {
   Scene scene{};
   scene.camera = pinhole();

@@ -18,7 +18,7 @@ using Imath::V3d;
 
 const Expressions kCausticsSeen{"E S (S|D)* D (S|D)* S L"};
 
-// A ball that emits, 3 m above the middle of the floor.
+// An emitting ball 3 m above the center of the floor.
 Scene scene_with_ball_lamp(double radius, std::uint32_t material) {
   Scene scene = floor_scene();
   scene.lights.push_back({"lamp", AreaLight{static_cast<std::uint32_t>(scene.shapes.size())}, Curve(1.0)});
@@ -28,10 +28,10 @@ Scene scene_with_ball_lamp(double radius, std::uint32_t material) {
 
 bool traced(Scene& scene) {
   scene.commit();
-  return scene.needs.light_is_traced.front();
+  return scene.features.light_is_traced.front();
 }
 
-// Of glass around a lamp at (0, 0, 3), each kind of shape that can be, none further off than 0.1 m.
+// Glass around a light at (0, 0, 3), in each kind of shape that can enclose it, at most 0.1 m away.
 std::vector<std::pair<std::string, Shape>> globes() {
   const Imath::M44d turned =
       Imath::M44d().setAxisAngle(V3d(1, 2, 3).normalized(), 0.6) * Imath::M44d().setTranslation(V3d(0, 0, 3));
@@ -83,7 +83,8 @@ TEST(SmallLight, LanternsAreLookedAtWhereTheyAreAtFirst) {
   EXPECT_TRUE(traced(scene));
 }
 
-// What is beside a lamp is seen from its middle, and boxes around what is askew hold lamps beside it.
+// Lights are viewed from the center of a sheet next to them. Boxes around tilted sheets contain lights next
+// to them.
 TEST(SmallLight, SheetsStandBesideLamps) {
   for (const Shape& sheet : {Shape(Quad{{-1, -1, 1.9}, {2, 0, 2}, {0, 2, 0}}),
                              Shape(Disc{{0, 0, 2.9}, V3d(1, 2, 3).normalized(), 2})}) {
@@ -112,7 +113,7 @@ TEST(SmallLight, TheOnlySpecularShapeIsLookedAtFromWhatItLights) {
   add_bulb(scene);
   scene.shapes.back().material = kGlass;
   scene.commit();
-  EXPECT_EQ(scene.needs.light_is_traced, (std::vector<bool>{false, true}))
+  EXPECT_EQ(scene.features.light_is_traced, (std::vector<bool>{false, true}))
       << "points are small from anywhere";
 }
 

@@ -94,13 +94,13 @@ TEST(Solid, ReportsAndMends) {
     EXPECT_EQ(report.back_to_back, c.expected.back_to_back);
     EXPECT_EQ(report.buried, c.expected.buried);
     EXPECT_NEAR(volume(mesh), c.volume, 1e-12);
-    if (!c.expected.mended()) {
+    if (!c.expected.repaired()) {
       EXPECT_EQ(mesh.triangles, c.mesh.triangles);
     }
   }
 }
 
-// A strip of four squares, its ends joined after half a turn, has one side and a border.
+// A strip of four squares joined after half a turn has one side and a border.
 TEST(Solid, OneSidedStripsAreLeft) {
   Mesh strip;
   for (int i = 0; i < 4; ++i)
@@ -116,7 +116,7 @@ TEST(Solid, OneSidedStripsAreLeft) {
   const SolidReport report = make_solid(strip);
   EXPECT_EQ(report.open_edges, 8U);
   EXPECT_EQ(report.clashing_edges, 1U);
-  EXPECT_FALSE(report.mended());
+  EXPECT_FALSE(report.repaired());
   EXPECT_EQ(strip.triangles, before.triangles);
 }
 
@@ -163,7 +163,7 @@ class SolidTest : public test::MeshFileTest {
             "lights": [{{"environment": {{}}, "emission": {{"spectrum": 1}}}}]}})",
         matter, mesh));
   }
-  // The scene loaded last, as --strict takes it.
+  // Diagnostics of the scene that was loaded last, under --strict.
   Diagnostics strictly() {
     Diagnostics diagnostics(Strictness::strict);
     const bool loaded = load_scene(folder_ / "scene.json", {}, diagnostics).has_value();
@@ -176,7 +176,7 @@ constexpr const char* kClearGlass = R"("dielectric": {"ior": 1.5})";
 
 TEST_F(SolidTest, OpenMatterIsWarnedOfAndRefusedWhenStrict) {
   test::write(folder_ / "open.obj", test::obj_text(open_box()));
-  const std::string fault = R"(mesh "open.obj" around matter "m" is no closed surface: 4 open edges)";
+  const std::string fault = R"(mesh "open.obj" around medium "m" is not a closed surface: 4 open edges)";
   for (const char* matter : {kClearGlass, R"("dielectric": {"ior": 1.5, "roughness": 0.3})",
                              R"("medium": {"scattering_per_m": 2})"}) {
     const Loaded loaded = made_of(matter, "\"open.obj\"");
@@ -197,9 +197,8 @@ TEST_F(SolidTest, WhatIsPutRightIsNoFault) {
   const Loaded loaded = made_of(kClearGlass, test::inline_mesh(inside_out(kBox)));
   ASSERT_TRUE(loaded.scene);
   EXPECT_NEAR(volume(std::get<Mesh>(loaded->shapes[0].shape)), 1, 1e-12);
-  EXPECT_NE(
-      loaded.text().find(R"(warning: the mesh around matter "m": put right: 1 component facing inward)"),
-      std::string::npos)
+  EXPECT_NE(loaded.text().find(R"(warning: the mesh around medium "m": repaired: 1 component facing inward)"),
+            std::string::npos)
       << loaded.text();
   EXPECT_FALSE(strictly().has_errors());
   const Loaded opaque = made_of(R"("diffuse": {"reflectance": 0.5})", test::inline_mesh(inside_out(kBox)));
@@ -216,7 +215,7 @@ TEST_F(SolidTest, ObjectsAndMaterialsOfFilesToo) {
   EXPECT_NEAR(volume(std::get<Mesh>(std::get<PlacedShape>(placed->shapes[1].shape).of->shape)), 1, 1e-12);
 }
 
-// A corner in the middle of a neighbour's edge, with a triangle of no area between the two.
+// A corner on a neighbour's edge, with a triangle of zero area in between.
 TEST_F(SolidTest, TrianglesWithoutAreaJoinEdges) {
   Mesh split = kBox;
   split.vertices.emplace_back(0.5, 0, 0);
@@ -248,12 +247,12 @@ TEST(Shape, MayMeetABoxThatItsSurfaceComesNearTo) {
     return Imath::Box3d(center - Imath::V3d(half), center + Imath::V3d(half));
   };
   for (const Shape& solid : {Shape(Sphere{{1, 0, 0}, 2}), Shape(test::box({-1, -2, -2}, {3, 2, 2}))}) {
-    EXPECT_FALSE(may_meet(solid, around({1.5, 0, 0}, 0.5))) << "wholly within";
-    EXPECT_FALSE(may_meet(solid, around({4, 0, 0}, 0.9))) << "wholly outside";
-    EXPECT_TRUE(may_meet(solid, around({3, 0, 0}, 0.1)));
-    EXPECT_TRUE(may_meet(solid, around({1, 0, 0}, 5))) << "wholly around it";
+    EXPECT_FALSE(may_intersect(solid, around({1.5, 0, 0}, 0.5))) << "wholly within";
+    EXPECT_FALSE(may_intersect(solid, around({4, 0, 0}, 0.9))) << "wholly outside";
+    EXPECT_TRUE(may_intersect(solid, around({3, 0, 0}, 0.1)));
+    EXPECT_TRUE(may_intersect(solid, around({1, 0, 0}, 5))) << "wholly around it";
   }
-  EXPECT_TRUE(may_meet(Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, around({0.5, 0.5, 0}, 0.1)));
+  EXPECT_TRUE(may_intersect(Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, around({0.5, 0.5, 0}, 0.1)));
 }
 
 }  // namespace

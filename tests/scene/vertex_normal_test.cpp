@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "meshes.h"
+#include "scene/shading_point.h"
 #include "scene/shapes/placed.h"
-#include "scene/surface.h"
 #include "scenes.h"
 #include "tests/description/gltf_asset.h"
 #include "tests/description/mesh_files.h"
@@ -18,7 +18,8 @@ using test::Asset;
 using test::Loaded;
 using test::raw;
 
-// Leaning by as much as their corner lies from the middle of the square (-1, -1) to (1, 1).
+// Normals tilted in proportion to the distance of their corner from the center of the square (-1, -1) to (1,
+// 1).
 Mesh pillow() {
   Mesh mesh{{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
   const auto normal = [&](std::uint32_t i) { return V3f(V3d(mesh.vertices[i] + V3d(0, 0, 1)).normalized()); };
@@ -34,10 +35,10 @@ Scene scene_with(Shape shape, std::shared_ptr<const Relief> relief = nullptr) {
   scene.commit();
   return scene;
 }
-SurfacePlace place_at(const Scene& scene, float x, float y, float from) {
+ShadingPoint place_at(const Scene& scene, float x, float y, float from) {
   const auto hit = scene.intersect({{x, y, from}, {0, 0, from > 0 ? -1.0F : 1.0F}});
   EXPECT_TRUE(hit);
-  return textured_place(scene, hit.value(), 0);
+  return textured_shading_point(scene, hit.value(), 0);
 }
 void expect_normal(const V3f& found, const V3d& expected) {
   EXPECT_LT((V3d(found) - expected).length(), 1e-6) << found << " " << expected;
@@ -45,20 +46,21 @@ void expect_normal(const V3f& found, const V3d& expected) {
 
 TEST(VertexNormals, AreInterpolated) {
   const Scene scene = scene_with(pillow());
-  EXPECT_TRUE(scene.needs.textures);
-  EXPECT_EQ(scene.needs.because.at("textures"), "shape \"shape\"");
-  EXPECT_FALSE(scene_with(Mesh{pillow().vertices, pillow().triangles}).needs.textures);
+  EXPECT_TRUE(scene.features.textures);
+  EXPECT_EQ(scene.features.reasons.at("textures"), "shape \"shape\"");
+  EXPECT_FALSE(scene_with(Mesh{pillow().vertices, pillow().triangles}).features.textures);
   const double third = 1 / std::sqrt(3.0);
   for (const auto& [x, y] : {std::pair(0.5, -0.5), {0.9, 0.1}, {-0.25, 0.75}}) {
-    const SurfacePlace place = place_at(scene, static_cast<float>(x), static_cast<float>(y), 5);
+    const ShadingPoint place = place_at(scene, static_cast<float>(x), static_cast<float>(y), 5);
     expect_normal(place.frame.z, V3d(x * third, y * third, third).normalized());
     EXPECT_TRUE(place.relief);
   }
-  // Seen from behind they are outward all the same.
+  // From behind they still point outward.
   expect_normal(place_at(scene, 0.5F, -0.5F, -5).frame.z, V3d(0.5, -0.5, 1).normalized());
 }
 
-// A plane z = 0 stretched by (2, 3, -1): normals go by the inverse transpose, and stay outward in a mirror.
+// A plane z = 0 scaled by (2, 3, -1): normals transform by the inverse transpose and stay outward in a
+// mirror.
 TEST(VertexNormals, FollowInstances) {
   const auto at = std::make_shared<Placement>(placement(Imath::M44d().setScale(V3d(2, 3, -1))));
   const Scene scene = scene_with(PlacedShape{make_prototype(pillow()), at});
@@ -75,7 +77,7 @@ TEST(VertexNormals, TakeTheSideOfTheTriangle) {
   expect_normal(place_at(scene_with(cancelling), 0.5F, -0.5F, 5).frame.z, V3d(0, 0, 1));
 }
 
-// A flat relief leaves them, a leaning one leans from them.
+// A flat relief leaves them unchanged, a tilted one tilts them.
 TEST(VertexNormals, AreTurnedByReliefs) {
   Mesh mapped = pillow();
   mapped.coordinates = {{{{0, 0}, {1, 0}, {1, 1}}}, {{{0, 0}, {1, 1}, {0, 1}}}};
@@ -126,7 +128,7 @@ TEST_F(VertexNormalFiles, OfObj) {
   const std::string corners = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 3 4\nvn 0 0.6 0.8\nvn 0 0 0\n";
   expect_leaning(mesh("a.obj", corners + "f 1//1 2//2 3//-2\n"));
   EXPECT_TRUE(mesh("a.obj", corners + "f 1 2 3\n").normals.empty());
-  // Faces without are flat.
+  // Faces without normals are flat.
   const Mesh both = mesh("a.obj", corners + "f 1 2 3\nf 1//1 2//1 3//1\nf 3 2 1\n");
   ASSERT_EQ(both.normals.size(), 3U);
   expect_normal(both.normals[0][1], {0, 0, 1});
@@ -194,14 +196,14 @@ TEST_F(VertexNormalFiles, FaultsAreNamed) {
                              "as many normals as positions are needed (got 2, allowed 3)"}});
 }
 
-// Facets refract; a smooth ball would be taken for one without a word.
+// The facets refract light. Without a warning the mesh would be taken for a smooth ball.
 TEST_F(VertexNormalFiles, AreIgnoredAroundMatterWithAWarning) {
   test::write(folder_ / "ball.obj", test::obj_text(test::icosphere(1, true)));
   const std::string shape = R"("shapes": [{"mesh": "ball.obj", "material": "m"}]})";
   const Loaded glass = load(R"({"materials": {"m": {"dielectric": {"ior": 1.5}}}, )" + shape);
   ASSERT_TRUE(glass.scene) << glass.text();
   EXPECT_TRUE(std::get<Mesh>(glass->shapes[0].shape).normals.empty());
-  const std::string fault = R"(mesh "ball.obj" around matter "m": its vertex normals are ignored)";
+  const std::string fault = R"(mesh "ball.obj" around medium "m": vertex normals are ignored)";
   EXPECT_NE(glass.text().find("/shapes/0/mesh: warning: " + fault), std::string::npos) << glass.text();
   Diagnostics strict(Strictness::strict);
   EXPECT_FALSE(load_scene(folder_ / "scene.json", {}, strict));

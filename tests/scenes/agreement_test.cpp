@@ -239,8 +239,8 @@ const std::string kManyLamps = many_lamps();
 RenderResult render_by(const Agreement& item, const char* integrator, int samples) {
   Scene scene = test::load_text(
       item.text, {{"/render/integrator", integrator}, {"/render/samples", std::to_string(samples)}});
-  scene.needs.light_tracing = true;
-  scene.needs.light_is_traced.assign(scene.lights.size(), true);
+  scene.features.light_tracing = true;
+  scene.features.light_is_traced.assign(scene.lights.size(), true);
   return render(scene, {});
 }
 

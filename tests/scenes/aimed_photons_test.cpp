@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "film/shortcomings.h"
+#include "film/scene_warnings.h"
 #include "tests/scenes/scene_fixture.h"
-#include "transport/render/learnt_plan.h"
+#include "transport/render/trained_plan.h"
 #include "transport/technique/light.h"
 
 namespace abbe {
@@ -31,7 +31,7 @@ double share_landed(const Plan& plan) {
 TEST(AimedPhotons, MostComeThroughASlit) {
   for (const auto& [name, least] : {std::pair("prism_area.json", 0.5), std::pair("sunlit_prism.json", 0.5)}) {
     const Scene scene = test::load(name, {});
-    const double share = share_landed(make_learnt_plan(scene, 2));
+    const double share = share_landed(make_trained_plan(scene, 2));
     std::printf("%s: %.3f of the photons\n", name, share);
     EXPECT_GT(share, least) << name;
   }
@@ -56,12 +56,12 @@ Scene floor_below_pane(double fov_deg, int count = 1) {
 // aimed around where these have gone, but for half of them, which go anywhere.
 TEST(AimedPhotons, AreAimedForCertainByNoFewOthers) {
   const Scene narrow = floor_below_pane(4);
-  const Plan learnt = make_learnt_plan(narrow, 2);
-  EXPECT_FALSE(learnt.guides.photons_are_rare);
+  const Plan learnt = make_trained_plan(narrow, 2);
+  EXPECT_FALSE(learnt.guides.undertrained);
   EXPECT_GT(share_landed(learnt), 0.3);
   const Scene narrowest = floor_below_pane(1);
-  const Plan guessed = make_learnt_plan(narrowest, 2);
-  EXPECT_TRUE(guessed.guides.photons_are_rare);
+  const Plan guessed = make_trained_plan(narrowest, 2);
+  EXPECT_TRUE(guessed.guides.undertrained);
   const double share = share_landed(guessed);
   EXPECT_GT(share, 1e-3);
   EXPECT_LT(share, 0.5);
@@ -70,9 +70,9 @@ TEST(AimedPhotons, AreAimedForCertainByNoFewOthers) {
 // What each of many lamps is shown by too few photons to aim its others by, all are by many together, but
 // for those that none shows where most are shown by one.
 TEST(AimedPhotons, AreNotRareWhereManyLampsAreShownByFewEach) {
-  EXPECT_FALSE(make_learnt_plan(floor_below_pane(8, 64), 2).guides.photons_are_rare);
-  EXPECT_TRUE(make_learnt_plan(floor_below_pane(3, 128), 2).guides.photons_are_rare);
-  EXPECT_TRUE(make_learnt_plan(floor_below_pane(0.5, 4), 2).guides.photons_are_rare);
+  EXPECT_FALSE(make_trained_plan(floor_below_pane(8, 64), 2).guides.undertrained);
+  EXPECT_TRUE(make_trained_plan(floor_below_pane(3, 128), 2).guides.undertrained);
+  EXPECT_TRUE(make_trained_plan(floor_below_pane(0.5, 4), 2).guides.undertrained);
 }
 
 // A mirror of this width [m] that sends some of the light of one lamp into the view of 4 degrees.
@@ -91,27 +91,28 @@ Scene floor_below_pane_and_mirror(double fov_deg, double width) {
 // A mirror of 5 mm brings about 1 % of the light by a few pilot photons; one of 3 cm is found by many.
 TEST(AimedPhotons, TellHowMuchLightFewPilotsFound) {
   const Scene few = floor_below_pane_and_mirror(2, 0.005);
-  EXPECT_NEAR(make_learnt_plan(few, 2).guides.undertrained_fraction, 0.01, 0.007);
+  EXPECT_NEAR(make_trained_plan(few, 2).guides.undertrained_fraction, 0.01, 0.007);
   const Scene many = floor_below_pane_and_mirror(2, 0.03);
-  EXPECT_EQ(make_learnt_plan(many, 2).guides.undertrained_fraction, 0);
+  EXPECT_EQ(make_trained_plan(many, 2).guides.undertrained_fraction, 0);
 }
 
 TEST(AimedPhotons, AreReportedIfFewTrainedTheGuide) {
-  Guides guides{.aims = {}, .photon_wavelengths = {std::span<const Curve>(), std::span<const Curve>()}};
-  EXPECT_EQ(rare_photons(nullptr), std::nullopt);
-  EXPECT_EQ(rare_photons(&guides), std::nullopt);
+  GuidingData guides{.photon_guides = {},
+                     .photon_wavelengths = {std::span<const Curve>(), std::span<const Curve>()}};
+  EXPECT_EQ(undertrained_warning(nullptr), std::nullopt);
+  EXPECT_EQ(undertrained_warning(&guides), std::nullopt);
   guides.undertrained_fraction = 0.009;
-  EXPECT_EQ(rare_photons(&guides), std::nullopt);
+  EXPECT_EQ(undertrained_warning(&guides), std::nullopt);
   guides.undertrained_fraction = 0.031;
   EXPECT_EQ(
-      rare_photons(&guides).value_or(""),
+      undertrained_warning(&guides).value_or(""),
       "3.1 % of the light that pilot photons found takes paths that fewer than 50 of them took: that light "
       "is noisy, and its error is uncertain");
-  guides.photons_are_rare = true;
-  EXPECT_EQ(
-      rare_photons(&guides).value_or(""),
-      "too few pilot photons reach the sensor to guide others: light that arrives through mirrors and glass "
-      "is noisy, and its error is uncertain");
+  guides.undertrained = true;
+  EXPECT_EQ(undertrained_warning(&guides).value_or(""),
+            "too few pilot photons contribute to the film to guide others: light that arrives through "
+            "mirrors and glass "
+            "is noisy, and its error is uncertain");
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ TEST(Bidirectional, FindsLightThatConnectionsOfPathTracingDoNot) {
   larger.camera.height = 128;
   const IntegratorChoice choice = choose_integrator(larger, 2);
   EXPECT_EQ(choice.integrator, Integrator::bdpt) << choice.cost_ratio.value_or(0);
-  EXPECT_NE(choice.because.find("times as cheap"), std::string::npos) << choice.because;
+  EXPECT_NE(choice.reason.find("times as cheap"), std::string::npos) << choice.reason;
 }
 
 // A ball of cloud 60 free paths thick seen from its lit side, and a white room with a ball in it, where most

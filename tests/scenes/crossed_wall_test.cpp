@@ -59,7 +59,7 @@ class CrossedWall {
         at({0, 1, 0}), kMatter, lamp, shapes, integrator));
     // By day of a plan that pilots have taught nothing: they would take longer than the paths.
     RenderOptions options;
-    if (!test::nightly()) options.guides = std::make_shared<const Guides>(make_plan(scene).guides);
+    if (!test::nightly()) options.guides = std::make_shared<const GuidingData>(make_plan(scene).guides);
     return render(scene, options).film.mean(0, 0);
   }
 

@@ -69,7 +69,7 @@ TEST(Depth, ThereIsACapThatCounts) {
     const RenderResult one = render(scene, {.threads = 1});
     EXPECT_EQ(one.stats.cut.paths, one.stats.paths) << integrator;
     EXPECT_NEAR(one.stats.cut.throughput(), static_cast<double>(one.stats.paths), 1e-3) << integrator;
-    EXPECT_GE(one.stats.rays, one.stats.paths * static_cast<std::uint64_t>(kMostEvents)) << integrator;
+    EXPECT_GE(one.stats.rays, one.stats.paths * static_cast<std::uint64_t>(kMaxPathDepth)) << integrator;
     EXPECT_EQ(render(scene, {.threads = 2}).stats.cut.paths, one.stats.cut.paths);
   }
 }
@@ -171,7 +171,7 @@ TEST(Depth, SurvivalIsTheThroughputAndNeverSureInLongPaths) {
   RenderSettings settings;
   EXPECT_FALSE(plays_roulette(settings, 3));
   EXPECT_TRUE(plays_roulette(settings, 4));
-  for (const float a : {kEndingOfPaths, kEndingOfSpecularPaths, kEndingOfJoinedPaths}) {
+  for (const float a : {kPathRouletteExponent, kSpecularRouletteExponent, kJoinedRouletteExponent}) {
     EXPECT_EQ(survival(0.7F, 4, a), 0.7F);
     EXPECT_EQ(survival(0.01F, 4, a), 0.1F);
     EXPECT_EQ(survival(3, 64, a), 1);
@@ -180,10 +180,10 @@ TEST(Depth, SurvivalIsTheThroughputAndNeverSureInLongPaths) {
   EXPECT_FLOAT_EQ(survival(3, 100, 0.5F), 0.995F);
   EXPECT_FLOAT_EQ(survival(3, 100, 2), 0.98F);
   EXPECT_FLOAT_EQ(survival(3, 1000, 1), 0.999F);
-  EXPECT_EQ(most_events(settings), 100000);
+  EXPECT_EQ(depth_limit(settings), 100000);
   settings.max_depth = 12;
   settings.roulette_depth = -1;
-  EXPECT_EQ(most_events(settings), 12);
+  EXPECT_EQ(depth_limit(settings), 12);
   EXPECT_FALSE(plays_roulette(settings, 1000));
 }
 

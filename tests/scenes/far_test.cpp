@@ -166,8 +166,8 @@ TEST(Far, CausticsOfASunAgree) {
     Scene scene = test::load_text(card(light, ball), {{"/render/integrator", integrator},
                                                       {"/sensor/resolution", "[32, 32]"},
                                                       {"/render/samples", std::to_string(samples)}});
-    scene.needs.light_tracing = true;
-    scene.needs.light_is_traced.assign(1, true);
+    scene.features.light_tracing = true;
+    scene.features.light_is_traced.assign(1, true);
     return render(scene, {}).film;
   };
   for (
@@ -264,7 +264,7 @@ TEST(Far, ADropInAParallelBeamThrowsTheBowWhereDescartesPutsIt) {
     std::size_t brightest = 40;
     for (std::size_t ring = 40; ring < 100; ++ring)
       if (sum[ring] / count[ring] > sum[brightest] / count[brightest]) brightest = ring;
-    const double n = interior(scene.materials[scene.shapes[0].material])->n(nm);
+    const double n = interior_index(scene.materials[scene.shapes[0].material])->n(nm);
     const double edge = bow_edge(n);
     EXPECT_NEAR(2 * static_cast<double>(brightest) + 1, edge, 2.5) << nm;
     const auto ring_beyond = static_cast<std::size_t>(edge / 2) + 4;

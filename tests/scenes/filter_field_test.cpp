@@ -5,7 +5,7 @@
 
 #include "calibration/chart/delta_e.h"
 #include "film/field_response.h"
-#include "film/sensor_identity.h"
+#include "film/film_attributes.h"
 #include "spectral/colorimetry.h"
 #include "spectral/rgb.h"
 #include "tests/scenes/scene_fixture.h"
@@ -88,8 +88,8 @@ TEST(FilterField, FiltersWithoutAnAngleHaveNoField) {
   const Scene scene = white_dome(R"({{"band": [{}, {}]}})");
   EXPECT_FALSE(white_field(scene));
   EXPECT_FALSE(neutral_shift(scene));
-  EXPECT_FALSE(sensor_identity(scene).contains(kWhiteFieldKey));
-  EXPECT_TRUE(sensor_identity(shifting_dome()).contains(kWhiteFieldKey));
+  EXPECT_FALSE(film_attributes(scene).contains(kWhiteFieldKey));
+  EXPECT_TRUE(film_attributes(shifting_dome()).contains(kWhiteFieldKey));
 }
 
 }  // namespace

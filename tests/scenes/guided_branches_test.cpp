@@ -10,7 +10,7 @@
 
 #include "tests/scenes/only_meter.h"
 #include "tests/tier.h"
-#include "transport/render/learnt_plan.h"
+#include "transport/render/trained_plan.h"
 #include "transport/technique/light.h"
 
 namespace abbe {
@@ -35,10 +35,10 @@ Branches trace_branches(const Plan& plan, std::uint32_t photons) {
   RayCaster caster(plan.scene);
   LightTracer tracer(plan, caster, 1);
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> values_at;  // by photon and branch
-  tracer.tell_apart(
-      [&](std::uint32_t photon, const FilmPoint&, const LightHistory& of, std::span<const double> values) {
-        values_at[{photon, of.branch}] += magnitude_of(values) / photons;
-      });
+  tracer.set_layer_sink([&](std::uint32_t photon, const FilmPoint&, const ContributionInfo& of,
+                            std::span<const double> values) {
+    values_at[{photon, of.branch}] += magnitude_of(values) / photons;
+  });
   Branches branches;
   for (std::uint32_t first = 0; first < photons; first += kBatch) {
     std::vector<Sampler> batch;
@@ -128,7 +128,7 @@ TEST_P(GuidedBranches, AreThoseOfUnguidedPhotons) {
   const std::uint32_t photons = test::nightly() ? 1U << 20 : 1U << 17;
   const Scene scene = scene_of_case(GetParam());
   const Plan even = make_plan(scene);
-  const Plan guided = make_learnt_plan(scene, 2);
+  const Plan guided = make_trained_plan(scene, 2);
   ASSERT_TRUE(uses(guided.techniques, Technique::light));
   const Branches expected = trace_branches(even, photons);
   Branches found = trace_branches(guided, photons);
@@ -167,10 +167,10 @@ std::string bow(const std::string& depth) {
 TEST(GuidedBranches, KeepTheReflectionOfADropBesideItsBow) {
   const test::OnlyMeter all = test::only_meter(bow("3"));
   const test::OnlyMeter reflected = test::only_meter(bow("1"));
-  const Branches alone = trace_branches(make_learnt_plan(reflected.scene, 2), 1 << 15);
+  const Branches alone = trace_branches(make_trained_plan(reflected.scene, 2), 1 << 15);
   ASSERT_EQ(alone.size(), 1U);
   const auto& [branch, reflection] = *alone.begin();
-  const Plan plan = make_learnt_plan(all.scene, 2);
+  const Plan plan = make_trained_plan(all.scene, 2);
   Branches found = trace_branches(plan, 1 << 17);
   for (const auto& [b, sum] : found)
     std::printf("branch %08x: %.4g +- %.2g, %.1f photons\n", b, sum.sum, std::sqrt(sum.squares),
@@ -182,7 +182,7 @@ TEST(GuidedBranches, KeepTheReflectionOfADropBesideItsBow) {
   for (const auto& [b, sum] : found) EXPECT_TRUE(b == branch || sum.photons() > 100) << sum.photons();
   if (!test::nightly()) return;
   RenderOptions how;
-  how.guides = std::make_shared<const Guides>(plan.guides);
+  how.guides = std::make_shared<const GuidingData>(plan.guides);
   const Film::Average read =
       read_meter(all.meter, render(all.scene, how).film, all.scene.exposure_s).whole.radiant;
   EXPECT_NEAR(read.mean, 9.9418e-5, 4.5 * read.standard_error);

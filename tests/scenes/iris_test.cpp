@@ -163,8 +163,8 @@ TEST(Iris, IsTheSameForEveryTechnique) {
     const auto by = [&](const char* integrator, const char* samples) {
       Scene scene =
           test::load_text(still(lens), {{"/render/integrator", integrator}, {"/render/samples", samples}});
-      scene.needs.light_tracing = true;
-      scene.needs.light_is_traced.assign(scene.lights.size(), true);
+      scene.features.light_tracing = true;
+      scene.features.light_is_traced.assign(scene.lights.size(), true);
       return render(scene, {}).film;
     };
     const Film path = by("path", "2048");

@@ -176,7 +176,7 @@ TEST(Layers, OfSomeLightsLeaveARest) {
   const Scene all = test::load_text(lamps("", "path"));
   const Layers some = light_layers(all, {"key"});
   EXPECT_EQ(some.names, (std::vector<std::string>{"light.key", "light.rest"}));
-  EXPECT_EQ(some.of_light, (std::vector<std::uint32_t>{0, 1, 1}));
+  EXPECT_EQ(some.layer_of_light, (std::vector<std::uint32_t>{0, 1, 1}));
   EXPECT_THROW((void)light_layers(all, {"sun"}), Error);
   Scene taken = all;
   taken.lights.front().name = "rest";
@@ -187,11 +187,12 @@ TEST(Layers, OfSomeLightsLeaveARest) {
 TEST(Layers, LightsShareOneByTheirNameAndNotByWhatFilesMakeOfIt) {
   Scene scene = test::load_text(lamps("", "path"));
   scene.lights[0].name = scene.lights[1].name = "key 1";
-  EXPECT_EQ(light_layers(scene, {}).of_light, (std::vector<std::uint32_t>{0, 0, 1}));
+  EXPECT_EQ(light_layers(scene, {}).layer_of_light, (std::vector<std::uint32_t>{0, 0, 1}));
   scene.lights[1].name = "key_1";
   EXPECT_THROW((void)light_layers(scene, {}), Error);
   EXPECT_THROW((void)light_layers(scene, {"key_1"}), Error);
-  EXPECT_EQ(light_layers(scene, {scene.lights[2].name}).of_light, (std::vector<std::uint32_t>{1, 1, 0}));
+  EXPECT_EQ(light_layers(scene, {scene.lights[2].name}).layer_of_light,
+            (std::vector<std::uint32_t>{1, 1, 0}));
 }
 
 TEST(Layers, TheirBitsDependOnNothingButTheSamples) {

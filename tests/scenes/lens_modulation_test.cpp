@@ -3,7 +3,7 @@
 
 #include <fmt/format.h>
 
-#include "calibration/judge/slanted_edge.h"
+#include "calibration/metrics/slanted_edge.h"
 #include "lens/spot.h"
 #include "scene/camera/lens_optics.h"
 #include "tests/angles.h"

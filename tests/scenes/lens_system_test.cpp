@@ -43,8 +43,8 @@ constexpr const char* kStill = R"({
 Film still_by(const char* integrator, int samples) {
   Scene scene = test::load_text(
       kStill, {{"/render/integrator", integrator}, {"/render/samples", std::to_string(samples)}});
-  scene.needs.light_tracing = true;
-  scene.needs.light_is_traced.assign(scene.lights.size(), true);
+  scene.features.light_tracing = true;
+  scene.features.light_is_traced.assign(scene.lights.size(), true);
   RenderResult result = render(scene, {});
   EXPECT_EQ(result.stats.nonfinite_samples, 0U);
   return std::move(result.film);

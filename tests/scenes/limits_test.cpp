@@ -121,8 +121,8 @@ TEST(Limits, ExposuresThatFloatsCannotHoldAreRefused) {
   };
   EXPECT_EQ(refused(1e-30), "");
   EXPECT_EQ(refused(1e20), "");
-  EXPECT_NE(refused(1e-60).find("give the film less than floats can tell from nothing"), std::string::npos);
-  EXPECT_NE(refused(1e60).find("give the film more than floats can hold"), std::string::npos);
+  EXPECT_NE(refused(1e-60).find("give film values below the range of floats"), std::string::npos);
+  EXPECT_NE(refused(1e60).find("give film values above the range of floats"), std::string::npos);
 }
 
 // A sensor that counts electrons makes large numbers of what paths carry, which is what is lost first.
@@ -135,9 +135,8 @@ TEST(Limits, RadiancesThatPathsCannotCarryAreRefused) {
   EXPECT_NEAR(std::ldexp(mean(rendered_small("ccd.json", lit(-86))), 86) / bright, 1, 1e-6);
   const std::optional<Error> error = refusal(test::load("ccd.json", lit(-90)));
   ASSERT_TRUE(error);
-  EXPECT_NE(
-      std::string(error->what()).find("than floats can tell from nothing (got about 1.6e-33 J/m^2 and nm"),
-      std::string::npos)
+  EXPECT_NE(std::string(error->what()).find("below the range of floats (got about 1.6e-33 J/(m^2 nm)"),
+            std::string::npos)
       << error->what();
 }
 
@@ -173,17 +172,16 @@ TEST(Limits, AnImageThroughGlassDoesNotDependOnTheUnitOfLength) {
   }
 }
 
-// Photons and camera paths go where those of pilots have shown light. In other units but millimetres one of
-// 33 000 pilot photons falls, by rounding, on another block of the film, so that photons of the caustic are
-// aimed otherwise.
-TEST(Limits, AGuidedImageDoesNotDependOnTheUnitOfLengthButInItsCaustic) {
+// Pilot rays and pilot photons decide where photons and camera paths start. Rounding may move the
+// contribution of one path to a neighbouring pixel, so that two pixels of three channels may differ by more
+// than rounding.
+TEST(Limits, AGuidedImageDoesNotDependOnTheUnitOfLength) {
+  constexpr std::size_t kMovedValues = 6;
   const RenderResult metres = through_glass("m", "auto");
   const std::vector<const char*> by_day{"cm", "in"};
   for (const char* unit : test::nightly() ? std::vector{"cm", "mm", "in"} : by_day) {
     const RenderResult other = through_glass(unit, "auto");
-    const std::vector<double> apart = differences(metres.film, other.film);
-    const bool same_photons = unit == std::string_view("mm");
-    EXPECT_LT(same_photons ? apart.front() : apart[apart.size() / 16], 1e-5) << unit;
+    EXPECT_LT(differences(metres.film, other.film).at(kMovedValues), 1e-5) << unit;
     EXPECT_NEAR(mean(other) / mean(metres), 1, 1e-2) << unit;
   }
 }

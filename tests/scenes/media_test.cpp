@@ -208,12 +208,12 @@ TEST(Media, LightScatteredOnceIsTheIntegralAlongTheLine) {
       .fov_deg = 0.01,
       .samples = 2048,
       .depth = R"("max_depth": 1, )"};
-  const double expected = scattered_once({0.3, 0.4, forward}, 0.5, 5, 95);
+  const double expected = single_scattering_radiance({0.3, 0.4, forward}, 0.5, 5, 95);
   expect_near(radiances(bench), {expected, expected, expected}, 0.003, "path");
   // A sphere of it around the lamp alone, which the camera is outside of.
   Bench outside = bench;
   outside.shapes = ball("fog", 2);
-  const double nearer = scattered_once({0.3, 0.4, forward}, 0.5, 2, 2);
+  const double nearer = single_scattering_radiance({0.3, 0.4, forward}, 0.5, 2, 2);
   expect_near(radiances(outside), {nearer, nearer, nearer}, 0.003, "from outside");
 }
 
@@ -235,9 +235,9 @@ TEST(Media, ABeamIsTheIntegralAcrossIt) {
   std::vector<double> expected;
   for (const double scattering : {0.6, 0.3, 0.1}) {
     const double way = std::exp(-(scattering + 0.1) * (5 - across));
-    expected.push_back(way *
-                       scattered_once({scattering, scattering + 0.1, [](double) { return 1 / (4 * kPi); }},
-                                      0.5, across, across));
+    expected.push_back(
+        way * single_scattering_radiance({scattering, scattering + 0.1, [](double) { return 1 / (4 * kPi); }},
+                                         0.5, across, across));
   }
   expect_near(radiances(bench), expected, 0.003, "beam");
 }
@@ -261,7 +261,7 @@ TEST(Media, TheSkyIsBlue) {
        .depth = R"("max_depth": 1, )"});
   std::vector<double> expected;
   for (const double nm : {450, 550, 650})
-    expected.push_back(scattered_once({scattering(nm), scattering(nm), rayleigh}, 0.5, 3, 3));
+    expected.push_back(single_scattering_radiance({scattering(nm), scattering(nm), rayleigh}, 0.5, 3, 3));
   EXPECT_GT(expected[0] / expected[2], 4);
   expect_near(found, expected, 0.02, "air");
 }
@@ -390,7 +390,7 @@ TEST(Media, AnEvenGridIsEvenMatter) {
 // The density integrated along all of a ray [m], which is given in the scene file's coordinates.
 double column_along(const Scene& scene, const Imath::V3d& within, const Imath::V3d& direction, float time) {
   const Imath::V3f at(within - scene.origin_m);
-  const MediumStack inside = enclosing(scene, at, time);
+  const MediumStack inside = enclosing_media(scene, at, time);
   EXPECT_FALSE(inside.empty());
   const MediumAt medium = medium_at(scene, inside, SampledSpectrum(550));
   constexpr float kFar = 100;

@@ -81,7 +81,7 @@ TEST(MovingScene, ExposesByTheIntegralOfItsShutter) {
   const Override still{"/lights/0/motion", R"({"keyframes": [{"time_s": 1}]})"};
   const Profile all = profile(render(test::load_text(kBar, {still}), {}).film, 0, 16);
   const Scene dimmed = test::load_text(kBar, {still, {"/sensor/shutter", kTrapezoid}});
-  EXPECT_FALSE(dimmed.needs.motion);
+  EXPECT_FALSE(dimmed.features.motion);
   EXPECT_NEAR(profile(render(dimmed, {}).film, 0, 16).sum / all.sum, 0.625, 1e-6);
 }
 
@@ -165,8 +165,8 @@ TEST_P(MovingEnds, AgreeWithPathTracing) {
                                           {"/render/integrator", integrator},
                                           {"/render/samples", std::to_string(samples)}});
     if (std::string(integrator) == "auto") {
-      scene.needs.light_tracing = true;
-      scene.needs.light_is_traced.assign(scene.lights.size(), true);
+      scene.features.light_tracing = true;
+      scene.features.light_is_traced.assign(scene.lights.size(), true);
     }
     return render(scene, {}).film;
   };
@@ -272,18 +272,19 @@ TEST(MovingScene, RefusesWhatHasNoMeaning) {
     EXPECT_NE(said.find(part), std::string::npos) << said;
   };
   says(refused(kBar, {{"/lights/0/motion/keyframes/1/time_s", "0"}}),
-       "times of keyframes increase (got 0 after 0)");
+       "times of keyframes must increase (got 0 after 0)");
   says(refused(kBar, {{"/sensor/shutter", R"({"rise_s": 0.015, "fall_s": 0.01})"}}),
-       "a shutter opens and closes within the exposure time (got 0.025 s, allowed up to 0.02 s)");
+       "a shutter must open and close within the exposure time (got 0.025 s, allowed up to 0.02 s)");
   says(refused(kBar, {{"/sensor/shutter", R"({"transmission": [[0, 1], [0.9, 1]]})"}}),
-       "a transmission goes from 0 to 1");
+       "a transmission must run from 0 to 1");
   says(refused(kBar, {{"/sensor/shutter", R"({"transmission": [[0, 1], [1, 1]], "rise_s": 0.001})"}}),
-       "a shutter has one shape");
+       "a shutter has either rise_s and fall_s, or transmission");
   says(refused(kBar, {{"/lights/0", R"({"sun": {"towards": [0, 0, 1]}, "emission": {"spectrum": 1},
                                         "motion": {"keyframes": [{"time_s": 0}]}})"}}),
-       "light from infinity does not move");
+       "a light at infinity cannot move");
   says(refused(kBar, {{"/sensor/channels", R"({"E": {"filters": [], "exposure_s": 0.01}})"}}),
-       "where something moves all channels have one exposure time (got 0.01 s of channel \"E\", allowed 0.02 "
+       "in a scene with motion all channels must have the same exposure time (got 0.01 s of channel \"E\", "
+       "allowed 0.02 "
        "s)");
 }
 

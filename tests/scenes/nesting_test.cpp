@@ -66,7 +66,7 @@ RayTrace traced(const Scene& scene, const V3d& origin, const V3d& towards) {
 TEST(Nesting, PlatesThatTouchObeySnellAndFresnel) {
   const Scene scene =
       scene_of(box("water", 0, 0.2) + "," + box("glass", 0.2, 0.3) + "," + box("flint", 0.3, 0.5));
-  ASSERT_TRUE(scene.needs.nesting);
+  ASSERT_TRUE(scene.features.nesting);
   const RayTrace trace = traced(scene, {-1, -0.4, 0}, {0, 0.05, 0.02});
   ASSERT_EQ(trace.events.size(), 5U);
   const double n[] = {1, 1.333, 1.5, 1.7, 1};
@@ -344,7 +344,7 @@ TEST(Nesting, OnlyTheRatioOfIndicesIsSeen) {
   const auto samples = static_cast<std::uint64_t>(wet_scene.render.samples);
   const Film wet = test::film_of(wet_scene, make_plan(wet_scene), samples);
   const Scene dry_scene = scene_of(fmt::format("{}, {}", kRoom, ball("ratio", 1)), settings, kLamp);
-  EXPECT_FALSE(dry_scene.needs.nesting);
+  EXPECT_FALSE(dry_scene.features.nesting);
   const Film dry = test::film_of(dry_scene, make_plan(dry_scene), samples);
   double apart = 0;
   for (std::size_t pixel = 0; pixel < 24 * 24; ++pixel)

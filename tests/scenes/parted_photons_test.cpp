@@ -6,8 +6,8 @@
 
 #include "tests/scenes/film_of_plan.h"
 #include "tests/scenes/scene_fixture.h"
-#include "transport/render/learnt_plan.h"
-#include "transport/render/technique_shares.h"
+#include "transport/render/technique_balance.h"
+#include "transport/render/trained_plan.h"
 
 namespace abbe {
 namespace {
@@ -20,7 +20,7 @@ using Strips = std::array<std::array<double, kSeeds>, kStrips>;
 std::array<Strips, 3> strips_of(const Scene& scene, const Plan& plan, std::uint64_t samples) {
   std::array<Strips, 3> strips;
   for (std::size_t seed = 0; seed < kSeeds; ++seed) {
-    const Film film = test::film_of(scene, plan, samples, seed + (plan.photons_part ? 100 : 0));
+    const Film film = test::film_of(scene, plan, samples, seed + (plan.photons_split_wavelengths ? 100 : 0));
     for (int channel = 0; channel < 3; ++channel)
       for (int i = 0; i < kStrips; ++i)
         strips[static_cast<std::size_t>(channel)][static_cast<std::size_t>(i)][seed] =
@@ -46,9 +46,9 @@ Estimate estimate(const std::array<double, kSeeds>& values) {
 // `within`: by the scatter over seeds, as the lanes of a photon come to several pixels.
 void expect_the_same_light(const Scene& scene, std::uint64_t samples, double within) {
   constexpr double kLargestZ = 6.5;  // of 30 degrees of freedom, for a family of 36 at 1e-5
-  Plan whole = make_learnt_plan(scene, 2);
+  Plan whole = make_trained_plan(scene, 2);
   Plan parting = whole;
-  parting.photons_part = true;
+  parting.photons_split_wavelengths = true;
   parting.photons = whole.photons / 8;
   std::array<double, kSeeds> all{};
   std::array<double, kSeeds> all_parted{};
@@ -114,15 +114,15 @@ TEST(PartedPhotons, BringLightThatGlassHasReflectedFirst) {
 
 TEST(PartedPhotons, ArePreferredWhereLanesComeToOtherPixels) {
   Scene prism = test::load("prism_spot.json");
-  Plan plan = make_learnt_plan(prism, 2);
+  Plan plan = make_trained_plan(prism, 2);
   const std::uint64_t photons = plan.photons;
-  set_technique_shares(plan, 2);
-  EXPECT_TRUE(plan.photons_part);
+  balance_techniques(plan, 2);
+  EXPECT_TRUE(plan.photons_split_wavelengths);
   EXPECT_EQ(plan.photons, photons / 8) << "so many lanes take the rest of the way";
   const Scene ball = test::load("glass_sphere.json");
-  Plan of_ball = make_learnt_plan(ball, 2);
-  set_technique_shares(of_ball, 2);
-  EXPECT_FALSE(of_ball.photons_part) << "its caustic is white";
+  Plan of_ball = make_trained_plan(ball, 2);
+  balance_techniques(of_ball, 2);
+  EXPECT_FALSE(of_ball.photons_split_wavelengths) << "its caustic is white";
 }
 
 }  // namespace

@@ -197,14 +197,14 @@ TEST(Time, EndsTheLongPassesOfACrewToo) {
   std::vector<std::uint64_t> told;
   RenderOptions timed;
   timed.time_limit_s = 0.5;
-  timed.crew = {.rank = 0,
-                .size = 2,
-                .collect = [](std::span<Int128>) {},
-                .follow =
-                    [&told](std::uint64_t said) {
-                      if (said > 1) told.push_back(said);
-                      return said;
-                    }};
+  timed.mpi_group = {.rank = 0,
+                     .size = 2,
+                     .reduce = [](std::span<Int128>) {},
+                     .broadcast =
+                         [&told](std::uint64_t said) {
+                           if (said > 1) told.push_back(said);
+                           return said;
+                         }};
   EXPECT_GT(render(small_scene("cornell.json"), timed).stats.samples_per_pixel, 8U);
   ASSERT_FALSE(told.empty());
   EXPECT_LT(told.back(), *std::max_element(told.begin(), told.end()) / 2);
@@ -369,13 +369,14 @@ TEST(Merge, RefusesWhatDoesNotBelongTogether) {
   renamed["scene"] = "b.json";
   RenderPart sum = part(own, {0, 2});
   EXPECT_EQ(refusal(sum, part(other, {2, 3})),
-            "b.abbepart: is a part of another render: another seed (got 2, allowed 1)");
+            "b.abbepart: belongs to another render, with another seed (got 2, allowed 1)");
   options.crop = Crop{0, 0, 4, 4};
   RenderPart corner = part(own, {2, 3});
   options.crop = Crop{4, 0, 5, 4};
-  EXPECT_EQ(refusal(corner, part(own, {2, 3})), "b.abbepart: has pixels beyond the film that it is added to");
+  EXPECT_EQ(refusal(corner, part(own, {2, 3})),
+            "b.abbepart: has pixels outside the film that it is added to");
   options.crop.reset();
-  EXPECT_EQ(refusal(sum, part(own, {1, 3})), "b.abbepart: has samples that are there already (got 1:3)");
+  EXPECT_EQ(refusal(sum, part(own, {1, 3})), "b.abbepart: has samples that are already included (got 1:3)");
   const Scene smaller = test::load("cornell.json", {{"/sensor/resolution", "[8, 8]"}});
   const RenderPart misshapen{own, render(smaller, {.samples = SampleRange{2, 3}})};
   EXPECT_EQ(refusal(sum, misshapen), "b.abbepart: has a film of another shape");

@@ -10,7 +10,7 @@
 #include "tests/scenes/margin.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
-#include "transport/render/learnt_plan.h"
+#include "transport/render/trained_plan.h"
 #include "transport/technique/path.h"
 #include "validation/statistics/equivalence.h"
 
@@ -73,15 +73,14 @@ void PrintTo(const Place& place, std::ostream* out) {
 
 // Something on a grey floor, by default under a wide lamp and beside another.
 std::string text_of(const Place& place) {
-  return fmt::format(
-      R"({{"abbe": 1,
+  return fmt::format(R"({{"abbe": 1,
     "camera": {{"pinhole": {{"fov_deg": 30}}, "from": [0, -5, 2.5], "to": [0, 0, 0.3], "up": [0, 0, 1]}},
     "sensor": {{"resolution": [12, 12], "channels": {}}},
     "materials": {{"grey": {{"diffuse": {{"reflectance": 0.5}}}}, {}}},
     "lights": [{}],
     "shapes": [{{"quad": {{"corner": [-3, -3, 0], "edge_u": [6, 0, 0], "edge_v": [0, 6, 0]}}, "material": "grey"}}{}],
     "render": {{"max_depth": 4}}}})",
-      place.channels, place.materials, place.lights, place.things);
+                     place.channels, place.materials, place.lights, place.things);
 }
 
 // A plate that leans, so that light comes at an angle.
@@ -92,8 +91,7 @@ constexpr const char* kBall =
 const std::vector<Place> kPlaces{
     {"Glossy", R"("plate": {"conductor": {"ior": "Cu_Johnson", "roughness": 0.35}})", kPlate},
     // The chance to mirror is another for each wavelength.
-    {"Mixed",
-     R"("silver": {"mirror": {"reflectance": 0.9}}, "red": {"diffuse": {"reflectance": 0.6}},
+    {"Mixed", R"("silver": {"mirror": {"reflectance": 0.9}}, "red": {"diffuse": {"reflectance": 0.6}},
         "glaze": {"coated_diffuse": {"ior": "F2", "reflectance": "cornell_box_walls:red"}},
         "pane": {"thin_glass": {"ior": 1.8}},
         "plate": {"mixture": [{"material": "silver", "weight": {"band": [550, 700], "value": 0.5}}, {"material": "glaze", "weight": 0.2},
@@ -154,15 +152,14 @@ TEST(PathSampling, LampsAtPointsAreConnectedTo) {
 
 // Where nothing is lit but by such a lamp, scattering alone finds nothing.
 TEST(PathSampling, ScatteringAloneMeetsNoLampAtAPoint) {
-  const Scene scene = test::load_text(
-      R"({"abbe": 1,
+  const Scene scene = test::load_text(R"({"abbe": 1,
     "camera": {"pinhole": {"fov_deg": 30}, "from": [0, -5, 2.5], "to": [0, 0, 0.3], "up": [0, 0, 1]},
     "sensor": {"resolution": [4, 4], "observer": "1931"},
     "materials": {"fog": {"medium": {"scattering_per_m": 0.2}}, "grey": {"diffuse": {"reflectance": 0.5}}},
     "lights": [{"point": {"at": [0.9, -0.6, 1.6]}, "emission": {"illuminant": "A", "luminous_intensity": 60}}],
     "shapes": [{"quad": {"corner": [-3, -3, 0], "edge_u": [6, 0, 0], "edge_v": [0, 6, 0]}, "material": "grey"},
                {"sphere": {"center": [0, 0, 0], "radius": 9}, "material": "fog"}]})",
-      with({"bsdf", "bsdf", "balance"}, 16));
+                                      with({"bsdf", "bsdf", "balance"}, 16));
   const Film film = render(scene, {}).film;
   EXPECT_EQ(test::region(film, 1, 0, 0, 4, 4).mean, 0);
 }
@@ -190,11 +187,11 @@ TEST(PathSampling, FurnacesAreEven) {
 // even directions 2 pi L cos, of the relative variance 1/3.
 TEST(PathSampling, MetersDrawTheirDirectionsToo) {
   const auto measured = [](const char* directions) {
-    const Scene scene = test::load_text(
-        R"({"abbe": 1, "camera": {"irradiance_probe": {"at": [0, 0, 0], "normal": [0, 0, 1]}},
+    const Scene scene =
+        test::load_text(R"({"abbe": 1, "camera": {"irradiance_probe": {"at": [0, 0, 0], "normal": [0, 0, 1]}},
       "sensor": {"resolution": [1, 1], "response": "energy", "channels": {"all": 1}},
       "lights": [{"environment": {}, "emission": {"spectrum": 1}}]})",
-        with({directions, "bsdf", "balance"}, 65536));
+                        with({directions, "bsdf", "balance"}, 65536));
     return test::region(render(scene, {}).film, 0, 0, 0, 1, 1);
   };
   const test::Region cosine = measured("cosine");
@@ -223,8 +220,8 @@ TEST(PathSampling, TheGuideShowsCausticsToAll) {
   for (const Sampling& sampling : kSamplings) {
     if (!test::nightly() && std::string(sampling.lights) != "mis") continue;
     const Scene closed = test::load_text(over_floor(bulb), with(sampling, samples));
-    const Plan plan = make_learnt_plan(closed, 2);
-    ASSERT_FALSE(plan.guides.caustics_of_paths.empty());
+    const Plan plan = make_trained_plan(closed, 2);
+    ASSERT_FALSE(plan.guides.path_caustics.empty());
     const test::Region seen =
         test::region(test::film_of(closed, plan, static_cast<unsigned>(samples)), 1, 0, 0, 8, 8);
     EXPECT_NEAR(seen.mean / bare.mean, kThrough, kInterval * std::sqrt(seen.variance) / bare.mean)
@@ -237,9 +234,9 @@ TEST(PathSampling, TheGuideShowsCausticsToAll) {
 // Directions drawn without the guide keep their density beside it, and one that the guide adds has both.
 TEST(PathSampling, TheGuideAddsToAnyDirections) {
   constexpr float kShare = 0.4F;
-  CausticLobes::Lobes along_normal;
+  CausticLobes::LobePacket along_normal;
   along_normal.z[0] = 1;
-  along_normal.share[0] = 1;
+  along_normal.probability[0] = 1;
   const Imath::V3f normal(0, 0, 1);
   const SurfaceVertex vertex({{0, 0, 0}, normal, 0, 0}, Basis<float>(normal), {0.6F, 0, 0.8F},
                              DiffuseBsdf{SampledSpectrum(0.5F)});
@@ -268,15 +265,14 @@ TEST(PathSampling, TheGuideAddsToAnyDirections) {
 TEST(PathSampling, DirectionsOfTwoMattEventsAreOnePointOfASequence) {
   constexpr int kEdge = 24;
   const auto films_of = [](const char* roulette_depth) {
-    const Scene scene = test::load_text(
-        R"({"abbe": 1,
+    const Scene scene = test::load_text(R"({"abbe": 1,
         "camera": {"pinhole": {"focal_length": 20}, "from": [0, -0.5, 0], "to": [0, 1, 0.2], "up": [0, 0, 1]},
         "sensor": {"resolution": [24, 24], "pixel_pitch_um": 1000, "observer": "1931"},
         "materials": {"white": {"diffuse": {"reflectance": 0.9}}},
         "lights": [{"point": {"at": [0.2, 0.1, 0.3]}, "emission": {"spectrum": 1, "intensity": 1}}],
         "shapes": [{"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "white"}],
         "render": {"integrator": "path", "max_depth": 3}})",
-        {{"/render/roulette_depth", roulette_depth}});
+                                        {{"/render/roulette_depth", roulette_depth}});
     const Plan plan = make_plan(scene);
     return std::array{test::film_of(scene, plan, 64, 1), test::film_of(scene, plan, 64, 2)};
   };

@@ -1,7 +1,7 @@
 // Techniques that gather photons or wait for them, beside those that connect paths.
 #include <cmath>
 
-#include "scene/unreached.h"
+#include "scene/unsampled_paths.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
 #include "transport/render/render.h"
@@ -103,7 +103,7 @@ TEST(Photons, MergingFindsTheCausticsOfAPoint) {
   const auto unreached_by = [&scene](const char* integrator) {
     const Scene loaded =
         test::load_text(scene, {{"/render/integrator", std::string("\"") + integrator + "\""}});
-    return unreached(loaded, loaded.needs, false);
+    return unsampled_paths(loaded, loaded.features, false);
   };
   ASSERT_EQ(unreached_by("bdpt").size(), 1U);
   ASSERT_EQ(unreached_by("sppm").size(), 1U);

@@ -5,7 +5,7 @@
 #include "tests/scenes/margin.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
-#include "transport/render/learnt_plan.h"
+#include "transport/render/trained_plan.h"
 #include "validation/bench/reference.h"
 #include "validation/statistics/image_difference.h"
 
@@ -43,7 +43,7 @@ double gain(const Scene& scene, const Plan& plan, const PictureOf& picture_of) {
 TEST(NightlyPhotonWavelengths, LeaveLessNoiseInTheColoursOfASpectrum) {
   const Scene scene = prism({}, "prism_area.json");
   const auto srgb = [&scene](const Film& film) { return linear_srgb(film.image(scene.film_planes())); };
-  EXPECT_GT(gain(scene, make_learnt_plan(scene, 2), srgb), 1.18);
+  EXPECT_GT(gain(scene, make_trained_plan(scene, 2), srgb), 1.18);
 }
 
 TEST(NightlyPhotonWavelengths, LeaveLessNoiseBehindTheFiltersOfAMosaic) {
@@ -51,14 +51,14 @@ TEST(NightlyPhotonWavelengths, LeaveLessNoiseBehindTheFiltersOfAMosaic) {
       {{"/sensor",
         fmt::format(R"({{"resolution": {}, "camera": "Nikon_D5100", "mosaic": [["R", "G"], ["G", "B"]]}})",
                     resolution())}});
-  const Plan plan = make_learnt_plan(scene, 2);
+  const Plan plan = make_trained_plan(scene, 2);
   const auto raw = [&scene](const Film& film) { return film.image(scene.film_planes()); };
   EXPECT_GT(gain(scene, plan, raw), 1.3);
 }
 
 TEST(PhotonWavelengths, ChangeNoiseOnly) {
   const Scene scene = prism();
-  const Plan plan = make_learnt_plan(scene, 2);
+  const Plan plan = make_trained_plan(scene, 2);
   const Film as_camera_paths = test::film_of(scene, unlearnt(plan), 32);
   const Film learnt = test::film_of(scene, plan, test::nightly() ? 24 : 16);
   const test::Comparison c = test::compare_regions(as_camera_paths, learnt, 8);
@@ -69,8 +69,8 @@ TEST(PhotonWavelengths, ChangeNoiseOnly) {
 
 TEST(PhotonWavelengths, AreTheSameOnAnyNumberOfThreads) {
   const Scene scene = prism();
-  const Plan one = make_learnt_plan(scene, 1);
-  const Plan four = make_learnt_plan(scene, 4);
+  const Plan one = make_trained_plan(scene, 1);
+  const Plan four = make_trained_plan(scene, 4);
   int learnt = 0;
   for (int nm = 380; nm < 780; ++nm) {
     ASSERT_EQ(one.guides.photon_wavelengths.pdf(nm), four.guides.photon_wavelengths.pdf(nm)) << nm;
@@ -82,7 +82,7 @@ TEST(PhotonWavelengths, AreTheSameOnAnyNumberOfThreads) {
 // Where all lanes go one way, each pixel sees all wavelengths.
 TEST(PhotonWavelengths, AreThoseOfCameraPathsWhereNothingDisperses) {
   const Scene scene = prism({{"/materials/glass/dielectric/ior", "1.7"}});
-  const Plan plan = make_learnt_plan(scene, 2);
+  const Plan plan = make_trained_plan(scene, 2);
   ASSERT_FALSE(plan.traced_lights.empty());
   for (int nm = 380; nm < 780; ++nm)
     ASSERT_EQ(plan.guides.photon_wavelengths.pdf(nm), plan.wavelengths.pdf(nm)) << nm;

@@ -25,7 +25,7 @@ double chief_column(const Scene& scene, double lambda_nm) {
   BasicRay<double> ray = axis_of(scene);
   const auto prism = std::find_if(scene.shapes.begin(), scene.shapes.end(),
                                   [](const ShapeInstance& s) { return s.name == "prism"; });
-  const double n = interior(scene.materials[prism->material])->n(lambda_nm);
+  const double n = interior_index(scene.materials[prism->material])->n(lambda_nm);
   for (int event = 0; event < 3; ++event) {
     const auto hit = intersect_exact(scene, ray, 1e-9);
     const V3d& normal = hit->hit.normal;

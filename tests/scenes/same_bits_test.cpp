@@ -65,18 +65,18 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SameBits,
 
 // Needs only skip what would add nothing. The technique of tracing light takes over paths from another, so
 // that with it the film is the same in expectation.
-TEST(Needs, ForcedOnLeaveTheFilm) {
+TEST(SceneFeatures, ForcedOnLeaveTheFilm) {
   const std::vector<Override> small{{"/sensor/resolution", "[32, 32]"},
                                     {"/render/samples", test::nightly() ? "64" : "24"}};
   const Scene plain = test::load("cornell.json", small);
   const RenderResult expected = render(plain, {});
-  for (const NeedName& need : need_names()) {
+  for (const FeatureName& need : feature_names()) {
     Scene scene = test::load("cornell.json", small);
-    ASSERT_FALSE(scene.needs.*need.member) << need.key;
-    scene.needs.*need.member = true;
-    scene.needs.light_is_traced.assign(scene.lights.size(), need.member == &Needs::light_tracing);
+    ASSERT_FALSE(scene.features.*need.member) << need.key;
+    scene.features.*need.member = true;
+    scene.features.light_is_traced.assign(scene.lights.size(), need.member == &SceneFeatures::light_tracing);
     const RenderResult forced = render(scene, {});
-    if (need.member != &Needs::light_tracing) {
+    if (need.member != &SceneFeatures::light_tracing) {
       EXPECT_TRUE(same_film(expected.film, forced.film)) << need.key;
       continue;
     }
@@ -106,17 +106,17 @@ TEST(Crop, PixelsInsideAreThoseOfTheWholeFilm) {
 }
 
 // Of two processes, the other of which does as much as the first.
-TEST(Crew, CostsAreThoseOfAll) {
+TEST(MpiGroup, CostsAreThoseOfAll) {
   const Scene scene = test::load("cornell.json", {{"/sensor/resolution", "[64, 64]"},
                                                   {"/render/samples", test::nightly() ? "256" : "96"}});
   RenderOptions options;
-  options.crew = {.rank = 0,
-                  .size = 2,
-                  .collect =
-                      [](std::span<Int128> numbers) {
-                        for (Int128& n : numbers) n *= 2;
-                      },
-                  .follow = [](std::uint64_t said) { return said; }};
+  options.mpi_group = {.rank = 0,
+                       .size = 2,
+                       .reduce =
+                           [](std::span<Int128> numbers) {
+                             for (Int128& n : numbers) n *= 2;
+                           },
+                       .broadcast = [](std::uint64_t said) { return said; }};
   const double before = process_cpu_seconds();
   const RenderResult result = render(scene, options);
   const double own = process_cpu_seconds() - before;
@@ -160,7 +160,7 @@ TEST(Progress, RateAndTimeLeftAreThoseOfThisRun) {
   ASSERT_GT(told.size(), 1U);
   for (const Progress& progress : told) {
     const double traced = static_cast<double>(progress.samples - 128);
-    EXPECT_NEAR(progress.share, static_cast<double>(progress.samples) / 250, 1e-12);
+    EXPECT_NEAR(progress.fraction_done, static_cast<double>(progress.samples) / 250, 1e-12);
     EXPECT_GE(progress.rate, traced / progress.elapsed_s);
     EXPECT_NEAR(progress.left_s * progress.rate, static_cast<double>(250 - progress.samples), 1e-6);
   }

@@ -101,8 +101,8 @@ inline void expect_same_from_either_end(const std::string& text) {
   const auto rendered = [&text](const char* integrator, int samples) {
     Scene scene =
         load_text(text, {{"/render/integrator", integrator}, {"/render/samples", std::to_string(samples)}});
-    scene.needs.light_tracing = true;
-    scene.needs.light_is_traced.assign(scene.lights.size(), true);
+    scene.features.light_tracing = true;
+    scene.features.light_is_traced.assign(scene.lights.size(), true);
     return render(scene, {}).film;
   };
   const Comparison c = compare_regions(rendered("path", 1024), rendered("auto", 512), 4);

@@ -10,7 +10,7 @@
 
 #include "tests/scenes/meter_fixture.h"
 #include "tests/tier.h"
-#include "transport/render/learnt_plan.h"
+#include "transport/render/trained_plan.h"
 
 namespace abbe {
 namespace {
@@ -20,7 +20,7 @@ namespace {
 void expect_irradiance(const std::string& scene, double expected, int samples = 64, double margin = 0.03) {
   const test::OnlyMeter only = test::only_meter(scene, {{"/render/samples", std::to_string(samples)}});
   RenderOptions how;
-  how.guides = std::make_shared<const Guides>(make_learnt_plan(only.scene, 1).guides);
+  how.guides = std::make_shared<const GuidingData>(make_trained_plan(only.scene, 1).guides);
   for (std::uint64_t seed = 0; seed < (test::nightly() ? 4 : 2); ++seed) {
     SCOPED_TRACE("seed " + std::to_string(seed));
     Scene seeded = only.scene;

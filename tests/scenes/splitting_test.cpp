@@ -9,9 +9,9 @@
 #include "tests/scenes/margin.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
+#include "transport/render/choose_path_splitting.h"
 #include "transport/render/layers.h"
-#include "transport/render/learn_splitting.h"
-#include "transport/render/learnt_plan.h"
+#include "transport/render/trained_plan.h"
 
 namespace abbe {
 namespace {
@@ -40,7 +40,7 @@ Scene small(const Case& of) {
 
 Plan split_plan(const Scene& scene, int bits) {
   Plan plan = make_plan(scene);
-  plan.split_bits = bits;
+  plan.log2_splits = bits;
   return plan;
 }
 
@@ -135,9 +135,9 @@ TEST(Splitting, GoesOnAsItWouldHaveOnAnyNumberOfThreads) {
 TEST(Splitting, IsWhereLightFoundLaterIsTheNoise) {
   const auto learnt = [](const char* file, const char* resolution, int threads, const char* by = "auto") {
     const Scene scene = test::load(file, {{"/sensor/resolution", resolution}, {"/render/integrator", by}});
-    Plan plan = make_learnt_plan(scene, 2);
-    learn_splitting(plan, threads);
-    return plan.split_bits;
+    Plan plan = make_trained_plan(scene, 2);
+    choose_path_splitting(plan, threads);
+    return plan.log2_splits;
   };
   EXPECT_EQ(learnt("cornell.json", "[160, 160]", 1), 3);
   EXPECT_EQ(learnt("cornell.json", "[160, 160]", 3), 3);

@@ -170,7 +170,7 @@ TEST(Stress, PrismAtLeastDeviationOfTwentyWavelengths) {
   const Material& glass = scene.materials[0];
   for (int i = 0; i < 20; ++i) {
     const double nm = 400 + 18 * i;
-    const auto least = prism_minimum(interior(glass)->n(nm), 60);
+    const auto least = prism_minimum(interior_index(glass)->n(nm), 60);
     ASSERT_TRUE(least) << nm;
     const double elevation = (least->incidence_deg - 30) * kDegree;
     const Imath::V3f start_direction(static_cast<float>(std::cos(elevation)), 0,

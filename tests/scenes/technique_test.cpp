@@ -16,8 +16,8 @@ RenderResult render_with(const char* integrator, int samples, std::vector<Overri
   settings.push_back({"/render/samples", std::to_string(samples)});
   Scene scene = test::load("glass_sphere.json", settings);
   if (force_light_tracing) {
-    scene.needs.light_tracing = true;
-    scene.needs.light_is_traced[0] = true;
+    scene.features.light_tracing = true;
+    scene.features.light_is_traced[0] = true;
   }
   return render(scene, {});
 }
@@ -37,8 +37,8 @@ TEST(Techniques, SharingPathsLosesAndDoublesNothing) {
 TEST(Techniques, TheirSharesChangeNoiseOnly) {
   Scene scene = test::load("glass_sphere.json",
                            {{"/sensor/resolution", "[48, 48]"}, {"/lights/0/sphere/radius", "0.8"}});
-  scene.needs.light_tracing = true;
-  scene.needs.light_is_traced[0] = true;
+  scene.features.light_tracing = true;
+  scene.features.light_is_traced[0] = true;
   const std::uint64_t samples = 8 * (test::nightly() ? 240 : 30);
   const auto film_with = [&scene, samples](std::uint64_t photons, std::uint32_t path_interval) {
     Plan plan = make_plan(scene);

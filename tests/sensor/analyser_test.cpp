@@ -13,7 +13,7 @@
 namespace abbe {
 namespace {
 
-// Linearly polarised light of intensity 1 whose field swings at that angle.
+// Linearly polarised light of intensity 1 whose field oscillates at this angle.
 StokesSpectrum swinging_at(double angle_deg) {
   const double twice = angle_deg * std::numbers::pi / 90;
   return {SampledSpectrum(1.0F), SampledSpectrum(static_cast<float>(std::cos(twice))),
@@ -38,7 +38,7 @@ TEST(Polariser, PassesByTheSquareOfTheCosine) {
   EXPECT_NEAR(passed({40, Curve(0.8)}, circular, 500), 0.4, 1e-7);
 }
 
-// Across the axis the ratio decides, at every wavelength of its own, also between the samples of its table.
+// Across the axis the extinction ratio counts, at every wavelength, also between the samples of its table.
 TEST(Polariser, LeaksByItsExtinctionRatio) {
   const Curve transmittance({{400, 0.6}, {800, 0.9}});
   const Polariser polariser{25, transmittance, Curve({{400, 10}, {800, 1000}})};

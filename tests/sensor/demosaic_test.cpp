@@ -17,7 +17,7 @@ namespace {
 
 const std::array<std::string, 3> kRgb{"R", "G", "B"};
 const Mosaic kBayer{2, 2, {0, 1, 1, 2}};
-// A pattern of 3 x 2 with a channel that stands in one row only.
+// A pattern of 3 x 2 with a channel in one row only.
 const Mosaic kOdd{3, 2, {0, 1, 1, 2, 1, 0}};
 
 using Planes = std::function<float(int channel, int x, int y)>;
@@ -46,7 +46,7 @@ TEST(Demosaic, ConstantPlanesStayConstantToTheBorders) {
   }
 }
 
-// Of a crop, and of a film that is merged of areas with gaps between them.
+// A crop, and a film merged from areas with gaps between them.
 TEST(Demosaic, ConstantPlanesStayConstantToTheBordersOfWhatAFilmHas) {
   for (const auto& [key, told, areas] :
        {std::tuple<const char*, const char*, std::vector<Crop>>{kCropKey, "1,2,6,5", {{1, 2, 6, 5}}},

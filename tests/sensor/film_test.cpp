@@ -25,7 +25,7 @@ TEST(FixedPoint, RoundTripsDoublesExactlyAboveItsUnit) {
   EXPECT_EQ(to_fixed(0.0, -80), 0);
 }
 
-// Where doubles hold the unit, where they have it among the subnormal numbers, and where they do not have it.
+// Units that are normal doubles, subnormal doubles, and too small for a double.
 TEST(FixedPoint, IsAMultipleOfAnyUnit) {
   const Int128 many = (static_cast<Int128>(0x123456789abcdef) << 60) + 1;
   for (const int exponent : {-1200, -1100, -1074, -1023, -1022, -1021, -80, 0, 900, 1023, 1024})
@@ -132,7 +132,7 @@ TEST(Film, AveragesPixelsThatAreEachDividedByTheirOwn) {
   }
 }
 
-// What one replicate lost on the left it has on the right.
+// Each replicate lacks on the left what it has in excess on the right.
 TEST(Film, PixelsThatSharePhotonsHaveOneErrorTogether) {
   for (const bool shared : {false, true}) {
     Film film(2, 1, 1, 2, 1.0, shared);
@@ -157,7 +157,7 @@ TEST(Film, HoldsRefusesWhatWouldOverflow) {
   EXPECT_FALSE(film.holds(-INFINITY));
 }
 
-// What no sum holds is an error, and no other number.
+// Values that no sum holds are errors; all others are accepted.
 TEST(Film, SumsHoldThousandsOfTheLargestValuesAndRefuseMore) {
   Film film(1, 1, 1, 1, 1.0);
   const double value = std::ldexp(0.75, 44);
@@ -265,7 +265,7 @@ TEST(Patches, ReachOverAreasThatTouchAndOverNoGap) {
     EXPECT_THROW((void)measured(gaps), Error);
 }
 
-// Of two pixels, 3 and 5, it is the root of 2.
+// The deviation of two pixels, 3 and 5, is the root of 2.
 TEST(Patches, OnePixelHasNoDeviation) {
   const ImageChannel plane{"Y", {3, 5, 5, 5}};
   const Image film{2, 2, {plane}, {}};

@@ -43,7 +43,7 @@ TEST(InterferenceFilter, MovesTheBandOfAChannel) {
   EXPECT_EQ(weight_at(channel, at(655 * shift + 0.01), cos_film)[0], 0);
 }
 
-// Filters whose edges are as wide as a nanometre, stacked: 1/3 nm of each edge is left of two.
+// Filters with edges one nanometre wide, stacked: a third of a nanometre remains of each edge of two.
 TEST(FilterStack, StackedEdgesLetThroughTheAreaOfTheirProduct) {
   const Curve line({{540, 0}, {541, 1}, {549, 1}, {550, 0}});
   const Channel bare = energy_channel("line", line);
@@ -54,7 +54,7 @@ TEST(FilterStack, StackedEdgesLetThroughTheAreaOfTheirProduct) {
   EXPECT_NEAR(counted.weight.integral() * photon_energy(546), 2.0 / 3, 2e-4 * 2 / 3);
 }
 
-// A stack over another filter that shifts too, an exposure of its own, seen up to 40 degrees.
+// A stack on another filter that shifts too, with an exposure of its own, at up to 40 degrees.
 Channel stacked() {
   Channel channel = behind(quantum_channel("a", Curve({{400, 0.2}, {700, 0.7}})),
                            {band(500, 690), {{gaussian(600, 30), 1.6}, {band(560, 640.3), 2.1}}});
@@ -102,7 +102,7 @@ TEST(InterferenceFilter, NothingExceedsItsReachAndTheReachIsNoWider) {
 }
 
 // Light that fills a cone of numerical aperture sin u evenly has sin^2(theta) uniform in [0, sin^2 u]. A step
-// at 600 nm lets light of a wavelength through where sin^2(theta) < n^2 (1 - (lambda/600)^2).
+// at 600 nm transmits a wavelength if sin^2(theta) < n^2 (1 - (lambda/600)^2).
 TEST(InterferenceFilter, TheMeanOverAConeSmoothsAStep) {
   constexpr double kSine2 = 0.25;
   constexpr int kAngles = 400;

@@ -22,7 +22,7 @@ TEST(GroupedMedian, OfCodesIsFinerThanTheirSteps) {
   EXPECT_NEAR(grouped_median({2, 2, 5, 5, 5, 6}), 4.5, 1e-12) << "one of the three from 3.5 to 5.5";
 }
 
-// Of 400 pixels 4 may be defective at either end: they say nothing of how wide a code is.
+// Of 400 pixels, 4 may be defective at either end. These do not determine the width of a code.
 TEST(GroupedMedian, FewValuesApartAreNoEndOfAStep) {
   const auto of = [](std::vector<double> values, std::size_t count, double value) {
     values.resize(values.size() + count, value);

@@ -14,8 +14,8 @@
 namespace abbe {
 namespace {
 
-// Relative deviations d from the line y = t at t = 1, 2, 3, 6 that leave it the best one: with u = d/(1 +
-// d)^2 both the sum of u and that of u/t are 0.
+// Relative deviations d from the line y = t at t = 1, 2, 3, 6 for which it remains the best line. With u =
+// d/(1 + d)^2, the sums of u and of u/t are both 0.
 std::vector<LinearityPoint> around_a_line(double u, double scale = 1) {
   std::vector<LinearityPoint> points;
   for (const auto& [t, part] : {std::pair{1.0, u}, {2.0, -4 * u}, {3.0, 3 * u}, {6.0, 0.0}}) {
@@ -47,7 +47,7 @@ TEST(Linearity, CountsSignalsBetweenTheEndsAloneUnderOneLight) {
   EXPECT_FALSE(linearity_error_percent(points, 10)) << "another light";
 }
 
-// y = l + b l^2 of light l, with the photons' variance through its slope, for a gain of 2.
+// y = l + b l^2 for light l, with the variance of photons scaled by its slope, for a gain of 2.
 std::vector<LinearityPoint> parabola(double b) {
   std::vector<LinearityPoint> points;
   for (const double l : {100.0, 200.0, 400.0, 600.0, 700.0}) {
@@ -79,9 +79,9 @@ TEST(Linearity, TheBiasOfTheGainIsThatOfItsFit) {
 }
 
 // Codes of a parabola that is 2 % steeper in weak light, which no file declares. Response curves are linear
-// between their points; all exposures lie on points, so that their means are those of the parabola. Expected
-// figures are those of the parabola without noise: the gain is fitted to the four exposures up to 0.4, LE
-// counts the six up to 0.6.
+// between their points, and all exposures lie on points, so their means are those of the parabola. Expected
+// values are those of the parabola without noise. The gain is fitted to the four exposures up to 0.4; LE uses
+// the six up to 0.6.
 TEST(Linearity, AResponseTwoPercentOffBiasesTheGainAsReported) {
   constexpr double kBend = 0.02;
   Readout readout;

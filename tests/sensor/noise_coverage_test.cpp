@@ -1,4 +1,4 @@
-// Whether what is stated of the errors of measured noise and of patches holds as often as it says.
+// Checks that the stated errors of measured noise and of patches have their nominal coverage.
 #include <cmath>
 #include <deque>
 #include <vector>
@@ -28,9 +28,9 @@ Readout sensor() {
   return readout;
 }
 
-// Errors of a figure in standard errors, of each seed.
+// Errors of a value in standard errors, one per seed.
 void expect_coverage(const std::vector<double>& errors, const char* what) {
-  constexpr double kQuantile = 1.96;  // 95 % of a normal distribution
+  constexpr double kQuantile = 1.96;  // 95 % interval of a normal distribution
   int covered = 0;
   double squares = 0;
   for (const double z : errors) {
@@ -40,7 +40,8 @@ void expect_coverage(const std::vector<double>& errors, const char* what) {
   testing::Test::RecordProperty(what, covered);
   EXPECT_EQ(errors.size(), static_cast<std::size_t>(kSeeds));
   EXPECT_GE(covered, 88) << what;
-  // Intervals that are too wide cover all: the mean square of 100 is 1 within .14, one standard deviation.
+  // Intervals that are too wide would cover all. The mean square of 100 errors is 1 within 0.14, one standard
+  // deviation.
   EXPECT_GT(squares, 0.5) << what;
   EXPECT_LT(squares, 1.6) << what;
 }
@@ -54,7 +55,7 @@ PhotonTransfer transfer(const Readout& readout, std::uint64_t seed) {
     return FlatPair{exposure_s, frames[frames.size() - 2].dn, frames.back().dn};
   };
   const std::vector<FlatPair> dark{pair(0, 0.01), pair(0, 10)};
-  // So many that the gain is known better than the variance of darkness.
+  // Enough that the gain is known better than the variance of darkness.
   std::vector<FlatPair> lit{pair(20000, 0.01)};
   for (int level = 0; level < 12; ++level) lit.push_back(pair(1000 + 350 * level, 0.01));
   return photon_transfer(dark, lit, readout.bits);
@@ -73,7 +74,7 @@ TEST(NoiseCoverage, GainAndReadNoiseLieWithinTheirStandardErrors) {
   expect_coverage(noise, "read_noise");
 }
 
-// The mean of a patch is as sure as the deviation of its pixels over the root of their number.
+// The standard error of a patch's mean is the deviation of its pixels over the root of their number.
 TEST(NoiseCoverage, PatchesLieWithinTheDeviationOfTheirMean) {
   Readout readout = sensor();
   const double electrons = 1000;
@@ -84,7 +85,7 @@ TEST(NoiseCoverage, PatchesLieWithinTheDeviationOfTheirMean) {
       readout.offset_dn + (electrons + readout.dark_e_per_s * dark_s) / readout.gain_e_per_dn;
   std::vector<double> errors;
   for (std::uint64_t seed = 1; seed <= kSeeds; ++seed) {
-    readout.serial = seed;  // a specimen of its own, whose patterns are noise of the patch too
+    readout.serial = seed;  // another specimen for each seed, whose patterns are noise of the patch too
     const RawFrame raw = read_out(readout, expected, {dark_s, seed, 0});
     const Image image{kEdge, kEdge, {{"Y", {raw.dn.begin(), raw.dn.end()}}}, {}};
     const PatchChannel found =

@@ -9,7 +9,7 @@
 namespace abbe {
 namespace {
 
-// One row of pixels as a patch, of values from 0 to 100.
+// One row of pixels as a patch, with values from 0 to 100.
 PatchChannel measured(const std::vector<float>& values, const std::vector<float>& exposed = {}) {
   const auto width = static_cast<double>(values.size());
   const Image image{static_cast<int>(width), 1, {{"Y", values}}, {}};
@@ -46,7 +46,7 @@ TEST(Patch, MorePixelsAtAnEndAreThereByTheLight) {
   EXPECT_TRUE(measured({100}).is_saturated());
 }
 
-// A flat takes a hot pixel down and bright corners up.
+// A flat lowers a hot pixel and raises bright corners.
 TEST(Patch, PixelsAreSaturatedAsTheyWereExposed) {
   std::vector<float> exposed(200, 60);
   std::vector<float> evened(200, 120);
@@ -57,7 +57,7 @@ TEST(Patch, PixelsAreSaturatedAsTheyWereExposed) {
   EXPECT_EQ(patch.mean, 120);
 }
 
-// Patches of 20 pixels side by side in a row, each with the values that repeat in it.
+// Adjacent patches of 20 pixels in a row, each with its repeating values.
 struct Row {
   Image image{0, 1, {{"Y", {}}}, {}};
   std::vector<PatchOutline> outlines;
@@ -94,10 +94,11 @@ TEST(Clipping, AnEvenPatchAtTheTopAmongNoisyOnesIsClipped) {
   EXPECT_FALSE(Row({{40, 41}, {80}}).level()) << "noise below a step of the codes leaves patches even";
 }
 
-// Noise below a step leaves some patches even by chance, but hardly two channels at the same highest value.
+// Noise below a step makes some patches uniform by chance, but rarely two channels at the same highest value.
 TEST(Clipping, TwoChannelsThatAreEvenAtTheSameValueAreClipped) {
   const auto patch = [](double highest, std::size_t at_highest) {
-    return PatchChannel{.pixels = 40, .highest = highest, .at_highest = at_highest, .middle_levels = 2};
+    return PatchChannel{
+        .pixels = 40, .highest = highest, .at_highest = at_highest, .interquartile_levels = 2};
   };
   const std::vector<PatchChannel> red{patch(30, 20), patch(80, 40)};
   const std::vector<PatchChannel> green{patch(20, 9), patch(30, 11), patch(79, 40), patch(80, 40)};

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::size_t kPixels = 1000000;
 
-/// Pairs of simulated flats, each pair of one expected frame.
+/// Pairs of simulated flats, one expected frame per pair.
 struct Flats {
   const Readout& readout;
   std::deque<RawFrame> frames = {};
@@ -61,8 +61,8 @@ TEST(PhotonTransfer, CoarseCodesNeedTheVarianceOfRounding) {
   readout.bits = 12;
   readout.offset_dn = 50;
   readout.read_noise_e = 8;
-  readout.dsnu_e = 8;            // spreads the pixels over the steps, without which rounding is no noise
-  readout.full_well_e = 100000;  // which 12 bits do not reach
+  readout.dsnu_e = 8;            // spreads the pixels over the steps, so that rounding acts as noise
+  readout.full_well_e = 100000;  // above the range of 12 bits
   const double most_e = electrons_of(readout, readout.highest_code());
   const PhotonTransfer found = transfer(measure(readout, most_e), readout.bits);
   EXPECT_NEAR(found.gain_e_per_dn / readout.gain_e_per_dn, 1, 0.005);
@@ -91,7 +91,7 @@ TEST(PhotonTransfer, AWellThatIsNotFilledIsNotKnown) {
   EXPECT_EQ(filled.saturation_e, filled.full_well_e);
 }
 
-// 240 codes of 5/3 DN each up to the middle of the signal, and of 5/7 DN beyond.
+// 240 codes of 5/3 DN each up to half of the signal, and of 5/7 DN above.
 Readout curved(double gain_e_per_dn, double read_noise_e) {
   Readout readout;
   readout.gain_e_per_dn = gain_e_per_dn;
@@ -109,10 +109,10 @@ TEST(CodeLevels, AreTheSignalsThatACurveMakesOneCodeOf) {
     EXPECT_NEAR(levels[code].rounding_dn2, (high - low) * (high - low) / 12, 1e-9) << code;
   };
   expect(15, 15 - 5.0 / 6, 15 + 5.0 / 6);
-  expect(17, 15 + 5.0 / 6, 15 + 15.0 / 6);                // of 16, 16.67 on a straight line
-  expect(135, 135 - 5.0 / 6, 135 + 5.0 / 14);             // where the curve bends
-  expect(139, 135 + 5.0 / 7 * 4.5, 135 + 5.0 / 7 * 6.5);  // of 92 and of 93
-  expect(16, 15.5, 16.5);                                 // of none
+  expect(17, 15 + 5.0 / 6, 15 + 15.0 / 6);                // code 16, 16.67 on a straight line
+  expect(135, 135 - 5.0 / 6, 135 + 5.0 / 14);             // at the bend of the curve
+  expect(139, 135 + 5.0 / 7 * 4.5, 135 + 5.0 / 7 * 6.5);  // codes 92 and 93
+  expect(16, 15.5, 16.5);                                 // no code
   Readout deep = curved(20, 20);
   deep.offset_dn = 51;
   const CodeLevel lowest = code_levels(deep)[0];
@@ -129,7 +129,7 @@ TEST(CodeLevels, OfAStraightResponseAreTheCodes) {
   }
 }
 
-// That of pairs whose codes are straightened as raw files are.
+// Levels for pairs whose codes are linearised like raw files.
 PhotonTransfer straightened_transfer(const Readout& readout) {
   const double most_e = electrons_of(readout, readout.highest_code());
   const std::vector<std::uint16_t> straight = linear_codes(readout);
@@ -152,7 +152,7 @@ void expect_within_errors(const Readout& readout, const PhotonTransfer& found) {
               kStandardErrors * found.read_noise_standard_error.value());
 }
 
-// Where a code is 5/3 DN wide rounding adds 2.8 times 1/12 DN^2.
+// A code that is 5/3 DN wide adds a rounding variance of 2.8 times 1/12 DN^2.
 TEST(PhotonTransfer, CodesOfAResponseCurveTellThePlantedSensor) {
   Readout readout = curved(20, 20);
   const PhotonTransfer coarse = straightened_transfer(readout);
@@ -166,7 +166,7 @@ TEST(PhotonTransfer, CodesOfAResponseCurveTellThePlantedSensor) {
   EXPECT_LT(fine.gain_standard_error, 0.005 * readout.gain_e_per_dn);
 }
 
-// 8 electrons are 0.4 codes: the mean of darkness lies on one, where rounding adds less than 1/12 DN^2.
+// 8 electrons are 0.4 codes. The mean of darkness lies on a code, where rounding adds less than 1/12 DN^2.
 TEST(PhotonTransfer, NoiseThatIsNarrowerThanACodeIsKnownLess) {
   Readout readout;
   readout.gain_e_per_dn = 20;
@@ -177,13 +177,13 @@ TEST(PhotonTransfer, NoiseThatIsNarrowerThanACodeIsKnownLess) {
   EXPECT_LT(narrow.read_noise_e, 7.5);
   expect_within_errors(readout, narrow);
   readout.read_noise_e = 5;
-  readout.dsnu_e = 20;  // beside which some of what rounding adds is the same in each exposure
+  readout.dsnu_e = 20;  // with these, part of the rounding error is the same in both exposures
   const PhotonTransfer patterned = straightened_transfer(readout);
   EXPECT_LT(patterned.read_noise_e, 4.9);
   expect_within_errors(readout, patterned);
 }
 
-// Noise alone gives some gain or other, which its standard error belies.
+// Pure noise gives an arbitrary gain, which its standard error rejects.
 TEST(PhotonTransfer, LitPairsThatAreDarkAreRefused) {
   Readout readout;
   readout.gain_e_per_dn = 2;
@@ -201,8 +201,8 @@ TEST(PhotonTransfer, LitPairsThatAreDarkAreRefused) {
   }
 }
 
-// A sensor of which one pixel in a thousand has a dark current of 1000 e/s more, fills its well in the
-// longest darkness, and outweighs all patterns of the others.
+// One pixel in a thousand has an additional dark current of 1000 e/s, fills its well in the longest dark
+// exposure, and dominates the patterns of all others.
 Readout with_hot_pixels() {
   Readout readout;
   readout.gain_e_per_dn = 2;
@@ -218,7 +218,7 @@ Readout with_hot_pixels() {
   return readout;
 }
 
-// Of light that fills such shares of a well of 7500 electrons.
+// Illuminated pairs that fill these fractions of a well of 7500 electrons.
 Bench flats(const Readout& readout, const std::vector<double>& dark_s, double lit_s,
             const std::vector<double>& lit, std::size_t pixels = 65536) {
   Bench bench{{readout}, {readout}};
@@ -229,8 +229,8 @@ Bench flats(const Readout& readout, const std::vector<double>& dark_s, double li
   return bench;
 }
 
-// Patterns of hot pixels are those of darkness as long as the lit exposures, and none of short ones. What
-// 65536 pixels let be known: PRNU within 0.8 %, DSNU within 3 %, as standard deviations.
+// Hot pixels contribute to the pattern of darkness as long as the illuminated exposures, but not to that of
+// short exposures. 65536 pixels determine PRNU within 0.8 % and DSNU within 3 %, as standard deviations.
 TEST(PhotonTransfer, HotPixelsAreNoPatternOfLightOrOffsets) {
   const Readout readout = with_hot_pixels();
   for (const std::vector<double>& dark_s : std::vector<std::vector<double>>{
@@ -243,8 +243,9 @@ TEST(PhotonTransfer, HotPixelsAreNoPatternOfLightOrOffsets) {
   }
 }
 
-// The code from which wells are full tells which pixels hot ones fill in long darkness; those that light has
-// to fill with them, the darkness of that time, from such dark pairs or the line through others.
+// The code of full wells identifies the pixels that fill up in long darkness. Pixels that fill up only with
+// light lack room for the darkness of that time, from dark pairs of that time or from the line through
+// others.
 TEST(PhotonTransfer, HotPixelsThatFillTheWellUnseenAreNoPattern) {
   struct Series {
     double hot_percent;
@@ -272,7 +273,8 @@ TEST(PhotonTransfer, HotPixelsThatFillTheWellUnseenAreNoPattern) {
   }
 }
 
-// White levels below the light, dark exposures longer than lit ones, darkness from afar; none is hot.
+// White levels below the light, dark exposures longer than illuminated ones, extrapolated darkness; no pixel
+// is hot.
 TEST(PhotonTransfer, NoPixelIsLeftOutForWhatAllHave) {
   struct Series {
     double dark_e_per_s;
@@ -307,7 +309,7 @@ void expect_refusal(const std::vector<FlatPair>& dark, const std::vector<FlatPai
   }
 }
 
-// Of light that falls off to a tenth, of which the middle alone fills the wells of the brightest pair.
+// Illumination that falls off to a tenth, so that only the center fills the wells of the brightest pair.
 TEST(PhotonTransfer, ShadedFlatsHaveTheGainOfEvenOnes) {
   const Readout readout = with_hot_pixels();
   Bench bench{{readout}, {readout}};
@@ -344,7 +346,7 @@ TEST(PhotonTransfer, AWellOfFewElectronsLeavesNoPixelOut) {
   EXPECT_NEAR(found.dsnu_e, 15, 0.3);
 }
 
-// A line through darkness that is told from afar by times next to each other is noise.
+// A line through dark pairs of similar times is noise at a distant time.
 TEST(PhotonTransfer, DarknessIsNotExtrapolatedIntoNoise) {
   Readout readout = with_hot_pixels();
   readout.hot_pixels_percent = 0;
@@ -361,7 +363,7 @@ TEST(PhotonTransfer, DarknessIsNotExtrapolatedIntoNoise) {
   }
 }
 
-// The wells of all pixels are full in the longer darkness.
+// All wells are full in the longer dark exposure.
 TEST(PhotonTransfer, FullDarkPairsAreRefused) {
   const Readout readout = with_hot_pixels();
   Bench bench{{readout}, {readout}};
@@ -393,7 +395,7 @@ TEST(PhotonTransfer, PairsThatDetermineNothingAreRefused) {
   EXPECT_TRUE(refused({pair, uneven}, {pair}));
   EXPECT_TRUE(refused({pair, later}, {pair})) << "no light at all";
   const FlatPair smaller{1, std::span(a).first(3), std::span(b).first(3)};
-  expect_refusal({pair, later}, {smaller}, "frames of unequal sizes");
+  expect_refusal({pair, later}, {smaller}, "the frames have unequal sizes");
 }
 
 }  // namespace

@@ -84,7 +84,8 @@ TEST(Readout, EachPixelIsAFunctionOfItsOwnElectronsSeedAndFrame) {
     EXPECT_NE(read_out(readout, flat(1000, 500), exposure).dn, dn);
 }
 
-// Frames of bright light, whose own noise is a thousandth: what is left of their mean is the pattern.
+// Frames of bright light with a noise of one thousandth. The remaining deviation of their mean is the
+// pattern.
 TEST(Readout, FixedPatternsStayFromExposureToExposureAndBelongToTheSpecimen) {
   Readout readout;
   readout.prnu_percent = 2;
@@ -120,7 +121,7 @@ TEST(Readout, FixedPatternsStayFromExposureToExposureAndBelongToTheSpecimen) {
 TEST(Readout, CodesAreRoundedAndCutAndSaturationIsMarked) {
   Readout readout;
   readout.bits = 8;
-  readout.gain_e_per_dn = 1e6;  // so much that photon noise is below half a code
+  readout.gain_e_per_dn = 1e6;  // so large that photon noise is below half a code
   readout.offset_dn = 10;
   const std::vector<float> electrons{0, 0.4e6F, 0.6e6F, 200e6F, 244.4e6F, 246e6F, 900e6F};
   const RawFrame frame = read_out(readout, electrons, {});
@@ -163,7 +164,7 @@ TEST(Readout, CodesEndWhereTheySaturate) {
   EXPECT_EQ(frame.saturated, (std::vector<std::uint8_t>{0, 1}));
 }
 
-// What files promise of saturated pixels holds whatever noise is added to a full well.
+// The white level of files is valid for any noise added to a full well.
 TEST(Readout, SaturatedPixelsReachTheWhiteLevel) {
   Readout readout;
   readout.bits = 12;
@@ -237,7 +238,7 @@ TEST(Readout, WhatAWellCannotHoldFlowsAlongItsColumn) {
   readout.bits = 8;
   readout.blooming = true;
   std::vector<float> electrons(3 * 9, 0.0F);
-  electrons[1 + 3 * 4] = 50e6F;  // 40 million too many in the middle of the middle column
+  electrons[1 + 3 * 4] = 50e6F;  // 40 million electrons too many in the center of the central column
   const RawFrame frame = read_out(readout, electrons, {1, 0, 0, 3});
   const auto column = [&](std::size_t x) {
     std::vector<int> codes;
@@ -267,7 +268,7 @@ TEST(Readout, ElectronsThatAreNoNumberAreRefused) {
     }
 }
 
-// Beyond 2^63 electrons a full pixel was dark.
+// Above 2^63 electrons a full pixel used to be dark.
 TEST(Readout, DarkSignalsAreBoundedAsLightIs) {
   Readout readout;
   readout.full_well_e = 2e4;
@@ -320,7 +321,7 @@ TEST(Readout, TemporalNoiseIsWhatPairsOfFramesShow) {
   EXPECT_NEAR(noise.total_e / measured_e, 1, 0.008);  // five deviations of the estimate
 }
 
-// An even quantum efficiency of 1 and light of one wavelength, for which all is known in closed form.
+// A constant quantum efficiency of 1 and light of one wavelength give closed-form results.
 TEST(Readout, TheSaturationSpeedFollowsIso12232) {
   Diagnostics diagnostics;
   const auto daylight = load_curve("illuminant", "D55", {}, diagnostics);
@@ -332,18 +333,18 @@ TEST(Readout, TheSaturationSpeedFollowsIso12232) {
   readout.full_well_e = 30000;
   const std::vector channels{quantum_channel("dim", Curve(0.1)), quantum_channel("bright", Curve(0.5))};
   const double area = gathering_area(5e-6, 0.8);
-  // Electrons/m^2 of the brighter channel per lx s of daylight.
+  // Electrons/m^2 of the brighter channel for 1 lx s of daylight.
   const double per_lx_s =
       integral_of_product(daylight->curve, channels[1].weight) / photometric(daylight->curve);
   const double saturating_lx_s = 30000 / area / per_lx_s;
   const double sensitivity = sensitivity_e_per_lx_s(channels, area, daylight->curve);
   EXPECT_NEAR(saturation_speed(readout, sensitivity), 78 / saturating_lx_s, 1e-9);
-  const std::vector longer{exposed(channels[1], 4)};  // whose exposure in lx s is longer too
+  const std::vector longer{exposed(channels[1], 4)};  // its exposure in lx s is longer too
   EXPECT_NEAR(sensitivity_e_per_lx_s(longer, area, daylight->curve) / sensitivity, 1, 1e-9);
   readout.full_well_e = 60000;  // now the codes end first
   EXPECT_NEAR(saturation_speed(readout, sensitivity), 78 / saturating_lx_s * 0.75, 1e-9);
-  // 1 lx s of daylight up to 830 nm is 5.51 mJ/m^2 or 1.635e16 photons/m^2, of which this pixel
-  // counts 1.635e5.
+  // 1 lx s of daylight up to 830 nm is 5.51 mJ/m^2 or 1.635e16 photons/m^2, of which this pixel counts
+  // 1.635e5.
   EXPECT_NEAR(78 / saturating_lx_s, 425.02, 0.05);
 }
 

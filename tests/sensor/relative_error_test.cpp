@@ -43,8 +43,8 @@ double lognormal(std::mt19937& random, double width) {
   return std::exp(width * std::normal_distribution<double>()(random));
 }
 
-// Equal deviations look up to 1.96 times as large at the 95th percentile of their estimates, and 0.67 times
-// as large at the median.
+// Estimates of equal deviations are up to 1.96 times as large at their 95th percentile, and 0.67 times as
+// large at the median.
 TEST(RelativeError, QuantilesAreThoseOfTheTrueDeviations) {
   struct Law {
     const char* name;
@@ -71,7 +71,7 @@ TEST(RelativeError, QuantilesAreThoseOfTheTrueDeviations) {
     }
 }
 
-// Four replicates of a sample each; half of the film is dark, a quarter exact, and the rest has `noise`.
+// Four replicates of one sample each. Half of the film is dark, a quarter exact, and the rest has `noise`.
 Film half_dark(double noise) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
@@ -87,7 +87,7 @@ Film half_dark(double noise) {
 
 TEST(RelativeError, IsThatOfLitValues) {
   const Film film = half_dark(0.01);
-  const std::vector<std::size_t> lit = lit_values(film);
+  const std::vector<std::size_t> lit = nonzero_values(film);
   ASSERT_EQ(lit.size(), 2048U);
   const RelativeError error = relative_error(film, lit);
   EXPECT_NEAR(error.p95, 0.01, 0.0006);
@@ -100,7 +100,7 @@ TEST(RelativeError, IsThatOfLitValues) {
   EXPECT_EQ(relative_error(film, exact).p95, 0);
 }
 
-// How many of the values chosen on a film of constant values have each remainder.
+// Counts of each remainder among the values selected on a film of constant values.
 std::vector<std::size_t> chosen(int edge, int planes, const std::function<std::size_t(std::size_t)>& kind) {
   Film film(edge, edge, planes, 1, 1.0);
   const std::vector<double> values(static_cast<std::size_t>(planes), 1.0);
@@ -109,7 +109,7 @@ std::vector<std::size_t> chosen(int edge, int planes, const std::function<std::s
     film.add(pixel, 0, values);
   film.set_samples({1});
   std::vector<std::size_t> counts;
-  const std::vector<std::size_t> lit = lit_values(film);
+  const std::vector<std::size_t> lit = nonzero_values(film);
   EXPECT_TRUE(std::is_sorted(lit.begin(), lit.end()));
   EXPECT_EQ(std::adjacent_find(lit.begin(), lit.end()), lit.end());
   for (const std::size_t value : lit) {
@@ -135,9 +135,9 @@ TEST(RelativeError, IsThatOfPlanesThatCountLight) {
   const std::vector<double> values{1, -0.25, 0.5};
   for (std::size_t pixel = 0; pixel < 2; ++pixel) film.add(pixel, 0, values);
   film.set_samples({1});
-  EXPECT_EQ(lit_values(film, 1), (std::vector<std::size_t>{0, 3}));
-  EXPECT_EQ(lit_values(film, 2), (std::vector<std::size_t>{0, 1, 3, 4}));
-  EXPECT_EQ(lit_values(film, 9), lit_values(film));
+  EXPECT_EQ(nonzero_values(film, 1), (std::vector<std::size_t>{0, 3}));
+  EXPECT_EQ(nonzero_values(film, 2), (std::vector<std::size_t>{0, 1, 3, 4}));
+  EXPECT_EQ(nonzero_values(film, 9), nonzero_values(film));
 }
 
 TEST(RelativeError, OfTheMeanIsThatOfPlanesThatCountLight) {
@@ -153,15 +153,14 @@ TEST(RelativeError, OfTheMeanIsThatOfPlanesThatCountLight) {
 
 TEST(RelativeError, WhatIsLitAndNotFoundYetIsInfinitelyFarOff) {
   const Film film = half_dark(0.01);
-  std::vector<std::size_t> lit = lit_values(film);
+  std::vector<std::size_t> lit = nonzero_values(film);
   for (std::size_t dark = 2048; dark < 2248; ++dark) lit.push_back(dark);
   const RelativeError error = relative_error(film, lit);
   EXPECT_TRUE(std::isinf(error.p95));
   EXPECT_LE(error.median, 0.011);
 }
 
-// 16 by 16 pixels of mean 1 with noise, and in some of them a single sample that is brighter than all of the
-// film.
+// 16 by 16 pixels of mean 1 with noise. Some contain a single sample that is brighter than the whole film.
 Film with_rare_samples(int replicates, std::size_t rare, double noise = 0.1) {
   std::mt19937 random(5);
   std::normal_distribution<double> normal;
@@ -200,7 +199,7 @@ TEST(RelativeError, IsKnownOfFewBrightPixelsThatAllSamplesLight) {
   EXPECT_EQ(few_samples(film), std::nullopt);
 }
 
-// A pilot of four times the samples: of the same noise its standard error is half as large.
+// A pilot with four times the samples; its standard error is half as large for the same noise.
 TEST(RelativeError, IsNotKnownWhereAPilotPredictsMoreNoise) {
   const Film film = with_rare_samples(2, 0);
   const double of_noise = 0.1 / std::sqrt(2.0);
@@ -222,7 +221,7 @@ TEST(RelativeError, IsUnknownBeforeTwoReplicates) {
   const double value = 1;
   film.add(0, 0, {&value, 1});
   film.set_samples({1, 0});
-  const RelativeError error = relative_error(film, lit_values(film));
+  const RelativeError error = relative_error(film, nonzero_values(film));
   EXPECT_TRUE(std::isinf(error.median) && std::isinf(error.p95) && std::isinf(error.frame_mean));
   EXPECT_EQ(error.few_samples, std::nullopt);
 }

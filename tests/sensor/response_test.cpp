@@ -13,8 +13,8 @@ namespace abbe {
 namespace {
 
 TEST(Response, AQuantumChannelCountsElectrons) {
-  // One joule of 500 nm light is lambda/(hc) photons; a quantum efficiency of 0.6 turns 60 % of them into
-  // electrons.
+  // One joule of 500 nm light is lambda/(hc) photons, and a quantum efficiency of 0.6 converts 60 % of them
+  // to electrons.
   const Channel channel = quantum_channel("G", Curve(0.6));
   EXPECT_EQ(channel.kind, ResponseKind::quantum);
   EXPECT_NEAR(channel.weight(500) * photon_energy(500), 0.6, 1e-12);
@@ -77,10 +77,10 @@ class CameraTable : public testing::Test {
 };
 
 TEST_F(CameraTable, QuantumEfficienciesAreElectronsPerPhotonUnlessTheirRatiosAloneCount) {
-  EXPECT_NE(complaint(table("%", "QE", "5")).find("(got \"%\", allowed shares of 1)"), std::string::npos);
+  EXPECT_NE(complaint(table("%", "QE", "5")).find("(got \"%\", allowed fractions of 1)"), std::string::npos);
   EXPECT_NE(complaint(table("1", "QE", "50")).find("(got 50, allowed [-10, 10])"), std::string::npos);
   const std::string colours = table("quantum efficiency [%]", "R,G,B", "5,6,7");
-  EXPECT_NE(complaint(colours, ResponseKind::quantum).find("is in another unit"), std::string::npos);
+  EXPECT_NE(complaint(colours, ResponseKind::quantum).find("has the wrong unit"), std::string::npos);
   Diagnostics diagnostics;
   EXPECT_TRUE(load_camera(colours, {}, diagnostics, ResponseKind::energy)) << "of no unit";
   EXPECT_TRUE(load_camera(colours, {}, diagnostics, ResponseKind::quantum, ResponseScale::relative));
@@ -98,7 +98,7 @@ TEST_F(CameraTable, WavelengthsAreTheFirstColumnAndNoChannel) {
         std::tuple{"R,wavelength_nm", "1,400\n1,700\n", "first column \"R\" (allowed wavelength_nm"},
         std::tuple{"index,wavelength_nm,R,G,B", "0,400,1,2,3\n1,700,1,2,3\n",
                    "first column \"index\" (allowed"},
-        std::tuple{"wavelength_nm,wavelength_um", "400,0.4\n700,0.7\n", "has no column of a channel"}})
+        std::tuple{"wavelength_nm,wavelength_um", "400,0.4\n700,0.7\n", "has no channel column"}})
     EXPECT_NE(complaint(named(columns, rows)).find(fault), std::string::npos) << complaint(path_.string());
   Diagnostics diagnostics;
   const auto twice = load_camera(named("wavelength_nm,wavelength_um,R,G", "400,0.4,1,2\n700,0.7,1,2\n"), {},
@@ -132,7 +132,7 @@ TEST(Response, AnUnknownCameraIsReportedWithTheNearestName) {
 }
 
 TEST(Response, TheObserverMeasuresLux) {
-  // 1 W/m^2 at 555 nm is 683 lx, nearly.
+  // 1 W/m^2 at 555 nm is nearly 683 lx.
   EXPECT_NEAR(observer_channels(Observer::cie1931)[1].weight(555), 683.002, 0.01);
 }
 

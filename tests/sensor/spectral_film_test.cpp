@@ -67,7 +67,7 @@ SpectralImage radiances() {
   return image;
 }
 
-// The light of a bin is spread over it: what a filter cuts from a bin it cuts from its energy.
+// The light of a bin is spread over it. A filter that cuts part of a bin removes that part of its energy.
 TEST(SpectralFilm, ASensorCountsTheEnergyThatItsFiltersPass) {
   const std::vector channels{energy_channel("all", Curve(1.0)), energy_channel("half", band(405, 415)),
                              energy_channel("ramp", Curve({{400, 0}, {430, 30}})),
@@ -77,7 +77,7 @@ TEST(SpectralFilm, ASensorCountsTheEnergyThatItsFiltersPass) {
   EXPECT_FLOAT_EQ(seen.find("half")->values[0], 0.5F * (0.5F * 1 + 0.5F * 2));
   EXPECT_FLOAT_EQ(seen.find("ramp")->values[0], 0.5F * (5 + 15 * 2 + 25 * 3));
   EXPECT_FLOAT_EQ(seen.find("signed")->values[0], -0.5F * 12);
-  // Deviations of 0.2 in all bins, added up.
+  // Deviations of 0.2 in all bins add up.
   EXPECT_FLOAT_EQ(seen.find("Variance.all")->values[0], 0.25F * 0.36F);
   EXPECT_FLOAT_EQ(seen.find("Variance.signed")->values[0], 0.25F * 1.44F);
 }
@@ -114,7 +114,7 @@ TEST(SpectralFilm, StokesComponentsBecomeRadiancesToo) {
   EXPECT_FALSE(spectral_film(binned_film(), kBins, std::vector<double>{1, 1}).is_polarised());
 }
 
-// A polariser before a sensor that looks at a polarised image passes what it would have passed in the scene.
+// A polariser in front of a sensor that is exposed to a polarised image acts as it would in the scene.
 TEST(SpectralFilm, PolarisersLookAtPolarisedImagesAlone) {
   SpectralImage image = radiances();
   const std::vector channels{behind(energy_channel("up", band(405, 430)), Polariser{90, Curve(0.8)})};
@@ -127,7 +127,7 @@ TEST(SpectralFilm, PolarisersLookAtPolarisedImagesAlone) {
   for (std::size_t i = 0; i < 3; ++i)
     for (const SpectralBand& band : image.bands)
       image.polarised.at(i).push_back({band.center_nm, {i == 0 ? -0.5F * band.radiance[0] : 7}});
-  // Three quarters of the light swing up and down.
+  // Three quarters of the light oscillate vertically.
   const Image seen = expose(image, channels, std::vector<double>{2});
   EXPECT_NEAR(seen.find("up")->values[0], 2 * 0.8F * 0.75F * (0.5F + 2 + 3), 1e-5F);
   const Image all = expose(image, with_stokes({energy_channel("all", Curve(1.0))}), std::vector<double>{1});
@@ -154,7 +154,7 @@ TEST(SpectralFilm, WithoutVariancesThereIsNoError) {
 TEST(SpectralFilm, WhatLiesBeyondTheWavelengthsCarriedIsNotSeen) {
   const SpectralImage image{1, 1, {{290, {1}}, {310, {1}}, {1090, {1}}, {1190, {1}}}, {}, {}};
   const std::vector channels{energy_channel("all", Curve(1.0))};
-  // Bands [280, 300], [300, 700], [700, 1140] and [1140, 1240], of which those parts lie in [300, 1100].
+  // Bands [280, 300], [300, 700], [700, 1140] and [1140, 1240], cut to [300, 1100].
   EXPECT_FLOAT_EQ(expose(image, channels, std::vector<double>{1}).find("all")->values[0], 1 + 400 / 440.0F);
 }
 
@@ -166,7 +166,7 @@ TEST(SpectralFilm, AnglesAreLost) {
     FAIL();
   } catch (const Error& error) {
     EXPECT_EQ(error.code, ErrorCode::usage);
-    EXPECT_NE(std::string(error.what()).find("by the angle"), std::string::npos);
+    EXPECT_NE(std::string(error.what()).find("angle of incidence"), std::string::npos);
   }
 }
 

@@ -41,11 +41,11 @@ TEST(StokesFilm, FindsTheComponentsOfEachChannel) {
 }
 
 TEST(StokesFilm, OfLinearPolarisersTellsNothingCircular) {
-  EXPECT_TRUE(stokes_planes(polarised_film())[0].tells_circular());
+  EXPECT_TRUE(stokes_planes(polarised_film())[0].has_circular());
   Image linear = polarised_film();
   std::erase_if(linear.channels, [](const ImageChannel& channel) { return channel.name.starts_with("S3."); });
   for (const StokesPlanes& planes : stokes_planes(linear)) {
-    EXPECT_FALSE(planes.tells_circular());
+    EXPECT_FALSE(planes.has_circular());
     EXPECT_EQ(planes.at(1)[3], 0);
   }
 }

@@ -11,7 +11,7 @@ namespace abbe {
 namespace {
 
 TEST(Air, index_of_standard_air_at_a_label) {
-  // The violet end, where the label and the vacuum wavelength differ by 0.113 nm.
+  // The violet end, where the wavelengths in air and in vacuum differ by 0.113 nm.
   EXPECT_NEAR(air_index(400), 1.00028276, 5e-9);
 }
 
@@ -50,7 +50,7 @@ TEST(Air, conversions_are_inverse_and_mean_the_same_index) {
 }
 
 TEST(Air, sodium_d2_line) {
-  // Measured in both media: 589.1583 nm in vacuum, 588.9951 nm in air.
+  // Measured in both: 589.1583 nm in vacuum, 588.9951 nm in air.
   EXPECT_NEAR(air_to_vacuum(588.9951), 589.1583, 1e-4);
 }
 

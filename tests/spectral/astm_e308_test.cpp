@@ -36,7 +36,7 @@ TEST(AstmE308, WeightsSumToTheWhiteOfOneNanometreSums) {
   }
 }
 
-// The fold of the weights is Lagrange's polynomial: through any parabola, at both ends too, it is that.
+// The weights apply Lagrange's polynomial, which reproduces any parabola, also at both ends.
 TEST(AstmE308, IsTheOneNanometreSumOfTheInterpolatedReflectance) {
   const auto reflectance = [](double nm) { return 0.7 - 2e-3 * (nm - 500) + 8e-6 * (nm - 500) * (nm - 500); };
   std::vector<Knot> knots;
@@ -54,7 +54,7 @@ TEST(AstmE308, IsTheOneNanometreSumOfTheInterpolatedReflectance) {
   }
 }
 
-// Lines between whole nanometres, and one on one, count by their power.
+// Lines between whole nanometres, and one on a whole nanometre, count by their power.
 TEST(AstmE308, NarrowLinesOfALampCountByTheirPower) {
   const std::vector<SpectralLine> three = {{435.8, 0.1, 1}, {546.5, 0.1, 1}, {611, 0.1, 1}};
   const Curve lamp = lines(three);
@@ -67,7 +67,7 @@ TEST(AstmE308, NarrowLinesOfALampCountByTheirPower) {
   }
 }
 
-// Between the outermost intervals the polynomial is that of `cubic`, for any reflectance.
+// Between the outermost intervals, the polynomial equals `cubic` for any reflectance.
 TEST(AstmE308, AgreesWithTheCubicCurveWhereTheObserverIsBlindAtTheEnds) {
   Samples samples{{}, {}};
   for (int nm = 360; nm <= 780; nm += 10) {
@@ -90,7 +90,7 @@ TEST(AstmE308, EveryPatchOfTheChart) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::string& name = table.text(row, "illuminant");
     Curve light = illuminant(name);
-    // That program holds the first value of FL tables below 380 nm, where they are zero here.
+    // That program extrapolates the first value of FL tables below 380 nm, where they are zero here.
     if (name.starts_with("FL")) {
       std::vector<Knot> held;
       for (const Knot& knot : light.knots())
@@ -108,7 +108,8 @@ TEST(AstmE308, EveryPatchOfTheChart) {
   EXPECT_EQ(compared, 120U);
 }
 
-// What the guide says of 10 nm steps: Sprague's curve all but agrees with E308, straight lines do not.
+// Statement of the guide for 10 nm steps: Sprague interpolation nearly agrees with E308, linear interpolation
+// does not.
 TEST(AstmE308, SpragueComesCloseAndStraightLinesDoNot) {
   const ReferenceTable table("colorchecker_babelcolor_2deg");
   double of_sprague = 0;

@@ -48,7 +48,8 @@ TEST(Colorimetry, sums_cover_the_whole_observer_unless_a_range_is_given) {
   EXPECT_EQ(tristimulus_weights(d65, Observer::cie1931).size(), 471U);
 }
 
-// Lines between whole nanometres, and one on one, count by their power, as do those of a lamp of lasers.
+// Lines between whole nanometres, and one on a whole nanometre, count by their power, as do those of laser
+// light.
 TEST(Colorimetry, narrow_lines_count_by_their_power) {
   const std::vector<SpectralLine> three = {{435.8, 0.1, 1}, {546.1, 0.1, 1}, {611, 0.1, 1}};
   const Curve light = lines(three);
@@ -78,12 +79,12 @@ TEST(Colorimetry, narrow_bands_of_a_reflectance_count_by_their_widths) {
     }
 }
 
-// What a nanometre of a sum takes a curve for.
+// Value that a 1 nm sum uses for a curve at each nanometre.
 double told(const Curve& curve, int nm) {
   return sum_product(Curve(1), Curve(1), curve, {nm, nm});
 }
 
-// Narrow triangles are shared by the distances of their middles, a jump by the areas under two sides.
+// Narrow triangles are distributed by the distances of their peaks, a jump by the areas under two sides.
 TEST(Colorimetry, what_lies_between_nanometres_is_shared_among_the_two_around_it) {
   const auto triangle = [](double nm) { return Curve({{nm - 0.125, 0}, {nm, 8}, {nm + 0.125, 0}}); };
   EXPECT_NEAR(told(triangle(700.5), 700), 0.5, 1e-12);
@@ -99,7 +100,7 @@ TEST(Colorimetry, what_lies_between_nanometres_is_shared_among_the_two_around_it
   EXPECT_NEAR(told(jump, 542), 1, 1e-12);
 }
 
-// At the ends of all curves half a triangle is left to take a mean of.
+// At the ends of all curves, the mean is taken over half a triangle.
 TEST(Colorimetry, nanometres_at_the_ends_of_curves_count_by_their_means_too) {
   const SumRange whole{kMinWavelengthNm, kMaxWavelengthNm};
   const Curve one({{300, 1}, {300.25, 1}, {480.5, 1}, {1099.7, 1}, {1100, 1}});
@@ -113,7 +114,7 @@ TEST(Colorimetry, nanometres_at_the_ends_of_curves_count_by_their_means_too) {
   EXPECT_NEAR(told(rise, 1100), 800 - 1.0 / 3, 800e-12);
 }
 
-// A bend off the nanometres changes nothing else.
+// A knot between nanometres changes no other value.
 TEST(Colorimetry, integral_and_sum_of_a_smooth_reflectance_agree) {
   const Curve light = illuminant("D65");
   const XYZ summed = tristimulus(light, Curve({{380, 0.2}, {780, 0.8}}), Observer::cie1931);
@@ -122,7 +123,7 @@ TEST(Colorimetry, integral_and_sum_of_a_smooth_reflectance_agree) {
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(integrated[k] / summed[k], 1, 2e-6) << k;
 }
 
-// What is told by whole nanometres is summed as the CIE has it.
+// Curves that whole nanometres resolve are summed as the CIE defines.
 TEST(Colorimetry, tables_of_whole_nanometres_are_summed) {
   const Curve light = illuminant("FL11");
   const Curve line({{540, 0}, {541, 1}, {542, 0}});
@@ -138,7 +139,7 @@ TEST(Colorimetry, tables_of_whole_nanometres_are_summed) {
   EXPECT_DOUBLE_EQ(tristimulus(light, line, Observer::cie1931)[1], 100 / lit * light(541) * seen.y(541));
 }
 
-// Rises over 0.9 nm between whole nanometres and then falls at once.
+// Rises over 0.9 nm between whole nanometres and then falls to zero.
 Curve sawtooth() {
   std::vector<Knot> knots;
   for (const double nm : {410, 540, 612})
@@ -146,7 +147,7 @@ Curve sawtooth() {
   return Curve(knots);
 }
 
-// The integral of three curves by the midpoints of 1/4000 nm, which miss no bend of them.
+// Integral of three curves by midpoints of 1/4000 nm, which resolve all knots.
 double by_midpoints(const Curve& a, const Curve& b, const Curve& c) {
   constexpr int kParts = 4000;
   double total = 0;
@@ -172,7 +173,7 @@ TEST(Colorimetry, lamps_that_bend_between_nanometres_are_integrated) {
   EXPECT_NEAR(luminous_efficacy(lamp), efficacy, 1e-6 * efficacy);
 }
 
-// A band or a table counts all of the light between its edges, whichever side of a jump is its value there.
+// A band or table counts all light between its edges, whichever side of a jump is its value there.
 TEST(Colorimetry, lamps_and_channels_that_jump_at_nanometres_are_integrated) {
   const std::vector<double> ends{500, 600};
   const std::vector<double> values{2, 2};
@@ -190,7 +191,7 @@ TEST(Colorimetry, lamps_and_channels_that_jump_at_nanometres_are_integrated) {
   }
 }
 
-// That a table of a lamp ends where nothing is seen of it leaves the sums of the CIE what they are.
+// The end of a light's table outside the observer's response does not change the sums of the CIE.
 TEST(Colorimetry, tables_that_end_where_little_is_seen_are_summed) {
   const Curve lamp = illuminant("FL11");
   const ColorMatching& seen = color_matching(Observer::cie1931);
@@ -213,18 +214,18 @@ TEST(Colorimetry, the_perfect_diffuser_has_a_Y_of_100) {
 }
 
 TEST(Photometry, integral_is_exact) {
-  // A watt at the peak of V, in a line a picometre wide.
+  // 1 W at the peak of V, in a line one picometre wide.
   const std::vector<SpectralLine> line = {{555, 1e-3, 1}};
   EXPECT_NEAR(photometric(lines(line)), 683.002, 1e-3);
-  // Half a nanometre where V rises: mean of V over it, by the trapezoid of its table.
+  // Half a nanometre where V rises: its mean over it, by the trapezoid of the table.
   const Curve& v = color_matching(Observer::cie1931).y;
   EXPECT_NEAR(photometric(band(500, 500.5)), 683.002 * 0.25 * (v(500) + v(500.5)), 1e-9);
-  // A constant watt per nanometre: the trapezoid of V over its whole table.
+  // 1 W per nanometre: the trapezoid of V over its whole table.
   EXPECT_NEAR(photometric(Curve(1)), 683.002 * (106.856917 - 0.5 * (v(360) + v(830))), 1e-3);
 }
 
-// The trapezoidal rule of 1 nm gives 156.20 lm/W for A, a sum with both ends whole 155.78. The exact integral
-// of the tabulated straight lines is 336.851 for FL11.
+// The trapezoidal rule of 1 nm gives 156.20 lm/W for A, while a sum with both ends whole gives 155.78. The
+// exact integral of the tabulated straight lines is 336.851 for FL11.
 TEST(Photometry, efficacies_are_those_of_the_trapezoidal_rule) {
   const Curve& v = color_matching(Observer::cie1931).y;
   for (const auto& [name, known] : {std::pair{"A", 156.20}, {"FL11", 336.86}, {"E", 182.46}}) {

@@ -11,33 +11,34 @@ namespace abbe {
 namespace {
 
 TEST(Coverage, TheShareBeyondIsOfTheMagnitude) {
-  EXPECT_NEAR(share_beyond(Curve(2), Curve(1.0), 380, 780).share, 0.5, 1e-12);
-  EXPECT_NEAR(share_beyond(Curve(2), Curve(1.0), 300, 1100).share, 0, 1e-12);
+  EXPECT_NEAR(fraction_outside(Curve(2), Curve(1.0), 380, 780).fraction, 0.5, 1e-12);
+  EXPECT_NEAR(fraction_outside(Curve(2), Curve(1.0), 300, 1100).fraction, 0, 1e-12);
   const Curve both = sum(band(400, 500, -1), band(500, 600, 1));
-  EXPECT_NEAR(share_beyond(both, Curve(1.0), 300, 525).share, 0.375, 1e-12);
-  EXPECT_EQ(share_beyond(Curve(), Curve(1.0), 400, 500).share, 0);
+  EXPECT_NEAR(fraction_outside(both, Curve(1.0), 300, 525).fraction, 0.375, 1e-12);
+  EXPECT_EQ(fraction_outside(Curve(), Curve(1.0), 400, 500).fraction, 0);
 }
 
-// Of x^2 on [0, 1] an eighth lies below 1/2, also where the light goes on beyond the weight.
+// One eighth of x^2 on [0, 1] lies below 1/2, also if the light continues outside the weight.
 TEST(Coverage, TheShareBeyondIsOfWhatIsCountedOfALight) {
   const Curve weight({{400, 0}, {500, 1}, {500, 0}});
   const Curve light({{400, 0}, {1100, 7}});
-  EXPECT_NEAR(share_beyond(weight, light, 300, 450).share, 0.875, 1e-12);
-  EXPECT_NEAR(share_beyond(weight, light, 450, 1100).share, 0.125, 1e-12);
-  EXPECT_NEAR(share_beyond(light, weight, 450, 1100).share, 0.125, 1e-12);
-  EXPECT_EQ(share_beyond(weight, light, 600, 1100).share, 1);
-  EXPECT_EQ(share_beyond(weight, light, 400, 500).share, 0);
-  EXPECT_EQ(share_beyond(weight, band(600, 700), 300, 450).share, 0) << "nothing is counted";
+  EXPECT_NEAR(fraction_outside(weight, light, 300, 450).fraction, 0.875, 1e-12);
+  EXPECT_NEAR(fraction_outside(weight, light, 450, 1100).fraction, 0.125, 1e-12);
+  EXPECT_NEAR(fraction_outside(light, weight, 450, 1100).fraction, 0.125, 1e-12);
+  EXPECT_EQ(fraction_outside(weight, light, 600, 1100).fraction, 1);
+  EXPECT_EQ(fraction_outside(weight, light, 400, 500).fraction, 0);
+  EXPECT_EQ(fraction_outside(weight, band(600, 700), 300, 450).fraction, 0) << "nothing is counted";
 }
 
-// A table that says nothing beyond 380-780 nm leaves next to nothing of a colour unknown.
+// A table that covers only 380-780 nm leaves a negligible part of a colour unknown.
 TEST(Coverage, ObserversSeeLittleBeyondTheRangeThatTablesMustCover) {
   constexpr NeededRange kNeeded;
   for (const Observer observer : {Observer::cie1931, Observer::cie1964}) {
     const ColorMatching& matching = color_matching(observer);
     for (const Curve* curve : {&matching.x, &matching.y, &matching.z})
       for (const Curve& light : {Curve(1.0), planck(2000), planck(20000)})
-        EXPECT_LT(share_beyond(*curve, light, kNeeded.low_nm, kNeeded.high_nm).share, kNegligibleShare);
+        EXPECT_LT(fraction_outside(*curve, light, kNeeded.low_nm, kNeeded.high_nm).fraction,
+                  kNegligibleFraction);
   }
 }
 
@@ -60,7 +61,7 @@ TEST(Coverage, ATableGoesOnAsItEnds) {
   constexpr std::array kValues{1.0, 3.0};
   for (const Outside outside : {Outside::zero, Outside::clamp, Outside::error}) {
     const NamedCurve table{"t", "", "", 400, 700, table_curve(kNm, kValues, outside), outside};
-    const Curve held = held_beyond(table);
+    const Curve held = extrapolated(table);
     EXPECT_EQ(held(300), 1);
     EXPECT_EQ(held(400), 1);
     EXPECT_EQ(held(550), 2);

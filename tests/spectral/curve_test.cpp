@@ -177,14 +177,14 @@ TEST(Curve, steep_factors_have_the_area_of_their_product) {
   EXPECT_NEAR(product(product(edges, edges), edges).integral(), 8.5, 2e-4);
   const Curve triangle(std::vector<Knot>{{545, 0}, {546, 1}, {547, 0}});
   EXPECT_NEAR(product(triangle, triangle).integral(), 2.0 / 3, 1e-12);
-  // One falls where the other rises: the product is 0 at both ends of the nanometre.
+  // One curve falls where the other rises: the product is 0 at both ends of the nanometre.
   const Curve falling(std::vector<Knot>{{540, 1}, {541, 0}});
   const Curve rising(std::vector<Knot>{{540, 0}, {541, 1}});
   EXPECT_NEAR(product(falling, rising).integral(), 1.0 / 6, 1e-12);
   EXPECT_NEAR(product(falling, scaled(rising, -3)).integral(), -3.0 / 6, 1e-12);
 }
 
-// Curves that are nowhere both: nothing is divided by their greatest product.
+// Curves without overlap: nothing is divided by their largest product.
 TEST(Curve, product_of_curves_apart_is_dark_without_invalid_operations) {
   const Curve blue({{500, 0}, {501, 1}, {502, 0}});
   const Curve red({{600, 0}, {601, 1}, {602, 0}});

@@ -14,25 +14,26 @@ TEST(CurveUnit, PercentIsNoShareHoweverItIsWritten) {
   for (const char* unit :
        {"%", "percent", "Per cent; wavelength in nm", "quantum efficiency [%]", "T%", "R%", "Trans%", "100%T",
         "100%R", "reflectance (%)", "reflectance in percent", "transmittance, 0-100 %"})
-    EXPECT_NE(unit_fault("t.csv", unit, CurveUnit::share).value_or("").find("allowed shares of 1"),
+    EXPECT_NE(unit_fault("t.csv", unit, CurveUnit::fraction).value_or("").find("allowed fractions of 1"),
               std::string::npos)
         << unit;
   for (const char* unit : {"1", "reflectance factor (0-1)", "reflectance (0-1), within 0.5 %",
                            "transmittance (1 = 100 %)", "reflectance (0-1); uncertainty in percent"})
-    EXPECT_FALSE(unit_fault("t.csv", unit, CurveUnit::share)) << unit;
+    EXPECT_FALSE(unit_fault("t.csv", unit, CurveUnit::fraction)) << unit;
   EXPECT_FALSE(unit_fault("t.csv", "%", CurveUnit::any));
 }
 
 TEST(CurveUnit, DensitiesAndDecibelsAreNoShares) {
   const auto allowed = [](const char* unit) {
-    return unit_fault("t.csv", unit, CurveUnit::share, "; a factor converts").value_or("");
+    return unit_fault("t.csv", unit, CurveUnit::fraction, "; a factor converts").value_or("");
   };
   for (const char* unit : {"optical density", "Absorbance (decadic)", "OD", "extinction",
                            "attenuation; of 2 mm", "neutral density filter, density", "transmission density"})
-    EXPECT_TRUE(allowed(unit).ends_with("allowed shares of 1: 10^-D of a density D)"))
+    EXPECT_TRUE(allowed(unit).ends_with("allowed fractions of 1: 10^-D for a density D)"))
         << unit << allowed(unit);
   for (const char* unit : {"attenuation in dB", "dB", "insertion loss [dB]"})
-    EXPECT_TRUE(allowed(unit).ends_with("allowed shares of 1: 10^(-A/10) of A dB)")) << unit << allowed(unit);
+    EXPECT_TRUE(allowed(unit).ends_with("allowed fractions of 1: 10^(-A/10) for A dB)"))
+        << unit << allowed(unit);
   for (const char* unit :
        {"transmittance of a neutral density filter", "transmittance (0-1); not the density",
         "model of the camera's body", "reflectance, adbmal"})
@@ -122,7 +123,7 @@ TEST(CurveUnit, CoefficientsOfPowersOfTenAreOthers) {
   };
   for (const char* unit : {"1/m, base 10", "m^-1 (log10)", "1/m; decadic", "m⁻¹ (Decadic)"})
     EXPECT_TRUE(allowed(unit).ends_with(
-        "allowed 1/m of powers of e: ln 10 times that of powers of 10; a factor converts)"))
+        "allowed 1/m for powers of e: ln 10 times the coefficient for powers of 10; a factor converts)"))
         << unit << allowed(unit);
   for (const char* unit : {"1/m, base e", "m^-1 (natural, not decadic)", "m⁻¹", "per metre", "1/m"})
     EXPECT_EQ(allowed(unit), "") << unit;
@@ -134,9 +135,9 @@ TEST(CurveUnit, FactorsMayBeOtherQuantitiesButNoPartsOfThem) {
     CurveUnit needed;
     bool fits;
   };
-  for (const Case& told : {Case{"%", CurveUnit::share, false},
-                           {"optical density", CurveUnit::share, false},
-                           {"photons/(s m2 sr nm)", CurveUnit::share, true},
+  for (const Case& told : {Case{"%", CurveUnit::fraction, false},
+                           {"optical density", CurveUnit::fraction, false},
+                           {"photons/(s m2 sr nm)", CurveUnit::fraction, true},
                            {"1/cm", CurveUnit::per_metre, false},
                            {"mm⁻¹; in air", CurveUnit::per_metre, false},
                            {"1/m, base 10", CurveUnit::per_metre, false},
@@ -162,7 +163,7 @@ TEST(CurveUnit, RemarksMakeNoOtherUnit) {
              {"1/m; converted from decadic by ln 10", "1/m; decadic absorbance x 2.303",
               "1/m; a = 2.303 A/l, A base 10", "1/m; from log10 transmittance", "m^{-1}",
               "absorption coefficient (1/m)", "absorption coefficient, m-1"}},
-        {CurveUnit::share,
+        {CurveUnit::fraction,
          {"transmittance (0-1), OD > 6 blocking",
           "transmittance, OD 4 blocking",
           "transmittance (OD6 blocking)",
@@ -262,9 +263,9 @@ TEST(CurveUnit, OtherUnitsAreOthersInAllSpellings) {
          "allowed power per nm: hc/lambda for each photon)",
          {"uE/m2/s", "μE m-2 s-1 nm-1", "photon counts", "counts (photons)", "relative photon flux",
           "micromoles"}},
-        {CurveUnit::power, "allowed power per nm: 10^(A/10) of A dB)", {"dBm/nm", "dB", "dBm"}},
-        {CurveUnit::share,
-         "allowed shares of 1; a factor converts)",
+        {CurveUnit::power, "allowed power per nm: 10^(A/10) for A dB)", {"dBm/nm", "dB", "dBm"}},
+        {CurveUnit::fraction,
+         "allowed fractions of 1; a factor converts)",
          {"pct", "‰", "0-100", "norm. to 100", "0..100", "0…100 %", "from 0% to 100%", "% R", "%R",
           "Percentage", "reflectance (in %)", "relative (max 100)", "per mille"}},
         {CurveUnit::per_metre,
@@ -274,25 +275,25 @@ TEST(CurveUnit, OtherUnitsAreOthersInAllSpellings) {
       const std::string fault = unit_fault("t.csv", unit, told.needed, "; a factor converts").value_or("");
       EXPECT_TRUE(fault.ends_with(told.allowed)) << unit << ": " << fault;
     }
-  EXPECT_TRUE(unit_fault("t.csv", "W/m2/nm", CurveUnit::share)) << "no share at all";
+  EXPECT_TRUE(unit_fault("t.csv", "W/m2/nm", CurveUnit::fraction)) << "no share at all";
 }
 
 TEST(CurveUnit, UnitsThatCannotBeReadAreRefused) {
   struct Case {
     const char* unit;
     CurveUnit needed;
-    const char* allowed = "products as W/(m^2 nm)";
+    const char* allowed = "products such as W/(m^2 nm)";
   };
   for (const Case& told : {Case{"W/m2/mum", CurveUnit::spectral_irradiance},
                            {"W/m2/sr/furlong", CurveUnit::spectral_radiance},
                            {"spectral power, W/furlong", CurveUnit::spectral_flux},
                            {"W/nm per lamp", CurveUnit::spectral_flux},
-                           {"J/furlong", CurveUnit::share, "shares of 1"}})
+                           {"J/furlong", CurveUnit::fraction, "fractions of 1"}})
     for (const auto& fault :
          {unit_fault("t.csv", told.unit, told.needed), factor_unit_fault("t.csv", told.unit, told.needed)})
-      EXPECT_EQ(fault.value_or(""), "\"t.csv\" is in a unit that cannot be read (got \"" +
+      EXPECT_EQ(fault.value_or(""), "\"t.csv\" has a unit that cannot be parsed (got \"" +
                                         std::string(told.unit) + "\", allowed " + told.allowed +
-                                        ", and words behind a \";\")");
+                                        "; put remarks after a \";\")");
   EXPECT_FALSE(unit_fault("t.csv", "W/m2/mum", CurveUnit::any));
 }
 
@@ -306,12 +307,12 @@ TEST(CurveUnit, LogarithmsAreOthers) {
              {"log10 W/m2/sr/nm", "log W·m⁻²·sr⁻¹·nm⁻¹", "log 10 W/(m2 sr nm)", "ln radiance",
               "radiance (log)"}},
         {CurveUnit::power, {"log10 W/nm/lamp", "log radiance", "relative power, log10", "logarithmic"}},
-        {CurveUnit::share,
+        {CurveUnit::fraction,
          {"log(reflectance)", "ln(T)", "Log10(reflectance)", "log of transmittance", "[log transmittance]"}}})
     for (const char* unit : told.units)
       EXPECT_TRUE(unit_fault("t.csv", unit, told.needed, "; a factor converts")
                       .value_or("")
-                      .ends_with("allowed no logarithms: 10^x of a log10 x, e^x of a ln x)"))
+                      .ends_with("allowed linear values: 10^x for log10 x, e^x for ln x)"))
           << unit;
 }
 
@@ -325,11 +326,11 @@ TEST(CurveUnit, AngstromsAmperesAndVoltsAreOthers) {
                            {"W/m2/AA", CurveUnit::spectral_irradiance},
                            {"W/m^2/Ang", CurveUnit::spectral_irradiance},
                            {"ph/s/m2/nm", CurveUnit::power},
-                           {"A/W", CurveUnit::share},
-                           {"responsivity (mA/W)", CurveUnit::share},
-                           {"V/(uJ/cm2)", CurveUnit::share},
-                           {"DN/(nJ/cm2)", CurveUnit::share},
-                           {"response, e-/J", CurveUnit::share}})
+                           {"A/W", CurveUnit::fraction},
+                           {"responsivity (mA/W)", CurveUnit::fraction},
+                           {"V/(uJ/cm2)", CurveUnit::fraction},
+                           {"DN/(nJ/cm2)", CurveUnit::fraction},
+                           {"response, e-/J", CurveUnit::fraction}})
     EXPECT_TRUE(unit_fault("t.csv", told.unit, told.needed)) << told.unit;
   EXPECT_TRUE(factor_unit_fault("t.csv", "W/m2/A", CurveUnit::spectral_irradiance));
   EXPECT_FALSE(unit_fault("t.csv", "erg/s/cm2/A", CurveUnit::power)) << "of any scale";
@@ -342,27 +343,27 @@ TEST(CurveUnit, RelativeSpectraAreNoQuantities) {
     EXPECT_TRUE(relative_power("t.csv", unit, CurveUnit::spectral_flux)) << unit;
   EXPECT_FALSE(relative_power("t.csv", "W/m2/nm, relative to 1 AU", CurveUnit::spectral_irradiance));
   EXPECT_EQ(relative_power("D65", "relative spectrum", CurveUnit::spectral_radiance).value_or(""),
-            "\"D65\" is taken to be in W/(m^2 sr nm), though its unit is \"relative spectrum\": scale the "
+            "\"D65\" is used in W/(m^2 sr nm), but its unit is \"relative spectrum\": scale the "
             "emission to a quantity");
   for (const char* unit : {"W/(m2 sr nm), relative error 1 %", "1", "spectral radiance"})
     EXPECT_FALSE(relative_power("t.csv", unit, CurveUnit::spectral_flux)) << unit;
   EXPECT_FALSE(relative_power("t.csv", "relative", CurveUnit::power)) << "of any scale";
   for (const auto& [unit, power] : {std::pair{"mW/nm", true}, {"erg/s", true}, {"relative; W/nm", false}})
-    EXPECT_EQ(tells_power(unit), power) << unit;
+    EXPECT_EQ(declares_power(unit), power) << unit;
 }
 
 TEST(CurveUnit, UnitsThatSpeakOfPhotonsLeaveAResponseUnsaid) {
   for (const char* unit :
        {"e-/photon", "electrons/photon", "QE", "QE (0-1)", "quantum yield", "per Photon",
         "Quantum efficiency", "response (electrons/photon)", "sensitivity, electrons per photon"})
-    EXPECT_NE(unsaid_response("t.csv", unit).value_or("").find("is taken as a response to energy"),
+    EXPECT_NE(unknown_response("t.csv", unit).value_or("").find("is used as a response to energy"),
               std::string::npos)
         << unit;
   for (const char* unit :
        {"relative", "photopic response", "A/W", "relative to an opaque plate", "e-/J",
         "relative energy response; converted from photon response", "relative (energy, not quantum)",
         "energy response of a photon counter", "relative, photon noise removed"})
-    EXPECT_FALSE(unsaid_response("t.csv", unit)) << unit;
+    EXPECT_FALSE(unknown_response("t.csv", unit)) << unit;
 }
 
 }  // namespace

@@ -55,7 +55,7 @@ TEST_F(CurveUseTest, ATableIsHeldToTheUnitAndTheRangeOfItsUse) {
   const std::string percent = table("%", 0.9);
   for (const CurveUse& use :
        {kReflectanceUse, kReflectanceFactorUse, kTransmittanceUse, kQuantumEfficiencyUse})
-    EXPECT_NE(complaint(use, percent + ":b").find("is in another unit (got \"%\", allowed shares of 1)"),
+    EXPECT_NE(complaint(use, percent + ":b").find("has the wrong unit (got \"%\", allowed fractions of 1)"),
               std::string::npos);
   const std::string dense = table("transmittance", 1.1);
   EXPECT_NE(complaint(kTransmittanceUse, dense + ":b").find("(got 1.1, allowed [0, 1.05])"),
@@ -70,7 +70,7 @@ TEST_F(CurveUseTest, ChartsAreReflectancesAsSharesOfOne) {
     EXPECT_FALSE(load_chart(name, {}, diagnostics)) << name;
     return diagnostics.text();
   };
-  EXPECT_NE(complaint(table("reflectance in percent", 0.9)).find("is in another unit"), std::string::npos);
+  EXPECT_NE(complaint(table("reflectance in percent", 0.9)).find("has the wrong unit"), std::string::npos);
   EXPECT_NE(
       complaint(table("1", 20)).find("\"b\" is no reflectance (got values in [20, 20], allowed [0, 2])"),
       std::string::npos);
@@ -87,7 +87,7 @@ TEST_F(CurveUseTest, SumsOfAstmE308AreOfReflectancesAsSharesOfOne) {
   EXPECT_TRUE(load_astm_samples(table("1", 0.9) + ":b", {}, diagnostics)) << diagnostics.text();
 }
 
-// Whatever a table covers is enough.
+// Any covered range is sufficient.
 constexpr NeededRange kSomeWavelength{kMaxWavelengthNm, kMinWavelengthNm};
 
 void expect_allowed(const Table& table, const std::string& name, const CurveUse& use,

@@ -68,8 +68,7 @@ TEST(Data, extinction_is_not_negative_and_index_is_positive) {
   }
 }
 
-// Table 2 of Bessell (1990) has responses to energy, which are per photon as they are divided by the
-// wavelength.
+// Table 2 of Bessell (1990) has responses to energy; divided by the wavelength they are per photon.
 TEST(Data, bessells_passbands_are_per_photon) {
   Diagnostics diagnostics;
   const auto b = load_curve("filter", "bessell_B", {}, diagnostics);

@@ -8,7 +8,7 @@
 
 namespace abbe::test {
 
-/// The illuminant of that name, which must load.
+/// Loads an illuminant by name, which must exist.
 inline Curve illuminant(const std::string& name) {
   Diagnostics diagnostics;
   const auto curve = load_illuminant(name, {}, diagnostics);

@@ -12,7 +12,7 @@
 namespace abbe {
 namespace {
 
-/// A user's file that vanishes with the test.
+/// A user's file that is deleted with the object.
 class UserFile {
  public:
   explicit UserFile(const std::string& text) {
@@ -61,7 +61,7 @@ TEST(Library, illuminant_a_follows_its_definition_beyond_the_table) {
   ASSERT_TRUE(a);
   EXPECT_NEAR(a->curve(560), 100, 1e-9);
   EXPECT_NEAR(a->curve(780), 241.675, 1e-3);
-  // A Planckian radiator of 1.435e7/2848 nm, in the temperature scale of the exact constants 2855.5 K.
+  // A Planckian radiator of 1.435e7/2848 nm, which is 2855.5 K with the exact constants.
   const double kelvin = 2848 * photon_energy(1) / kBoltzmann / 1.435e7;
   for (const int nm : {781, 900, 1100}) {
     EXPECT_NEAR(a->curve(nm) / 100, planck_radiance(kelvin, nm) / planck_radiance(kelvin, 560), 1e-9);
@@ -69,8 +69,8 @@ TEST(Library, illuminant_a_follows_its_definition_beyond_the_table) {
   EXPECT_NEAR(a->curve(300), 0.930483, 1e-9);
 }
 
-// The power of E is even, so that a watt of it has 683.002 times the mean of V over [300, 1100] nm, the sum
-// of which is 106.857 nm.
+// E has constant power. 1 W of it therefore has 683.002 times the mean of V over [300, 1100] nm, whose sum is
+// 106.857 nm.
 TEST(Library, illuminant_e_follows_its_definition_beyond_the_table) {
   for (const char* name : {"E", "cie_E"}) {
     Diagnostics diagnostics;
@@ -96,8 +96,8 @@ TEST(Library, illuminants_are_the_same_within_curves) {
     }
 }
 
-// D65 is tabulated so far in ISO/CIE 11664-2; the others are S0 + M1 S1 + M2 S2 with the CIE's rounded
-// factors, as 61.9 + 1.039 * 9.8 + 0.363 * 6.5 for D50.
+// Only D65 is tabulated over this range in ISO/CIE 11664-2. The others are S0 + M1 S1 + M2 S2 with the CIE's
+// rounded factors, such as 61.9 + 1.039 * 9.8 + 0.363 * 6.5 for D50.
 TEST(Library, daylight_illuminants_go_on_to_830_nm) {
   Diagnostics diagnostics;
   const auto d65 = load_illuminant("D65", {}, diagnostics);
@@ -180,8 +180,8 @@ TEST(Library, refuses_malformed_spectra) {
 
 TEST(Library, a_table_that_holds_nothing_outside_must_cover_what_is_needed) {
   expect_refused("# unit: 1\nwavelength_nm,r\n400,0\n700,1\n",
-                 "covers 400 to 700 nm, but 380 to 780 nm are needed (a line \"# outside: clamp\" or \"# "
-                 "outside: zero\" says what holds there)");
+                 "covers 400 to 700 nm, but 380 to 780 nm are needed (add a line \"# outside: clamp\" or \"# "
+                 "outside: zero\" to extrapolate)");
   const UserFile file("# unit: 1\nwavelength_nm,r\n400,0\n700,1\n");
   Diagnostics diagnostics;
   EXPECT_TRUE(load_curve("reflectance", file.name(), {}, diagnostics, {400, 700})) << diagnostics.text();
@@ -250,7 +250,7 @@ TEST(Library, refuses_what_a_rule_of_interpolation_cannot_take) {
                    ".csv:3:1: error: malformed range (got \"" + std::string(range));
 }
 
-// Both tables of CIE 224 have columns of these names; alone they mean the finer one.
+// Both tables of CIE 224 have columns of these names; without a table, they select the finer one.
 TEST(Library, samples_of_cie_224_have_their_names_alone) {
   Diagnostics diagnostics;
   const auto alone = load_curve("reflectance", "CES42", {}, diagnostics);

@@ -1,4 +1,4 @@
-#include "spectral/packet.h"
+#include "spectral/sampled_spectrum.h"
 
 #include <gtest/gtest.h>
 

@@ -62,7 +62,7 @@ TEST(Rgb, AnImageSaysHowItsValuesAreEncoded) {
   EXPECT_FALSE(rec709_fault({}));
 }
 
-// X, Y and Z of a primary by Bradford's transform from D65 to D50, to which profiles relate all colours.
+// X, Y and Z of a primary after Bradford's transform from D65 to D50, the white of all profiles.
 std::string chromaticity_in_profiles(const Chromaticity& xy) {
   const Matrix3 cones(0.8951, 0.2664, -0.1614, -0.7502, 1.7135, 0.0367, 0.0389, -0.0685, 1.0296);
   const XYZ from = multiply(cones, unit_xyz(kD65));

@@ -24,7 +24,8 @@ TEST(Quantities, spectral_densities) {
 }
 
 TEST(Planck, stefan_boltzmann_law) {
-  // pi times the integral over all wavelengths is 5.670374e-8 T^4; the long tail in steps of 0.1 %.
+  // pi times the integral over all wavelengths is 5.670374e-8 T^4. The long tail is integrated in steps of
+  // 0.1 %.
   const double kelvin = 6000;
   double total = 0;
   for (double nm = 50; nm < 1e7; nm *= 1.001) total += planck_radiance(kelvin, nm * 1.0005) * nm * 0.001;

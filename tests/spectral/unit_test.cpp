@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "spectral/told_unit.h"
+#include "spectral/unit_line.h"
 
 namespace abbe {
 namespace {
@@ -55,7 +55,7 @@ TEST(Unit, IsReadInAllSpellings) {
                            {"mA/W", {-1, 0, 0, 0, 0, 0, 0, 0, 1}, -3},
                            {"V/(uJ/cm2)", {-1, -1, 0, 2, 0, 0, 0, 0, 0, 1}, 2},
                            {"DN/(nJ/cm2)", {-1, -1, 0, 2}, 5}}) {
-    const auto unit = told_unit(told.told).unit;
+    const auto unit = unit_line(told.told).unit;
     ASSERT_TRUE(unit) << told.told;
     EXPECT_TRUE(unit->equals({told.exponents, told.log10_factor})) << told.told << ' ' << unit->log10_factor;
   }
@@ -63,9 +63,9 @@ TEST(Unit, IsReadInAllSpellings) {
 
 TEST(Unit, DividesByWavenumbersWhereLengthsAreMultiplied) {
   for (const char* told : {"W/(m2 cm-1)", "W/(m2 1/cm)", "W m-2 / cm^-1", "W m⁻² (cm⁻¹)⁻¹", "W cm/m2"})
-    EXPECT_TRUE(told_unit(told).unit.value().per_wavenumber) << told;
+    EXPECT_TRUE(unit_line(told).unit.value().per_wavenumber) << told;
   for (const char* told : {"W/cm3", "W/m2/nm", "W cm-2 nm-1", "1/cm"})
-    EXPECT_FALSE(told_unit(told).unit.value().per_wavenumber) << told;
+    EXPECT_FALSE(unit_line(told).unit.value().per_wavenumber) << told;
 }
 
 TEST(Unit, StandsBeforeRemarksOrBehindWhatItIsOf) {
@@ -85,7 +85,7 @@ TEST(Unit, StandsBeforeRemarksOrBehindWhatItIsOf) {
                            {"W/(m2 nm) vs wavelength / um", "W/(m2 nm)"},
                            {"absorption coefficient (1/m)", "1/m"},
                            {"relative power per THz", "1/THz"}}) {
-    const auto unit = told_unit(told.told).unit;
+    const auto unit = unit_line(told.told).unit;
     ASSERT_TRUE(unit) << told.told;
     EXPECT_TRUE(unit->equals(leading_unit(told.unit).value())) << told.told;
   }
@@ -124,26 +124,26 @@ TEST(Unit, StandsBeforeRemarksOrBehindWhatItIsOf) {
                             "/",
                             "(",
                             "())("})
-    EXPECT_FALSE(told_unit(prose).unit) << prose;
+    EXPECT_FALSE(unit_line(prose).unit) << prose;
 }
 
 TEST(Unit, IsUnreadWhereItGoesOnWithWhatIsNone) {
   for (const char* told :
        {"W/m2/mum", "W/(m2 furlong)", "W m-2 / furlong", "W/m2/nm^x", "W.m-2.mum-1", "erg/s per furlong",
         "ph/s/m2/pixel", "spectral irradiance W/m2/mum", "spectral irradiance, W/m2/mum"})
-    EXPECT_TRUE(told_unit(told).unit.value().unread) << told;
+    EXPECT_TRUE(unit_line(told).unit.value().has_unknown_factor) << told;
   for (const char* told : {"W/m2/nm", "W/nm at 25 C", "mW/nm. Of a lamp", "e-/photon", "counts/s/pixel"}) {
-    const auto unit = told_unit(told).unit;
-    EXPECT_FALSE(unit && unit->unread) << told;
+    const auto unit = unit_line(told).unit;
+    EXPECT_FALSE(unit && unit->has_unknown_factor) << told;
   }
 }
 
 TEST(Unit, IsNoneWhereItHasNoEnd) {
-  EXPECT_TRUE(leading_unit("W/" + std::string(100000, '(')).value().unread);
+  EXPECT_TRUE(leading_unit("W/" + std::string(100000, '(')).value().has_unknown_factor);
   EXPECT_FALSE(leading_unit("m^1000"));
   std::string nested = "m9";
   for (int i = 0; i < 100; ++i) nested.insert(0, "(").append(")9");
-  EXPECT_TRUE(leading_unit("W/" + nested).value().unread);
+  EXPECT_TRUE(leading_unit("W/" + nested).value().has_unknown_factor);
 }
 
 }  // namespace

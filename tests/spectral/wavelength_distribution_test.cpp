@@ -36,7 +36,7 @@ struct Case {
   std::string name;
   std::vector<Curve> emissions;
   std::vector<Curve> responses;
-  double largest_variance;  ///< Relative variance of one packet, wavelength alone.
+  double largest_variance;  ///< relative variance of one packet, by its wavelengths only
 };
 
 std::vector<Case> cases() {
@@ -58,8 +58,8 @@ std::vector<Case> cases() {
 TEST(WavelengthDistribution, integrates_to_one_over_its_support) {
   for (const Case& c : cases()) {
     const WavelengthDistribution distribution(c.emissions, c.responses);
-    // Midpoints of 1e-4 nm resolve every cell of these cases but the edges of the lines, which lose at most
-    // 1e-4/1e-3.
+    // Midpoints of 1e-4 nm resolve every cell of these cases, except the edges of the lines, which contribute
+    // at most 1e-4/1e-3.
     double total = 0;
     for (double nm = 300 + 5e-5; nm < 1100; nm += 1e-4) total += distribution.pdf(nm) * 1e-4;
     EXPECT_NEAR(total, 1, c.name.find("pm") == std::string::npos ? 1e-3 : 0.1) << c.name;
@@ -98,7 +98,7 @@ TEST(WavelengthDistribution, samples_follow_the_density) {
       const SampledWavelengths packet = distribution.sample((static_cast<float>(i) + 0.5F) / kPackets);
       for (const float nm : packet.lambda_nm.values()) ++counts[static_cast<std::size_t>(nm - 300)];
     }
-    // The packets are stratified, so the counts must lie far closer than chance would have them.
+    // The packets are stratified, so the counts must be much closer than random ones.
     double chi_squared = 0;
     for (std::size_t bin = 0; bin < counts.size(); ++bin) {
       const double mean = expected[bin] * kPackets * kLanes;
@@ -152,18 +152,18 @@ TEST(WavelengthDistribution, packets_estimate_every_pair_without_bias_and_with_l
 
 constexpr std::size_t kParts = 16;
 
-// The more, the longer the waves.
+// Importance that increases with the wavelength.
 std::vector<double> red_importance() {
   std::vector<double> importance;
   for (std::size_t i = 0; i < kParts; ++i) importance.push_back(0.1 + 0.2 * static_cast<double>(i));
   return importance;
 }
 
-// Each part of the distribution then has its importance over that of all, 25.6.
+// Each part of the distribution then has its importance divided by the sum of all, 25.6.
 TEST(WavelengthDistribution, parts_are_drawn_as_often_as_they_weigh) {
   const Case smooth = cases().front();
   const WavelengthDistribution plain(smooth.emissions, smooth.responses);
-  const WavelengthDistribution weighed = plain.weighed(red_importance());
+  const WavelengthDistribution weighed = plain.weighted(red_importance());
   EXPECT_EQ(weighed.low_nm(), plain.low_nm());
   EXPECT_EQ(weighed.high_nm(), plain.high_nm());
   std::vector<float> ends;
@@ -182,7 +182,7 @@ TEST(WavelengthDistribution, parts_are_drawn_as_often_as_they_weigh) {
 TEST(WavelengthDistribution, weighed_packets_estimate_every_pair_without_bias) {
   for (const Case& c : cases()) {
     const WavelengthDistribution weighed =
-        WavelengthDistribution(c.emissions, c.responses).weighed(red_importance());
+        WavelengthDistribution(c.emissions, c.responses).weighted(red_importance());
     for (const Curve& emission : c.emissions)
       for (const Curve& response : c.responses)
         EXPECT_NEAR(
@@ -193,7 +193,7 @@ TEST(WavelengthDistribution, weighed_packets_estimate_every_pair_without_bias) {
 }
 
 TEST(WavelengthDistribution, starves_no_pair) {
-  // Each of the six pairs keeps 0.95/6 of its own density, however weak its lamp.
+  // Each of the six pairs has at least 0.95/6 of its own density, however weak its light.
   const Curve e = load("illuminant", "E");
   const std::vector<Curve> emissions = {scaled(e, 1e-6), scaled(mercury(0.1), 1e6)};
   const std::vector<Curve> responses = xyz();

@@ -11,9 +11,9 @@
 
 #include "description/load.h"
 #include "io/data_directory.h"
-#include "transport/render/learnt_plan.h"
 #include "transport/render/render.h"
 #include "transport/render/technique_pilots.h"
+#include "transport/render/trained_plan.h"
 
 namespace abbe {
 namespace {
@@ -33,7 +33,7 @@ TEST(ChooseIntegrator, LeavesLampsThatAreConnectedToEasilyToPathTracing) {
     const IntegratorChoice choice = choose_integrator(load(plain), 2);
     EXPECT_EQ(choice.integrator, Integrator::automatic) << plain;
     EXPECT_LT(choice.cost_ratio.value_or(9), 1) << plain;
-    EXPECT_EQ(choice.because, "") << plain;
+    EXPECT_EQ(choice.reason, "") << plain;
   }
 }
 
@@ -49,8 +49,8 @@ Scene indirect_cornell() {
 double cost_ratio_of(const Scene& scene, std::uint32_t pixels) {
   Scene joining = scene;
   joining.render.integrator = Integrator::bdpt;
-  const PilotFindings apart = try_techniques(make_learnt_plan(scene, 2), 2, pixels);
-  const PilotFindings joined = try_techniques(make_plan(joining), 2, pixels);
+  const TechniqueStatistics apart = measure_techniques(make_trained_plan(scene, 2), 2, pixels);
+  const TechniqueStatistics joined = measure_techniques(make_plan(joining), 2, pixels);
   const double by_chance = joined.path_tracing_square - (apart.path_square - apart.path_variance);
   const double apart_root = std::sqrt(std::max(apart.path_variance, by_chance) * apart.path_rays) +
                             std::sqrt(apart.photon_variance * apart.photon_rays);
@@ -64,7 +64,7 @@ TEST(ChooseIntegrator, JoinsWhereThatCostsSoMuchLessAtEqualError) {
   ASSERT_TRUE(choice.cost_ratio);
   EXPECT_GT(*choice.cost_ratio, 1.5);
   EXPECT_DOUBLE_EQ(*choice.cost_ratio, cost_ratio_of(scene, 4096));
-  EXPECT_NE(choice.because.find("times as cheap"), std::string::npos) << choice.because;
+  EXPECT_NE(choice.reason.find("times as cheap"), std::string::npos) << choice.reason;
 }
 
 // A narrow spot lights a small place on the floor, which lights the fog: of that paths from the camera find
@@ -84,9 +84,9 @@ TEST(TechniquePilots, JoinedPathsTellWhatPathTracingWouldHave) {
                                         "emission": {"illuminant": "A", "luminous_flux_lm": 1000}})"},
                                              {"/render/max_depth", "1"},
                                              {"/render/integrator", "path"}});
-  const double square = try_techniques(make_plan(scene), 2).path_square;
+  const double square = measure_techniques(make_plan(scene), 2).path_square;
   scene.render.integrator = Integrator::bdpt;
-  const PilotFindings joined = try_techniques(make_plan(scene), 2);
+  const TechniqueStatistics joined = measure_techniques(make_plan(scene), 2);
   EXPECT_LT(joined.path_tracing_square, 1.02 * square);
   EXPECT_GT(joined.path_tracing_square, 0.8 * square);
   EXPECT_LT(joined.path_square, 0.75 * square);
@@ -114,9 +114,9 @@ TEST(TechniquePilots, JoinedPathsTellWhatPathTracingWouldHaveOfLongPaths) {
     sum += std::pow(kReflectance, k);
     squares += std::pow(kReflectance, 2 * k);
   }
-  const double square = try_techniques(make_plan(scene), 2, 512).path_square;
+  const double square = measure_techniques(make_plan(scene), 2, 512).path_square;
   scene.render.integrator = Integrator::bdpt;
-  const double told = try_techniques(make_plan(scene), 2, 512).path_tracing_square;
+  const double told = measure_techniques(make_plan(scene), 2, 512).path_tracing_square;
   const double of_each = told / square / (squares / (sum * sum));
   std::printf("%.3f of the squares, but for what falls to connections with the lens\n", of_each);
   EXPECT_LT(of_each, 1.02);
@@ -156,7 +156,7 @@ VarianceOfPilots variance_of_pilots(const char* file) {
     const double pixels = (64.0 + i) * (64 - i);
     const Scene scene = load(file, {{"/render/integrator", "path"},
                                     {"/sensor/resolution", fmt::format("[{}, {}]", 64 + i, 64 - i)}});
-    const PilotFindings found = try_techniques(make_plan(scene), 2, 512);
+    const TechniqueStatistics found = measure_techniques(make_plan(scene), 2, 512);
     variances.push_back(found.path_variance / pixels);
     squares += std::pow(found.path_variance_error / pixels, 2) / kFilms;
   }
@@ -197,12 +197,12 @@ TEST(ChooseIntegrator, PassesOnWhatItsPilotsHaveLearnt) {
                                           {"/render/integrator", fmt::format("\"{}\"", integrator)}});
     const IntegratorChoice choice = choose_integrator(scene, 2);
     ASSERT_NE(choice.guides, nullptr);
-    const auto film = [&](const std::shared_ptr<const Guides>& guides) {
+    const auto film = [&](const std::shared_ptr<const GuidingData>& guides) {
       const RenderResult rendered = render(scene, {.threads = 2, .guides = guides});
       return std::string(rendered.film.bytes());
     };
     EXPECT_EQ(film(choice.guides), film(nullptr));
-    EXPECT_NE(film(std::make_shared<const Guides>(make_plan(scene).guides)), film(nullptr));
+    EXPECT_NE(film(std::make_shared<const GuidingData>(make_plan(scene).guides)), film(nullptr));
   }
 }
 
@@ -243,8 +243,8 @@ TEST(ChooseIntegrator, MergesOnlyWhereThatIsAllowedAndFindsMore) {
   allowed.push_back({"/render/consistent", "true"});
   const IntegratorChoice choice = choose_integrator(load("scenes/glass_sphere.json", allowed), 2);
   EXPECT_EQ(choice.integrator, Integrator::vcm);
-  EXPECT_NE(choice.because.find("merging finds E S (S|D)* D (S|D)* S L"), std::string::npos)
-      << choice.because;
+  EXPECT_NE(choice.reason.find("only photon merging samples E S (S|D)* D (S|D)* S L"), std::string::npos)
+      << choice.reason;
   EXPECT_NE(choose_integrator(load("scenes/cornell.json", {{"/render/consistent", "true"}}), 2).integrator,
             Integrator::vcm);
 }

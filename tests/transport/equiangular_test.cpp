@@ -17,7 +17,7 @@ Light spot(const Imath::V3f& position, const Imath::V3f& axis, double half_angle
   return {"spot", SpotLight{position, axis.normalized(), cap}, Curve(1.0)};
 }
 
-// Over the numbers in [0, 1), 1/p is the length of the part where p is not 0, here the whole stretch.
+// The mean of 1/p over uniform numbers is the length of the range with p > 0, here the whole segment.
 TEST(Equiangular, ItsDensityIsThatOfItsSamples) {
   const Light lamp{"lamp", PointLight{{1, 2, 0.5F}}, Curve(1.0)};
   for (const float length : {0.5F, 4.0F, 100.0F}) {
@@ -43,7 +43,7 @@ TEST(Equiangular, LooksWhereTheLightIsSeenUnderTheSameAngle) {
   EXPECT_FLOAT_EQ(endless->pdf(0), 2 / std::numbers::pi_v<float>);
 }
 
-// Of rays and cones at random, of up to 85 degrees: the part is what the lamp shines on.
+// For random rays and cones of up to 85 degrees, the range is the illuminated part of the ray.
 TEST(Equiangular, IsWithinTheConeOfASpot) {
   std::mt19937 numbers(1);
   std::normal_distribution<float> normal;
@@ -63,7 +63,7 @@ TEST(Equiangular, IsWithinTheConeOfASpot) {
           Imath::V3d(ray.origin) + Imath::V3d(ray.direction) * t - Imath::V3d(cone.position);
       const double angle =
           std::atan2(from_lamp.cross(Imath::V3d(cone.axis)).length(), from_lamp.dot(Imath::V3d(cone.axis)));
-      if (std::abs(angle - half_angle) < 1e-3) continue;  // at the edge digits decide
+      if (std::abs(angle - half_angle) < 1e-3) continue;  // rounding decides at the edge
       ASSERT_EQ(part && part->pdf(t) > 0, angle < half_angle) << "ray " << i << " at " << t;
     }
   }
@@ -74,7 +74,7 @@ TEST(Equiangular, IsOfLampsAtPointsAlone) {
   const Ray ray{{0, 0, 0}, {1, 0, 0}};
   EXPECT_FALSE(Equiangular::along(ray, 1, {"sun", DirectionalLight{}, Curve(1.0)}));
   EXPECT_FALSE(Equiangular::along(ray, 1, spot({0, 1, 0}, {0, 1, 0}, 0.5)));
-  // Right through the lamp, and from it.
+  // Rays through the light and rays from it.
   const Light lamp{"lamp", PointLight{{1, 0, 0}}, Curve(1.0)};
   const auto through = Equiangular::along(ray, 2, lamp);
   ASSERT_TRUE(through);

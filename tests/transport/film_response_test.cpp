@@ -74,12 +74,12 @@ TEST(FilmResponse, ChannelsMeasureTheirRowOfTheStokesVector) {
   ASSERT_EQ(values.size(), channels.size());
   const std::vector<double> of_unit{1, 3, 0.5, 1.5, 0.25, 0.75, 0.125, 0.375, (1 - 0.5) / 2};
   for (std::size_t k = 0; k < values.size(); ++k) EXPECT_NEAR(values[k], 16 * of_unit[k], 1e-6) << k;
-  // What has no polarisation is a vector without it.
+  // An unpolarised contribution equals the vector (c, 0, 0, 0).
   EXPECT_EQ(exposed(response, {}, 500, 1), (std::vector<double>{16, 48, 0, 0, 0, 0, 0, 0, 8}));
   EXPECT_EQ(exposed(response, {}, 500, StokesSpectrum{SampledSpectrum(1.0F)}), exposed(response, {}, 500, 1));
 }
 
-// As unpolarised light does, and a mosaic of polarisers has each at its own pixel.
+// A mosaic of polarisers has one polariser per pixel; pixels are selected as for unpolarised light.
 TEST(FilmResponse, PolarisedLightFallsOnPixelsAndAngles) {
   const std::vector<Channel> channels{
       behind(behind(energy_channel("right", Curve(1.0)), {Curve(1.0), {{band(645, 655), 2.0}}}),
@@ -96,10 +96,11 @@ TEST(FilmResponse, PolarisedLightFallsOnPixelsAndAngles) {
   EXPECT_NEAR(at(1, tilt), 16 * 0.25, 1e-6);
 }
 
-// Four lanes on each of two pixels.
+// Four wavelengths fall on each of two pixels.
 TEST(FilmResponse, LanesExposeTheChannelAndTheAngleOfTheirOwnPixel) {
-  LaneImages images{SampledSpectrum(SampledSpectrum::Values{2, 3, 2, 3, 2, 3, 2, 3}), SampledSpectrum(0.5F),
-                    SampledSpectrum(SampledSpectrum::Values{1, 0.5F, 1, 0.5F, 1, 0.5F, 1, 0.5F})};
+  WavelengthImages images{SampledSpectrum(SampledSpectrum::Values{2, 3, 2, 3, 2, 3, 2, 3}),
+                          SampledSpectrum(0.5F),
+                          SampledSpectrum(SampledSpectrum::Values{1, 0.5F, 1, 0.5F, 1, 0.5F, 1, 0.5F})};
   const auto fallen = [&](FilmResponse response) {
     std::vector<std::pair<int, double>> fell;
     response.expose(
@@ -122,7 +123,7 @@ TEST(FilmResponse, LanesExposeTheChannelAndTheAngleOfTheirOwnPixel) {
 TEST(FilmResponse, LanesOfPolarisedLightFallApart) {
   const std::vector<Channel> channels = with_stokes({energy_channel("a", Curve(1.0))});
   FilmResponse response(channels);
-  LaneImages images{SampledSpectrum(2.5F), SampledSpectrum(0.5F), SampledSpectrum(1.0F)};
+  WavelengthImages images{SampledSpectrum(2.5F), SampledSpectrum(0.5F), SampledSpectrum(1.0F)};
   images.x = SampledSpectrum(SampledSpectrum::Values{2.5F, 2.5F, 2.5F, 2.5F, 2.5F, 2.5F, 4.5F, 4.5F});
   std::vector<std::pair<int, std::vector<double>>> fell;
   response.expose({0, 0, 1, 0, &images}, all_at(500), slanted(1),
@@ -136,7 +137,7 @@ TEST(FilmResponse, LanesOfPolarisedLightFallApart) {
 
 Scene card_in_a_line(const std::vector<Channel>& channels) {
   Scene scene{};
-  scene.camera = {Probe{}, 2, 1, 1};
+  scene.camera = {IrradianceProbe{}, 2, 1, 1};
   scene.channels = channels;
   scene.lights.push_back({"lamp", PointLight{{0, 0, 2}}, band(630, 640)});
   scene.commit();
@@ -156,13 +157,13 @@ TEST(Plan, PixelsOfAMosaicDrawTheWavelengthsOfTheirFilter) {
   EXPECT_DOUBLE_EQ(plan.wavelengths.pdf(637), 0.25);
 }
 
-// A lamp that only a tilted filter lets through is a lamp like others.
+// A light that only a tilted filter transmits is sampled like other lights.
 TEST(Plan, LightsAndWavelengthsAreDrawnForAllAnglesThatOccur) {
   std::vector<Channel> channels{
       behind(energy_channel("line", Curve(1.0)), {Curve(1.0), {{band(645, 655), 2.0}}})};
   limit_angles(channels[0], 0.9);
   const Scene scene = card_in_a_line(channels);
-  EXPECT_TRUE(scene.needs.angular_response);
+  EXPECT_TRUE(scene.features.angular_response);
   const Plan plan = make_plan(scene);
   EXPECT_FALSE(plan.path_lights.empty());
   EXPECT_GT(plan.wavelengths.pdf(635), 0.09);

@@ -7,8 +7,8 @@
 namespace abbe {
 namespace {
 
-// Shapes by material: 0 air, 1 water, 2 glass of a higher priority, 3 another glass of none, 4 a card, and 5
-// another pane of the glass.
+// Shapes by material: 0 air, 1 water, 2 glass of a higher priority, 3 another glass without priority, 4 a
+// card, 5 another pane of the first glass.
 class BoundaryTest : public testing::Test {
  protected:
   BoundaryTest() {
@@ -31,7 +31,7 @@ class BoundaryTest : public testing::Test {
   static std::vector<std::uint32_t> listed(const MediumStack& inside) {
     return {inside.shapes().begin(), inside.shapes().end()};
   }
-  // The shape that acts, or -1.
+  // Number of the acting shape, or -1.
   static int acting(const ActingSurface& boundary, const std::vector<CrossedSurface>& met) {
     return boundary.acting ? static_cast<int>(met[*boundary.acting].shape) : -1;
   }
@@ -43,7 +43,7 @@ class BoundaryTest : public testing::Test {
     std::vector<std::uint32_t> inside;
     std::vector<CrossedSurface> met;
     int acting;
-    double outside;  ///< Its index; 0 for air that no shape is filled with.
+    double outside;  ///< Index outside; 0 for air that fills no shape.
     std::vector<std::uint32_t> beyond;
   };
   void check(const std::vector<Expected>& all) const {
@@ -54,7 +54,7 @@ class BoundaryTest : public testing::Test {
       if (found.acting) {
         EXPECT_EQ(outside(found), one.outside) << i;
       }
-      EXPECT_EQ(listed(found.beyond), one.beyond) << i;
+      EXPECT_EQ(listed(found.media_behind), one.beyond) << i;
     }
   }
 
@@ -75,20 +75,20 @@ TEST_F(BoundaryTest, IsNoneWithinMatterOfAHigherPriority) {
          {{1, 2}, {{1, false}}, -1, 0, {2}},
          {{1, 2}, {{2, false}}, 2, 1.33, {1}},
          {{1}, {{2, true}}, 2, 1.33, {1, 2}},
-         // Of equals the one entered last is there.
+         // Of equal media, that of the shape entered last counts.
          {{1, 3}, {{1, false}}, -1, 0, {3}}});
 }
 
 TEST_F(BoundaryTest, OfTouchingSurfacesIsOneBetweenBothMatters) {
   check({{{1}, {{1, false}, {2, true}}, 2, 1.33, {2}},
          {{2}, {{2, false}, {1, true}}, 2, 1.33, {1}},
-         // The same whichever of the two is met first by rounding, and from either side the same one acts.
+         // The result does not depend on which of both rounding puts first, and is the same from either side.
          {{1}, {{2, true}, {1, false}}, 2, 1.33, {2}},
          {{1}, {{3, true}, {1, false}}, 3, 1.33, {3}},
          {{3}, {{1, true}, {3, false}}, 3, 1.33, {1}},
-         // Both entered in the same plane: the later one of the scene is there.
+         // Both are entered in the same plane: the later shape of the scene counts.
          {{}, {{3, true}, {1, true}}, 3, 0, {1, 3}},
-         // A pane cemented to another of its kind.
+         // A pane cemented to another pane of the same glass.
          {{2}, {{2, false}, {5, true}}, 5, 1.5, {5}}});
 }
 
@@ -97,7 +97,7 @@ TEST_F(BoundaryTest, IsOpaqueWhereAnythingIs) {
 }
 
 TEST_F(BoundaryTest, OfBodiesMadeOfFacesAndOfSurfacesNeverEntered) {
-  check({{{2}, {{5, false}}, 5, 0, {}},  // out by another face
+  check({{{2}, {{5, false}}, 5, 0, {}},  // leaves by another face
          {{}, {{3, false}}, 3, 0, {}},
          {{1}, {{3, false}}, 3, 1.33, {1}},
          {{3}, {{3, true}}, -1, 0, {3}}});

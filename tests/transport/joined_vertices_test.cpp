@@ -9,8 +9,8 @@
 namespace abbe {
 namespace {
 
-// Of N vertices 8 (1 + ln(N/8)) are joined, the first eight always, and what they count adds up to N on an
-// average, as it does over any stretch of the path.
+// About 8 (1 + ln(N/8)) of N vertices are connected, the first eight always. Their weights sum to N on
+// average, and to the length of any part of the path.
 TEST(JoinedVertices, StandForAllOfALongPath) {
   PathVertex vertex;
   vertex.at = MediumVertex{Imath::V3f(0), Imath::V3f(0), {}};
@@ -25,12 +25,12 @@ TEST(JoinedVertices, StandForAllOfALongPath) {
     ASSERT_GE(joined.size(), 8U);
     most = std::max(most, std::abs(static_cast<double>(joined.size()) - 8 * (1 + std::log(1000.0 / 8))));
     for (const JoinedVertex& vertex : joined) {
-      const auto count = static_cast<double>(vertex.count);
+      const auto count = static_cast<double>(vertex.weight);
       sum += count;
       if (vertex.number <= 40) sum_up_to_40 += count;
     }
     EXPECT_EQ(joined[7].number, 8U);
-    EXPECT_EQ(joined[7].count, 1);
+    EXPECT_EQ(joined[7].weight, 1);
   }
   EXPECT_LT(most, 2);
   EXPECT_NEAR(sum_up_to_40 / kPaths, 40, 0.1);

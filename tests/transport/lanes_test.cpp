@@ -14,7 +14,7 @@
 namespace abbe {
 namespace {
 
-// A strongly uneven distribution of wavelengths: a line over a weak continuum.
+// Strongly uneven distribution of wavelengths: a line over a weak continuum.
 WavelengthDistribution uneven_wavelengths() {
   const std::vector<SpectralLine> line{{546, 2, 30}};
   const std::vector<Curve> emission{sum(lines(line), band(400, 700, 1))};
@@ -24,7 +24,7 @@ WavelengthDistribution uneven_wavelengths() {
 
 constexpr int kSamples = 1 << 16;
 
-// Mean of an estimator over evenly spread packets and lobe choices.
+// Mean of an estimator over evenly spaced packets and lobe choices.
 template <typename F>
 double mean_over(const WavelengthDistribution& distribution, F estimate) {
   double total = 0;
@@ -42,8 +42,8 @@ struct Found {
   double transmitted = 0;
 };
 
-// What one event at a glass surface (index 1.4 to 1.9 over the visible) gives for unit spectral radiance,
-// integrated over 400 to 700 nm.
+// Result of one event at a glass surface (index 1.4 to 1.9 over the visible range) for unit spectral
+// radiance, integrated over 400 to 700 nm.
 Found glass_event(const PathPacket& drawn, float lobe) {
   const SampledSpectrum n =
       SampledSpectrum::map(drawn.wavelengths.lambda_nm, [](float l) { return 1.4F + (700 - l) / 600; });
@@ -76,7 +76,7 @@ TEST(Lanes, ReflectedShareIsTheIntegralOfFresnel) {
 }
 
 TEST(Lanes, ADenominatorWithWavelengthDensitiesWouldBeBiased) {
-  // sum_j f_j / sum_k p(lambda_k) P_k: why the density of wavelengths belongs in the numerator alone.
+  // sum_j f_j / sum_k p(lambda_k) P_k is biased: the pdf of wavelengths belongs in the numerator only.
   const double biased = mean_over(uneven_wavelengths(), [](const PathPacket& w, float lobe) {
     const SampledSpectrum n =
         SampledSpectrum::map(w.wavelengths.lambda_nm, [](float l) { return 1.4F + (700 - l) / 600; });
@@ -88,14 +88,14 @@ TEST(Lanes, ADenominatorWithWavelengthDensitiesWouldBeBiased) {
 }
 
 TEST(Lanes, SurvivalIsTheSameWhicheverLaneIsTheHero) {
-  // Seen from another hero, throughputs and lane densities are divided by a common factor.
+  // With another hero, throughputs and lane pdfs are divided by a common factor.
   PathPacket packet;
   packet.throughput = SampledSpectrum(0.3F) + SampledSpectrum::only(2, 0.2F);
   packet.lane_pdf = SampledSpectrum(0.8F);
-  const float q = survival(packet.carried(), 1, kEndingOfPaths);
+  const float q = survival(packet.throughput_estimate(), 1, kPathRouletteExponent);
   packet.throughput *= 1.7F;
   packet.lane_pdf *= 1.7F;
-  EXPECT_FLOAT_EQ(survival(packet.carried(), 1, kEndingOfPaths), q);
+  EXPECT_FLOAT_EQ(survival(packet.throughput_estimate(), 1, kPathRouletteExponent), q);
   EXPECT_FLOAT_EQ(q, 0.5F / 0.8F);
 }
 

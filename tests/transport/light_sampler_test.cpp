@@ -17,7 +17,7 @@ namespace {
 
 using Imath::V3f;
 
-// Four numbers in [0, 1), the `i`th of their kind.
+// Four random numbers in [0, 1), number `i` of the given kind.
 std::array<float, 4> numbers(std::uint32_t i, std::uint32_t kind = 0) {
   return Sampler(11, Purpose::pilot, 0, kind, i).group(0);
 }
@@ -54,7 +54,7 @@ Hall empty_hall() {
   return hall;
 }
 
-// One light of each kind; `lamps` more of several kinds, spread over the hall and of uneven strengths.
+// One light of each kind, and `lamps` more of several kinds and strengths, distributed over the hall.
 Hall mixed_hall(std::uint32_t lamps) {
   Hall hall = empty_hall();
   hall.add_shape("panel", Quad{{-1, -1, 3}, {0, 2, 0}, {2, 0, 0}}, false, 2);
@@ -82,8 +82,7 @@ Hall mixed_hall(std::uint32_t lamps) {
   return hall;
 }
 
-// A place among the lamps, every third of which takes light from all sides, and every second of which is
-// glossy.
+// Vertex among the lights; every third one is without orientation, every second one is glossy.
 LightSampleContext place_among_lamps(std::uint32_t i) {
   const auto u = numbers(i, 2);
   const V3f point(24 * u[0] - 12, 24 * u[1] - 12, 6 * u[2]);
@@ -107,8 +106,8 @@ TEST(LightSampler, ProbabilitiesSumToOne) {
   }
 }
 
-// On a grid of numbers each light is met as often as its probability says, within one of each end of its
-// piece, and floats of them.
+// On a grid of random numbers each light is picked in proportion to its probability, up to one grid step at
+// each end of its interval and float rounding.
 TEST(LightSampler, PicksAsOftenAsItSays) {
   for (const std::uint32_t lamps : {5U, 300U}) {
     Hall hall = mixed_hall(lamps);
@@ -148,13 +147,12 @@ TEST(LightSampler, WeighsWhatComesToThePlace) {
   expect({point}, {1, 0.25, 1, 4 * std::numbers::pi});
   const V3f down(0, 0, -1);
   expect({point, down}, {0, 0, 0, std::numbers::pi});
-  // What scatters in lobes finds the sky by itself,
+  // Glossy vertices leave the sky to scattering.
   expect({point, up, true}, {1, 0.25, 0.8, 0});
   expect({point, std::nullopt, true}, {1, 0.25, 1, 0});
 }
 
-// but where connections alone are to find it. An image's light comes from some directions more than from
-// others.
+// Without scattering, connections must find it. The light of an image depends on direction.
 TEST(LightSampler, LeavesAmbientLightToLobesWhereBothAreBalanced) {
   const V3f up(0, 0, 1);
   const auto sky_of = [&up](EnvironmentLight sky, bool scattering_finds) {
@@ -171,8 +169,7 @@ TEST(LightSampler, LeavesAmbientLightToLobesWhereBothAreBalanced) {
   EXPECT_FLOAT_EQ(sky_of({image}, true), 0.5F);
 }
 
-// Behind what is lit, or behind itself, a lamp has no more than its share of the tenth that asks for no
-// place.
+// A light behind the receiver, or facing away from it, has only its part of the defensive tenth.
 TEST(LightSampler, LeavesWhatCannotShineItsFloor) {
   for (const std::uint32_t lamps : {2U, 400U}) {
     Hall hall = empty_hall();
@@ -212,7 +209,8 @@ TEST(LightSampler, OneLightIsCertainAndNoneIsNoChoice) {
   EXPECT_TRUE(none.sampler().empty());
 }
 
-// On a lamp, within one, among lamps at one place, and in chains of lamps each half as far from the last.
+// Vertices on a light, within one, among lights at one point, and in chains of lights, each half as far from
+// the previous one.
 TEST(LightSampler, IsFiniteAnywhere) {
   Hall hall = empty_hall();
   hall.add_shape("ball", Sphere{{0, 0, 1}, 0.5}, false, 1);
@@ -236,9 +234,8 @@ TEST(LightSampler, IsFiniteAnywhere) {
   }
 }
 
-// Ten thousand small panels below a ceiling. The second moment of E_i/p_i over the choice, over the square of
-// the sum of all E_i, is 1 for the ideal choice, p_i as E_i, and the tenth that is uniform alone makes it
-// 1/0.9.
+// Ten thousand small panels below a ceiling. The second moment of E_i/p_i, over the square of the sum of all
+// E_i, is 1 for the ideal p_i in proportion to E_i. The uniform tenth alone makes it 1/0.9.
 TEST(LightSampler, ManyLampsCostLittleMoreThanTheIdealChoice) {
   Hall hall = empty_hall();
   constexpr std::uint32_t kLamps = 10000;
@@ -278,12 +275,12 @@ TEST(LightSampler, ManyLampsCostLittleMoreThanTheIdealChoice) {
   EXPECT_GT(by_power, 8);
 }
 
-// Ten times the lamps take hardly more than ten times as long, sorted as they are.
+// Ten times as many lights take hardly more than ten times as long, since they are sorted.
 TEST(LightSampler, IsBuiltInTheTimeThatSortingTakes) {
   const auto seconds = [](std::uint32_t lamps) {
     Hall hall = mixed_hall(lamps);
     hall.scene.commit();
-    const std::clock_t start = std::clock();  // of this process alone: others may keep the machine busy
+    const std::clock_t start = std::clock();  // CPU time of this process: others may use the machine
     const LightSampler sampler(hall.scene, hall.seen, true);
     return static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
   };

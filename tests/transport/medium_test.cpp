@@ -48,7 +48,7 @@ TEST(Medium, AnInfiniteWayLeavesWhatIsNotAbsorbed) {
   EXPECT_EQ(lanes[3], 0.5F);
 }
 
-// Rounded to floats alone, some would lie behind the plane that the ray ends at.
+// Rounded to floats alone, some points would be behind the plane at which the ray ends.
 TEST(FreePath, WhatFloatsDoNotTellFromASurfaceLiesInFrontOfIt) {
   test::Random random(3);
   const auto draw = [&] {
@@ -76,7 +76,7 @@ TEST(FreePath, WaysWithoutAnEndStayStraight) {
   EXPECT_EQ(point_along(ray, 0.5F, infinity, Imath::V3f(0)), Imath::V3f(1, 2, 3.5F));
 }
 
-// An optical depth of x is passed with probability e^-x, however small what is left of that.
+// An optical depth of x is passed with probability e^-x, however small that is.
 TEST(FreePath, LastsForTheDepthThatItsNumbersDraw) {
   const Scene scene{};
   RayCaster caster(scene);
@@ -86,27 +86,27 @@ TEST(FreePath, LastsForTheDepthThatItsNumbersDraw) {
        {std::pair(Imath::V2f(0.5F, 0), 0.5), std::pair(Imath::V2f(0, 0), 1 - 0x1p-49),
         std::pair(Imath::V2f(0, 0.5F), 1 - 0x1p-25 - 0x1p-49),
         std::pair(Imath::V2f(kMost, 0), 0x1p-24 - 0x1p-49), std::pair(Imath::V2f(kMost, kMost), 0x1p-49)}) {
-    Walk walk(Sampler(0, Purpose::camera, 0, 0, 0), 0);
+    PathState walk(Sampler(0, Purpose::camera, 0, 0, 0), 0);
     walk.ray = {{0, 0, 0}, {0, 0, 1}};
-    walk.around.medium = {true, SampledSpectrum(4.0F), &matter, SampledSpectrum(4.0F)};
+    walk.media.medium = {true, SampledSpectrum(4.0F), &matter, SampledSpectrum(4.0F)};
     std::optional<SurfaceHit> hit;
-    ASSERT_EQ(propagate(scene, caster, u, walk, hit), Arrival::matter);
+    ASSERT_EQ(propagate(scene, caster, u, walk, hit), SegmentEnd::medium);
     const double expected = -std::log(left) / 4;
     EXPECT_NEAR(walk.ray.origin.z, expected, 2e-7 * expected) << u;
   }
 }
 
-// Where light is scattered alike into all directions, a direction and how far the path comes along it are one
-// point of a sequence in three dimensions, four of whose first 256 lie in each of 64 boxes.
+// With isotropic scattering, a direction and the free path along it are one point of a three-dimensional
+// sequence. Four of its first 256 points are in each of 64 boxes.
 TEST(FreePath, FillsDirectionsAndWaysTogether) {
   constexpr double kScatteringPerM = 2;
-  constexpr std::size_t kEdge = 4;  // boxes along one
+  constexpr std::size_t kEdge = 4;  // boxes along one dimension
   Scene scene{};
   const CameraFrame frame{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   scene.camera = {Pinhole{frame, 0.05, 0.005}, 1, 1, 1e-8};
   scene.channels = {energy_channel("all", band(450, 650))};
   MediumMaterial fog;
-  fog.filling.scattering_per_m = Curve(kScatteringPerM);
+  fog.interior_medium.scattering_per_m = Curve(kScatteringPerM);
   scene.materials = {{"fog", fog}};
   scene.shapes.push_back({"fog", Sphere{{0, 0, 0}, 1000}, 0});
   scene.render.roulette_depth = -1;
@@ -117,7 +117,7 @@ TEST(FreePath, FillsDirectionsAndWaysTogether) {
   PathRecorder<TransportMode::radiance> recorder(scene, caster);
   for (std::uint32_t i = 0; i < 256; ++i) {
     RecordedPath& path = recorder.paths().emplace_back(Sampler(5, Purpose::camera, 0, 0, i), i);
-    LaneImages none;
+    WavelengthImages none;
     start_from_camera(plan, 0, 0, 0, path, none);
   }
   recorder.run();
@@ -135,7 +135,7 @@ TEST(FreePath, FillsDirectionsAndWaysTogether) {
 }
 
 std::vector<std::uint32_t> around(const Scene& scene, const Imath::V3f& point) {
-  const MediumStack inside = enclosing(scene, point);
+  const MediumStack inside = enclosing_media(scene, point);
   return {inside.shapes().begin(), inside.shapes().end()};
 }
 
@@ -162,7 +162,7 @@ TEST(MediumStack, KnowBodiesMadeOfFaces) {
   EXPECT_TRUE(around(scene, Imath::V3f(-0.5F, -0.8F, -1) - Imath::V3f(scene.origin_m)).empty());
 }
 
-// A ball of glass within another, beside a cube, a card and a pane of glass that encloses nothing.
+// A ball of glass within another, next to a cube, a card and a pane of glass that encloses nothing.
 TEST(MediumStack, AreFoundFromTheOutermost) {
   Scene scene{};
   scene.materials = {{"card", DiffuseMaterial{Curve(0.5)}},
@@ -196,7 +196,7 @@ TEST(MediumStack, ReturnToWhatIsAround) {
   scene.shapes[9].material = 2;
   scene.shapes[8].material = 3;
   MediumStack inside;
-  inside.cross(scene, 7, false);  // from behind a surface that encloses nothing
+  inside.cross(scene, 7, false);  // arrival from behind a surface that encloses nothing
   EXPECT_TRUE(inside.empty());
   inside.cross(scene, 3, true);
   inside.cross(scene, 5, true);
@@ -211,7 +211,7 @@ TEST(MediumStack, ReturnToWhatIsAround) {
   EXPECT_EQ(inside.innermost(), 9U) << "by its priority";
   inside.cross(scene, 9, false);
   EXPECT_EQ(inside.innermost(), 5U);
-  for (std::uint32_t shape = 100; inside.shapes().size() < MediumStack::kMost; ++shape)
+  for (std::uint32_t shape = 100; inside.shapes().size() < MediumStack::kMaxShapes; ++shape)
     inside.cross(scene, shape, true);
   EXPECT_THROW(inside.cross(scene, 99, true), Error);
 }

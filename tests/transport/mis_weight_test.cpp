@@ -5,7 +5,7 @@
 namespace abbe {
 namespace {
 
-// The densities of a direction by scattering, P_k s_k, and by connecting, c sum_k P_k, for eight lanes.
+// Pdfs of a direction by scattering, P_k s_k, and by connection, c sum_k P_k, for eight wavelengths.
 struct Densities {
   SampledSpectrum scattered;
   float connection_pdf;
@@ -27,9 +27,9 @@ TEST(LightWeights, AddUpToOneOverLanesAndWays) {
       const LightWeights weights(sampling);
       float sum = 0;
       for (int k = 0; k < kLanes; ++k)
-        sum += weights.of_met(p.scattered, p.connection_pdf, p.connected) * p.scattered[k];
+        sum += weights.emission_weight(p.scattered, p.connection_pdf, p.connected) * p.scattered[k];
       if (weights.connects())
-        sum += weights.of_connection(p.scattered, p.connection_pdf, p.connected) * p.connection_pdf *
+        sum += weights.connection_weight(p.scattered, p.connection_pdf, p.connected) * p.connection_pdf *
                p.connected;
       EXPECT_NEAR(sum, 1, 1e-6);
     }
@@ -40,18 +40,18 @@ TEST(LightWeights, OfThePowerHeuristicAreAsTheSquares) {
   for (const Densities& p : some_densities()) {
     const double s = p.scattered.sum();
     const double c = double{p.connection_pdf} * p.connected;
-    EXPECT_NEAR(weights.of_met(p.scattered, p.connection_pdf, p.connected) * s, s * s / (s * s + c * c),
-                1e-6);
-    EXPECT_NEAR(weights.of_connection(p.scattered, p.connection_pdf, p.connected) * c,
+    EXPECT_NEAR(weights.emission_weight(p.scattered, p.connection_pdf, p.connected) * s,
+                s * s / (s * s + c * c), 1e-6);
+    EXPECT_NEAR(weights.connection_weight(p.scattered, p.connection_pdf, p.connected) * c,
                 c * c / (s * s + c * c), 1e-6);
   }
 }
 
-// Light that no connection would have been drawn to, as after a delta event, counts when it is met.
+// Emission that no connection could have sampled, as after a delta event, counts as an emitter hit.
 TEST(LightWeights, OfConnectionsAloneLeaveWhatTheyCannotDraw) {
   const LightWeights weights(PathSampling{.lights = LightStrategy::light});
-  EXPECT_EQ(weights.of_met(SampledSpectrum(0.5F), 0, 0), 0.25F);
-  EXPECT_EQ(weights.of_met(SampledSpectrum(0.5F), 0.1F, 8), 0);
+  EXPECT_EQ(weights.emission_weight(SampledSpectrum(0.5F), 0, 0), 0.25F);
+  EXPECT_EQ(weights.emission_weight(SampledSpectrum(0.5F), 0.1F, 8), 0);
 }
 
 }  // namespace

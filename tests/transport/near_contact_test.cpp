@@ -7,7 +7,8 @@
 
 #include "transport/render/render.h"
 
-// Meters so near a light, or so far from one on their horizon, that its size in single precision matters.
+// Probes so close to a light, or so far from one on their horizon, that rounding to single precision could
+// matter.
 
 namespace abbe {
 namespace {
@@ -15,11 +16,11 @@ namespace {
 constexpr std::array kIntegrators{Integrator::path, Integrator::automatic, Integrator::bdpt,
                                   Integrator::vcm,  Integrator::sppm,      Integrator::photon_map};
 
-// A meter and a unit sphere of some radiance.
-Scene meter_of_sphere(const PointOfMeter& meter, const Imath::V3d& center, double radiance,
+// A probe and a unit sphere of constant radiance.
+Scene meter_of_sphere(const ProbePoint& meter, const Imath::V3d& center, double radiance,
                       Integrator integrator) {
   Scene scene{};
-  scene.camera = {Probe{meter}, 8, 8, 1};
+  scene.camera = {IrradianceProbe{meter}, 8, 8, 1};
   scene.materials = {{"black", DiffuseMaterial{Curve(0.0)}}};
   scene.channels = {energy_channel("all", Curve(1.0))};
   scene.shapes.push_back({"light", Sphere{center, 1}, 0});
@@ -31,8 +32,7 @@ Scene meter_of_sphere(const PointOfMeter& meter, const Imath::V3d& center, doubl
   return scene;
 }
 
-// Expects the film value of an irradiance [W m^-2 nm^-1] over the 800 nm that the program carries and one
-// second.
+// Expects the film value of an irradiance [W m^-2 nm^-1] over 800 nm and one second.
 void expect_irradiance(const Scene& scene, double irradiance, const std::string& what) {
   const Film::Average found = render(scene, {.threads = 1}).film.average(0);
   const double expected = irradiance * (kMaxWavelengthNm - kMinWavelengthNm);
@@ -40,7 +40,7 @@ void expect_irradiance(const Scene& scene, double irradiance, const std::string&
   EXPECT_NEAR(found.mean / expected, 1, 4 * found.standard_error / expected + 1e-3) << what;
 }
 
-// E = pi L/d^2 at the distance d from the centre [m], facing it.
+// E = pi L/d^2 at the distance d [m] from the center, for a probe that faces it.
 TEST(NearContact, MetersBesideASphereLightReadItsIrradiance) {
   for (const double gap : {1e-2, 1e-5, 3e-6, 1e-6})
     for (const Integrator integrator : kIntegrators) {
@@ -50,8 +50,8 @@ TEST(NearContact, MetersBesideASphereLightReadItsIrradiance) {
     }
 }
 
-// A sphere half below the horizon at d radii: E = L int cos over the upper half of its disc, 2/3 L/d^3, and
-// at the distances here sin^3 of its angular radius is 1/d^3.
+// A sphere half below the horizon at d radii: E = L int cos over the upper half of its disc = 2/3 L/d^3. At
+// the distances used here sin^3 of its angular radius equals 1/d^3.
 TEST(NearContact, MetersReadAFarSphereLightHalfBelowTheirHorizon) {
   for (const double d : {1e2, 1e5, 1e6})
     for (const Integrator integrator : kIntegrators)

@@ -25,7 +25,7 @@ PathPacket packet() {
   return drawn;
 }
 
-// A vertex at a point of a surface, come to from `from`.
+// Vertex at a surface point of a path that arrives from `from`.
 PathVertex surface_vertex(const V3f& point, const V3f& normal, const V3f& from, Bsdf bsdf,
                           std::uint32_t shape = 0) {
   const Basis<float> frame(normal);
@@ -44,7 +44,7 @@ SampledSpectrum uneven(float low) {
       {low, low + 0.05F, low + 0.1F, low + 0.2F, low + 0.25F, low + 0.3F, low + 0.35F, low + 0.4F});
 }
 
-// A vertex of the light at a point drawn for `from`, and the density of the draw in the measure of vertices.
+// Light vertex sampled for `from`, and its pdf in the measure of vertices.
 struct DrawnLight {
   PathVertex vertex;
   double pdf;
@@ -55,7 +55,7 @@ std::optional<DrawnLight> draw_light(const Scene& scene, const V3f& from, V2f u)
   if (!sample) return std::nullopt;
   PathVertex vertex{.at = LightVertex{0, sample->wi, V3f(0), true}, .packet = packet()};
   if (light.at_infinity()) return DrawnLight{vertex, static_cast<double>(sample->pdf)};
-  if (const V3f* at = place(light)) {
+  if (const V3f* at = light_position(light)) {
     vertex.at = LightVertex{0, *at};
     return DrawnLight{vertex, 1};
   }
@@ -74,7 +74,7 @@ void expect_lit_from(bool both_sides, bool glossy) {
   for (const Model& model : examples<Model>())
     for (const V3f& wo : {V3f(0.6F, 0, 0.8F), V3f(-0.36F, 0.48F, -0.8F)}) {
       const auto vertex = std::get<SurfaceVertex>(surface_vertex({0, 0, 0}, up, wo, model).at);
-      const LightSampleContext place = vertex.place();
+      const LightSampleContext place = vertex.light_context();
       EXPECT_EQ(place.glossy, glossy);
       EXPECT_EQ(place.side, both_sides ? std::nullopt : std::optional(wo.z > 0 ? up : -up));
       bool through = false;
@@ -100,22 +100,22 @@ TEST(SurfaceVertex, TellsWhereLightArrives) {
   expect_lit_from<RoughDielectricBsdf>(true, true);
 }
 
-// Where a model sees a normal of its own, light arrives by the cosine with that: by that of the shape, what a
-// connection brings would have no bound towards its horizon.
+// A model with a shading normal receives light by the cosine with that normal. With the cosine of the shape's
+// normal, connections near the horizon would be unbounded.
 TEST(SurfaceVertex, IsLitByTheNormalThatItsModelSees) {
   const V3f turned = V3f(0.6F, 0, 0.8F);
   const Light sky{"sky", EnvironmentLight{}, Curve(1.0)};
   SurfaceVertex vertex({V3f(0), V3f(0, 0, 1), 0, 0}, Basis<float>(turned), V3f(0, 0, 1),
                        DiffuseBsdf{SampledSpectrum(1.0F)});
   vertex.relief = true;
-  EXPECT_EQ(vertex.place().side, turned);
+  EXPECT_EQ(vertex.light_context().side, turned);
   Random random(31);
   double sum = 0;
   constexpr int kDraws = 20000;
   for (int i = 0; i < kDraws; ++i) {
-    const auto drawn = sample_light(sky, {}, vertex.place(), random.pair(), 0);
+    const auto drawn = sample_light(sky, {}, vertex.light_context(), random.pair(), 0);
     if (!drawn) continue;
-    const auto [wi, f, crosses] = vertex.towards(drawn->wi, TransportMode::radiance);
+    const auto [wi, f, crosses] = vertex.eval_towards(drawn->wi, TransportMode::radiance);
     const double brought = static_cast<double>(f[0] * std::abs(wi.z) / drawn->pdf);
     ASSERT_LT(brought, 1.001);
     sum += brought / kDraws;
@@ -123,17 +123,19 @@ TEST(SurfaceVertex, IsLitByTheNormalThatItsModelSees) {
   EXPECT_NEAR(sum, 0.9, 0.01) << "(1 + cos)/2 of what a surface sees that is turned against its horizon";
 }
 
-// Two points of one face are seen from each other along it, whichever side of it each is on.
+// Two points of one flat face see each other along it, whichever side each is on; neither scatters light to
+// the other.
 TEST(SurfaceVertex, SendsNothingToWhatMayLieOnEitherSide) {
   const PathVertex x = surface_vertex({0, 0, 0}, {0, 0, 1}, {0, 0, 1}, DiffuseBsdf{uneven(0.2F)});
   const auto sent = [&](float cosine) {
-    return std::get<SurfaceVertex>(x.at).towards({1, 0, cosine}, TransportMode::radiance).f;
+    return std::get<SurfaceVertex>(x.at).eval_towards({1, 0, cosine}, TransportMode::radiance).f;
   };
   for (const float cosine : {0.0F, 2e-7F, -2e-7F}) EXPECT_TRUE(sent(cosine).is_zero()) << cosine;
   EXPECT_FALSE(sent(1e-6F).is_zero());
 }
 
-// As the path tracer adds it: f |cos| L factor/p for the direction drawn, for each kind of light.
+// The connection equals that of the path tracer, f |cos| L factor/p for the sampled direction, for each kind
+// of light.
 TEST(Connect, ToALightIsWhatPathTracingAdds) {
   for (const auto& [name, scene] : all_light_kinds()) {
     RayCaster caster(scene);
@@ -159,13 +161,13 @@ TEST(Connect, ToALightIsWhatPathTracingAdds) {
   }
 }
 
-// A path that comes from infinity through a ball of fog to a card: its first vertex has the density of the
-// light's direction per area of the card, and of coming through the fog in each lane.
+// A path from infinity passes a ball of fog to a card. The pdf of its first surface vertex is that of the
+// light's direction per area of the card, times the passing probability of each wavelength.
 TEST(PathRecorder, TellsWhatFogLeavesOfLightFromInfinity) {
   Scene scene = test::lit_by(DirectionalLight{{0, 0, -1}});
   MediumMaterial fog;
-  fog.filling.scattering_per_m = Curve({{300, 0.2}, {1100, 0.6}});
-  fog.filling.absorption_per_m = Curve(0.1);
+  fog.interior_medium.scattering_per_m = Curve({{300, 0.2}, {1100, 0.6}});
+  fog.interior_medium.absorption_per_m = Curve(0.1);
   scene.materials = {{"card", DiffuseMaterial{Curve(0.5)}}, {"fog", fog}};
   scene.shapes = {{"card", Quad{{-5, -5, 3}, {10, 0, 0}, {0, 10, 1}}, 0}, {"ball", Sphere{{0, 0, 0}, 1}, 1}};
   scene.render.max_depth = 1;
@@ -194,8 +196,8 @@ TEST(PathRecorder, TellsWhatFogLeavesOfLightFromInfinity) {
   EXPECT_LT(through, 54);
 }
 
-// Within a white sphere, of paths that are joined to others: of n > 64 events a share (64/n)^2 of
-// paths has more, so that they have 128 on an average.
+// Paths within a white sphere, recorded for connection: a fraction (64/n)^2 exceeds n > 64 events, so that
+// their mean length is 128.
 TEST(PathRecorder, EndsLongPathsSoon) {
   Scene scene = test::lit_by(PointLight{{0, 0, 0.5F}});
   scene.materials = {{"white", DiffuseMaterial{Curve(0.999)}}};
@@ -212,16 +214,16 @@ TEST(PathRecorder, EndsLongPathsSoon) {
   }
   recorder.run();
   double events = 0;
-  for (const RecordedPath& path : recorder.paths()) events += path.events;
+  for (const RecordedPath& path : recorder.paths()) events += path.depth;
   EXPECT_NEAR(events / kPaths, 128, 20);
 }
 
-// In a cloud that is as good as endless: of those that have had n events a share of n^(-1/2) is still in it
-// without roulette, and (64/n)^(1/2) of these go on by it.
+// Paths in an almost infinite cloud: a fraction n^(-1/2) is still within it after n events without roulette,
+// and (64/n)^(1/2) of these survive roulette.
 TEST(PathRecorder, EndsLongPathsInMatterNoSoonerThanOthers) {
   Scene scene = test::lit_by(DirectionalLight{{0, 0, -1}});
   MediumMaterial cloud;
-  cloud.filling.scattering_per_m = Curve(1e5);
+  cloud.interior_medium.scattering_per_m = Curve(1e5);
   scene.materials = {{"cloud", cloud}};
   scene.shapes = {{"ball", Sphere{{0, 0, 0}, 1}, 0}};
   scene.render.max_depth = 260;
@@ -236,14 +238,14 @@ TEST(PathRecorder, EndsLongPathsInMatterNoSoonerThanOthers) {
   }
   recorder.run();
   const auto longer = [&recorder](int events) {
-    return static_cast<double>(
-        std::count_if(recorder.paths().begin(), recorder.paths().end(),
-                      [&](const RecordedPath& path) { return path.events >= events; }));
+    return static_cast<double>(std::count_if(recorder.paths().begin(), recorder.paths().end(),
+                                             [&](const RecordedPath& path) { return path.depth >= events; }));
   };
   EXPECT_NEAR(longer(256) / longer(64), 0.25, 0.06);
 }
 
-// f of both ends, G and what fog leaves: the same both ways between what is reciprocal.
+// BSDFs of both ends, G and the transmittance of fog are equal in both directions between reciprocal
+// vertices.
 TEST(Connect, IsSymmetric) {
   const Scene scene = test::lit_by(PointLight{{0, 0, 9}});
   RayCaster caster(scene);
@@ -269,8 +271,8 @@ TEST(Connect, IsSymmetric) {
   }
 }
 
-// As between a lens of a millionth of a micrometre and a card beside it: neither a product of what is small
-// nor of what is large is a float.
+// A lens of a millionth of a micrometre next to a card: products of small factors, or of large ones, are
+// outside the range of floats.
 TEST(Connect, HoldsWhatIsSmallAndLargeByTurns) {
   const Scene scene = test::lit_by(PointLight{{0, 0, 9}});
   RayCaster caster(scene);
@@ -286,7 +288,8 @@ TEST(Connect, HoldsWhatIsSmallAndLargeByTurns) {
   EXPECT_NEAR(joined->contribution[0], 1 / (0.04 * std::numbers::pi * std::numbers::pi), 1e-5);
 }
 
-// From the wall of a ball of rough glass that absorbs: inwards through it, outwards through air.
+// Connections from the wall of a ball of absorbing rough glass: inwards through the glass, outwards through
+// air.
 TEST(Connect, RunsThroughWhatLiesOnTheSideItLeavesTo) {
   Scene scene{};
   scene.camera = test::pinhole();
@@ -303,7 +306,7 @@ TEST(Connect, RunsThroughWhatLiesOnTheSideItLeavesTo) {
       surface_vertex(wall, {0, 0, -1}, {0.2F, 0, 0},
                      make_bsdf(scene.materials[0], {packet().wavelengths.lambda_nm, {0, 0}, nullptr}));
   PathVertex clear = x;
-  x.beyond.cross(scene, 0, true);
+  x.media_behind.cross(scene, 0, true);
   for (const auto& [end, distance] :
        {std::pair(V3f(0, 0.1F, 2.8F), std::hypot(0.1, 0.8)), {V3f(0, 0.1F, 1), 0.0}}) {
     const PathVertex y = medium_vertex(end, {1, 0, 0}, IsotropicPhase{});

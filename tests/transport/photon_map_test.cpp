@@ -23,11 +23,11 @@ std::vector<V3f> points(std::uint32_t count) {
     const auto u = Sampler(3, Purpose::pilot, 0, 0, i).group(0);
     all.emplace_back(u[0], u[1], u[2] * u[2]);
   }
-  all.insert(all.end(), 40, V3f(0.5F, 0.5F, 0.5F));  // in one place
+  all.insert(all.end(), 40, V3f(0.5F, 0.5F, 0.5F));  // at one point
   return all;
 }
 
-// The same as by asking every point.
+// Results equal those of a search over all points.
 TEST(PhotonMap, FindsThoseWithinARadius) {
   const std::vector<V3f> all = points(3000);
   const PhotonMap map(all);
@@ -75,7 +75,7 @@ TEST(PhotonMap, OfNothingFindsNothing) {
   EXPECT_TRUE(found.empty());
 }
 
-// A plate of reflectance 0.5 seen from above, lit from no side that is seen.
+// Image from above of a plate with the reflectance 0.5, without light on the visible side.
 Film seen_from_above(const std::string& plate, std::uint64_t paths,
                      const std::function<void(const Plan&, const Deposit&)>& trace) {
   const Scene scene = test::load_text(R"({"abbe": 1,
@@ -93,7 +93,7 @@ Film seen_from_above(const std::string& plate, std::uint64_t paths,
   return film;
 }
 
-// Flux spread evenly over the plate makes it as bright as one that emits f E.
+// A uniform photon flux makes the plate as bright as one that emits f E.
 TEST(PhotonGathering, TellsTheFluxForEachAreaWhateverTheKernel) {
   constexpr std::uint32_t kPaths = 16;
   std::vector<PixelSample> samples;
@@ -138,7 +138,7 @@ TEST(PhotonGathering, TellsTheFluxForEachAreaWhateverTheKernel) {
   }
 }
 
-// By the product that defines them, and as a whole: r_n^2 falls as n^(a - 1).
+// The radius equals the defining product for each sample; r_n^2 decreases as n^(a - 1).
 TEST(GatherRadius, ShrinksAsItsProduct) {
   EXPECT_FLOAT_EQ(gather_radius(0.25F, 0), 0.25F);
   double squared = 1;
@@ -149,7 +149,7 @@ TEST(GatherRadius, ShrinksAsItsProduct) {
   EXPECT_NEAR(gather_radius(1, 8'000'000) / gather_radius(1, 1'000'000), std::pow(8, -1.0 / 6), 1e-5);
 }
 
-// Whatever merges paths tells so, and nothing else.
+// Techniques that merge paths report a bias; no other technique does.
 TEST(Techniques, TellTheirBias) {
   for (const Technique technique : {Technique::path, Technique::light, Technique::bdpt,
                                     Technique::photon_brute, Technique::adjoint_brute})

@@ -73,16 +73,17 @@ std::vector<std::vector<float>> pilot_photons(const PilotPhotons& pilots, int th
 TEST(PilotPhotons, AreNoMoreThanEnough) {
   constexpr std::uint32_t kAtATime = 1U << 14;
   const auto photons = [](const auto& batches) { return batches.size() * kPilotPhotonBatch; };
-  const auto all = pilot_photons({PilotStage::aims, 3 * kAtATime}, 1);
+  const auto all = pilot_photons({PilotStage::photon_guides, 3 * kAtATime}, 1);
   ASSERT_EQ(photons(all), 3 * kAtATime);
   EXPECT_NE(all[kAtATime / kPilotPhotonBatch], all.front());
-  EXPECT_EQ(photons(pilot_photons({PilotStage::aims, kPilotPhotonBatch}, 1)), kPilotPhotonBatch);
-  EXPECT_EQ(photons(pilot_photons({PilotStage::aims, 3 * kAtATime, 1}, 1)), kAtATime / 8);
-  const auto two = pilot_photons({PilotStage::aims, 3 * kAtATime, kAtATime + 1}, 3);
+  EXPECT_EQ(photons(pilot_photons({PilotStage::photon_guides, kPilotPhotonBatch}, 1)), kPilotPhotonBatch);
+  EXPECT_EQ(photons(pilot_photons({PilotStage::photon_guides, 3 * kAtATime, 1}, 1)), kAtATime / 8);
+  const auto two = pilot_photons({PilotStage::photon_guides, 3 * kAtATime, kAtATime + 1}, 3);
   ASSERT_EQ(photons(two), 2 * kAtATime);
   EXPECT_TRUE(std::equal(two.begin(), two.end(), all.begin())) << "threads or how many there are matter";
   EXPECT_NE(pilot_photons({PilotStage::caustics, kPilotPhotonBatch}, 1).front(), all.front());
-  const auto others = pilot_photons({.stage = PilotStage::aims, .most = kAtATime, .first = kAtATime}, 1);
+  const auto others =
+      pilot_photons({.stage = PilotStage::photon_guides, .max_photons = kAtATime, .first = kAtATime}, 1);
   EXPECT_TRUE(std::equal(others.begin(), others.end(), all.begin() + kAtATime / kPilotPhotonBatch));
 }
 
@@ -91,8 +92,8 @@ TEST(PilotPhotons, AreNoMoreThanTheirRaysAllow) {
   const Scene scene = card_on_the_left(8, 4);
   const auto batches = [&](int threads) {
     return trace_pilot_photons(
-               scene, {.stage = PilotStage::aims, .most = 1U << 17, .most_rays = 100000}, threads,
-               [](RayCaster& caster) { return &caster; },
+               scene, {.stage = PilotStage::photon_guides, .max_photons = 1U << 17, .max_rays = 100000},
+               threads, [](RayCaster& caster) { return &caster; },
                [](RayCaster* caster, std::span<const Sampler> photons) {
                  for (std::size_t i = 0; i < photons.size(); ++i)
                    (void)caster->intersect(Ray{{0, 0, -1}, {0, 0, 1}});

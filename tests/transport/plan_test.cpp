@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "sampling/sampler.h"
-#include "transport/render/learnt_plan.h"
+#include "transport/render/trained_plan.h"
 
 namespace abbe {
 namespace {
@@ -40,7 +40,7 @@ TEST(Plan, ChoosesTechniquesByIntegratorAndNeed) {
   EXPECT_EQ(techniques(Integrator::light, 1, 0), List{}) << "a lamp without power";
 }
 
-// What scatters in lobes leaves the sky to scattering where that counts beside connections.
+// Glossy vertices leave the sky to scattering if scattering counts in addition to connections.
 TEST(Plan, ConnectsGlossyPlacesToTheSkyWhereNothingElseFindsIt) {
   const auto sky = [](Integrator integrator, LightStrategy lights) {
     Scene scene = lamps_over_glass(1);
@@ -75,17 +75,17 @@ TEST(Plan, RefusesWhatFloatsCannotTellFromNothing) {
 TEST(Plan, AimsTheStrongestOfManyLamps) {
   const Scene scene = lamps_over_glass(300);
   const Plan plan = make_plan(scene);
-  ASSERT_EQ(plan.guides.aims.size(), 300U);
-  for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(plan.guides.aims[i].guided(), i >= 172) << i;
+  ASSERT_EQ(plan.guides.photon_guides.size(), 300U);
+  for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(plan.guides.photon_guides[i].is_guided(), i >= 172) << i;
   const Scene few_scene = lamps_over_glass(3);
   const Plan few = make_plan(few_scene);
-  EXPECT_TRUE(std::all_of(few.guides.aims.begin(), few.guides.aims.end(),
-                          [](const Aim& aim) { return aim.guided(); }));
+  EXPECT_TRUE(std::all_of(few.guides.photon_guides.begin(), few.guides.photon_guides.end(),
+                          [](const PhotonGuide& aim) { return aim.is_guided(); }));
   const Scene dark_scene = lamps_over_glass(0);
-  EXPECT_TRUE(make_plan(dark_scene).guides.aims.empty());
+  EXPECT_TRUE(make_plan(dark_scene).guides.photon_guides.empty());
 }
 
-// Thousands of lamps of one kind leave a lamp of another kind as many wavelengths as one would.
+// Thousands of lights of one kind leave as many wavelengths to a light of another kind as one would.
 TEST(Plan, EqualEmissionsCountOnce) {
   const auto red_share = [](std::size_t blue_lamps) {
     Scene scene = lamps_over_glass(blue_lamps);
@@ -98,7 +98,7 @@ TEST(Plan, EqualEmissionsCountOnce) {
   EXPECT_GT(red_share(1), 0.003);
 }
 
-// Of lamps that differ in strength alone, each is seen as strong as it is.
+// Lights that differ in strength alone have their own strengths.
 TEST(Plan, ProportionalEmissionsCountOnce) {
   const auto plan_of = [](bool shared) {
     Scene scene = lamps_over_glass(3);
@@ -116,12 +116,12 @@ TEST(Plan, ProportionalEmissionsCountOnce) {
 
 TEST(Plan, IsTheSameOfAnySeedOnAnyNumberOfThreads) {
   Scene scene = lamps_over_glass(2);
-  const Plan one = make_learnt_plan(scene, 1);
+  const Plan one = make_trained_plan(scene, 1);
   scene.render.seed = 7;
-  const Plan four = make_learnt_plan(scene, 4);
+  const Plan four = make_trained_plan(scene, 4);
   const Plan unlearned = [&] {
     Plan plan = one;
-    for (Aim& aim : plan.guides.aims) aim = Aim({0, 0, 2}, 0, {0, 0, 4}, 0.35F);
+    for (PhotonGuide& aim : plan.guides.photon_guides) aim = PhotonGuide({0, 0, 2}, 0, {0, 0, 4}, 0.35F);
     return plan;
   }();
   int learned = 0;
@@ -130,7 +130,7 @@ TEST(Plan, IsTheSameOfAnySeedOnAnyNumberOfThreads) {
     for (std::size_t light = 0; light < 2; ++light) {
       const EmissionPoint from = sample_emission_point(scene.lights[light], scene.shapes, {0, 0}, 0);
       const auto aimed = [&](const Plan& plan) {
-        return plan.guides.aims[light].sample(scene.lights[light], from, u[2], {u[0], u[1]}, 0);
+        return plan.guides.photon_guides[light].sample(scene.lights[light], from, u[2], {u[0], u[1]}, 0);
       };
       ASSERT_EQ(aimed(one).wi, aimed(four).wi) << i;
       ASSERT_EQ(aimed(one).pdf, aimed(four).pdf) << i;

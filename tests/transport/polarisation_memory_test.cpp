@@ -23,7 +23,7 @@ TEST(Polarisation, MemoryThatIsGivenBackIsTakenAgain) {
   EXPECT_NE(first.get(), last);
 }
 
-// More than a thread keeps, made by one and destroyed by another.
+// More objects than a thread's free list holds, created by one thread and destroyed by another.
 TEST(Polarisation, ManyAreAlignedAndApart) {
   constexpr std::size_t kMany = 5000;
   std::vector<std::unique_ptr<Polarisation>> all;

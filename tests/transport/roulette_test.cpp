@@ -4,13 +4,12 @@
 
 #include "transport/render/render.h"
 
-// The mean of paths that Russian roulette ends.
+// Russian roulette does not change the mean of paths.
 
 namespace abbe {
 namespace {
 
-// A camera at the centre of a ball that emits and reflects diffusely on its inside: radiance is the same
-// everywhere.
+// A camera at the center of a ball that emits and reflects diffusely inside: the radiance is uniform.
 Scene furnace(double reflectance, Integrator integrator, int roulette_depth) {
   Scene scene{};
   scene.camera = {Pinhole{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.05, 0.005}, 16, 16, 0.01};
@@ -30,7 +29,7 @@ Film::Average mean_of(const Scene& scene) {
 }
 
 // L = Le/(1 - rho). The fraction rho^9 of it has had more than eight scattering events. Light tracing alone
-// leaves out Le itself, the emitter as the camera sees it.
+// excludes Le itself, which the camera receives from the emitter.
 TEST(Roulette, LeavesTheMeanOfAFurnaceWhateverTheDepthItBeginsAt) {
   const Film::Average emitted = mean_of(furnace(0, Integrator::path, 4));
   for (const Integrator integrator : {Integrator::path, Integrator::bdpt, Integrator::light})

@@ -1,5 +1,5 @@
-// Paths of two kinds that are recorded and joined: however a path is split between both ends, the light is
-// the same.
+// Camera and light subpaths are recorded and connected: however a path is divided between both, its
+// contribution is the same.
 #include <gtest/gtest.h>
 
 #include <cfenv>
@@ -29,10 +29,9 @@ struct Look {
   Filling filling;
 };
 
-// A coloured wall, a rough golden panel and a lamp, all apart from one another. A ball of fog that scatters
-// and absorbs unevenly may hang before the wall, or one of gold; one of glass that disperses may stick in the
-// wall; there are a sky, a wide sun and a small lamp as well; or before all that is seen a plate lets few
-// wavelengths pass.
+// A coloured wall, a rough golden panel and a light. Options: a ball of fog that scatters and absorbs
+// unevenly in front of the wall, or one of gold; a ball of dispersive glass in the wall; a sky, a wide sun
+// and a small light; or a plate in front of the camera that transmits few wavelengths.
 Scene room(const Look& look) {
   Scene scene{};
   scene.camera = look.camera;
@@ -62,9 +61,9 @@ Scene room(const Look& look) {
   if (look.filling == Filling::gold) scene.shapes.push_back({"ball", Sphere{{0, 0, 2.4}, 1}, 1});
   if (look.filling == Filling::fog) {
     MediumMaterial thin;
-    thin.filling.scattering_per_m = Curve({{300, 0.5}, {1100, 2}});
-    thin.filling.absorption_per_m = Curve(0.1);
-    thin.filling.phase = HenyeyGreensteinPhase{0.4F};
+    thin.interior_medium.scattering_per_m = Curve({{300, 0.5}, {1100, 2}});
+    thin.interior_medium.absorption_per_m = Curve(0.1);
+    thin.interior_medium.phase = HenyeyGreensteinPhase{0.4F};
     scene.materials.push_back({"fog", thin});
     scene.shapes.push_back({"fog", Sphere{{0, 0, 2.4}, 1}, 2});
   }
@@ -78,17 +77,17 @@ Scene room(const Look& look) {
 const CameraFrame kFrame{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
 const Camera kPinhole{Pinhole{kFrame, 0.05, 0.005}, 1, 1, 0.04};
 const Camera kLens{ThinLens{kFrame, 0.05, 2, 0.05}, 1, 1, 0.04};
-const Camera kMeter{Probe{}, 1, 1, 0.04};
+const Camera kMeter{IrradianceProbe{}, 1, 1, 0.04};
 
 RecordedPath camera_path(const Plan& plan, const Sampler& sampler, std::uint32_t i) {
   RecordedPath path(sampler, i);
   path.packet = draw_packet(plan.wavelengths, sampler.group(kFilmGroup)[2]);
-  LaneImages none;
+  WavelengthImages none;
   start_from_camera(plan, 0, 0, 0, path, none);
   return path;
 }
 
-// Of the same wavelengths and hero as the camera path it is to be joined to.
+// Light subpath with the wavelengths and hero of the camera subpath to which it is connected.
 RecordedPath light_path(const Plan& plan, RayCaster& caster, const PathPacket& packet, const Sampler& sampler,
                         std::uint32_t i) {
   RecordedPath path(sampler, i);
@@ -98,7 +97,7 @@ RecordedPath light_path(const Plan& plan, RayCaster& caster, const PathPacket& p
   return path;
 }
 
-// sum_j f_j/p(lambda_j) / sum_k P_k of two paths that are joined. [Wilkie2014]
+// sum_j f_j/p(lambda_j) / sum_k P_k of two connected subpaths. [Wilkie2014]
 double value(const PathVertex& a, const PathVertex& b, const SampledSpectrum& joined) {
   const SampledSpectrum f = joined / a.packet.wavelengths.pdf;
   return static_cast<double>(f.sum() / (a.packet.lane_pdf * b.packet.lane_pdf).sum());
@@ -107,7 +106,7 @@ double value(const PathVertex& a, const PathVertex& b, const SampledSpectrum& jo
 struct Estimate {
   double sum = 0;
   double squares = 0;
-  double count = kCount;  // of paths, some of which find nothing
+  double count = kCount;  // number of paths, some of which contribute nothing
   void add(double x) {
     sum += x;
     squares += x * x;
@@ -116,8 +115,9 @@ struct Estimate {
   [[nodiscard]] double variance() const { return (squares / count - mean() * mean()) / count; }
 };
 
-// Joins recorded paths in every way that scatters `events` times in all, and calls `visit` with how many of
-// these are the light's path's and what it finds. Where none is the camera's its point is drawn anew.
+// Connects recorded subpaths in all strategies with `events` scattering events. Calls `visit` with the number
+// of these on the light subpath, and the contribution. If the camera subpath has no vertex, its point is
+// sampled anew.
 template <typename Visit>
 void join_all(const Scene& scene, RayCaster& caster, int events, Visit visit) {
   const Plan plan = make_plan(scene);
@@ -153,7 +153,7 @@ void join_all(const Scene& scene, RayCaster& caster, int events, Visit visit) {
   }
 }
 
-// By how many of the events are the light's path's.
+// Estimates by the number of events on the light subpath.
 std::vector<Estimate> strategies(const Scene& scene, int events) {
   RayCaster caster(scene);
   std::vector<Estimate> found(static_cast<std::size_t>(events) + 1);
@@ -175,7 +175,8 @@ TEST(Strategies, FindTheSameLight) {
     }
 }
 
-// Within fog a connection between two of its points has no finite variance: only the outermost strategies.
+// Connections between two points in fog have no finite variance, so only the outermost strategies are
+// compared.
 TEST(Strategies, FindTheSameLightThroughFog) {
   const Scene scene = room({kPinhole, Filling::fog});
   for (int events = 1; events <= 2; ++events) {
@@ -188,7 +189,7 @@ TEST(Strategies, FindTheSameLightThroughFog) {
   }
 }
 
-// What a technique finds along paths of one sample each, of a film of one pixel.
+// Estimate of a technique from paths of one sample each, for a film of one pixel.
 template <typename Trace>
 Estimate found_by(Trace trace) {
   const std::uint32_t many = test::nightly() ? 1 << 17 : 1 << 14;
@@ -225,10 +226,10 @@ Estimate found_bidirectionally(const Scene& scene) {
   });
 }
 
-// Weighed over all of them by the densities that are stored, they add up to what path tracing finds: of paths
-// of any number of events, through fog, glass and a filter, off gold, of lights of all kinds, and into a
-// meter, which no photon is connected to. Where path tracing is at its best, the others' share of the weight
-// costs little.
+// Weighted over all strategies with the stored pdfs, contributions sum to the result of path tracing. This
+// holds for paths of any length, through fog, glass and a filter, off gold, for lights of all kinds, and at a
+// probe, to which no photon is connected. Where path tracing is best, the weights of the other strategies
+// cost little.
 class BalancedStrategies : public testing::TestWithParam<Filling> {};
 
 TEST_P(BalancedStrategies, AddUp) {
@@ -250,7 +251,7 @@ INSTANTIATE_TEST_SUITE_P(Fillings, BalancedStrategies,
                          testing::Values(Filling::nothing, Filling::fog, Filling::glass, Filling::gold,
                                          Filling::sky, Filling::filter));
 
-// Those of one path from the camera.
+// Vertices of one camera path.
 std::vector<PathVertex> camera_vertices(const Scene& scene, RayCaster& caster, const Plan& plan) {
   PathRecorder<TransportMode::radiance> recorder(scene, caster);
   recorder.paths().push_back(camera_path(plan, {6, Purpose::camera, 0, 0, 0}, 0));
@@ -258,16 +259,16 @@ std::vector<PathVertex> camera_vertices(const Scene& scene, RayCaster& caster, c
   return recorder.paths().front().vertices;
 }
 
-// A light is as dense as it was drawn, for a place on one side of a surface.
+// The pdf of a light vertex is that with which it was sampled, for a vertex on one side of a surface.
 TEST(EndDensities, AreThoseThatLightsAreDrawnWith) {
   const Scene scene = room({kPinhole, Filling::sky});
   RayCaster caster(scene);
   const Plan plan = make_plan(scene);
   const PathVertex lit = camera_vertices(scene, caster, plan).at(1);
-  ASSERT_TRUE(std::get<SurfaceVertex>(lit.at).place().side);
+  ASSERT_TRUE(std::get<SurfaceVertex>(lit.at).light_context().side);
   int skies = 0;
   for (std::uint32_t i = 0; i < 64; ++i) {
-    const auto light = light_for(plan, lit, Sampler(7, Purpose::pilot, 0, 0, i).group(0));
+    const auto light = sample_light_vertex(plan, lit, Sampler(7, Purpose::pilot, 0, 0, i).group(0));
     if (!light) continue;
     skies += scene.lights[std::get<LightVertex>(light->at).light].is_environment();
     EXPECT_NEAR(end_densities(plan, lit, *light).light_connection / light->pdf_forward[0], 1, 1e-5);
@@ -275,27 +276,27 @@ TEST(EndDensities, AreThoseThatLightsAreDrawnWith) {
   EXPECT_GT(skies, 0);
 }
 
-// As at the rim of a narrow sun, which a direction drawn within may miss when it is rounded.
+// Example: the rim of a narrow sun, which a sampled direction may miss after rounding.
 TEST(StrategyWeights, WhatIsDrawnWithNoDensityWeighsNothing) {
   const Scene scene = room({kPinhole, Filling::nothing});
   RayCaster caster(scene);
   const Plan plan = make_plan(scene);
   const std::vector<PathVertex> x = camera_vertices(scene, caster, plan);
-  const auto light = light_for(plan, x.at(1), {0.5F, 0.5F, 0.5F, 0.5F});
+  const auto light = sample_light_vertex(plan, x.at(1), {0.5F, 0.5F, 0.5F, 0.5F});
   ASSERT_TRUE(light);
   const JoinedPath path{.z = {&x[0], &x[1], &*light}, .t = 2};
   StrategyWeights weights(scene, caster);
   EndDensities ends = end_densities(plan, x[1], *light);
-  EXPECT_GT(weights.of(path, ends), 0);
-  EXPECT_GT(weights.by_path_tracing(), 0);
+  EXPECT_GT(weights.weight_of(path, ends), 0);
+  EXPECT_GT(weights.path_tracing_fraction(), 0);
   ends.light_connection = 0;
   std::feclearexcept(FE_ALL_EXCEPT);
-  EXPECT_EQ(weights.of(path, ends), 0);
-  EXPECT_EQ(weights.by_path_tracing(), 0);
+  EXPECT_EQ(weights.weight_of(path, ends), 0);
+  EXPECT_EQ(weights.path_tracing_fraction(), 0);
   EXPECT_EQ(std::fetestexcept(FE_DIVBYZERO | FE_INVALID), 0);
 }
 
-// A path that glass refracts or mirrors has the same densities whichever end records it.
+// A path that glass refracts or reflects has the same pdfs whichever end records it.
 TEST(RecordedPaths, SingleDirectionsAreAsDenseFromEitherEnd) {
   const Bsdf glass = DielectricBsdf{SampledSpectrum(1.5F), false};
   const auto at = [&glass](const V3f& wo) {
@@ -310,15 +311,15 @@ TEST(RecordedPaths, SingleDirectionsAreAsDenseFromEitherEnd) {
       ASSERT_LT((power->wi - wo).length(), 1e-6);
       const auto camera = PathRecorder<TransportMode::radiance>::single_direction(there, *radiance, 0);
       const auto light = PathRecorder<TransportMode::power>::single_direction(back, *power, 0);
-      EXPECT_NEAR(light.forward[0] / camera.back[0], 1, 1e-5);
-      EXPECT_NEAR(light.back[0] / camera.forward[0], 1, 1e-5);
-      // dw_light/dw_camera is 1 of a mirror, and here n_c^2 cos_c / (n_l^2 cos_l).
+      EXPECT_NEAR(light.forward[0] / camera.reverse[0], 1, 1e-5);
+      EXPECT_NEAR(light.reverse[0] / camera.forward[0], 1, 1e-5);
+      // dw_light/dw_camera is 1 for a mirror, and here n_c^2 cos_c / (n_l^2 cos_l).
       const float n = radiance->transmitted ? (wo.z > 0 ? 1 / 1.5F : 1.5F) : 1;
-      EXPECT_NEAR(camera.back[0] / camera.forward[0], n * n * std::abs(wo.z / radiance->wi.z), 1e-5);
+      EXPECT_NEAR(camera.reverse[0] / camera.forward[0], n * n * std::abs(wo.z / radiance->wi.z), 1e-5);
     }
 }
 
-// The solid angle of a scattering vertex per its area, or per its volume, as another one sees it.
+// Solid angle of a scattering vertex per area, or per volume, as viewed from another vertex.
 float seen_size(const PathVertex& from, const PathVertex& to) {
   const V3f d = point_of(to) - point_of(from);
   const auto* surface = std::get_if<SurfaceVertex>(&to.at);
@@ -326,7 +327,7 @@ float seen_size(const PathVertex& from, const PathVertex& to) {
   return cosine / d.length2();
 }
 
-// From one vertex to the next a recorded path has gone with the product of the densities of its pieces.
+// The probability of passing from one vertex to the next is the product of those of the segments between.
 TEST(RecordedPaths, DensitiesAreProductsOfTheirPieces) {
   for (const Filling filling : {Filling::nothing, Filling::fog}) {
     const Scene scene = room({kLens, filling});
@@ -338,15 +339,15 @@ TEST(RecordedPaths, DensitiesAreProductsOfTheirPieces) {
     recorder.run();
     int within = 0;
     for (const RecordedPath& path : recorder.paths()) {
-      // f_0 G f_1 G ... of all lanes, and the densities of all vertices.
+      // f_0 G f_1 G ... for all wavelengths, and the pdfs of all vertices.
       SampledSpectrum flux(1.0F);
       SampledSpectrum density = path.vertices[0].pdf_forward;
       const auto hero = static_cast<int>(path.packet.hero);
       for (std::size_t i = 0; i + 1 < path.vertices.size(); ++i) {
         const PathVertex& from = path.vertices[i];
         const PathVertex& to = path.vertices[i + 1];
-        const Way way = way_from(from, to);
-        flux *= sent_towards(scene, from, way.direction, TransportMode::radiance) * seen_size(from, to) *
+        const PathSegment way = segment_between(from, to);
+        flux *= eval_towards(scene, from, way.direction, TransportMode::radiance) * seen_size(from, to) *
                 transmission_along(scene, caster, from, way).transmittance;
         if (std::holds_alternative<MediumVertex>(to.at)) {
           ++within;
@@ -361,10 +362,11 @@ TEST(RecordedPaths, DensitiesAreProductsOfTheirPieces) {
       for (std::size_t i = 1; i + 2 < path.vertices.size(); ++i) {
         const PathVertex& to = path.vertices[i];
         const PathVertex& from = path.vertices[i + 1];
-        const Way back = way_from(from, to);
+        const PathSegment back = segment_between(from, to);
         const SampledSpectrum expected =
-            direction_pdf(scene, from, way_from(from, path.vertices[i + 2]).direction, back.direction) *
-            seen_size(from, to) * transmission_along(scene, caster, from, back).density * to.event_pdf;
+            direction_pdf(scene, from, segment_between(from, path.vertices[i + 2]).direction,
+                          back.direction) *
+            seen_size(from, to) * transmission_along(scene, caster, from, back).pdf * to.event_pdf;
         for (int j = 0; j < kLanes; ++j) EXPECT_NEAR(to.pdf_reverse[j] / expected[j], 1, 2e-3);
       }
     }
@@ -372,11 +374,11 @@ TEST(RecordedPaths, DensitiesAreProductsOfTheirPieces) {
   }
 }
 
-// Light in matter so dense that it is scattered within less than floats tell places apart.
+// A medium so dense that free paths are shorter than the float resolution of positions.
 TEST(RecordedPaths, HaveAPlaceForEachOfTheirVertices) {
   Scene scene = room({kPinhole, Filling::fog});
   auto& fog = std::get<MediumMaterial>(scene.materials[2].model);
-  fog.filling.scattering_per_m = Curve(1e8);
+  fog.interior_medium.scattering_per_m = Curve(1e8);
   scene.render.max_depth = 20;
   scene.commit();
   RayCaster caster(scene);
@@ -390,7 +392,7 @@ TEST(RecordedPaths, HaveAPlaceForEachOfTheirVertices) {
     for (std::size_t i = 0; i + 1 < path.vertices.size(); ++i) {
       const PathVertex& to = path.vertices[i + 1];
       within += std::holds_alternative<MediumVertex>(to.at) ? 1 : 0;
-      EXPECT_GT(way_from(path.vertices[i], to).distance, 0);
+      EXPECT_GT(segment_between(path.vertices[i], to).distance, 0);
       EXPECT_TRUE(std::isfinite(to.pdf_forward.max()));
     }
   EXPECT_GT(within, 2000);

@@ -20,7 +20,7 @@ SurfaceVertex vertex_of(Bsdf bsdf, float cos_o) {
   return {{{0, 0, 0}, normal, 0, 0}, Basis<float>(normal), direction_at(cos_o, 0.4), std::move(bsdf)};
 }
 
-// Diffuse matter, a coat that mirrors each lane by another chance, and ground glass.
+// A diffuse surface, a coat whose specular probability depends on the wavelength, and ground glass.
 std::vector<SurfaceVertex> some_vertices() {
   static const RoughInterface ground({FacetShape::ggx, 0.5F, 0.5F}, 1.45F, 1.9F);
   SampledSpectrum::Values n{};
@@ -83,7 +83,7 @@ TEST(SurfaceDirections, AreWhateverIsNotDelta) {
     }
 }
 
-// On one side, or evenly on both; their mean cosine is 2/3 or 1/2.
+// Directions on one side, or evenly on both, with a mean cosine of 2/3 or 1/2.
 TEST(SurfaceDirections, FollowTheirDensity) {
   for (const SurfaceVertex& vertex : some_vertices())
     for (const DirectionSampling directions : {DirectionSampling::cosine, DirectionSampling::uniform}) {
@@ -106,7 +106,7 @@ TEST(SurfaceDirections, FollowTheirDensity) {
     }
 }
 
-// Single directions stay, with the material's own chance.
+// Delta events remain, with the material's own probability.
 TEST(SurfaceDirections, LeaveDeltaEventsAlone) {
   const SurfaceVertex coat = some_vertices()[1];
   const auto kept =

@@ -9,7 +9,7 @@
 namespace abbe::test {
 namespace {
 
-// By path tracing alone where nothing is asked of the choice of an integrator, whose pilots take longest.
+// Uses path tracing alone unless the test needs the choice of an integrator, whose pilot rays take longest.
 std::string quick_furnace(const std::string& more, const std::string& integrators = "path") {
   return "bench furnace --spp 1,2 --seeds 2 --quick --reference-spp 32 --json --cache " +
          (scratch() / "cache").string() + " " + (integrators.empty() ? "" : "--integrator " + integrators) +
@@ -70,13 +70,13 @@ TEST(BenchProgram, RefusesABaselineOfOtherConditionsBeforeItRenders) {
   ASSERT_EQ(first.code, 0) << first.err;
   const std::string baseline = " --baseline " + scratch().write("other.json", first.json().dump()).string();
   for (const auto& [now, told] : std::vector<std::pair<std::string, std::string>>{
-           {quick_furnace("--threads 2"), "compare: threads (got 1, allowed 2)\n"},
+           {quick_furnace("--threads 2"), "differ: threads (got 1, allowed 2)\n"},
            {"bench furnace --spp 1,2 --reference-spp 16 --quick --threads 1 --integrator path --cache " +
                 (scratch() / "cache").string(),
-            "compare: reference_spp (got 32, allowed 16)\n"},
+            "differ: reference_spp (got 32, allowed 16)\n"},
            {"bench furnace --reference-spp 32 --threads 1 --integrator path --cache " +
                 (scratch() / "cache").string(),
-            "compare: resolution (got 64x64, allowed 256x256)\n"}}) {
+            "differ: resolution (got 64x64, allowed 256x256)\n"}}) {
     const Outcome run = abbe(now + baseline);
     EXPECT_EQ(run.code, 4) << run.err;
     EXPECT_NE(run.err.find(told), std::string::npos) << run.err;
@@ -100,7 +100,7 @@ TEST(BenchProgram, RefusesOptionsThatWouldHaveNoEffect) {
            {"--soak 1 --quick", "--quick excludes --soak"},
            {"--soak 1 --threads 1", "--threads excludes --soak"},
            {"--soak 1 --scale", "--scale excludes --soak"},
-           {"--soak 1 -o none --cache none", "--cache: has nothing of a soak whose folder --output names"},
+           {"--soak 1 -o none --cache none", "--cache: has no effect on --soak with --output"},
            {"--scale --spp 4", "--spp excludes --scale"},
            {"--scale -o none", "--output excludes --scale"},
            {"--scale --baseline b.json", "--baseline excludes --scale"},

@@ -116,16 +116,16 @@ TEST(BenchSuites, NarrowLampHasTheSameLuminanceInTenNanometres) {
   EXPECT_NEAR(photometric(emission), 20 * kLuminousEfficacy, 1e-6);
 }
 
-// Without one there would be no caustic, and a slab with a hole would let wavelengths through unparted.
+// Without a closed shape there would be no caustic, and a slab with a hole would not disperse.
 TEST(BenchSuites, CausticsAreSeenBesideAndThroughClosedShapes) {
   const BenchFolder folder;
   for (const char* name : {"ring", "through-pane", "through-slab"}) {
     const BenchSuite suite = choose_suites({name}).front();
     const Scene scene = load_suite(suite, folder.path(), true);
-    EXPECT_TRUE(scene.needs.caustics && scene.needs.light_tracing) << name;
+    EXPECT_TRUE(scene.features.caustics && scene.features.light_tracing) << name;
   }
   const Scene slab = load_suite(choose_suites({"through-slab"}).front(), folder.path(), true);
-  // From the camera towards what it looks at the ray meets the slab from without, and its matter.
+  // The ray from the camera to its target hits the slab from outside and enters its medium.
   const CameraRay ray = sample_ray(slab.camera, {32, 32}, {0.5F, 0.5F}, SampledSpectrum(550.0F), 0, 0);
   const auto hit = slab.intersect(ray.ray);
   ASSERT_TRUE(hit);
@@ -185,7 +185,7 @@ TEST(BenchMeshes, TheBallIsClosedAndFacesOutwardsAndTheTerrainUpwards) {
   for (std::size_t i = 0; i < terrain.triangles.size(); ++i) EXPECT_GT(area_vector(terrain, i).y, 0);
 }
 
-// Of corners at the radius, 64 sides enclose 64/(2 pi) sin(2 pi/64) of what circles would.
+// A polygon of 64 corners at the radius encloses the fraction 64/(2 pi) sin(2 pi/64) of the circle.
 TEST(BenchMeshes, TheRingIsClosedAndFacesOutwards) {
   const Mesh ring = make_ring(64);
   EXPECT_EQ(ring.triangles.size(), 8U * 64);

@@ -9,7 +9,7 @@
 
 namespace abbe::test {
 
-/// A folder of this process's own, removed at the end.
+/// A folder of this process, removed in the destructor.
 class BenchFolder {
  public:
   BenchFolder()
@@ -26,7 +26,8 @@ class BenchFolder {
   std::filesystem::path path_;
 };
 
-/// A render that never happened: relRMSE 0.8/sqrt(samples) (twice that at the low floor) after samples/10 s.
+/// An invented render with relRMSE 0.8/sqrt(samples) after samples/10 s; at the low floor the error is twice
+/// as large.
 inline BenchRow planned_row(int samples, std::uint64_t seed) {
   BenchRow row;
   row.samples = samples;
@@ -35,7 +36,7 @@ inline BenchRow planned_row(int samples, std::uint64_t seed) {
   row.wall_s = row.cpu_s / 2;
   row.paths = static_cast<std::uint64_t>(samples) * 1000;
   row.rays = row.paths * 5;
-  row.embree_replay_share = 0.3;
+  row.embree_replay_fraction = 0.3;
   row.rel_mse = 0.64 / samples;
   row.rel_mse_trimmed = row.rel_mse / 2;
   row.rel_mse_low = 4 * row.rel_mse;
@@ -45,7 +46,7 @@ inline BenchRow planned_row(int samples, std::uint64_t seed) {
   return row;
 }
 
-/// 4, 16 and 64 samples per pixel, two seeds each.
+/// Invented run at 4, 16 and 64 samples per pixel with two seeds each.
 inline SuiteRun planned_run(const std::string& suite) {
   SuiteRun run{{suite, "planned", "scene.json"},
                {8, 6, "abc", 1024, 2},
@@ -63,9 +64,9 @@ inline BenchReport planned_report() {
   report.settings.version = "1.2.3";
   report.settings.threads = 2;
   report.runs = {planned_run("cornell")};
-  report.rivals = {{"cornell", "other", "path", 16, 5, 0.3, 0.2, kUsualFloor},
-                   {"cornell", "third", "path", 64, 3, std::nullopt, 0.4, kLowFloor},
-                   {"prism-spot", "other", "path", 16, 5, 0.3, 0.2, kUsualFloor}};
+  report.other_renderers = {{"cornell", "other", "path", 16, 5, 0.3, 0.2, kUsualFloor},
+                            {"cornell", "third", "path", 64, 3, std::nullopt, 0.4, kLowFloor},
+                            {"prism-spot", "other", "path", 16, 5, 0.3, 0.2, kUsualFloor}};
   return report;
 }
 

@@ -18,14 +18,15 @@ using test::planned_report;
 using test::planned_run;
 
 TEST(BenchRivals, TheTableLoads) {
-  const std::vector<Rival> rivals = load_rivals();
-  EXPECT_EQ(rivals.size(), 27U);
-  const auto find = [&](const std::string& suite, const std::string& name, int samples) -> const Rival& {
-    for (const Rival& rival : rivals)
-      if (rival.suite == suite && rival.name() == name && rival.samples == samples) return rival;
+  const std::vector<OtherRendererResult> other_renderers = load_other_renderers();
+  EXPECT_EQ(other_renderers.size(), 27U);
+  const auto find = [&](const std::string& suite, const std::string& name,
+                        int samples) -> const OtherRendererResult& {
+    for (const OtherRendererResult& other : other_renderers)
+      if (other.suite == suite && other.name() == name && other.samples == samples) return other;
     throw Error(ErrorCode::internal, suite, "no such rival");
   };
-  const Rival& llvm = find("cornell", "Mitsuba 3.8 path llvm_spectral", 256);
+  const OtherRendererResult& llvm = find("cornell", "Mitsuba 3.8 path llvm_spectral", 256);
   EXPECT_EQ(llvm.cpu_s, 11.8);
   EXPECT_EQ(llvm.nrmse, 0.144);
   EXPECT_EQ(llvm.relrmse, 0.081);
@@ -51,10 +52,10 @@ TEST(BenchRivals, BeyondTheCurveErrorFallsWithTheRootOfTime) {
   EXPECT_TRUE(time_at_error(curve, 0.8)->extrapolated);
 }
 
-// At 16 samples the planned run has a relRMSE of 0.2, or 0.4 at the low floor, after 1.6 s.
+// At 16 samples the invented run has a relRMSE of 0.2, or 0.4 at the low floor, after 1.6 s.
 TEST(BenchRivals, EachIsMetAtItsOwnFloorAndInItsOwnSuite) {
   const BenchReport report = planned_report();
-  const auto equal = equal_errors(report.runs.front(), report.rivals);
+  const auto equal = equal_errors(report.runs.front(), report.other_renderers);
   ASSERT_EQ(equal.size(), 2U);
   EXPECT_NEAR(equal[0].abbe.cpu_s, 1.6, 1e-12);
   EXPECT_NEAR(equal[0].ratio(), 5 / 1.6, 1e-12);
@@ -130,7 +131,7 @@ TEST(BenchReport, CsvHasARowPerRenderAndTheColumnsOfTheJson) {
   EXPECT_EQ(parse_number(rows[5][10]), 0.64 / 64);
 }
 
-// A stored run that the planned one follows, its CPU times multiplied by `factor` and by 1 +- `scatter`.
+// A stored run before the invented one. Its CPU times are multiplied by `factor` and by 1 +- `scatter`.
 std::vector<BaselineRow> slowed(double factor, double scatter) {
   std::vector<BaselineRow> rows = baseline_rows(planned_report().runs);
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -173,7 +174,7 @@ TEST(BenchBaseline, NoiseAndSmallChangesAreNotFlagged) {
   EXPECT_FALSE(changed({slowed(1.2, 0).front()})) << "one render says nothing about noise";
 }
 
-// Student's t at 99 % for 5 degrees of freedom is 4.0321, the spread of +-s has the standard deviation s
+// Student's t at 99 % for 5 degrees of freedom is 4.0321. The standard deviation of values +-s is s
 // sqrt(6/5).
 TEST(BenchBaseline, NoiseIsStudentsIntervalOfTheMeanLogarithm) {
   std::vector<BaselineRow> now = stored();
@@ -211,13 +212,12 @@ TEST(BenchBaseline, RunsUnderOtherConditionsAreRefusedWithWhatDiffers) {
   };
   EXPECT_EQ(complaint(planned_run("cornell").conditions), "");
   for (const auto& [now, told] : std::vector<std::pair<BenchConditions, std::string>>{
-           {{9, 6, "abc", 1024, 2}, "compare: resolution (got 8x6, allowed 9x6)\n"},
-           {{8, 7, "abc", 1024, 2}, "compare: resolution (got 8x6, allowed 8x7)\n"},
-           {{8, 6, "abd", 1024, 2}, "compare: scene_sha256 (got abc, allowed abd)\n"},
-           {{8, 6, "abc", 32, 1},
-            "compare: reference_spp (got 1024, allowed 32), threads (got 2, allowed 1)\n"}})
-    EXPECT_NE(complaint(now).find("/suites/0: error: cornell was measured under other conditions, so that "
-                                  "neither times nor errors " +
+           {{9, 6, "abc", 1024, 2}, "resolution (got 8x6, allowed 9x6)\n"},
+           {{8, 7, "abc", 1024, 2}, "resolution (got 8x6, allowed 8x7)\n"},
+           {{8, 6, "abd", 1024, 2}, "scene_sha256 (got abc, allowed abd)\n"},
+           {{8, 6, "abc", 32, 1}, "reference_spp (got 1024, allowed 32), threads (got 2, allowed 1)\n"}})
+    EXPECT_NE(complaint(now).find("/suites/0: error: suite cornell cannot be compared with this run, "
+                                  "since its conditions differ: " +
                                   told),
               std::string::npos)
         << complaint(now);

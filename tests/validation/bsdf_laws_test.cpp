@@ -1,7 +1,7 @@
-// Laws every scattering model obeys. The suite runs over the alternatives of Bsdf, so that a new model cannot
-// be left out: it does not compile before `examples` gives some instances of it. A model that breaks
-// reciprocity or energy conservation by its nature says so (kReciprocal, kConserving), and is then held to
-// breaking it.
+// Laws that every BSDF obeys. The suite runs over the alternatives of Bsdf. A new model cannot be omitted,
+// since the file does not compile before `examples` gives instances of it. A model that breaks reciprocity or
+// energy conservation by its nature declares so (kReciprocal, kConserving); the test then requires that it
+// does break them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,8 +27,9 @@ std::vector<V3f> outgoing() {
     directions.push_back(direction_at(cos_theta, 0.3 + cos_theta));
   return directions;
 }
-// Whether one of the directions of examples in turn is among those of the day: of one example a steep one
-// from above and the flattest from below, of the next the flattest from above and a steep one from below.
+// True if a direction of the examples belongs to the daytime tests. The examples alternate between two pairs:
+// a steep direction from above with the flattest from below, and the flattest from above with a steep one
+// from below.
 bool looked_at_by_day(int turn) {
   const int at = turn % 16;
   return at == 1 || at == 7 || at == 11 || at == 13;
@@ -86,8 +87,8 @@ void expect_sound(const Bsdf& bsdf, const V3f& wo, const BsdfSample& s, int hero
   }
 }
 
-// Over a grid of choices, as many are delta events as delta_probability says, to the grid's step at each of
-// the bounds between lobes.
+// On a grid of lobe choices, the fraction of delta events equals delta_probability. The tolerance is the
+// grid's step at each bound between lobes.
 TYPED_TEST(BsdfLaws, DeltaProbabilityIsTheShareOfDeltaEvents) {
   const int choices = test::nightly() ? 4096 : 1024;
   const float step = 1 / static_cast<float>(choices);
@@ -105,7 +106,7 @@ TYPED_TEST(BsdfLaws, DeltaProbabilityIsTheShareOfDeltaEvents) {
   });
 }
 
-// The other lanes come along unless the event is dispersive.
+// The other wavelength samples accompany the hero unless the event is dispersive.
 TYPED_TEST(BsdfLaws, DeltaPowerIsWhatDeltaEventsCarry) {
   Uniform random(8);
   this->for_all([&](const Bsdf& bsdf, const V3f& wo) {
@@ -169,7 +170,7 @@ TYPED_TEST(BsdfLaws, WeightsAndDensitiesAgreeWithEvaluation) {
       if (!s || s->delta) continue;
       const SampledSpectrum f = eval(bsdf, wo, s->wi, mode);
       const SampledSpectrum p = pdf(bsdf, wo, s->wi);
-      // A rounded direction is off by 1e-7, which is much of the narrowest lobes.
+      // Rounding changes a direction by 1e-7, a large part of the narrowest lobes.
       constexpr float kRounding = 2e-3F;
       EXPECT_NEAR(p[hero], s->pdf, kRounding * s->pdf);
       for (int j = 0; j < kLanes; ++j) {
@@ -181,8 +182,9 @@ TYPED_TEST(BsdfLaws, WeightsAndDensitiesAgreeWithEvaluation) {
   });
 }
 
-// What a bidirectional technique asks at a vertex that it came to from the other end: with which density,
-// were each lane the hero, the model would have sent a path that comes along wi to where this one came from.
+// Bidirectional techniques evaluate the reverse pdf at a vertex reached from the other end. For each
+// wavelength sample as hero, it is the pdf with which the BSDF would have sampled the direction in which the
+// path arrived.
 TYPED_TEST(BsdfLaws, ReverseDensityIsThatOfSamplingFromTheOtherSide) {
   Uniform random(7);
   this->for_all([&](const Bsdf& bsdf, const V3f& wo) {
@@ -204,7 +206,7 @@ TYPED_TEST(BsdfLaws, ReverseDensityIsThatOfSamplingFromTheOtherSide) {
 }
 
 TYPED_TEST(BsdfLaws, SamplesFollowTheirDensity) {
-  // Sidak over the whole suite.
+  // Šidák correction over the whole suite.
   const double checks = static_cast<double>(AsTypes<Bsdf>::examples_in_all() * outgoing().size());
   const double significance = 1 - std::pow(1 - 0.01, 1 / checks);
   int turn = 0;
@@ -219,8 +221,8 @@ TYPED_TEST(BsdfLaws, SamplesFollowTheirDensity) {
   });
 }
 
-// How much of `u.lobe` leads to the direction `wi` when `u.direction` is as it is, and whether no other share
-// of it leads to the same side by a spread event.
+// Fraction of `u.lobe` that leads to the direction `wi` for the given `u.direction`. The flag is true if no
+// other value of it leads to the same side by a non-delta event.
 struct Branch {
   double share = 0;
   bool alone = true;
@@ -240,8 +242,8 @@ Branch branch_of(const Bsdf& bsdf, const V3f& wo, const V2f& u, int hero, const 
   return branch;
 }
 
-// The solid angle that a unit of random numbers spans around `u`, or nothing where a difference of float
-// directions tells too little.
+// Solid angle per unit of random numbers around `u`. Empty if the difference of float directions is too
+// imprecise.
 std::optional<double> jacobian(const Bsdf& bsdf, const V3f& wo, const BsdfRandom& u, int hero) {
   constexpr float kStep = 0x1p-8F;
   std::array<V3f, 4> at;
@@ -300,7 +302,7 @@ TYPED_TEST(BsdfLaws, SingleDirectionsMayBeReversed) {
       const int hero = i % kLanes;
       const auto there = sample(bsdf, wo, random.event(), hero, TransportMode::power);
       if (!there || !there->delta) continue;
-      // The way back, among all that may happen.
+      // The reverse direction, among all possible events.
       for (int step = 0; step < 64; ++step) {
         const float lobe = (static_cast<float>(step) + 0.5F) / 64;
         const auto back = sample(bsdf, there->wi, {lobe, {0, 0}}, hero, TransportMode::power);
@@ -327,7 +329,7 @@ TYPED_TEST(BsdfLaws, NoEnergyAppears) {
     const std::optional<double> lossless = lossless_within(std::get<TypeParam>(bsdf));
     for (int j = 0; j < kLanes; ++j) {
       const auto lane = static_cast<std::size_t>(j);
-      // Replicates so evenly spread often differ in few of their events, and tell too small an error then.
+      // Replicates of such uniform sequences often differ in few events and then underestimate the error.
       const double noise =
           12 * std::hypot(white.reflected[lane].standard_error, white.transmitted[lane].standard_error);
       most = std::max(most, white.total(j));

@@ -31,10 +31,11 @@ std::vector<Case> cases_by() {
   return chosen;
 }
 
-/// Runs a case and expects it to pass; skips what its technique does not reach. `result` is what it measured.
+/// Runs a case and expects it to pass. Skips a case whose integrator cannot sample its light. `result`
+/// receives the measurement.
 inline void expect_passes(const Case& item, const CaseSettings& settings, CaseResult& result) {
   result = run_case(item, settings);
-  if (!result.measured()) GTEST_SKIP() << result.unreached.front();
+  if (!result.measured()) GTEST_SKIP() << result.unsampled.front();
   ASSERT_FALSE(result.figures.empty());
   const Figure& worst = result.figures[result.worst];
   const std::string line =
@@ -54,7 +55,7 @@ inline void expect_passes(const Case& item, const CaseSettings& settings) {
   expect_passes(item, settings, result);
 }
 
-/// The name of a case as GoogleTest allows it.
+/// Name of a case in the characters that GoogleTest allows.
 inline std::string case_name(const testing::TestParamInfo<Case>& info) {
   std::string name = info.param.id;
   std::replace_if(

@@ -11,7 +11,7 @@
 namespace abbe {
 namespace {
 
-// Suite by suite, since what all cases expect is computed anew in every process that lists them.
+// One test per suite, since every process that lists the cases computes all expected values anew.
 class ComputedCases : public testing::TestWithParam<Suite> {};
 constexpr std::array kComputedSuites{Suite::optics, Suite::colour, Suite::camera, Suite::sensor};
 

@@ -1,4 +1,4 @@
-// The directions that a guide of caustics proposes.
+// Directions that a caustic guide samples.
 #include <gtest/gtest.h>
 
 #include <cfenv>
@@ -22,8 +22,8 @@ using Imath::V3f;
 const Imath::Box3d kRoom({-1, 0, -1}, {1, 3, 1});
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
-// Photons on a floor of 2 m x 2 m, from a lamp of that radius at `lamp` as a mirror shows it, by way of a
-// surface half way.
+// Photons on a floor of 2 m x 2 m, reflected half way from a light whose mirror image is at `lamp` and has
+// this radius.
 std::vector<CausticPhoton> photons_from(const V3f& lamp, float radius, int count) {
   std::mt19937 random(3);
   std::uniform_real_distribution<float> across(-1, 1);
@@ -54,7 +54,7 @@ TEST(CausticLobes, AreDrawnAsTheySay) {
   }
 }
 
-// Nine lobes are two packets of eight, most of the second of which are not there.
+// Nine lobes need two packets of eight; most entries of the second are unused.
 TEST(CausticLobes, AskNothingInvalidOfThoseThatAreNotThere) {
   constexpr int kWatched = FE_INVALID | FE_DIVBYZERO;
   std::feclearexcept(kWatched);
@@ -64,8 +64,8 @@ TEST(CausticLobes, AskNothingInvalidOfThoseThatAreNotThere) {
   EXPECT_EQ(std::fetestexcept(kWatched), 0);
 }
 
-// A guided path scatters as without the guide. Beside it, as often as the guide says, one more leaves in a
-// direction of the lobes, whose density is that of both ways where scattering can send light there.
+// A guided path scatters as without the guide. In addition, with the guide's probability, a further direction
+// is sampled from the lobes. Its pdf is that of both techniques where the BSDF is positive.
 template <typename Model>
 void expect_guided(const PathTracer& tracer, const CausticGuide& guide) {
   constexpr std::uint32_t kCount = 2000;
@@ -96,14 +96,14 @@ void expect_guided(const PathTracer& tracer, const CausticGuide& guide) {
       const SampledSpectrum f = vertex.f(world, added->wi, TransportMode::radiance);
       for (int lane = 0; lane < kLanes; ++lane) {
         const float both =
-            scattered[lane] > 0 ? scattered[lane] + lobes.share() * lobes.pdf(point, world) : 0;
+            scattered[lane] > 0 ? scattered[lane] + lobes.probability() * lobes.pdf(point, world) : 0;
         EXPECT_NEAR(added->lane_pdf[lane] * added->pdf, both, 2e-3F * both);
         const float sent = f[lane] * std::abs(added->wi.z);
         EXPECT_NEAR(added->weight[lane] * added->pdf, sent, 2e-3F * sent + 1e-6F * added->pdf);
       }
     }
   }
-  const double expected = static_cast<double>(lobes.share());
+  const double expected = static_cast<double>(lobes.probability());
   EXPECT_NEAR(added_paths / static_cast<double>(kCount) / models, expected, 0.02) << typeid(Model).name();
 }
 
@@ -120,14 +120,14 @@ TEST(CausticLobes, AddTheirShareOfPathsToThoseThatScatter) {
   expect_guided<MixtureBsdf>(tracer, guide);
 }
 
-// What few photons have shown at other places points to the lamp from every place.
+// A few photons at other positions suffice to direct samples to the light from every position.
 TEST(CausticGuide, PointsToTheLampFromWhereNoPhotonWas) {
   const V3f lamp(0.5F, 3, -1);
   const CausticGuide guide(photons_from(lamp, 0.001F, 2000), kRoom);
   for (const V3f& point : {V3f(-0.9F, 0, 0.9F), V3f(0, 0, 0), V3f(0.7F, 0, 0.31F)}) {
     const CausticLobes lobes = guide.at(point);
     ASSERT_FALSE(lobes.empty());
-    // Of the lamp's 3e-7 sr, or nearly so.
+    // Approximately 1/(3e-7 sr), the solid angle of the light.
     EXPECT_GT(lobes.pdf(point, (lamp - point).normalized()), 1e5F);
   }
   EXPECT_TRUE(guide.at({0, 2, 0}).empty()) << "far above the floor";
@@ -136,7 +136,7 @@ TEST(CausticGuide, PointsToTheLampFromWhereNoPhotonWas) {
 
 TEST(CausticGuide, KnowsLightFromInfinity) {
   std::vector<CausticPhoton> photons = photons_from({0, 1e6F, 0}, 4600, 500);
-  for (CausticPhoton& photon : photons) photon.whole_distance = kInfinity;
+  for (CausticPhoton& photon : photons) photon.path_distance = kInfinity;
   const CausticGuide guide(std::move(photons), kRoom);
   const CausticLobes lobes = guide.at({0.2F, 0, 0.2F});
   ASSERT_FALSE(lobes.empty());
@@ -144,8 +144,8 @@ TEST(CausticGuide, KnowsLightFromInfinity) {
   EXPECT_LT(lobes.pdf({0.2F, 0, 0.2F}, V3f(0.1F, 1, 0).normalized()), 30.0F);
 }
 
-// Many photons on a floor and a few on a stone above it: those of the floor, all of one height, are divided
-// among regions that hold every place of it.
+// Many photons on a floor and a few on a stone above it. Those of the floor, all at one height, are divided
+// among regions that cover all of it.
 TEST(CausticGuide, LeavesNoGapsOnAFloor) {
   std::vector<CausticPhoton> photons = photons_from({0, 4, 0}, 0.02F, 3000);
   for (const CausticPhoton& photon : photons_from({0, 4, 0}, 0.02F, 9))
@@ -166,20 +166,20 @@ TEST(CausticGuide, KeepsOutOfWhatScatteringFinds) {
   EXPECT_TRUE(CausticGuide().at({0, 0, 0}).empty());
 }
 
-// As much as the caustics are of themselves and a sixteenth of the light unhindered, in 64ths to three
-// quarters.
+// The guide's fraction is that of the caustics in the sum of themselves and a sixteenth of the direct light.
+// It is rounded to 64ths and limited to three quarters.
 TEST(CausticGuide, LooksAsOftenAsItPays) {
   const auto share = [](float unhindered) {
     std::vector<CausticPhoton> photons = photons_from({0, 3, 0}, 0.01F, 2000);
     for (CausticPhoton& photon : photons) {
       photon.power = 4.0F / 2000;  // an irradiance of 1 on the floor
-      photon.unhindered = unhindered;
+      photon.unoccluded_irradiance = unhindered;
     }
     float sum = 0;
     const CausticGuide guide(std::move(photons), kRoom);
     for (int i = 0; i < 64; ++i)
-      sum +=
-          guide.at({static_cast<float>(i % 8) / 5 - 0.7F, 0, static_cast<float>(i / 8) / 5 - 0.7F}).share();
+      sum += guide.at({static_cast<float>(i % 8) / 5 - 0.7F, 0, static_cast<float>(i / 8) / 5 - 0.7F})
+                 .probability();
     return sum / 64;
   };
   EXPECT_EQ(share(0), 0.75F);
@@ -189,13 +189,13 @@ TEST(CausticGuide, LooksAsOftenAsItPays) {
   EXPECT_EQ(share(1e9F), 1 / 64.0F);
 }
 
-// Many photons that come to the very same place are one region.
+// Many photons at exactly one position form one region.
 TEST(CausticGuide, HoldsPhotonsOfASinglePoint) {
   std::vector<CausticPhoton> photons = photons_from({0, 300, 0}, 0.01F, 1000);
   for (CausticPhoton& photon : photons) photon = {{1, 2, 3}, photon.from, 1, 2, 1, 1};
   const CausticGuide guide(std::move(photons), kRoom);
   EXPECT_FALSE(guide.at({1, 2, 3}).empty());
-  EXPECT_EQ(guide.at({1, 2, 3}).share(), 0.75F);
+  EXPECT_EQ(guide.at({1, 2, 3}).probability(), 0.75F);
 }
 
 }  // namespace

@@ -7,7 +7,7 @@
 #include "calibration/chart/patches.h"
 #include "cli/compare.h"
 #include "description/load.h"
-#include "film/sensor_identity.h"
+#include "film/film_attributes.h"
 #include "io/data_directory.h"
 #include "io/exr.h"
 #include "io/picture.h"
@@ -58,7 +58,7 @@ TEST(Compare, LooksAtPixelsThatBothFilmsHave) {
             ErrorCode::input);
 }
 
-// Of films that were merged of some parts.
+// The films were merged from several parts.
 TEST(Compare, LooksAtPixelsOfAllAreasThatBothFilmsHave) {
   Image gaps = grey({1, 0, 2, 0});
   gaps.metadata[kAreasKey] = "0,0,1,1=0:8 2,0,3,1=0:4";
@@ -72,7 +72,7 @@ TEST(Compare, LooksAtPixelsOfAllAreasThatBothFilmsHave) {
                 [&] {
                   cli::compare({image, whole, DeltaE::cie2000, {}, scratch() / "m"});
                 },
-                "--maps: needs films that have a rectangle of pixels in common (got areas 0,0,1,1 2,0,3,1)"),
+                "--maps: needs films whose common pixels form one rectangle (got the areas 0,0,1,1 2,0,3,1)"),
             ErrorCode::usage);
 }
 
@@ -86,7 +86,7 @@ TEST(Compare, AUnitThatOneImageTellsIsWarnedOf) {
     (void)json_output(cli::compare, options);
     return testing::internal::GetCapturedStderr();
   };
-  EXPECT_NE(said({told, untold}).find("only one of the images tells the unit of channel G"),
+  EXPECT_NE(said({told, untold}).find("only one of the images declares the unit of channel G"),
             std::string::npos);
   EXPECT_EQ(said({told, told}), "");
   EXPECT_EQ(said({untold, untold}), "");
@@ -158,16 +158,17 @@ TEST(CompareCommand, MapsAreWritten) {
   }
 }
 
-// A film that holds exactly what the chart's spectra give, times 3, but for the first patch, which is
+// A film with exactly the values of the chart's spectra times 3, except for the first patch, which is
 // brighter.
 Image planted_film(const Scene& scene, double brighter, std::size_t lamp = 0) {
-  Image film{scene.camera.width, scene.camera.height, {}, sensor_identity(scene)};
+  Image film{scene.camera.width, scene.camera.height, {}, film_attributes(scene)};
   for (const Channel& channel : scene.channels) film.channels.push_back({channel.name, {}});
   const Curve light = scene.lights[lamp].emission.curve();
   for (ImageChannel& channel : film.channels) channel.values.assign(film.pixels(), 0);
   for (int y = 0; y < film.height; ++y)
     for (int x = 0; x < film.width; ++x) {
-      // The camera looks squarely at the middle of the chart: 64 pixels are 2 x 1000 tan(0.125 degrees).
+      // The camera looks perpendicularly at the center of the chart: 64 pixels are 2 x 1000 tan(0.125
+      // degrees).
       const double scale = 2000 * std::tan(0.125 * M_PI / 180) / 64;
       const double column = ((x + 0.5 - 48) * scale + 3);
       const double row = ((y + 0.5 - 32) * scale + 2);
@@ -187,7 +188,7 @@ std::filesystem::path chart_file() {
   return data_directory() / "scenes" / "validation" / "colorchecker.json";
 }
 
-// The scene of the chart, with the sensor and the light given.
+// The scene of the chart with the given sensor and light.
 Scene chart_scene(const std::string& sensor = R"({"observer": "1931", "resolution": [96, 64]})",
                   const std::string& illuminant = "D65") {
   Diagnostics diagnostics;
@@ -224,7 +225,7 @@ TEST(CompareChart, PatchesAreSeenByTheFilmsObserver) {
       EXPECT_LT(patch.delta_e.value(), 1e-4) << patch.name;
   const Image other = planted_film(narrow, 1);
   EXPECT_EQ(fault([&] { static_cast<void>(compare_chart(wide, film, &other, DeltaE::cie2000)); },
-                  "alone is of the CIE 1964 observer"),
+                  "only one film records the CIE 1964 observer"),
             ErrorCode::input);
   EXPECT_EQ(fault([&] { static_cast<void>(compare_images(film, other)); }, "photometric of CIE 1964"),
             ErrorCode::input);
@@ -303,7 +304,7 @@ TEST(ColorDifference, TheObserversChannelsAreTakenAsTheyAre) {
   for (std::size_t c = 0; c < 3; ++c) EXPECT_EQ(tristimuli(film)[middle][c], film.channels[c].values[middle]);
 }
 
-// A lamp of no account does not decide how the film is seen, wherever in the list it stands.
+// The position of a negligible light in the list must not determine the white.
 TEST(CompareChart, IsSeenInTheMainLightNotInTheFirst) {
   for (const char* sensor : {R"({"observer": "1931", "resolution": [96, 64]})", kNikon}) {
     const auto with = [&](const std::string& lights) {
@@ -325,7 +326,7 @@ TEST(CompareChart, IsSeenInTheMainLightNotInTheFirst) {
   }
 }
 
-// What is white is a way to look at a film, and no difference between films.
+// The white affects how films are viewed, and is no difference between them.
 TEST(ColorDifference, FilmsAreSeenInOneWhite) {
   const std::string observer = R"({"observer": "1931", "resolution": [96, 64]})";
   Scene scene = chart_scene(observer, "A");
@@ -361,7 +362,8 @@ TEST(CompareCommand, AWhiteIsNamedByALightAnIlluminantOrItsCoordinates) {
   wrong.white = "D56";
   EXPECT_EQ(fault([&] { cli::compare(wrong); }, "unknown light or illuminant \"D56\""), ErrorCode::usage);
   wrong.white = "[0.7, 0.29]";
-  EXPECT_EQ(fault([&] { cli::compare(wrong); }, "no white that an eye adapts to"), ErrorCode::usage);
+  EXPECT_EQ(fault([&] { cli::compare(wrong); }, "chromatic adaptation to this white is impossible"),
+            ErrorCode::usage);
 }
 
 TEST(CompareChart, TwoFilmsAreScaledAlike) {
@@ -382,7 +384,7 @@ TEST(CompareChart, TwoFilmsAreScaledAlike) {
 
 TEST(CompareFaults, SomethingToCompareWithIsNeeded) {
   const auto a = saved("a.exr", grey({1, 0.5F}));
-  EXPECT_EQ(fault([&] { cli::compare({a, {}}); }, "compared with nothing"), ErrorCode::usage);
+  EXPECT_EQ(fault([&] { cli::compare({a, {}}); }, "needs a reference or --chart"), ErrorCode::usage);
   const auto furnace = data_directory() / "scenes" / "furnace.json";
   EXPECT_EQ(fault([&] { cli::compare({a, {}, DeltaE::cie2000, furnace}); }, "no chart"), ErrorCode::input);
   EXPECT_EQ(fault(

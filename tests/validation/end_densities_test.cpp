@@ -1,4 +1,4 @@
-// What both ends of a path say of their densities, against what they draw.
+// Pdfs of both ends of a path, against the samples that they draw.
 #include <gtest/gtest.h>
 
 #include "tests/scene/scenes.h"
@@ -13,7 +13,7 @@ using Imath::V3f;
 constexpr double kSignificance = 1e-4;
 const SampledSpectrum kWavelengths(550);
 
-// A direction as an event of the bench.
+// A direction as a BSDF sample for the goniometer.
 BsdfSample as_event(const V3f& direction) {
   BsdfSample event;
   event.wi = direction;
@@ -27,7 +27,7 @@ void expect_drawn_by(const LobeSampler& sampler, const SphereDensity& density, d
 }
 
 TEST(EndDensities, DirectionsOfAMeter) {
-  const Camera meter{Probe{Quad{{1, 1, 1}, {2, 0, 0}, {1, 4, 0}}}, 6, 4, 0.005};
+  const Camera meter{IrradianceProbe{Quad{{1, 1, 1}, {2, 0, 0}, {1, 4, 0}}}, 6, 4, 0.005};
   const V2f film(2.5F, 1.5F);
   const auto ray = [&](V2f u) { return sample_ray(meter, film, u, kWavelengths, 0, 0).ray; };
   const V3f from = ray({0.5F, 0.5F}).origin;

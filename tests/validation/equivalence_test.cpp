@@ -56,7 +56,7 @@ TEST(Cases, ExpectedValuesAreTheKnownFigures) {
                                                           {"T15-T", .33911112 * pi / 4},
                                                           {"T15-R", .04499008 * pi / 4}};
   for (const auto& [id, value] : known) EXPECT_NEAR(expected(id), value, 1e-5 * value) << id;
-  // Whose integrands have steps, as rays begin to miss the disc that they are to meet.
+  // The integrands of these cases have steps where rays begin to miss the disc.
   const std::vector<std::pair<const char*, double>> stepped{{"ball-disc", .335174},
                                                             {"ball-meter", 6.760140},
                                                             {"ball-axis", 1.126585},

@@ -71,8 +71,8 @@ TEST(ColorDifference, AFilmWhoseChannelsAreNamedXYZGoesByItsMatrixUnlessTheyAreP
   expect_xyz({1, 2, 4});
 }
 
-// The published pairs [Sharma2005] as the pixels of two images, after one of white. Without pairs 10 and 14,
-// whose hues differ by 180 degrees, so that the rounding of pixels decides on a branch of the formula.
+// The published pairs [Sharma2005] as the pixels of two images, after a white pixel. Pairs 10 and 14 are
+// omitted: their hues differ by 180 degrees, so that the rounding of pixels selects a branch of the formula.
 TEST(Compare, SharmasPairsDifferAsPublished) {
   const ReferenceTable table("ciede2000_sharma2005");
   const XYZ white = unit_xyz(kD65);
@@ -99,7 +99,7 @@ TEST(Compare, SharmasPairsDifferAsPublished) {
 }
 
 TEST(Compare, GreyOfLinearSrgbDiffersInLightnessAlone) {
-  // Against a white of 1: L* of Y = 0.25 and 0.5, and CIEDE2000 of that step on the neutral axis.
+  // For a white of 1: L* of Y = 0.25 and 0.5, and CIEDE2000 of that step on the neutral axis.
   const std::vector<float> reference{1, 0.25F};
   const std::vector<float> changed{1, 0.5F};
   const Comparison c = compare_images(image({{"R", changed}, {"G", changed}, {"B", changed}}),
@@ -203,10 +203,10 @@ TEST(Compare, AUnitThatOneImageTellsIsNamed) {
   const Image plain = image({{"QE", {1}}});
   Image film = plain;
   film.metadata["channel.QE"] = "quantum, electrons per m^2";
-  EXPECT_EQ(channel_of_untold_unit(film, plain), "QE");
-  EXPECT_EQ(channel_of_untold_unit(plain, film), "QE");
-  EXPECT_FALSE(channel_of_untold_unit(film, film));
-  EXPECT_FALSE(channel_of_untold_unit(plain, plain));
+  EXPECT_EQ(channel_with_undeclared_unit(film, plain), "QE");
+  EXPECT_EQ(channel_with_undeclared_unit(plain, film), "QE");
+  EXPECT_FALSE(channel_with_undeclared_unit(film, film));
+  EXPECT_FALSE(channel_with_undeclared_unit(plain, plain));
 }
 
 TEST(Compare, WhatStandsBesideFilmsIsNotMissed) {

@@ -1,4 +1,4 @@
-// The lab's instruments must be able to see a fault.
+// The goniometer must be able to detect a fault.
 #include "validation/goniometer/lobes.h"
 
 #include <gtest/gtest.h>
@@ -30,12 +30,12 @@ TEST(SphereCells, CoverTheSphereOnce) {
   for (const double part : cells.integrate([](const V3f&) { return 1.0; })) area += part;
   EXPECT_NEAR(area, 4 * kPi, 1e-9);
   std::vector<int> held(cells.count(), 0);
-  for (const V3f& w : narrow) ++held[cells.of(w)];
+  for (const V3f& w : narrow) ++held[cells.cell_of(w)];
   for (const int h : held) EXPECT_LE(h, 100);
 }
 
 TEST(SphereCells, IntegrateALobeAsNarrowAsANeedle) {
-  // A Gaussian of 1e-3 about the pole, in the plane of its tangent.
+  // A Gaussian of width 1e-3 around the pole, in the tangent plane.
   const double sigma = 1e-3;
   std::vector<V3f> guides;
   for (int i = 0; i < 20000; ++i) {
@@ -52,8 +52,8 @@ TEST(SphereCells, IntegrateALobeAsNarrowAsANeedle) {
   EXPECT_NEAR(total, 1, 1e-3);
 }
 
-// Without guides a lobe of a thousandth lies in cells of a tenth of a steradian, and no node meets it: what
-// is found in the lobe tells where it is.
+// Without known directions a lobe of width 1e-3 lies in cells of a tenth of a steradian, and no node hits it.
+// Samples inside the lobe reveal it.
 TEST(SphereCells, FindALobeBetweenTheNodes) {
   const double sigma = 1e-3;
   std::vector<V3f> found;
@@ -73,7 +73,7 @@ TEST(SphereCells, FindALobeBetweenTheNodes) {
   EXPECT_NEAR(total, 1, 1e-4);
 }
 
-// Directions even over a hemisphere against densities that are and are not.
+// Directions uniform over a hemisphere, against a uniform pdf and a tilted one.
 TEST(CheckDensity, SeesAFewPerCentOfTilt) {
   const LobeSampler uniform = [](const BsdfRandom& u, int) {
     return event(
@@ -118,7 +118,8 @@ TEST(CheckDensity, LeavesSingleDirectionsOut) {
   EXPECT_NEAR(check.integral, 0.5, 1e-6);
 }
 
-// A fiftieth of the light in a lobe of a thousandth, as glass reflects: too few guides to make cells for it.
+// A fiftieth of the light in a lobe of width 1e-3, as glass reflects it. The samples are too few to refine
+// the cells.
 TEST(CheckDensity, JudgesANeedleOfFewSamples) {
   const double sigma = 1e-3;
   const auto needle_of = [&](float share) {
@@ -141,8 +142,8 @@ TEST(CheckDensity, JudgesANeedleOfFewSamples) {
   EXPECT_LT(check_density(needle_of(0.03F), density, 0).p, 1e-12);
 }
 
-// Half a sphere that leans by `tilt_deg`, as far as it is above the surface: beside the edge lie slices of
-// cells that are thinner than the distances between nodes.
+// Half a sphere tilted by `tilt_deg`, clipped at the surface. Slices of cells along the edge are thinner than
+// the distances between nodes.
 LobeSampler leaning(double tilt_deg) {
   return [tilt_deg](const BsdfRandom& u, int) -> std::optional<BsdfSample> {
     const V3f w =
@@ -180,7 +181,7 @@ TEST(CheckDensity, SeesWhatIsDrawnWhereThereShouldBeNothing) {
   }
 }
 
-// A lobe of 1e-4 about the normal, where z has hardly a digit left.
+// A lobe of width 1e-4 around the normal, where z has hardly a digit left.
 TEST(CheckDensity, JudgesANeedle) {
   const LobeSampler needle = [](const BsdfRandom& u, int) {
     const double radius = 1e-4 * std::sqrt(-2 * std::log1p(-static_cast<double>(u.direction.x)));
@@ -223,7 +224,7 @@ TEST(Albedo, SeesLanesLeftOutOfTheBalance) {
             0.01);
 }
 
-// Matter that is lit by the same numbers at every wavelength is as bright at each, replicate by replicate.
+// A material with equal random numbers at every wavelength has equal replicates of the albedo.
 TEST(Albedo, HasReplicatesByTheSameNumbers) {
   const V3f wo = direction_at(0.2, 0);
   const auto replicates = [&](float reflectance) {

@@ -12,7 +12,7 @@ namespace {
 
 using Tree = boost::property_tree::ptree;
 
-// The elements of an SVG document of one tag and class. Throws when it is not well-formed.
+// Elements of an SVG document with this tag and class. Throws if it is not well-formed.
 std::vector<Tree> elements(const std::string& document, const std::string& tag, const std::string& kind) {
   std::istringstream stream(document);
   Tree tree;
@@ -50,7 +50,7 @@ TEST(BenchPlot, MarkersStandWhereTheLogarithmicAxesSay) {
   const std::vector<Tree> points = elements(document, "circle", "point");
   ASSERT_EQ(points.size(), 4U);
   const std::vector<std::pair<double, double>> expected{{1, 1}, {10, 50}, {20, 10}, {2, 3}};
-  const double label_drop = 4;  // tick labels of y are centred on their line by this much
+  const double label_drop = 4;  // offset of the tick labels of y from the centre of their line
   for (std::size_t i = 0; i < points.size(); ++i) {
     EXPECT_NEAR(attribute(points[i], "cx"), position(document, "x", expected[i].first), 0.02) << i;
     EXPECT_NEAR(attribute(points[i], "cy") + label_drop, position(document, "y", expected[i].second), 0.02)
@@ -81,7 +81,7 @@ TEST(BenchPlot, RangesEndOnStepsOfOneTwoFive) {
 
 TEST(BenchPlot, ASuiteShowsItsCurvesAndItsRivals) {
   const BenchReport report = test::planned_report();
-  const LogPlot plot = error_plot(report.runs.front(), report.rivals);
+  const LogPlot plot = error_plot(report.runs.front(), report.other_renderers);
   ASSERT_EQ(plot.series.size(), 4U);
   EXPECT_EQ(plot.series[0].name, "Abbe auto, floor 0.01");
   ASSERT_EQ(plot.series[0].points.size(), 3U);

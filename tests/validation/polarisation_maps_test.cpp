@@ -15,7 +15,7 @@
 namespace abbe::test {
 namespace {
 
-// Light of intensity 2 of those degrees at those angles.
+// Light of intensity 2 with these degrees and angles of polarisation.
 Image film(const std::vector<double>& degrees, const std::vector<double>& angles_deg) {
   Image image{static_cast<int>(degrees.size()), 1, {{"V", {}}, {"S1.V", {}}, {"S2.V", {}}, {"S3.V", {}}}, {}};
   for (std::size_t i = 0; i < degrees.size(); ++i) {
@@ -40,7 +40,7 @@ TEST(PolarisationDifference, IsTakenWhereLightIsPolarised) {
   const Image image = film({0.4, 0.5, 1, 0.5}, {20, 0, 2, 130});
   const auto difference = polarisation_difference(image, reference);
   ASSERT_TRUE(difference);
-  EXPECT_DOUBLE_EQ(difference->polarised_share, 0.75);
+  EXPECT_DOUBLE_EQ(difference->polarised_fraction, 0.75);
   EXPECT_NEAR(difference->degree_mean, (0.1 + 0 + 0.3) / 3, 1e-6);
   EXPECT_NEAR(difference->degree_max, 0.3, 1e-6);
   EXPECT_NEAR(difference->angle_deg_mean, (10.0 + 7 + 90) / 3, 1e-4);
@@ -49,9 +49,9 @@ TEST(PolarisationDifference, IsTakenWhereLightIsPolarised) {
 }
 
 TEST(PolarisationMaps, ShowDegreeAndAngle) {
-  const auto maps = polarisation_maps({{0.9, 0.3, 45}, {0, 0, 0}}, Measured::all, 2, 1);
+  const auto maps = polarisation_maps({{0.9, 0.3, 45}, {0, 0, 0}}, MeasuredStokes::all, 2, 1);
   ASSERT_EQ(maps.size(), 3U);
-  EXPECT_EQ(polarisation_maps({{0.3, 0.3, 45}}, Measured::linear, 1, 1).front().name, "linear_degree");
+  EXPECT_EQ(polarisation_maps({{0.3, 0.3, 45}}, MeasuredStokes::linear, 1, 1).front().name, "linear_degree");
   EXPECT_EQ(maps[0].name, "degree");
   EXPECT_EQ(maps[1].name, "linear_degree");
   EXPECT_EQ(maps[2].name, "angle");

@@ -53,7 +53,7 @@ TEST(Report, TextNamesTheFailure) {
   EXPECT_NE(text.find("not covered"), std::string::npos);
 }
 
-// Deviation and margin of a figure, as text and page tell them.
+// Deviation and margin of a figure, as text and page print them.
 TEST(Report, DeviationsAreToldInTheUnitOfTheirMargin) {
   const auto told = [](const Margin& margin, double reference, double measured, const std::string& unit) {
     const Case item{Suite::optics, "a", "", "", unit, margin, Computed{}};
@@ -64,7 +64,7 @@ TEST(Report, DeviationsAreToldInTheUnitOfTheirMargin) {
   };
   EXPECT_EQ(told({0.01, Margin::Kind::relative}, 250, 251, "lx s"), "0.4 % of ± 1 %");
   EXPECT_EQ(told({0.002, Margin::Kind::relative}, -4, -4.002, ""), "-0.05 % of ± 0.2 %");
-  EXPECT_EQ(told({1e-9, Margin::Kind::relative}, 1e6, 1e6 + 1e-4, ""), "1e-10 of ± 1e-09 of it");
+  EXPECT_EQ(told({1e-9, Margin::Kind::relative}, 1e6, 1e6 + 1e-4, ""), "1e-10 of ± 1e-09 relative");
   EXPECT_EQ(told({0.15}, 0, 0.016, "ΔE"), "0.016 of ± 0.15 ΔE");
   const std::string text = readable_text(Planted().report);
   EXPECT_NE(text.find("       50 %             ± 1 %     5000%"), std::string::npos) << text;
@@ -109,14 +109,14 @@ TEST(Report, HtmlIsSelfContainedAndEscaped) {
   EXPECT_NE(html.find("Not covered"), std::string::npos);
 }
 
-// A film by a technique that passes, by one that loses its light, and by one that fails.
+// A film by three integrators: one passes, one cannot sample the light, and one fails.
 struct PlantedCells {
   std::array<Case, 3> cells{cell(Integrator::path), cell(Integrator::light), cell(Integrator::bdpt)};
   ValidationReport report{{}, "9.9", "abc", true, {}, {}, {3, 9}};
 
   PlantedCells() {
     CaseResult lost{{}, {0.01, Margin::Kind::relative}, Verdict::pass, 0, 0, 0};
-    lost.unreached = {"E L: lights seen directly (\"lamp\")"};
+    lost.unsampled = {"E L: lights seen directly (\"lamp\")"};
     report.outcomes = {
         {&cells[0], of(2.01, Verdict::pass)}, {&cells[1], lost}, {&cells[2], of(2.5, Verdict::fail)}};
     report.outcomes[2].result.owned = {"E (S|D)* L"};

@@ -1,4 +1,4 @@
-// Rough surfaces from all but smooth to as rough as they get, from the normal to grazing incidence.
+// Rough surfaces, from nearly smooth to the largest roughness, from normal to grazing incidence.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -12,12 +12,12 @@
 namespace abbe {
 namespace {
 
-// By day at five alphas and five angles, by fewer samples.
+// The daytime run has five alphas, five angles and fewer samples.
 TEST(Stress, GgxSamplesFollowTheirDensityAtTwentyAlphasAndTenAngles) {
   const int alphas = test::nightly() ? 20 : 5;
   const int angles = test::nightly() ? 10 : 5;
   const int samples = test::nightly() ? 50000 : 20000;
-  const double significance = 1 - std::pow(1 - 0.01, 1.0 / (alphas * angles));  // Sidak
+  const double significance = 1 - std::pow(1 - 0.01, 1.0 / (alphas * angles));  // Šidák correction
   const SampledSpectrum wavelengths(550);
   for (int a = 0; a < alphas; ++a) {
     const auto alpha = static_cast<float>(std::pow(10.0, -3 + 3.0 * a / (alphas - 1)));

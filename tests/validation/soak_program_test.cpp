@@ -18,7 +18,7 @@ TEST(Soak, NothingGoesWrongInDrawnScenes) {
   EXPECT_TRUE(std::filesystem::is_empty(scratch() / "fine"));
 }
 
-// Without tables the names of spectra and of matter mean nothing.
+// Without tables the names of spectra and materials are unknown, so every scene fails.
 TEST(Soak, AFailingSceneIsKeptAndTold) {
   std::filesystem::create_directories(scratch() / "empty");
   const Outcome run =

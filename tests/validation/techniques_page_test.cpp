@@ -1,4 +1,4 @@
-// docs/techniques.md has every integrator, and of every film a row of the matrix.
+// docs/techniques.md lists every integrator and has a row of the matrix for every film.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 namespace abbe {
 namespace {
 
-// How many lines of the page begin so, and how many cells the first of them has.
+// Number of lines of the page that begin with a text, and the number of cells in the first of them.
 struct Rows {
   int count = 0;
   std::ptrdiff_t cells = 0;
@@ -41,11 +41,11 @@ TEST(TechniquesPage, HasEveryFilmAndAllOfItsCells) {
   int films = 0;
   for (const Case& item : all_cases()) {
     const auto* cell = std::get_if<TechniqueMean>(&item.method);
-    if (cell == nullptr || cell->by != Integrator::automatic) continue;
+    if (cell == nullptr || cell->integrator != Integrator::automatic) continue;
     ++films;
-    const Rows rows = rows_that_begin("| " + cell->of + " |");
-    EXPECT_EQ(rows.count, 1) << cell->of;
-    EXPECT_EQ(rows.cells, static_cast<std::ptrdiff_t>(kIntegratorNames.size()) + 1) << cell->of;
+    const Rows rows = rows_that_begin("| " + cell->case_id + " |");
+    EXPECT_EQ(rows.count, 1) << cell->case_id;
+    EXPECT_EQ(rows.cells, static_cast<std::ptrdiff_t>(kIntegratorNames.size()) + 1) << cell->case_id;
   }
   EXPECT_GT(films, 50);
 }

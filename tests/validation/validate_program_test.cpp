@@ -30,16 +30,16 @@ double children_cpu_seconds() {
   return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-// Hashing the data, loading scenes and planning their renders too; at night of renders.
+// The CPU seconds include hashing the data, loading scenes and planning; the nightly run also renders.
 TEST(ValidateProgram, CountsTheCpuSecondsOfAllThatItDoes) {
   const double before = children_cpu_seconds();
   const std::string suite = nightly() ? "sensor" : "camera";
   const nlohmann::json json = abbe("validate --quick --suite " + suite + " --json").json();
   const double used = children_cpu_seconds() - before;
-  EXPECT_NEAR(json["cpu_s"].get<double>(), used, 0.05 * used + 0.2);  // the program has to start as well
+  EXPECT_NEAR(json["cpu_s"].get<double>(), used, 0.05 * used + 0.2);  // includes the start of the program
 }
 
-// The data folder by links, but for one known answer that is off by a thousandth.
+// Copy of the data folder made of links, with one known answer changed by a thousandth.
 std::filesystem::path spoilt_data() {
   namespace fs = std::filesystem;
   const fs::path folder = scratch() / "data";

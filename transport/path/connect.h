@@ -8,30 +8,31 @@
 
 namespace abbe {
 
-/// What joins the ends of two paths into one: with the throughputs t of both, f of either end towards the
-/// other (of a camera its importance, of a light its emission), G = |cos_a cos_b|/d^2 and the transmittance T
-/// of the way [Veach1997, eq. 10.3],
-///     contribution = t_a f_a t_b f_b G T,
-/// so that the path contributes this over the densities of both. To a light at infinity G is cos_a alone.
-/// Where polarisation is carried the sensor sees `seen` of a contribution of 1: what the rows of one measure
-/// of the vector of the other.
+/// Contribution of a path that joins a camera subpath and a light subpath by one straight segment. Let t be
+/// the throughputs of both, f of either end that towards the other (importance of a camera, emission of a
+/// light), and T the transmittance of the segment. With G = |cos_a cos_b|/d^2 [Veach1997, eq. 10.3],
+///     contribution = t_a f_a t_b f_b G T.
+/// The estimate is this over the pdfs of both subpaths. For a light at infinity G is cos_a alone.
 struct Connection {
   SampledSpectrum contribution;
-  SampledSpectrum density;  ///< With which `propagate` passes all matter on the way, lane by lane.
-  std::optional<StokesSpectrum> seen = {};
+  /// Probability, per wavelength, that `propagate` passes the segment without an event.
+  SampledSpectrum passing_pdf;
+  /// Value that the sensor measures of a contribution of 1; nothing if no polarisation is carried.
+  std::optional<StokesSpectrum> stokes = {};
 };
 
-/// Joins `a` of a path from the camera to `b` of a path from a light, or two vertices of which one is the
-/// camera's or the light's own, at the wavelengths of `a`, which `b` has too. Nothing where nothing goes
-/// from one to the other, or something stands on the way, which is cast. `a` is not at infinity.
+/// Connects vertex `a` of a camera subpath with vertex `b` of a light subpath; either may be the camera's or
+/// the light's own vertex. Both must have the same wavelengths, and `a` must not be at infinity. Casts a
+/// shadow ray. Returns nothing if the ends scatter no light to each other or the segment is occluded.
 [[nodiscard]] std::optional<Connection> connect(const Scene& scene, RayCaster& caster, const PathVertex& a,
                                                 const PathVertex& b);
 
-/// What is left of light that sets out from a vertex along an open way, as of `transmission`.
+/// Transmittance and passing probability of an unoccluded segment that starts at a vertex, as `transmission`
+/// returns them.
 [[nodiscard]] Transmission transmission_along(const Scene& scene, RayCaster& caster, const PathVertex& from,
-                                              const Way& way);
+                                              const PathSegment& segment);
 
-/// The ray that leaves a vertex towards the unit vector `w`, clear of its surface.
-[[nodiscard]] Ray leave_towards(const PathVertex& vertex, const Imath::V3f& w);
+/// Ray from a vertex in the unit direction `w`, with its origin offset from the vertex's surface.
+[[nodiscard]] Ray spawn_towards(const PathVertex& vertex, const Imath::V3f& w);
 
 }  // namespace abbe

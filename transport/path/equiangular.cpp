@@ -11,8 +11,9 @@ struct Interval {
   double from, to;
 };
 
-// Where the points m + t d lie within a cone around `axis` from the origin, of the half angle whose sine
-// squared is given, less than a right angle: |x_perp|^2 cos^2 <= x_par^2 sin^2 with x_par > 0.
+// Interval of t in which the points m + t d lie within a cone around `axis` with its apex at the origin.
+// `sin2` is the squared sine of its half angle, which is below 90 degrees: |x_perp|^2 cos^2 <= x_par^2 sin^2
+// with x_par > 0.
 std::optional<Interval> within_cone(const Imath::V3d& m, const Imath::V3d& d, const Imath::V3d& axis,
                                     double sin2) {
   const double cos2 = 1 - sin2;
@@ -25,11 +26,12 @@ std::optional<Interval> within_cone(const Imath::V3d& m, const Imath::V3d& d, co
   const double c = m_off.length2() * cos2 - m_along * m_along * sin2;
   const double discriminant = b * b - a * c;
   if (!(discriminant > 0) || a == 0) return std::nullopt;
-  // The root that adds like to like, and the other one by their product.
+  // The first root adds terms of equal sign; the other follows from the product of both roots.
   const double q = -(b + std::copysign(std::sqrt(discriminant), b));
   const auto [first, second] = std::minmax({q / a, c / q});
   if (a > 0) {
-    if (!(m_along + (first + second) / 2 * d_along > 0)) return std::nullopt;  // in the cone's reflection
+    // within the mirror image of the cone
+    if (!(m_along + (first + second) / 2 * d_along > 0)) return std::nullopt;
     return Interval{first, second};
   }
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -50,21 +52,21 @@ std::optional<Equiangular> Equiangular::along(const Ray& ray, float length, cons
   const auto* point = std::get_if<PointLight>(&light.kind);
   const auto* spot = std::get_if<SpotLight>(&light.kind);
   if (point == nullptr && spot == nullptr) return std::nullopt;
-  const Imath::V3d position(point != nullptr ? place_at(*point, ray.time) : place_at(*spot, ray.time));
+  const Imath::V3d position(point != nullptr ? position_at(*point, ray.time) : position_at(*spot, ray.time));
   const Imath::V3d m = Imath::V3d(ray.origin) - position;
   const Imath::V3d d(ray.direction);
   Interval part{0, length};
   if (spot != nullptr && spot->cap < 1) {
     const double cap = spot->cap;
-    const auto lit = within_cone(m, d, Imath::V3d(spot->axis_at(ray.time)), cap * (2 - cap));
-    if (!lit) return std::nullopt;
-    part = {std::max(part.from, lit->from), std::min(part.to, lit->to)};
+    const auto cone = within_cone(m, d, Imath::V3d(spot->axis_at(ray.time)), cap * (2 - cap));
+    if (!cone) return std::nullopt;
+    part = {std::max(part.from, cone->from), std::min(part.to, cone->to)};
   }
   if (!(part.from < part.to)) return std::nullopt;
   const double foot = -m.dot(d);
-  // A ray right through the light would have all of its density there.
-  constexpr double kLeast = 1e-6;
-  const double height = std::max((m + d * foot).length(), kLeast * m.length());
+  // A ray through the light itself would have its entire density at one point.
+  constexpr double kMinRelativeHeight = 1e-6;
+  const double height = std::max((m + d * foot).length(), kMinRelativeHeight * m.length());
   if (!(height > 0)) return std::nullopt;
   return Equiangular(part.from, part.to, foot, height);
 }
@@ -76,8 +78,8 @@ float Equiangular::sample(float u) const {
 
 float Equiangular::pdf(float distance) const {
   if (!(distance >= from_ && distance <= to_)) return 0;
-  const double beyond = static_cast<double>(distance) - foot_;
-  return static_cast<float>(height_ / ((high_ - low_) * (height_ * height_ + beyond * beyond)));
+  const double from_foot = static_cast<double>(distance) - foot_;
+  return static_cast<float>(height_ / ((high_ - low_) * (height_ * height_ + from_foot * from_foot)));
 }
 
 }  // namespace abbe

@@ -4,56 +4,59 @@
 #include <functional>
 #include <optional>
 
+#include "transport/path/path_state.h"
 #include "transport/path/ray_caster.h"
-#include "transport/path/walk.h"
 
 namespace abbe {
 
-/// Whether events may lie between surfaces: matter scatters, or begins without an interface.
+/// True if events between surfaces are possible: a medium scatters, or media have boundaries without an
+/// interface.
 [[nodiscard]] inline bool has_free_paths(const Scene& scene) {
-  return scene.needs.scattering || scene.needs.boundaries;
+  return scene.features.scattering || scene.features.boundaries;
 }
 
-/// The point that far along a ray that ends at `end`, perhaps infinite, on a surface of that unit normal, or
-/// at none where it is 0. A point that floats do not tell from the surface is moved off it, as far as rays
-/// that leave the surface start: rounded as it is, it might lie behind.
+/// Point at `distance` along a ray. The ray ends at `end`, possibly infinity, on a surface with the unit
+/// normal `end_normal`, which is 0 if it ends at no surface. A point too close to that surface is moved away
+/// by the offset with which rays leave it. Rounding might otherwise put it behind the surface.
 [[nodiscard]] Imath::V3f point_along(const Ray& ray, float distance, float end, const Imath::V3f& end_normal);
 
-/// Where a walk has come to along its ray.
-enum class Arrival : std::uint8_t {
-  outside,  ///< The scene is left.
+/// Event at which a path segment ends.
+enum class SegmentEnd : std::uint8_t {
+  escape,  ///< The path leaves the scene.
   surface,
-  matter,  ///< That scatters it.
-  hidden,  ///< Its way on may start behind a wall, see `Scene::hides_beyond`: it ends there.
+  medium,  ///< The path scatters in a medium.
+  hidden,  ///< The continuation might start behind a wall (`Scene::hides_beyond`); the path ends.
 };
 
-/// Is told of each stretch of even matter that scatters which a walk comes to, as it is at its origin.
-using StretchVisitor = std::function<void(const Stretch&)>;
+/// Receives each homogeneous scattering segment that a path enters, with the state at the segment's origin.
+using SegmentVisitor = std::function<void(const MediumSegment&)>;
 
-/// Takes a walk along its ray, whose nearest hit is `hit`, to its next event: at a surface, which `hit` then
-/// is, out of the scene, or in matter that scatters it. Boundaries of matter are passed. The ray goes on
-/// starting where it does unless matter scatters: then the event lies at its origin.
+/// Advances a path along its ray to its next event: on a surface, in a scattering medium, or out of the
+/// scene. `hit` is the nearest hit of the ray, and becomes the surface of the event. Medium boundaries are
+/// crossed. The ray's origin changes only if a medium scatters the path: then it is the position of the
+/// event.
 ///
-/// The hero draws its optical depth to the next scattering from e^-depth by `u` in [0, 1)^2, the second
-/// number being the digits beyond the first. With extinction s_k of lane k and the way x through it, the
-/// density of scattering there is s_k e^(-s_k x), that of passing e^(-s_k x), and the lanes are balanced over
-/// these as over densities of directions. [Wilkie2014, sec. 4.2]
-[[nodiscard]] Arrival propagate(const Scene& scene, RayCaster& caster, const Imath::V2f& u, Walk& walk,
-                                std::optional<SurfaceHit>& hit, const StretchVisitor& visitor = {});
+/// The hero draws its optical depth to the next scattering from e^-depth with `u` in [0, 1)^2; the second
+/// number supplies further digits of the first. Let s_k be the extinction of wavelength k and x the distance.
+/// The pdf of scattering is s_k e^(-s_k x), that of passing e^(-s_k x). Wavelengths are balanced over these
+/// pdfs as over pdfs of directions. [Wilkie2014, sec. 4.2]
+[[nodiscard]] SegmentEnd propagate(const Scene& scene, RayCaster& caster, const Imath::V2f& u,
+                                   PathState& path, std::optional<SurfaceHit>& hit,
+                                   const SegmentVisitor& visitor = {});
 
-/// What is left of light on a straight way that nothing blocks, and with which density `propagate` would have
-/// come that way, lane by lane.
+/// Transmittance of an unoccluded segment and probability that `propagate` passes it without an event, per
+/// wavelength.
 struct Transmission {
   SampledSpectrum transmittance{1.0F};
-  SampledSpectrum density{1.0F};
+  SampledSpectrum pdf{1.0F};
 };
-/// Follows the first `distance` [m], perhaps infinite, of a ray that sets out within `around`.
-[[nodiscard]] Transmission transmission(const Scene& scene, RayCaster& caster, Ray ray, Surroundings around,
+/// Evaluates the first `distance` [m] of a ray that starts in `media`; `distance` may be infinite.
+[[nodiscard]] Transmission transmission(const Scene& scene, RayCaster& caster, Ray ray, MediumState media,
                                         const SampledSpectrum& wavelengths_nm, float distance);
-/// That of a ray along a way that may be blocked; nothing where it is.
+/// Tests a shadow ray first. Returns nothing if it is occluded, otherwise the transmission along `ray`.
 [[nodiscard]] std::optional<Transmission> unblocked_transmission(const Scene& scene, RayCaster& caster,
-                                                                 const BasicRay<double>& way, const Ray& ray,
-                                                                 const Surroundings& around,
+                                                                 const BasicRay<double>& shadow_ray,
+                                                                 const Ray& ray, const MediumState& media,
                                                                  const SampledSpectrum& wavelengths_nm,
                                                                  float distance);
 

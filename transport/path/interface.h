@@ -9,39 +9,44 @@
 
 namespace abbe {
 
-/// Where matter is nested, surfaces are interfaces only where what is there changes: of all the matter that a
-/// point lies in, that of the highest priority [Schmidt2002], and among equals of the smallest shape. Matter
-/// without an interface has the index of what it lies in, and changes nothing by which light is refracted.
-/// Surfaces that touch are crossed together, from what was before all of them to what is behind.
+/// Nested media: a surface is an interface only if the medium changes there. Of all shapes around a
+/// point, the medium of the one with the highest priority counts [Schmidt2002]; among equals, that of the
+/// smallest shape. A medium without an interface has the index of the medium around it and does not refract.
+/// Coincident surfaces are crossed together, from the medium before all of them to the medium behind all of
+/// them.
 
-/// A surface on a ray's way: into its shape, or out of it.
+/// Crossing of a shape's surface, into the shape or out of it.
 struct CrossedSurface {
   std::uint32_t shape;
   bool entering;
 };
 
-/// Which of several surfaces that touch acts on a ray, and what lies around it there.
+/// The one of several coincident surfaces that acts on a ray, and the media there.
 struct ActingSurface {
-  std::optional<std::size_t> acting;         ///< Which of them acts; none where nothing changes.
-  const RefractiveIndex* outside = nullptr;  ///< Of the acting shape's own matter; nullptr is air.
-  MediumStack beyond = {};                   ///< What a ray that is let through is in.
+  std::optional<std::size_t> acting;  ///< Index of the acting surface; none if nothing changes.
+  /// Index outside the acting shape's own medium; nullptr is air.
+  const RefractiveIndex* outside = nullptr;
+  MediumStack media_behind = {};  ///< Media of a transmitted ray.
 };
 
-/// Tells which of the surfaces that a ray within `inside` meets together acts on it. The first opaque one
-/// acts. Else, where the index changes, that of the higher priority of the two that bound what was before and
-/// what is behind, of equals the later one of the scene; where it does not, the first sheet. A shape left
-/// that was never entered counts as entered before.
+/// Decides which of several coincident surfaces acts on a ray in `media`. In this order:
+/// - The first opaque surface acts.
+/// - If the index changes, the surface of higher priority of the two that bound the media before and behind
+///   acts. Among equals this is the later one of the scene.
+/// - If the index does not change, the first sheet acts.
+///
+/// A shape that is left without having been entered counts as entered before.
 [[nodiscard]] ActingSurface acting_surface(const Scene& scene, std::span<const CrossedSurface> surfaces,
-                                           const MediumStack& inside);
+                                           const MediumStack& media);
 
-/// The interface at which a path that meets the scene at `first` meets it.
+/// Interface at which a path that hits the scene at `first` interacts.
 struct Interface {
-  SurfaceHit hit;  ///< With the acting surface.
-  bool passes;     ///< Nothing changes.
+  SurfaceHit hit;  ///< Hit on the acting surface.
+  bool passes;     ///< True if no medium changes, so that the path continues straight.
   const RefractiveIndex* outside;
-  MediumStack beyond;
+  MediumStack media_behind;
 };
 [[nodiscard]] Interface interface_at(const Scene& scene, const Ray& ray, const SurfaceHit& first,
-                                     const MediumStack& inside);
+                                     const MediumStack& media);
 
 }  // namespace abbe

@@ -8,8 +8,8 @@
 namespace abbe {
 namespace {
 
-// Whether light goes there in more than single directions, so that it can be connected to something.
-bool joins(const PathVertex& vertex) {
+// True if the vertex scatters into more than single directions, so that it can be connected.
+bool is_connectible(const PathVertex& vertex) {
   const auto* surface = std::get_if<SurfaceVertex>(&vertex.at);
   return surface == nullptr || scatters(surface->bsdf);
 }
@@ -19,12 +19,13 @@ bool joins(const PathVertex& vertex) {
 void choose_joined(std::span<const PathVertex> path, const Sampler& sampler,
                    std::vector<JoinedVertex>& joined) {
   joined.clear();
-  double sum = path.size() > kAllJoined ? static_cast<double>(sampler.group(kJoiningGroup)[0]) : 0;
+  double sum = path.size() > kAlwaysJoined ? static_cast<double>(sampler.group(kJoiningGroup)[0]) : 0;
   for (std::size_t number = 1; number <= path.size(); ++number) {
-    const float share = joined_share(number);
+    const float probability = joining_probability(number);
     const double before = std::floor(sum);
-    sum += static_cast<double>(share);
-    if (std::floor(sum) > before && joins(path[number - 1])) joined.push_back({number, 1 / share});
+    sum += static_cast<double>(probability);
+    if (std::floor(sum) > before && is_connectible(path[number - 1]))
+      joined.push_back({number, 1 / probability});
   }
 }
 

@@ -4,30 +4,31 @@
 
 namespace abbe {
 
-GridStretch march_grid(const PlacedGrid& grid, const Shape& shape, const BasicRay<double>& ray,
-                       float distance, float column) {
+GridSegment march_grid_along(const PlacedGrid& grid, const Shape& shape, const BasicRay<double>& ray,
+                             float distance, float column) {
   const BasicRay<double> described = to_description(shape, ray);
   return grid.march(described.origin, described.direction, distance, column);
 }
 
-MediumAt medium_at(const Scene& scene, const MediumStack& inside, const SampledSpectrum& wavelengths_nm) {
-  if (inside.empty()) return {};
-  const ShapeInstance& innermost = scene.shapes[inside.innermost()];
+MediumAt medium_at(const Scene& scene, const MediumStack& stack, const SampledSpectrum& wavelengths_nm) {
+  if (stack.empty()) return {};
+  const ShapeInstance& innermost = scene.shapes[stack.innermost()];
   const Material& material = scene.materials[innermost.material];
-  const RefractiveIndex* index = interior(material);
+  const RefractiveIndex* index = interior_index(material);
   MediumAt medium;
   if (index != nullptr && index->absorbing()) medium = {true, index->absorption_per_m(wavelengths_nm)};
-  const Medium* filling = abbe::medium(material);
-  if (filling == nullptr) return medium;
-  medium.attenuating = medium.attenuating || filling->absorbs() || filling->scatters();
-  if (filling->absorbs()) medium.extinction_per_m += filling->absorption_per_m(wavelengths_nm);
-  if (filling->scatters()) {
-    medium.scattering = filling;
-    medium.scattering_per_m = filling->scattering_per_m(wavelengths_nm);
+  const Medium* interior_medium = abbe::medium(material);
+  if (interior_medium == nullptr) return medium;
+  medium.attenuating = medium.attenuating || interior_medium->absorbs() || interior_medium->scatters();
+  if (interior_medium->absorbs())
+    medium.extinction_per_m += interior_medium->absorption_per_m(wavelengths_nm);
+  if (interior_medium->scatters()) {
+    medium.scattering = interior_medium;
+    medium.scattering_per_m = interior_medium->scattering_per_m(wavelengths_nm);
     medium.extinction_per_m += medium.scattering_per_m;
   }
-  if (filling->grid) {
-    medium.grid = &*filling->grid;
+  if (interior_medium->grid) {
+    medium.grid = &*interior_medium->grid;
     medium.grid_shape = &innermost.shape;
   }
   return medium;

@@ -15,30 +15,32 @@
 namespace abbe {
 namespace {
 
-bool filled(const Scene& scene, std::uint32_t shape) {
+bool contains_medium(const Scene& scene, std::uint32_t shape) {
   return encloses_medium(scene.materials[scene.shapes[shape].material]);
 }
 
-// Whether, where both shapes are, the matter of `a` is there: by priorities; of equals that of the smaller
-// volume, which is the one that lies in the other if either does; of equal volumes the later of the scene. So
-// it does not depend on which of them a path entered first, but where one encloses no volume by itself.
+// True if the medium of `a` replaces that of `b` where both shapes overlap. The higher priority wins. Among
+// equals the smaller volume wins, which is the inner one if either contains the other; among equal volumes,
+// the later shape of the scene. The result does not depend on the order of entry unless one of them encloses
+// no volume.
 bool displaces(const Scene& scene, std::uint32_t a, std::uint32_t b) {
   const auto priority = [&](std::uint32_t of) { return scene.materials[scene.shapes[of].material].priority; };
   if (priority(a) != priority(b)) return priority(a) > priority(b);
-  const double of_a = scene.shapes[a].volume;
-  const double of_b = scene.shapes[b].volume;
-  return of_a > 0 && of_b > 0 && std::tuple(of_b, a) > std::tuple(of_a, b);
+  const double volume_a = scene.shapes[a].volume;
+  const double volume_b = scene.shapes[b].volume;
+  return volume_a > 0 && volume_b > 0 && std::tuple(volume_b, a) > std::tuple(volume_a, b);
 }
 
-// What a ray leaves and enters as one: a shape that encloses a volume, or else, by material, all those that
-// do not, such as the faces of a body.
+// Unit that a ray enters and leaves: a shape that encloses a volume, or all shapes of one material that do
+// not, such as the faces of a body.
 using Body = std::pair<bool, std::uint32_t>;
 Body body_of(const Scene& scene, std::uint32_t shape) {
   const bool closed = scene.shapes[shape].volume > 0;
   return {closed, closed ? shape : scene.shapes[shape].material};
 }
 
-// How often more a ray leaves a body than it enters it, and where and by which shape it does so last.
+// Number of exits minus number of entries of a ray for one body, with the distance and the shape of the last
+// exit.
 struct Crossings {
   int exits = 0;
   float last_exit = 0;
@@ -51,16 +53,17 @@ std::map<Body, Crossings> crossings(const Scene& scene, const Imath::V3f& from, 
   Ray ray = ray_at(from, direction, time);
   while (const std::optional<SurfaceHit> hit = scene.intersect(ray)) {
     SurfaceHit last = *hit;
-    const TouchingSurfaces together = scene.touching(ray, *hit);
-    for (const SurfaceHit& met : together.all()) {
-      last.spread = std::max(last.spread, std::abs((met.point - last.point).dot(last.normal)));
-      if (!filled(scene, met.shape)) continue;
-      Crossings& of = found[body_of(scene, met.shape)];
-      const bool leaves = met.normal.dot(direction) > 0;
+    const CoincidentHits together = scene.coincident(ray, *hit);
+    for (const SurfaceHit& other : together.all()) {
+      last.coincidence_radius =
+          std::max(last.coincidence_radius, std::abs((other.point - last.point).dot(last.normal)));
+      if (!contains_medium(scene, other.shape)) continue;
+      Crossings& of = found[body_of(scene, other.shape)];
+      const bool leaves = other.normal.dot(direction) > 0;
       of.exits += leaves ? 1 : -1;
       if (!leaves) continue;
-      of.last_exit = (met.point - from).length();
-      of.by = met.shape;
+      of.last_exit = (other.point - from).length();
+      of.by = other.shape;
     }
     ray = spawn(last, direction, ray.time);
   }
@@ -70,14 +73,16 @@ std::map<Body, Crossings> crossings(const Scene& scene, const Imath::V3f& from, 
 }  // namespace
 
 void MediumStack::enter(const Scene& scene, std::uint32_t shape) {
-  if (!filled(scene, shape)) return;  // a pane modelled as one surface
+  if (!contains_medium(scene, shape)) return;  // a pane modelled as a single surface
   const auto begin = shapes_.begin();
   if (std::find(begin, begin + static_cast<std::ptrdiff_t>(count_), shape) !=
       begin + static_cast<std::ptrdiff_t>(count_))
     return;
-  if (count_ == kMost)
+  if (count_ == kMaxShapes)
     throw Error(ErrorCode::resource, scene.shapes[shape].name,
-                fmt::format("too many shapes with matter in each other (allowed {})", kMost));
+                fmt::format("too many nested shapes with media (allowed at most {}): remove a shape or make "
+                            "one a surface without interior",
+                            kMaxShapes));
   std::size_t at = count_++;
   for (; at > 0 && displaces(scene, shapes_[at - 1], shape); --at) shapes_[at] = shapes_[at - 1];
   shapes_[at] = shape;
@@ -99,48 +104,48 @@ std::optional<std::uint32_t> MediumStack::entry_of(const Scene& scene, std::uint
   return found;
 }
 
-MediumStack enclosing(const Scene& scene, const Imath::V3f& point, float time) {
-  MediumStack inside;
-  if (!scene.needs.matter) return inside;
+MediumStack enclosing_media(const Scene& scene, const Imath::V3f& point, float time) {
+  MediumStack media;
+  if (!scene.features.encloses_media) return media;
   const auto ahead = crossings(scene, point, askew_direction<float>(), time);
   const auto behind = crossings(scene, point, -askew_direction<float>(), time);
-  std::vector<std::pair<float, std::uint32_t>> around;
+  std::vector<std::pair<float, std::uint32_t>> enclosing_shapes;
   for (const auto& [body, of] : ahead) {
-    const auto other = behind.find(body);
-    if (of.exits > 0 && other != behind.end() && other->second.exits > 0)
-      around.emplace_back(of.last_exit, of.by);
+    const auto found = behind.find(body);
+    if (of.exits > 0 && found != behind.end() && found->second.exits > 0)
+      enclosing_shapes.emplace_back(of.last_exit, of.by);
   }
-  std::sort(around.rbegin(), around.rend());  // from the outermost
-  for (const auto& [exit, shape] : around) inside.cross(scene, shape, true);
-  return inside;
+  std::sort(enclosing_shapes.rbegin(), enclosing_shapes.rend());  // outermost first
+  for (const auto& [exit, shape] : enclosing_shapes) media.cross(scene, shape, true);
+  return media;
 }
 
-MediumStack around_camera(const Scene& scene) {
-  if (!is_meter(scene.camera)) return enclosing(scene, Imath::V3f(middle(scene.camera)));
-  return enclosing(scene, meter_point(scene.camera, {0.5F, 0.5F}));
+MediumStack media_at_camera(const Scene& scene) {
+  if (!is_probe(scene.camera)) return enclosing_media(scene, Imath::V3f(center(scene.camera)));
+  return enclosing_media(scene, probe_point(scene.camera, {0.5F, 0.5F}));
 }
 
-std::optional<MediumStack> around_light(const Scene& scene, const Light& light) {
-  if (light.at_infinity() || scene.is_far(light)) return MediumStack();
-  const auto around = [&](const std::array<float, 2>& u) {
+std::optional<MediumStack> media_at_light(const Scene& scene, const Light& light) {
+  if (light.at_infinity() || scene.is_distant(light)) return MediumStack();
+  const auto media_at_point = [&](const std::array<float, 2>& u) {
     const EmissionPoint at = sample_emission_point(light, scene.shapes, {u[0], u[1]}, 0);
-    return enclosing(scene, light.is_delta() ? at.point : offset_point(at.point, at.normal, at.normal));
+    return enclosing_media(scene, light.is_delta() ? at.point : offset_point(at.point, at.normal, at.normal));
   };
-  MediumStack middle = around(kSpreadOverLight.front());
-  if (light.is_delta()) return middle;
-  for (const std::array<float, 2>& u : kSpreadOverLight) {
-    const MediumStack there = around(u);
-    if (!std::ranges::equal(there.shapes(), middle.shapes())) return std::nullopt;
+  MediumStack center = media_at_point(kRepresentativePoints.front());
+  if (light.is_delta()) return center;
+  for (const std::array<float, 2>& u : kRepresentativePoints) {
+    const MediumStack there = media_at_point(u);
+    if (!std::ranges::equal(there.shapes(), center.shapes())) return std::nullopt;
   }
-  return middle;
+  return center;
 }
 
-bool matter_moves(const Scene& scene, const Imath::Box3d& box, bool moves) {
+bool media_may_change(const Scene& scene, const Imath::Box3d& box, bool moves) {
   for (std::uint32_t i = 0; i < scene.shapes.size(); ++i) {
     const Shape& shape = scene.shapes[i].shape;
-    const bool meets =
-        motion_of(shape) != nullptr ? bounds(shape).intersects(box) : moves && may_meet(shape, box);
-    if (meets && filled(scene, i)) return true;
+    const bool overlaps =
+        motion_of(shape) != nullptr ? bounds(shape).intersects(box) : moves && may_intersect(shape, box);
+    if (overlaps && contains_medium(scene, i)) return true;
   }
   return false;
 }

@@ -6,22 +6,21 @@
 
 namespace abbe {
 
-/// What a surface makes of flux that has come to a place close by, over the area it counts for: f [1/sr]
-/// towards where the path of radiance came from, `from` being the unit direction to where the flux did, and
-/// `normal` the geometric one of that place. On a relief times its cosine over that of the shape, by which
-/// flux arrives. 0 where the place belongs to another side or face.
+/// BSDF [1/sr] with which a surface scatters photon flux that arrived nearby towards the vertex's own path.
+/// `from` is the unit direction to the photon's origin, `normal` the geometric normal at the photon. On a
+/// relief the value is multiplied by the shading cosine over the geometric one, by which flux arrives. 0 if
+/// the photon is on another side or face.
 [[nodiscard]] inline SampledSpectrum merged_scattering(const SurfaceVertex& vertex, const Imath::V3f& from,
                                                        const Imath::V3f& normal) {
-  constexpr float kSameFace = 0.5F;  // the least cosine of two normals
-  const float arriving = std::abs(from.dot(vertex.hit.normal));
-  if (normal.dot(vertex.hit.normal) < kSameFace || !(arriving > 0)) return {};
-  const SurfaceVertex::Departure sent = vertex.towards(from, TransportMode::radiance);
-  return vertex.relief ? sent.f * (std::abs(sent.wi.z) / arriving) : sent.f;
+  constexpr float kSameFace = 0.5F;  // minimum cosine between two normals
+  const float cos_incident = std::abs(from.dot(vertex.hit.normal));
+  if (normal.dot(vertex.hit.normal) < kSameFace || !(cos_incident > 0)) return {};
+  const SurfaceVertex::OutgoingDirection outgoing = vertex.eval_towards(from, TransportMode::radiance);
+  return vertex.relief ? outgoing.f * (std::abs(outgoing.wi.z) / cos_incident) : outgoing.f;
 }
 
-/// What a path of radiance, come to the surface with the packet `eye`, measures of the flux when that has
-/// come with the packet `light` from there, over what it would were all unpolarised; nothing if they carry
-/// none.
+/// Stokes vector that a camera path with the polarisation `eye` measures of photon flux with the polarisation
+/// `light`, relative to an unpolarised estimate. Nothing if the path carries no polarisation.
 [[nodiscard]] inline std::optional<StokesSpectrum> merged_polarisation(const SurfaceVertex& vertex,
                                                                        const CarriedPolarisation& eye,
                                                                        const Imath::V3f& from,

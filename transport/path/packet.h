@@ -3,34 +3,35 @@
 #include <algorithm>
 
 #include "materials/bsdf/event.h"
-#include "spectral/packet.h"
+#include "spectral/sampled_spectrum.h"
 #include "spectral/wavelength_distribution.h"
 #include "transport/path/polarisation.h"
 
 namespace abbe {
 
-/// The lanes of one path. With f the path's contribution, P_k its density of directions, were lane k to make
-/// the random choices, and p the density of wavelengths, a technique's estimate is
-///     sum_j [f_j / p(lambda_j)] / sum_k P_k,
-/// the balance heuristic over the lanes [Wilkie2014], the density of wavelengths standing in the numerator
-/// only. One lane, the hero, drawn uniformly from all, makes the choices in fact.
+/// Wavelength samples of one path. Let f be the path's contribution, P_k its pdf of directions if wavelength
+/// k makes the random choices, and p the pdf of wavelengths. The estimate is the balance heuristic over
+/// wavelengths [Wilkie2014],
+///     sum_j [f_j / p(lambda_j)] / sum_k P_k.
+/// The pdf of wavelengths divides the numerator only. The hero, drawn uniformly from all wavelengths, makes
+/// the choices.
 struct PathPacket {
   SampledWavelengths wavelengths;
   SampledSpectrum throughput{1.0F};  ///< f_j / P_hero.
-  SampledSpectrum lane_pdf{1.0F};    ///< P_k / P_hero; 0 for a lane that cannot follow.
+  SampledSpectrum lane_pdf{1.0F};    ///< P_k / P_hero; 0 for a wavelength that cannot follow the path.
   int hero = 0;
-  CarriedPolarisation polarisation = {};  ///< Where it is carried.
+  CarriedPolarisation polarisation = {};  ///< Empty in scenes that need no polarisation.
 
-  /// The hero, where no other lane can follow any more.
+  /// The hero if no other wavelength can follow the path.
   [[nodiscard]] std::optional<int> lone_lane() const {
     return lane_pdf.sum() == lane_pdf[hero] ? std::optional(hero) : std::nullopt;
   }
-  /// The largest throughput of a lane, the same whichever lane is the hero.
-  [[nodiscard]] float carried() const { return throughput.max() / lane_pdf.max(); }
+  /// Largest throughput of a wavelength; independent of which one is the hero.
+  [[nodiscard]] float throughput_estimate() const { return throughput.max() / lane_pdf.max(); }
 };
 
-/// A packet whose wavelengths and hero are drawn by `u` in [0, 1): the lanes are an eighth of the cumulative
-/// distribution apart, so that an eighth of `u` shifts them and the rest picks the hero.
+/// Draws the wavelengths and the hero of a packet with `u` in [0, 1). The wavelengths divide the cumulative
+/// distribution into eighths: an eighth of `u` shifts them, the rest selects the hero.
 [[nodiscard]] inline PathPacket draw_packet(const WavelengthDistribution& distribution, float u) {
   const float scaled = u * kLanes;
   const int hero = std::min(static_cast<int>(scaled), kLanes - 1);
@@ -40,8 +41,8 @@ struct PathPacket {
   return packet;
 }
 
-/// Takes a packet through an event that leaves `weight` = f / P_hero of each lane and that lane k would have
-/// brought about with `lane_pdf` times the hero's density.
+/// Applies an event to a packet: `weight` is f / P_hero per wavelength, and `lane_pdf` the pdf of wavelength
+/// k relative to the hero's.
 inline void advance(PathPacket& packet, const SampledSpectrum& weight, const SampledSpectrum& lane_pdf) {
   packet.throughput *= weight;
   packet.lane_pdf *= lane_pdf;
@@ -49,18 +50,18 @@ inline void advance(PathPacket& packet, const SampledSpectrum& weight, const Sam
 inline void advance(PathPacket& packet, const BsdfSample& event) {
   advance(packet, event.weight, event.lane_pdf);
 }
-/// The share of a packet that an event keeps, the same whichever lane is the hero.
-[[nodiscard]] inline float kept_by(const BsdfSample& event) {
+/// Fraction of a packet's throughput that an event preserves; independent of which wavelength is the hero.
+[[nodiscard]] inline float event_throughput(const BsdfSample& event) {
   return event.weight.max() / event.lane_pdf.max();
 }
-/// Takes the polarisation of a packet that carries any through the same event, whose Mueller matrix is
-/// nothing where it depolarises; light travels along `travels` on that side of it on which the packet was.
-/// What the event leaves of unpolarised light becomes what it leaves of the packet's.
+/// Applies an event to the polarisation of a packet that carries one. `matrix` is empty if the event
+/// depolarises. `travels` is the direction of the light on the side of the event from which the packet came.
+/// Corrects the throughput from unpolarised to polarised light.
 inline void polarise(PathPacket& packet, const std::optional<MuellerMatrix>& matrix,
                      const Imath::V3f& travels, TransportMode mode) {
   packet.throughput *= packet.polarisation->pass(matrix, travels, mode);
 }
-/// Goes on with a probability that is the same for all lanes.
+/// Divides the throughput by a survival probability, equal for all wavelengths.
 inline void survive(PathPacket& packet, float probability) {
   packet.throughput *= 1 / probability;
 }

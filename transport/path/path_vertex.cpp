@@ -3,67 +3,68 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/extent.h"
 #include "scene/lights/emission.h"
+#include "scene/working_range.h"
 #include "transport/path/polarised_ends.h"
 
 namespace abbe {
 namespace {
 
-// What is asked of a vertex: of which scene, at which wavelengths and time, towards where.
-struct Asked {
+// Arguments of an evaluation at a vertex: the scene, the vertex with its wavelengths and time, and the
+// outgoing direction.
+struct VertexQuery {
   const Scene& scene;
   const PathVertex& vertex;
   const Imath::V3f& w;
 };
 
-std::optional<CameraDensity> seen(const CameraVertex& at, const Asked& asked) {
-  return density(asked.scene.camera, ray_at(at.point, asked.w, asked.vertex.time), asked.vertex.lambda_nm(),
+std::optional<CameraDensity> camera_density(const CameraVertex& at, const VertexQuery& query) {
+  return density(query.scene.camera, ray_at(at.point, query.w, query.vertex.time), query.vertex.lambda_nm(),
                  at.route);
 }
 
-SampledSpectrum sent(const CameraVertex& at, const Asked& asked, TransportMode /*mode*/) {
-  const std::optional<CameraDensity> camera = seen(at, asked);
+SampledSpectrum value_towards(const CameraVertex& at, const VertexQuery& query, TransportMode /*mode*/) {
+  const std::optional<CameraDensity> camera = camera_density(at, query);
   return camera ? camera->importance * camera->cos_theta : SampledSpectrum();
 }
 
-SampledSpectrum sent(const LightVertex& at, const Asked& asked, TransportMode /*mode*/) {
-  const Light& light = asked.scene.lights[at.light];
-  if (!emits_towards(light, at.normal, asked.w)) return {};
+SampledSpectrum value_towards(const LightVertex& at, const VertexQuery& query, TransportMode /*mode*/) {
+  const Light& light = query.scene.lights[at.light];
+  if (!emits_towards(light, at.normal, query.w)) return {};
   if (const auto* spot = std::get_if<SpotLight>(&light.kind);
-      spot != nullptr && !spot->lights(asked.w, asked.vertex.time))
+      spot != nullptr && !spot->illuminates(query.w, query.vertex.time))
     return {};
-  const float cosine = light.is<AreaLight>() ? std::abs(at.normal.dot(asked.w)) : 1.0F;
-  return emission_from(light, -asked.w, asked.vertex.lambda_nm()) * cosine;
+  const float cosine = light.is<AreaLight>() ? std::abs(at.normal.dot(query.w)) : 1.0F;
+  return emission_from(light, -query.w, query.vertex.lambda_nm()) * cosine;
 }
 
-SampledSpectrum sent(const SurfaceVertex& at, const Asked& asked, TransportMode mode) {
-  const SurfaceVertex::Departure sent = at.towards(asked.w, mode);
-  return sent.f * std::abs(sent.wi.z);
+SampledSpectrum value_towards(const SurfaceVertex& at, const VertexQuery& query, TransportMode mode) {
+  const SurfaceVertex::OutgoingDirection outgoing = at.eval_towards(query.w, mode);
+  return outgoing.f * std::abs(outgoing.wi.z);
 }
 
-SampledSpectrum sent(const MediumVertex& at, const Asked& asked, TransportMode /*mode*/) {
-  return SampledSpectrum(pdf(at.phase, at.from, asked.w));
+SampledSpectrum value_towards(const MediumVertex& at, const VertexQuery& query, TransportMode /*mode*/) {
+  return SampledSpectrum(pdf(at.phase, at.from, query.w));
 }
 
-SampledSpectrum drawn(const CameraVertex& at, const Asked& asked, const Imath::V3f& /*before*/) {
-  const std::optional<CameraDensity> camera = seen(at, asked);
+SampledSpectrum pdf_towards(const CameraVertex& at, const VertexQuery& query, const Imath::V3f& /*before*/) {
+  const std::optional<CameraDensity> camera = camera_density(at, query);
   return camera ? camera->pdf_direction : SampledSpectrum();
 }
 
-SampledSpectrum drawn(const LightVertex& at, const Asked& asked, const Imath::V3f& /*before*/) {
+SampledSpectrum pdf_towards(const LightVertex& at, const VertexQuery& query, const Imath::V3f& /*before*/) {
   const EmissionDensity of =
-      emission_density(asked.scene.lights[at.light], at.normal, asked.w,
-                       static_cast<float>(scene_radius(asked.scene.bounds)), asked.vertex.time);
+      emission_density(query.scene.lights[at.light], at.normal, query.w,
+                       static_cast<float>(scene_radius(query.scene.bounds)), query.vertex.time);
   return SampledSpectrum(at.at_infinity ? of.pdf_position : of.pdf_direction);
 }
 
-SampledSpectrum drawn(const SurfaceVertex& at, const Asked& asked, const Imath::V3f& before) {
-  return pdf(at.bsdf, at.frame.to_local(before), at.frame.to_local(asked.w));
+SampledSpectrum pdf_towards(const SurfaceVertex& at, const VertexQuery& query, const Imath::V3f& before) {
+  return pdf(at.bsdf, at.frame.to_local(before), at.frame.to_local(query.w));
 }
 
-SampledSpectrum drawn(const MediumVertex& at, const Asked& asked, const Imath::V3f& before) {
-  return SampledSpectrum(pdf(at.phase, -before, asked.w));
+SampledSpectrum pdf_towards(const MediumVertex& at, const VertexQuery& query, const Imath::V3f& before) {
+  return SampledSpectrum(pdf(at.phase, -before, query.w));
 }
 
 }  // namespace
@@ -80,13 +81,13 @@ std::optional<Imath::V3f> normal_of(const Scene& scene, const PathVertex& vertex
   if (const auto* light = std::get_if<LightVertex>(&vertex.at))
     return light->normal.length2() > 0 ? std::optional(light->normal) : std::nullopt;
   if (!std::holds_alternative<CameraVertex>(vertex.at)) return std::nullopt;
-  if (is_meter(scene.camera)) return meter_normal(scene.camera, point_of(vertex));
+  if (is_probe(scene.camera)) return probe_normal(scene.camera, point_of(vertex));
   const CameraTraits camera = traits(scene.camera);
   if (!camera.axis) return std::nullopt;
   return Imath::V3f(direction_at(scene.camera, *camera.axis, vertex.time));
 }
 
-Way way_from(const PathVertex& a, const PathVertex& b) {
+PathSegment segment_between(const PathVertex& a, const PathVertex& b) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
   if (b.at_infinity()) return {point_of(b), kInfinity};
   if (a.at_infinity()) return {-point_of(a), kInfinity};
@@ -100,36 +101,36 @@ bool on_ghost(const PathVertex& vertex) {
   return camera != nullptr && camera->route > 0;
 }
 
-SampledSpectrum sent_towards(const Scene& scene, const PathVertex& vertex, const Imath::V3f& w,
+SampledSpectrum eval_towards(const Scene& scene, const PathVertex& vertex, const Imath::V3f& w,
                              TransportMode mode) {
-  return std::visit([&](const auto& at) { return sent(at, {scene, vertex, w}, mode); }, vertex.at);
+  return std::visit([&](const auto& at) { return value_towards(at, {scene, vertex, w}, mode); }, vertex.at);
 }
 
 Polarisation polarisation_towards(const Scene& scene, const PathVertex& vertex, const Imath::V3f& w,
                                   TransportMode mode) {
   if (const auto* light = std::get_if<LightVertex>(&vertex.at))
-    return polarisation_of_lamp(scene.lights[light->light], w);
+    return emitted_polarisation(scene.lights[light->light], w);
   const CarriedPolarisation& carried = vertex.packet.polarisation;
   if (const auto* surface = std::get_if<SurfaceVertex>(&vertex.at))
     return carried->through(surface->mueller(surface->frame.to_local(w), false),
                             light_travels(-surface->frame.to_world(surface->wo), mode), mode);
   if (const auto* medium = std::get_if<MediumVertex>(&vertex.at))
     return carried->through(mueller(medium->phase, medium->from, w), light_travels(medium->from, mode), mode);
-  const auto camera = seen(std::get<CameraVertex>(vertex.at), {scene, vertex, w});
+  const auto camera = camera_density(std::get<CameraVertex>(vertex.at), {scene, vertex, w});
   return polarisation_of_film(scene, -w, vertex.time, camera ? images_of(*camera) : nullptr);
 }
 
 SampledSpectrum direction_pdf(const Scene& scene, const PathVertex& vertex, const Imath::V3f& before,
                               const Imath::V3f& w) {
-  return std::visit([&](const auto& at) { return drawn(at, {scene, vertex, w}, before); }, vertex.at);
+  return std::visit([&](const auto& at) { return pdf_towards(at, {scene, vertex, w}, before); }, vertex.at);
 }
 
 float solid_angle_per_area(const Scene& scene, const PathVertex& from, const PathVertex& to) {
   if (to.at_infinity()) return 1;
-  const Way way = way_from(from, to);
+  const PathSegment segment = segment_between(from, to);
   const std::optional<Imath::V3f> normal = normal_of(scene, to);
-  const double cosine = normal ? std::abs(static_cast<double>(normal->dot(way.direction))) : 1;
-  return static_cast<float>(from.at_infinity() ? cosine : cosine / (way.distance * way.distance));
+  const double cosine = normal ? std::abs(static_cast<double>(normal->dot(segment.direction))) : 1;
+  return static_cast<float>(from.at_infinity() ? cosine : cosine / (segment.distance * segment.distance));
 }
 
 }  // namespace abbe

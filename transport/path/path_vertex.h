@@ -12,14 +12,14 @@
 
 namespace abbe {
 
-/// Where a path meets the camera: on its lens or its meter.
+/// Vertex on the camera: a point of its lens or probe.
 struct CameraVertex {
   Imath::V3f point;
-  LensRoute route = 0;  ///< By which light goes on from there.
+  LensRoute route = 0;  ///< Route of the light through the lens.
 };
 
-/// Where a path meets a light: a point of it, with the outward normal of an area light, else (0, 0, 0). Of a
-/// light at infinity `point` is the unit direction from the scene to where its light comes from.
+/// Vertex on a light: a point with the outward normal of an area light, otherwise (0, 0, 0). For a light at
+/// infinity `point` is the unit direction from the scene to the light.
 struct LightVertex {
   std::uint32_t light;  ///< Index into `Scene::lights`.
   Imath::V3f point;
@@ -27,77 +27,81 @@ struct LightVertex {
   bool at_infinity = false;
 };
 
-/// Where matter turns a path, that came along the unit vector `from`.
+/// Scattering event in a medium; the path arrived along the unit vector `from`.
 struct MediumVertex {
   Imath::V3f point;
   Imath::V3f from;
   PhaseFunction phase;
 };
 
-/// A vertex of a path of either direction, with all that it takes to connect it to any other one and to weigh
-/// the ways in which the path could have come about. It may be stored: nothing in it points into a path, and
-/// indices are those of the scene's lists.
+/// Vertex of a camera or light path, with everything needed to connect it to any other vertex and to compute
+/// MIS weights. It can be stored: it has no pointers into a path, and its indices refer to the scene's lists.
 ///
-/// Densities are those of this vertex, given the one that it would be drawn from, lane by lane, were each
-/// lane the hero: per area at surfaces, lights and cameras, per volume in matter, per solid angle of what is
-/// at infinity, and 1 for a point that is a light's or a camera's only one.
+/// Pdfs are those of this vertex given the vertex from which it is sampled, per wavelength as the hero. They
+/// are per area on surfaces, lights and cameras, per volume in media, and per solid angle at infinity. The
+/// only point of a light or camera has the pdf 1.
 struct PathVertex {
   std::variant<CameraVertex, LightVertex, SurfaceVertex, MediumVertex> at;
-  PathPacket packet = {};             ///< Up to here, before it scatters here.
-  SampledSpectrum pdf_forward{1.0F};  ///< Drawn from the vertex before.
-  SampledSpectrum pdf_reverse = {};   ///< Drawn from the vertex after; 0 at the end of a path.
-  MediumStack inside = {};            ///< Around it, on the side the path came from,
-  MediumStack beyond = {};            ///< and on the other.
-  /// Density of an event here for what comes this far: in matter the extinction [1/m], over a grid's density,
-  /// which is common to all lanes and both ways; else 1.
+  PathPacket packet = {};             ///< State before the scattering at this vertex.
+  SampledSpectrum pdf_forward{1.0F};  ///< Pdf if sampled from the previous vertex.
+  SampledSpectrum pdf_reverse = {};   ///< Pdf if sampled from the next vertex; 0 at the end of a path.
+  MediumStack media_front = {};       ///< Media on the side from which the path arrived.
+  MediumStack media_behind = {};      ///< Media on the other side.
+  /// Pdf, per wavelength, of an event here, given arrival. In a medium this is the extinction [1/m] without a
+  /// grid's density, which is common to all wavelengths and both directions; otherwise 1.
   SampledSpectrum event_pdf{1.0F};
-  bool delta = false;  ///< The path went on in a single direction, which no connection finds.
-  float time = 0;      ///< Of the path; see `BasicRay`.
+  bool delta = false;  ///< True if the path left by a delta distribution, which no connection can sample.
+  float time = 0;      ///< Time of the path; see `BasicRay`.
 
   [[nodiscard]] const SampledSpectrum& lambda_nm() const { return packet.wavelengths.lambda_nm; }
-  /// Whether it is a light at infinity.
+  /// True if the vertex is a light at infinity.
   [[nodiscard]] bool at_infinity() const {
     const auto* light = std::get_if<LightVertex>(&at);
     return light != nullptr && light->at_infinity;
   }
 };
 
-/// Whether it is where light comes into a lens by way of a ghost.
+/// True if light enters a lens here by way of a ghost.
 [[nodiscard]] bool on_ghost(const PathVertex& vertex);
-/// Where the vertex is; of one at infinity the direction to it.
+/// Position of the vertex; for a vertex at infinity, the direction to it.
 [[nodiscard]] const Imath::V3f& point_of(const PathVertex& vertex);
-/// The geometric normal of what has one.
+/// Geometric normal; nothing for vertices without one.
 [[nodiscard]] std::optional<Imath::V3f> normal_of(const Scene& scene, const PathVertex& vertex);
 
-/// The unit vector from `a` to `b`, not both at infinity, and the distance, which may be infinite.
-struct Way {
+/// Unit vector from `a` to `b` and the distance [m], which may be infinite. At most one of both may be at
+/// infinity.
+struct PathSegment {
   Imath::V3f direction;
   double distance;
 };
-[[nodiscard]] Way way_from(const PathVertex& a, const PathVertex& b);
+[[nodiscard]] PathSegment segment_between(const PathVertex& a, const PathVertex& b);
 
-/// What goes on at a vertex towards the unit vector `w`, times the cosine there: f |cos| [1/sr] of a surface,
-/// the phase function [1/sr], the importance of a camera times its cosine, the emission of a light times its
-/// own, and from infinity the emission alone. `mode` says what the path carries to a scattering vertex.
-[[nodiscard]] SampledSpectrum sent_towards(const Scene& scene, const PathVertex& vertex, const Imath::V3f& w,
+/// Quantity that the vertex emits or scatters in the unit direction `w`, including the cosine there:
+/// - surface: f |cos| [1/sr];
+/// - medium: the phase function [1/sr];
+/// - camera: its importance times its cosine;
+/// - light: its emission times its cosine, at infinity the emission alone.
+///
+/// `mode` is the quantity that the path carries to a scattering vertex.
+[[nodiscard]] SampledSpectrum eval_towards(const Scene& scene, const PathVertex& vertex, const Imath::V3f& w,
                                            TransportMode mode);
 
-/// The polarisation with which the packet that the vertex holds leaves it towards the unit vector `w`, by no
-/// event of a single direction, relative to what it has come with; that of a lamp's own light, and at a
-/// camera the rows that its sensor measures.
+/// Polarisation of the vertex's packet after it leaves in the unit direction `w` by an event that is not
+/// delta, relative to that on arrival. For a light it is the polarisation of its emission, for a camera the
+/// rows that its sensor measures.
 [[nodiscard]] Polarisation polarisation_towards(const Scene& scene, const PathVertex& vertex,
                                                 const Imath::V3f& w, TransportMode mode);
 
-/// Density [1/sr] with which the vertex would draw the direction `w`, lane by lane, by an event that is not
-/// delta: a camera and a light of their own, the others when they are come to along -`before`, that is from
-/// the vertex in the direction `before`. Light from infinity draws the place of its way instead [1/m^2]. With
-/// `before` and `w` exchanged it is the density the other way.
+/// Pdf [1/sr], per wavelength, with which the vertex samples the direction `w` by an event that is not delta.
+/// Cameras and lights use their own pdfs. Other vertices use that for a path that arrives along -`before`. A
+/// light at infinity samples the position of the ray instead [1/m^2]. Exchanging `before` and `w` gives the
+/// pdf of the reverse direction.
 [[nodiscard]] SampledSpectrum direction_pdf(const Scene& scene, const PathVertex& vertex,
                                             const Imath::V3f& before, const Imath::V3f& w);
 
-/// The factor dω/dA, or dω/dV, that turns the density of a direction at `from` into that of the vertex `to`
-/// there: |cos|/d^2 at what has a normal, 1/d^2 elsewhere. 1 for what is at infinity, and where light comes
-/// from infinity the cosine alone.
+/// Factor dω/dA or dω/dV that converts the pdf of a direction at `from` into that of the vertex `to`:
+/// |cos|/d^2 with a normal at `to`, 1/d^2 without. It is 1 if `to` is at infinity, and the cosine alone if
+/// `from` is.
 [[nodiscard]] float solid_angle_per_area(const Scene& scene, const PathVertex& from, const PathVertex& to);
 
 }  // namespace abbe

@@ -8,7 +8,7 @@
 namespace abbe {
 
 struct PhotonMap::Tree {
-  // As nanoflann asks for points.
+  // Point cloud in the interface that nanoflann requires.
   struct Cloud {
     std::vector<Imath::V3f> points;
 
@@ -18,7 +18,7 @@ struct PhotonMap::Tree {
     }
     template <typename Box>
     bool kdtree_get_bbox(Box& /*box*/) const {
-      return false;  // it is to be found
+      return false;  // not computed yet
     }
   };
 
@@ -27,7 +27,7 @@ struct PhotonMap::Tree {
 
   explicit Tree(std::vector<Imath::V3f> points) : cloud{std::move(points)}, index(3, cloud) {}
   Cloud cloud;
-  Index index;  // of the cloud, which it refers to
+  Index index;  // index of `cloud`, which it references
 };
 
 PhotonMap::PhotonMap(std::vector<Imath::V3f> points) : tree_(std::make_unique<Tree>(std::move(points))) {}

@@ -9,11 +9,11 @@
 
 namespace abbe {
 
-/// Points to be found by place, by their numbers: a k-d tree [Bentley1975] of where photons have come to
-/// [Jensen1996]. What is found, and in which order, depends on the points alone. Any threads may ask at once.
+/// K-d tree [Bentley1975] of photon positions, queried by position [Jensen1996]. Results and their order
+/// depend on the points alone. Queries may run concurrently.
 class PhotonMap {
  public:
-  /// What a point takes in memory [bytes].
+  /// Memory per point [bytes].
   static constexpr std::size_t kBytesOfPoint = sizeof(Imath::V3f) + 2 * sizeof(std::uint32_t);
 
   explicit PhotonMap(std::vector<Imath::V3f> points);
@@ -23,9 +23,9 @@ class PhotonMap {
 
   [[nodiscard]] std::size_t size() const;
 
-  /// Sets `found` to those whose distance from a point is less than `radius`, in the order of their numbers.
+  /// Sets `found` to the points closer than `radius` [m], in the order of their numbers.
   void within(const Imath::V3f& point, float radius, std::vector<std::uint32_t>& found) const;
-  /// Sets `found` to the `count` nearest to a point, fewer only where there are no more, from the nearest on.
+  /// Sets `found` to the `count` nearest points, or all if there are fewer, nearest first.
   void nearest(const Imath::V3f& point, std::size_t count, std::vector<std::uint32_t>& found) const;
 
  private:

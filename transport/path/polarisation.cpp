@@ -15,7 +15,7 @@ namespace {
   return std::abs(axis.length() - 1) < kSlack && std::abs(axis.dot(travels)) < kSlack;
 }
 
-// A row times the matrix, or the matrix times a vector, which differ in the sign of s alone.
+// Product of a row and the matrix, or of the matrix and a column; they differ only in the sign of s.
 StokesSpectrum product(const StokesSpectrum& x, const MuellerMatrix& m, TransportMode mode) {
   const SampledSpectrum s = mode == TransportMode::radiance ? m.s : SampledSpectrum(0.0F) - m.s;
   return {x.i + x.q * m.d, x.i * m.d + x.q * m.p, x.u * m.c + x.v * s, x.v * m.c - x.u * s};
@@ -25,14 +25,13 @@ float ratio(float part, float whole) {
   return whole > 0 ? part / whole : 0.0F;
 }
 
-// What a thread has been given back, for what it makes next: to ask for memory that is aligned to a vector
-// takes as long as an event of a path.
-class SpareMemory {
+// Free list of one thread. Allocating memory with vector alignment takes as long as an event of a path.
+class FreeList {
  public:
-  explicit SpareMemory(std::align_val_t alignment) : alignment_(alignment) { spare_.reserve(kMost); }
-  SpareMemory(const SpareMemory&) = delete;
-  SpareMemory& operator=(const SpareMemory&) = delete;
-  ~SpareMemory() {
+  explicit FreeList(std::align_val_t alignment) : alignment_(alignment) { spare_.reserve(kMaxSpare); }
+  FreeList(const FreeList&) = delete;
+  FreeList& operator=(const FreeList&) = delete;
+  ~FreeList() {
     for (void* memory : spare_) ::operator delete(memory, alignment_);
   }
 
@@ -43,31 +42,31 @@ class SpareMemory {
     return memory;
   }
   void give_back(void* memory) {
-    if (spare_.size() < kMost)
+    if (spare_.size() < kMaxSpare)
       spare_.push_back(memory);
     else
       ::operator delete(memory, alignment_);
   }
 
  private:
-  static constexpr std::size_t kMost = 256;  // another thread may have made what this one destroys
+  static constexpr std::size_t kMaxSpare = 256;  // bounded, as a thread may destroy objects of other threads
   std::align_val_t alignment_;
   std::vector<void*> spare_;
 };
 
-SpareMemory& spare_memory() {
-  thread_local SpareMemory spare{std::align_val_t{alignof(Polarisation)}};
+FreeList& free_list() {
+  thread_local FreeList spare{std::align_val_t{alignof(Polarisation)}};
   return spare;
 }
 
 }  // namespace
 
 void* Polarisation::operator new(std::size_t size, std::align_val_t /*alignment*/) {
-  return spare_memory().take(size);
+  return free_list().take(size);
 }
 
 void Polarisation::operator delete(void* memory, std::align_val_t /*alignment*/) {
-  spare_memory().give_back(memory);
+  free_list().give_back(memory);
 }
 
 Polarisation Polarisation::all_elements(const Imath::V3f& axis) {
@@ -114,10 +113,11 @@ SampledSpectrum Polarisation::pass(const std::optional<MuellerMatrix>& matrix, c
                                    TransportMode mode) {
   if (neutral_ && !matrix) return SampledSpectrum(1.0F);
   multiply(matrix, travels, mode);
-  const SampledSpectrum left = SampledSpectrum::map(rows_[0].i, [](float i) { return std::max(i, 0.0F); });
-  const SampledSpectrum over = SampledSpectrum::map(left, [](float i) { return ratio(1.0F, i); });
+  const SampledSpectrum preserved =
+      SampledSpectrum::map(rows_[0].i, [](float i) { return std::max(i, 0.0F); });
+  const SampledSpectrum over = SampledSpectrum::map(preserved, [](float i) { return ratio(1.0F, i); });
   for (int k = 0; k < count_; ++k) rows_[static_cast<std::size_t>(k)] *= over;
-  return left;
+  return preserved;
 }
 
 StokesSpectrum Polarisation::of_unpolarised() const {
@@ -126,9 +126,9 @@ StokesSpectrum Polarisation::of_unpolarised() const {
 
 StokesSpectrum Polarisation::of(const Polarisation& light, const Imath::V3f& travels) const {
   if (neutral_ || light.neutral_) {
-    StokesSpectrum seen = of_unpolarised();
-    seen *= light.rows_[0].i;
-    return seen;
+    StokesSpectrum measured_values = of_unpolarised();
+    measured_values *= light.rows_[0].i;
+    return measured_values;
   }
   const StokesSpectrum vector = light.in_frame(axis_, travels);
   return {measured(rows_[0], vector), measured(rows_[1], vector), measured(rows_[2], vector),

@@ -12,61 +12,62 @@
 
 namespace abbe {
 
-/// What a path carries of polarisation, lane by lane: of light from a lamp its Stokes vector, of a path from
-/// the camera the rows with which the sensor measures the Stokes vectors that come in at the path's end. Both
-/// are over the first element of the first, which is in the path's throughput, and told in a frame across the
-/// direction in which light travels along the path's ray: the first axis is a unit vector perpendicular to
-/// that, the second travels x axis.
+/// Polarisation of a path, per wavelength. For a light path it is the Stokes vector. For a camera path it is
+/// the set of rows with which the sensor measures Stokes vectors that arrive at the path's end. Both are
+/// relative to the first element of the first row, which is part of the path's throughput. Their frame is
+/// perpendicular to the direction in which light travels along the path's ray. Its first axis is a unit
+/// vector, its second one is travels x axis.
 ///
-/// With M_1, M_2 ... the Mueller matrices of a path's events, each in the direction of light, that is the row
-///     r M_1 M_2 ...           of a path from the camera, r being (1, 0, 0, 0) where only power is measured,
-///     and
-///     ... M_2 M_1 s           of a path from a lamp that sends s,
-/// so that what is measured of paths that are joined is the product of the row of one, the matrix of the
-/// event that joins them, and the vector of the other. [Born1999, sec. 10.9]
+/// With the Mueller matrices M_1, M_2 ... of a path's events, each in the direction of the light, this is the
+/// row
+///     r M_1 M_2 ...           of a camera path, r being (1, 0, 0, 0) if only power is measured, and
+///     ... M_2 M_1 s           of a light path with the emission s.
+/// The value measured of a connected path is the product of the row of one, the matrix of the connecting
+/// event, and the vector of the other. [Born1999, sec. 10.9]
 class Polarisation {
  public:
   /// Unpolarised light, or a sensor that measures power alone.
   Polarisation() = default;
-  /// Each path has one of its own: their memory is kept by threads, see `SpareMemory`.
+  /// Allocation from a per-thread free list; see `FreeList`.
   static void* operator new(std::size_t size, std::align_val_t alignment);
   static void operator delete(void* memory, std::align_val_t alignment);
-  /// A Stokes vector, or row.
+  /// Stokes vector or single row.
   Polarisation(const Imath::V3f& axis, const StokesSpectrum& values)
       : axis_(axis), neutral_(false), rows_{values} {}
-  /// The rows of a sensor that measures all elements.
+  /// Rows of a sensor that measures all four elements.
   Polarisation(const Imath::V3f& axis, const std::array<StokesSpectrum, 4>& rows)
       : axis_(axis), count_(4), neutral_(false), rows_(rows) {}
-  /// The rows of a sensor that measures I, Q, U and V in the frame of that axis.
+  /// Rows of a sensor that measures I, Q, U and V in the frame of `axis`.
   [[nodiscard]] static Polarisation all_elements(const Imath::V3f& axis);
 
-  /// Takes it through an event to which light travels, or from which it travels on where the path comes from
-  /// the camera, along the unit vector `travels`; `matrix` is nothing where the event depolarises. Returns by
-  /// how much more the event leaves than it would were all unpolarised, and is relative to that from now on.
+  /// Applies an event. `travels` is the unit direction of the light before the event for a light path, after
+  /// it for a camera path. `matrix` is empty if the event depolarises. Returns the factor between the result
+  /// and that of unpolarised light, and divides by it.
   SampledSpectrum pass(const std::optional<MuellerMatrix>& matrix, const Imath::V3f& travels,
                        TransportMode mode);
-  /// What it would become, relative to what it is now.
+  /// Polarisation after an event, relative to the current one.
   [[nodiscard]] Polarisation through(const std::optional<MuellerMatrix>& matrix, const Imath::V3f& travels,
                                      TransportMode mode) const;
 
-  /// What rows measure of unpolarised light, as a Stokes vector of those that there are.
+  /// Stokes vector that the rows measure of unpolarised light; unused elements are 0.
   [[nodiscard]] StokesSpectrum of_unpolarised() const;
-  /// What rows measure, likewise, of light of the Stokes vector `light` that travels along the unit vector.
+  /// Stokes vector that the rows measure of the polarisation `light`, which travels along the unit vector
+  /// `travels`.
   [[nodiscard]] StokesSpectrum of(const Polarisation& light, const Imath::V3f& travels) const;
 
  private:
-  // The Stokes vector in the frame of another axis.
+  // Stokes vector in the frame of another axis.
   [[nodiscard]] StokesSpectrum in_frame(const Imath::V3f& axis, const Imath::V3f& travels) const;
   void turn_to(const Imath::V3f& axis, const Imath::V3f& travels);
   void multiply(const std::optional<MuellerMatrix>& matrix, const Imath::V3f& travels, TransportMode mode);
 
-  Imath::V3f axis_{0, 0, 0};  // unknown where all is neutral
-  int count_ = 1;             // of the rows
-  bool neutral_ = true;       // all but the first elements are zero
+  Imath::V3f axis_{0, 0, 0};  // undefined if neutral
+  int count_ = 1;             // number of rows
+  bool neutral_ = true;       // true if all elements but the first are zero
   std::array<StokesSpectrum, 4> rows_{StokesSpectrum{.i = SampledSpectrum(1.0F)}};
 };
 
-/// The polarisation of a packet, if it carries any: few scenes have it, and packets of others should stay
+/// Optional polarisation of a packet, on the heap: few scenes need it, and packets of other scenes stay
 /// small.
 class CarriedPolarisation {
  public:

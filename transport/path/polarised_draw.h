@@ -5,40 +5,38 @@
 
 namespace abbe {
 
-/// Drawing events as polarised light has them. Were they drawn as of unpolarised light, each would multiply
-/// what a path carries by a factor f up to 2, of the mean 1, and the variance of a long path would grow
-/// exponentially: light that is reflected again and again within glass, or scattered in a cloud. Where
-/// nothing is absorbed the density that unpolarised light has, times f of the hero, is a density too, and is
-/// drawn from instead: f of lane k over f of the hero is then left, in the throughput and, as that lane would
-/// have drawn likewise, in its density.
+/// Sampling of events with the distribution of polarised light. With that of unpolarised light each event
+/// would multiply the throughput by a factor f of mean 1 and at most 2. The variance of a long path, as of
+/// light reflected within glass or scattered in a cloud, would grow exponentially. Without absorption, the
+/// unpolarised pdf times the hero's f is a pdf, and is sampled instead. The ratio of wavelength k's f to the
+/// hero's remains, in the throughput and in the pdf of that wavelength.
 
-/// Whether the model's events are drawn so: smooth glass reflects or refracts.
-[[nodiscard]] bool draws_polarised(const Bsdf& bsdf);
+/// True if the model's events are sampled with polarised pdfs: smooth glass, which reflects or refracts.
+[[nodiscard]] bool samples_polarised(const Bsdf& bsdf);
 
-/// With which probability such a model would reflect what the packet carries, come along the unit vector
-/// `along`, were that lane the hero.
+/// Probability that such a model reflects the packet, with `lane` as the hero. The path arrives along the
+/// unit vector `along`.
 [[nodiscard]] float polarised_reflectance(const PathPacket& packet, const SurfaceVertex& vertex,
                                           const Imath::V3f& along, TransportMode mode, int lane);
 
-/// For a number `u` in [0, 1) that would let such a model choose as of unpolarised light the one that lets it
-/// choose as of what the packet carries, come along the unit vector `along`.
+/// Maps a random number `u` in [0, 1) so that the model's unpolarised choice between reflection and
+/// refraction follows the polarised probabilities. The path arrives along the unit vector `along`.
 [[nodiscard]] float polarised_choice(const PathPacket& packet, const SurfaceVertex& vertex,
                                      const Imath::V3f& along, TransportMode mode, float u);
 
-/// A direction drawn by the phase function likewise, in the world, and the density with which unpolarised
-/// light would be turned there [1/sr]. The angle by which it is turned is as of unpolarised light; with f = 1
-/// + A cos 2 phi + B sin 2 phi of the azimuth phi, this is where phi + [A sin 2 phi + B (1 - cos 2 phi)]/2 is
-/// 2 pi u.
-struct TurnedDirection {
+/// Direction sampled from a phase function for polarised light, in the world, and the unpolarised pdf of that
+/// direction [1/sr]. The scattering angle is sampled as for unpolarised light. With f = 1 + A cos 2 phi + B
+/// sin 2 phi of the azimuth phi, the azimuth solves phi + [A sin 2 phi + B (1 - cos 2 phi)]/2 = 2 pi u.
+struct PolarisedDirection {
   Imath::V3f direction;
   float pdf;
 };
-[[nodiscard]] TurnedDirection polarised_turn(const PathPacket& packet, const PhaseFunction& phase,
-                                             const Imath::V3f& along, TransportMode mode,
-                                             const Imath::V2f& u);
+[[nodiscard]] PolarisedDirection sample_polarised_phase(const PathPacket& packet, const PhaseFunction& phase,
+                                                        const Imath::V3f& along, TransportMode mode,
+                                                        const Imath::V2f& u);
 
-/// `polarise` for what has been drawn so; returns f of the hero.
-float polarise_drawn(PathPacket& packet, const std::optional<MuellerMatrix>& matrix,
-                     const Imath::V3f& travels, TransportMode mode);
+/// Like `polarise`, for an event sampled with polarised pdfs. Returns the hero's factor f.
+float polarise_sampled(PathPacket& packet, const std::optional<MuellerMatrix>& matrix,
+                       const Imath::V3f& travels, TransportMode mode);
 
 }  // namespace abbe

@@ -1,21 +1,22 @@
 #include "transport/path/polarised_ends.h"
 
-#include "scene/polarisation_need.h"
+#include "scene/polarisation_cause.h"
 #include "sensor/response/stokes_channels.h"
 
 namespace abbe {
 namespace {
 
-// The picture's right, made perpendicular to the way of the light.
+// First axis of the film's frame: the picture's right, made perpendicular to the direction of the light.
 Imath::V3f film_axis(const Scene& scene, const Imath::V3f& travels, float time) {
   const Imath::V3f right = film_right(scene.camera, time).value_or(Imath::V3f(1, 0, 0));
   const Imath::V3f up = across(travels, right);
   return up.cross(travels);
 }
 
-// The rows of the Mueller matrix of real Jones matrices, of which the first element is 1: with field
-// components E_x = xx e_1 + xy e_2 and E_y = yx e_1 + yy e_2, I' = |E_x|^2 + |E_y|^2, Q' = |E_x|^2 - |E_y|^2,
-// U' = 2 Re(E_x E_y*) and V' = det V. [Born1999, sec. 10.9]
+// Rows of the Mueller matrix of a real Jones matrix, relative to its first element. The field components are
+// E_x = xx e_1 + xy e_2 and E_y = yx e_1 + yy e_2.
+//     I' = |E_x|^2 + |E_y|^2,  Q' = |E_x|^2 - |E_y|^2,  U' = 2 Re(E_x E_y*),  V' = det V.
+// [Born1999, sec. 10.9]
 Polarisation through_lens(const LensJones& of, bool all_elements) {
   const SampledSpectrum x1 = of.xx * of.xx;
   const SampledSpectrum x2 = of.xy * of.xy;
@@ -42,29 +43,30 @@ bool measures_polarisation(const Scene& scene) {
 }
 
 Polarisation polarisation_of_film(const Scene& scene, const Imath::V3f& travels, float time,
-                                  const LaneImages* images) {
+                                  const WavelengthImages* images) {
   const bool measures = measures_polarisation(scene);
   if (images != nullptr) return through_lens(images->jones, measures);
   return measures ? Polarisation::all_elements(film_axis(scene, travels, time)) : Polarisation();
 }
 
-Polarisation polarisation_of_lamp(const Light& light, const Imath::V3f& travels) {
+Polarisation emitted_polarisation(const Light& light, const Imath::V3f& travels) {
   const auto of = polarisation_of(light, travels);
   if (!of) return {};
   return {of->axis, StokesSpectrum{SampledSpectrum(1.0F), SampledSpectrum(of->q), SampledSpectrum(of->u),
                                    SampledSpectrum(of->v)}};
 }
 
-std::optional<StokesSpectrum> seen_on_film(const Scene& scene, const PathPacket& packet,
-                                           const Imath::V3f& travels, float time, const LaneImages* images) {
+std::optional<StokesSpectrum> measured_on_film(const Scene& scene, const PathPacket& packet,
+                                               const Imath::V3f& travels, float time,
+                                               const WavelengthImages* images) {
   if (!packet.polarisation) return std::nullopt;
   return polarisation_of_film(scene, travels, time, images).of(*packet.polarisation, travels);
 }
 
-std::optional<StokesSpectrum> seen_of(const Light& light, const PathPacket& packet,
-                                      const Imath::V3f& towards) {
+std::optional<StokesSpectrum> measured_emission(const Light& light, const PathPacket& packet,
+                                                const Imath::V3f& towards) {
   if (!packet.polarisation) return std::nullopt;
-  return packet.polarisation->of(polarisation_of_lamp(light, -towards), -towards);
+  return packet.polarisation->of(emitted_polarisation(light, -towards), -towards);
 }
 
 }  // namespace abbe

@@ -7,46 +7,47 @@
 
 namespace abbe {
 
-/// Whether a channel of the scene's sensor tells polarised light from unpolarised light, and paths carry it.
+/// True if the scene's paths carry polarisation and a channel of its sensor distinguishes it.
 [[nodiscard]] bool measures_polarisation(const Scene& scene);
 
-/// The rows of the scene's sensor for light that comes in along the unit vector `travels` at that time: those
-/// of all four elements in the frame of the film, or of power alone where that is all it measures; through a
-/// lens that takes lanes to `images`, which is nullptr without one, as that changes them.
+/// Rows of the scene's sensor for light that arrives along the unit vector `travels` at a time. These are the
+/// rows of all four elements in the frame of the film, or that of power alone if the sensor measures no more.
+/// `images` is the effect of a lens that disperses wavelengths, nullptr for other lenses.
 [[nodiscard]] Polarisation polarisation_of_film(const Scene& scene, const Imath::V3f& travels, float time,
-                                                const LaneImages* images);
+                                                const WavelengthImages* images);
 
-/// That of light which leaves a lamp along the unit vector `travels`.
-[[nodiscard]] Polarisation polarisation_of_lamp(const Light& light, const Imath::V3f& travels);
+/// Polarisation of a light's emission along the unit vector `travels`.
+[[nodiscard]] Polarisation emitted_polarisation(const Light& light, const Imath::V3f& travels);
 
-/// What a packet from the camera measures of a light that it meets along the unit vector `towards`, over what
-/// it would measure of unpolarised light did it carry no polarisation; nothing if it carries none.
-[[nodiscard]] std::optional<StokesSpectrum> seen_of(const Light& light, const PathPacket& packet,
-                                                    const Imath::V3f& towards);
+/// Stokes vector that a camera packet measures of a light in the unit direction `towards`, relative to
+/// unpolarised light and a packet without polarisation. Nothing if the packet carries none.
+[[nodiscard]] std::optional<StokesSpectrum> measured_emission(const Light& light, const PathPacket& packet,
+                                                              const Imath::V3f& towards);
 
-/// What the film measures of a packet from a light that comes in along the unit vector `travels`, as
-/// `polarisation_of_film` has it, over what it would measure did the packet carry no polarisation; nothing if
-/// it carries none.
-[[nodiscard]] std::optional<StokesSpectrum> seen_on_film(const Scene& scene, const PathPacket& packet,
-                                                         const Imath::V3f& travels, float time,
-                                                         const LaneImages* images);
+/// Stokes vector that the film measures of a light packet that arrives along the unit vector `travels`,
+/// relative to a packet without polarisation. Nothing if the packet carries none. `images` is as for
+/// `polarisation_of_film`.
+[[nodiscard]] std::optional<StokesSpectrum> measured_on_film(const Scene& scene, const PathPacket& packet,
+                                                             const Imath::V3f& travels, float time,
+                                                             const WavelengthImages* images);
 
-/// Nothing of what is not there.
+/// Pointer to the value, or nullptr.
 [[nodiscard]] inline const StokesSpectrum* pointer_to(const std::optional<StokesSpectrum>& of) {
   return of ? &*of : nullptr;
 }
 
-/// Calls `use` with a contribution to the film, `contribution` as power alone if nothing is carried, else
-/// what the sensor measures, `seen` being that of a contribution of 1: a Stokes vector if it `measures`
-/// those.
+/// Calls `use` with a contribution to the film. Without polarisation (`stokes` is nullptr) this is the power
+/// `contribution`. Otherwise `stokes` is measured of a contribution of 1: `use` receives the scaled Stokes
+/// vector if the sensor `measures` those, or else its intensity.
 template <typename Use>
-void with_seen(bool measures, const SampledSpectrum& contribution, const StokesSpectrum* seen, Use use) {
-  if (seen == nullptr)
+void with_measurement(bool measures, const SampledSpectrum& contribution, const StokesSpectrum* stokes,
+                      Use use) {
+  if (stokes == nullptr)
     use(contribution);
   else if (measures)
-    use(*seen * contribution);
+    use(*stokes * contribution);
   else
-    use(contribution * seen->i);
+    use(contribution * stokes->i);
 }
 
 }  // namespace abbe

@@ -13,32 +13,34 @@
 
 namespace abbe {
 
-/// A straight way that light may be blocked on: between two points that `offset_point` put beside their
-/// surfaces, or from such a point to infinity.
-[[nodiscard]] inline BasicRay<double> way_between(const Imath::V3f& from, const Imath::V3f& to, float time) {
+/// Shadow ray between two points, both offset from their surfaces by `offset_point`, or from such a point to
+/// infinity.
+[[nodiscard]] inline BasicRay<double> shadow_ray_between(const Imath::V3f& from, const Imath::V3f& to,
+                                                         float time) {
   const Imath::V3d start(from);
   return {start, Imath::V3d(to) - start, 1.0, time};
 }
-[[nodiscard]] inline BasicRay<double> way_along(const Ray& ray) {
+[[nodiscard]] inline BasicRay<double> shadow_ray_along(const Ray& ray) {
   return {Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max), ray.time};
 }
-/// The way of a ray to what it was drawn for.
-[[nodiscard]] inline BasicRay<double> way_to(const Ray& ray, const LightSample& light) {
-  return std::isfinite(light.distance) ? way_between(ray.origin, light.end, ray.time) : way_along(ray);
+/// Shadow ray from a ray's origin to the light sample for which it was drawn.
+[[nodiscard]] inline BasicRay<double> shadow_ray(const Ray& ray, const LightSample& light) {
+  return std::isfinite(light.distance) ? shadow_ray_between(ray.origin, light.end, ray.time)
+                                       : shadow_ray_along(ray);
 }
 
-/// Asks the scene on behalf of one thread, counting, and logging where a log is given.
+/// Access of one thread to the scene's ray queries; counts rays, and logs them if a log is given.
 class RayCaster {
  public:
   explicit RayCaster(const Scene& scene, std::vector<LoggedRay>* log = nullptr) : scene_(scene), log_(log) {}
 
   [[nodiscard]] std::uint64_t rays() const { return rays_; }
 
-  [[nodiscard]] const TruncatedPaths& cut() const { return cut_; }
-  /// Counts a path that is cut while it carries `throughput`; see `TruncatedPaths`.
-  void count_cut(float throughput) { cut_.count(throughput); }
+  [[nodiscard]] const TruncatedPaths& truncated() const { return truncated_; }
+  /// Counts a path truncated with the throughput `throughput`; see `TruncatedPaths`.
+  void count_truncated(float throughput) { truncated_.count(throughput); }
 
-  /// The nearest hit of a ray, or of each of many, as many as `hits`.
+  /// Nearest hit of a ray, or of several rays; `rays` and `hits` have equal sizes.
   [[nodiscard]] std::optional<SurfaceHit> intersect(const Ray& ray) {
     count({&ray, 1});
     return scene_.intersect(ray);
@@ -47,20 +49,21 @@ class RayCaster {
     count(rays);
     scene_.intersect(rays, hits);
   }
-  /// Whether anything but boundaries of matter stands on a way, or on each of many: 1 where it does, else 0.
-  [[nodiscard]] bool occluded(const BasicRay<double>& way) {
+  /// True if a shadow ray is occluded by anything but medium boundaries. The overload for several rays writes
+  /// 1 or 0.
+  [[nodiscard]] bool occluded(const BasicRay<double>& shadow_ray) {
     std::uint8_t blocked = 0;
-    occluded({&way, 1}, {&blocked, 1});
+    occluded({&shadow_ray, 1}, {&blocked, 1});
     return blocked != 0;
   }
-  void occluded(std::span<const BasicRay<double>> ways, std::span<std::uint8_t> blocked) {
-    rays_ += ways.size();
+  void occluded(std::span<const BasicRay<double>> shadow_rays, std::span<std::uint8_t> blocked) {
+    rays_ += shadow_rays.size();
     if (log_ != nullptr)
-      for (const BasicRay<double>& way : ways)
-        log_->push_back(
-            {{Imath::V3f(way.origin), Imath::V3f(way.direction), static_cast<float>(way.t_max), way.time},
-             true});
-    scene_.occluded(ways, blocked);
+      for (const BasicRay<double>& shadow_ray : shadow_rays)
+        log_->push_back({{Imath::V3f(shadow_ray.origin), Imath::V3f(shadow_ray.direction),
+                          static_cast<float>(shadow_ray.t_max), shadow_ray.time},
+                         true});
+    scene_.occluded(shadow_rays, blocked);
   }
 
  private:
@@ -73,7 +76,7 @@ class RayCaster {
   const Scene& scene_;
   std::vector<LoggedRay>* log_;
   std::uint64_t rays_ = 0;
-  TruncatedPaths cut_;
+  TruncatedPaths truncated_;
 };
 
 }  // namespace abbe

@@ -32,8 +32,8 @@ FullMueller& FullMueller::operator*=(double power) {
   return *this;
 }
 
-// By the angle from the one axis to the other about the direction, right-handed. [Born1999, sec. 10.9]
-void PolarisedWay::turn_to(const Imath::V3d& axis, const Imath::V3d& direction) {
+// Rotation by the right-handed angle between both axes about the direction. [Born1999, sec. 10.9]
+void RayPolarisation::turn_to(const Imath::V3d& axis, const Imath::V3d& direction) {
   const double cosine = last_axis.dot(axis);
   const double sine = direction.dot(last_axis.cross(axis));
   const double scale = 1 / (cosine * cosine + sine * sine);

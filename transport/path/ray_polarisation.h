@@ -8,15 +8,16 @@
 
 namespace abbe {
 
-/// A Stokes vector (I, Q, U, V) of one wavelength. `docs/physics/conventions.md` says what the signs mean.
+/// Stokes vector (I, Q, U, V) at one wavelength. `docs/physics/conventions.md` defines the signs.
 using StokesVector = std::array<double, 4>;
 
-/// Mueller's matrix in full, for columns of Stokes vectors.
+/// Full Mueller matrix, for column vectors.
 struct FullMueller {
   std::array<StokesVector, 4> rows;
 
   [[nodiscard]] static FullMueller identity();
-  /// That of an event which leads on `power` of unpolarised light, in a frame of the event's axis.
+  /// Matrix of an event that transmits the fraction `power` of unpolarised light, in the frame of the event's
+  /// axis.
   [[nodiscard]] static FullMueller of(const MuellerElements<double>& elements, double power);
 
   [[nodiscard]] StokesVector operator*(const StokesVector& light) const;
@@ -24,17 +25,17 @@ struct FullMueller {
   FullMueller& operator*=(double power);
 };
 
-/// What a ray's way so far has done to the polarisation of its light.
-struct PolarisedWay {
-  FullMueller mueller = FullMueller::identity();  ///< From the frame of the first axis to that of the last.
-  Imath::V3d first_axis, last_axis;  ///< First axes of both frames, unit vectors across the ray there.
+/// Effect of a ray's events so far on the polarisation of its light.
+struct RayPolarisation {
+  FullMueller mueller = FullMueller::identity();  ///< From the first frame to the last one.
+  Imath::V3d first_axis, last_axis;  ///< First axes of both frames: unit vectors perpendicular to the ray.
 
-  /// Of a ray that sets out along the unit vector `direction`: the first axis is horizontal, across it and z,
-  /// and along x where it runs along z.
-  explicit PolarisedWay(const Imath::V3d& direction)
+  /// State of a ray that starts along the unit vector `direction`. The first axis is horizontal,
+  /// perpendicular to the ray and to z; for a ray along z it is x.
+  explicit RayPolarisation(const Imath::V3d& direction)
       : first_axis(across(direction, {0, 0, 1})), last_axis(first_axis) {}
 
-  /// Tells the light, which runs along the unit vector `direction`, in the frame of another axis.
+  /// Rotates the last frame to another axis; the light travels along the unit vector `direction`.
   void turn_to(const Imath::V3d& axis, const Imath::V3d& direction);
 };
 

@@ -14,105 +14,107 @@
 
 #include "transport/path/interface.h"
 #include "transport/path/medium_at.h"
-#include "transport/path/ray_turn.h"
+#include "transport/path/smooth_scattering.h"
 
 namespace abbe {
 namespace {
 
 using Kind = TraceEvent::Kind;
 
-// A hit nearer than this share of the distances involved is the surface the ray starts from.
-constexpr double kSelf = 1e-11;
+// A hit closer than this fraction of the distances involved is the surface from which the ray starts.
+constexpr double kSelfIntersection = 1e-11;
 
-// Where no index lies in another what depends on the index around it is in air. Boundaries of matter that
-// touch are crossed together, out of what ends there first.
-ActingSurface alone(const Scene& scene, std::span<const CrossedSurface> crossed, const MediumStack& inside) {
-  ActingSurface surface{0, nullptr, inside};
-  if (!inside.empty() && !depends_on_outside(material_of(scene, crossed.front().shape)))
-    surface.outside = interior(material_of(scene, inside.innermost()));
+// Crossing of surfaces in a scene without nested media. Materials that depend on the index around them are in
+// air. Coincident medium boundaries are crossed together, exits first.
+ActingSurface cross_without_nesting(const Scene& scene, std::span<const CrossedSurface> crossed,
+                                    const MediumStack& media) {
+  ActingSurface surface{0, nullptr, media};
+  if (!media.empty() && !depends_on_outside(material_of(scene, crossed.front().shape)))
+    surface.outside = interior_index(material_of(scene, media.innermost()));
   for (const bool entering : {false, true})
     for (const CrossedSurface& one : crossed)
-      if (one.entering == entering) surface.beyond.cross(scene, one.shape, entering);
+      if (one.entering == entering) surface.media_behind.cross(scene, one.shape, entering);
   return surface;
 }
 
-// What a ray meets at once: all surfaces that touch, where matter may.
-struct Meeting {
+// All coincident surfaces that a ray hits, if there may be several, and the one that acts.
+struct CoincidentSurfaces {
   ExactHit acting;
   ActingSurface boundary;
-  double spread;  // how far apart the surfaces are, along the normal
+  double spread;  // maximum separation along the normal [m]
 };
 
-Meeting meet(const Scene& scene, const BasicRay<double>& ray, const ExactHit& first, double nearest,
-             const MediumStack& inside) {
+CoincidentSurfaces coincident_surfaces(const Scene& scene, const BasicRay<double>& ray, const ExactHit& first,
+                                       double min_distance, const MediumStack& media) {
   const auto crossed_by = [&](const ExactHit& hit) {
     return CrossedSurface{hit.shape, hit.hit.normal.dot(ray.direction) < 0};
   };
-  if (!scene.needs.nesting && !scene.needs.boundaries)
-    return {first, alone(scene, std::array{crossed_by(first)}, inside), 0};
+  if (!scene.features.nesting && !scene.features.boundaries)
+    return {first, cross_without_nesting(scene, std::array{crossed_by(first)}, media), 0};
   const Imath::V3d& normal = first.hit.normal;
   BasicRay<double> rest = ray;
-  rest.t_max =
-      first.hit.t + scene.touch_distance(first.hit.point, first.shape) / std::abs(normal.dot(ray.direction));
-  std::vector<ExactHit> met{first};
+  rest.t_max = first.hit.t + scene.coincidence_tolerance(first.hit.point, first.shape) /
+                                 std::abs(normal.dot(ray.direction));
+  std::vector<ExactHit> hits{first};
   double spread = 0;
-  for (std::uint32_t i = 0; i < scene.shapes.size() && met.size() < TouchingSurfaces::kMost; ++i) {
-    const auto hit = i == first.shape ? std::nullopt : intersect(scene.shapes[i].shape, rest, nearest);
-    if (!hit || std::abs(hit->normal.dot(normal)) <= TouchingSurfaces::kParallel) continue;
-    const double apart = std::abs((hit->point - first.hit.point).dot(normal));
-    if (apart > scene.touch_distance(first.hit.point, first.shape, i)) continue;
-    spread = std::max(spread, apart);
-    met.push_back({*hit, i});
+  for (std::uint32_t i = 0; i < scene.shapes.size() && hits.size() < CoincidentHits::kMaxHits; ++i) {
+    const auto hit = i == first.shape ? std::nullopt : intersect(scene.shapes[i].shape, rest, min_distance);
+    if (!hit || std::abs(hit->normal.dot(normal)) <= CoincidentHits::kParallel) continue;
+    const double separation = std::abs((hit->point - first.hit.point).dot(normal));
+    if (separation > scene.coincidence_tolerance(first.hit.point, first.shape, i)) continue;
+    spread = std::max(spread, separation);
+    hits.push_back({*hit, i});
   }
   std::vector<CrossedSurface> crossed;
-  for (const ExactHit& hit : met) crossed.push_back(crossed_by(hit));
-  ActingSurface boundary =
-      scene.needs.nesting ? acting_surface(scene, crossed, inside) : alone(scene, crossed, inside);
-  return {met[boundary.acting.value_or(0)], boundary, spread};
+  for (const ExactHit& hit : hits) crossed.push_back(crossed_by(hit));
+  ActingSurface boundary = scene.features.nesting ? acting_surface(scene, crossed, media)
+                                                  : cross_without_nesting(scene, crossed, media);
+  return {hits[boundary.acting.value_or(0)], boundary, spread};
 }
 
-// The media that a ray within `inside` is in up to its hit. A shape left that was never entered counts as
-// entered before.
+// Media of a ray up to its hit, given the media at its start. A shape that is left without having been
+// entered counts as entered before.
 MediumStack media_before(const Scene& scene, const BasicRay<double>& ray, const std::optional<ExactHit>& hit,
-                         MediumStack inside) {
-  if (hit && hit->hit.normal.dot(ray.direction) > 0 && !inside.entry_of(scene, hit->shape))
-    inside.cross(scene, hit->shape, true);
-  return inside;
+                         MediumStack media) {
+  if (hit && hit->hit.normal.dot(ray.direction) > 0 && !media.entry_of(scene, hit->shape))
+    media.cross(scene, hit->shape, true);
+  return media;
 }
 
 // The fraction of a ray's power that the innermost medium transmits, by Beer's law.
-double transmittance(const Scene& scene, const MediumStack& inside, const BasicRay<double>& ray,
+double transmittance(const Scene& scene, const MediumStack& media, const BasicRay<double>& ray,
                      double distance, double wavelength_nm) {
-  if (inside.empty()) return 1;
-  const Material& material = material_of(scene, inside.innermost());
-  const RefractiveIndex* index = interior(material);
+  if (media.empty()) return 1;
+  const Material& material = material_of(scene, media.innermost());
+  const RefractiveIndex* index = interior_index(material);
   double extinction_per_m = index != nullptr ? index->absorption_per_m(wavelength_nm) : 0;
-  const Medium* filling = medium(material);
-  if (filling != nullptr)
-    extinction_per_m += filling->absorption_per_m(wavelength_nm) + filling->scattering_per_m(wavelength_nm);
+  const Medium* interior_medium = medium(material);
+  if (interior_medium != nullptr)
+    extinction_per_m +=
+        interior_medium->absorption_per_m(wavelength_nm) + interior_medium->scattering_per_m(wavelength_nm);
   if (!(extinction_per_m > 0)) return 1;
-  if (filling != nullptr && filling->grid)
-    distance = march_grid(*filling->grid, scene.shapes[inside.innermost()].shape, ray,
-                          static_cast<float>(distance), std::numeric_limits<float>::infinity())
+  if (interior_medium != nullptr && interior_medium->grid)
+    distance = march_grid_along(*interior_medium->grid, scene.shapes[media.innermost()].shape, ray,
+                                static_cast<float>(distance), std::numeric_limits<float>::infinity())
                    .column;
   return std::exp(-extinction_per_m * distance);
 }
 
-// A ray on its way.
-struct Traveller {
+// A ray that is followed.
+struct RayState {
   BasicRay<double> ray;
-  MediumStack inside;
-  double nearest;  // at which it may meet something
-  PolarisedWay way;
-  double share = 1;  // of the power
-  int events = 0;    // so far
+  MediumStack media;
+  double min_distance;
+  RayPolarisation polarisation;
+  double power_fraction = 1;
+  int events = 0;
   std::size_t from = 0, event = 0;
 };
 
-class Follower {
+class RayFollower {
  public:
-  Follower(const Scene& scene, double wavelength_nm, Follow follow, const FollowLimits& limits,
-           const StokesVector& light)
+  RayFollower(const Scene& scene, double wavelength_nm, Follow follow, const FollowLimits& limits,
+              const StokesVector& light)
       : scene_(scene),
         wavelength_nm_(wavelength_nm),
         light_(light),
@@ -121,141 +123,151 @@ class Follower {
         size_(scene.bounds.isEmpty() ? 0 : scene.bounds.size().length()) {}
 
   RayTree operator()(const BasicRay<double>& ray) {
-    wait({ray, enclosing(scene_, Imath::V3f(ray.origin)), 0, PolarisedWay(ray.direction)});
-    while (!waiting_.empty()) {
-      const Traveller next = waiting_.begin()->second;
-      waiting_.erase(waiting_.begin());
-      if (tree_.branches.size() < limits_.most_branches)
+    enqueue({ray, enclosing_media(scene_, Imath::V3f(ray.origin)), 0, RayPolarisation(ray.direction)});
+    while (!queue_.empty()) {
+      const RayState next = queue_.begin()->second;
+      queue_.erase(queue_.begin());
+      if (tree_.branches.size() < limits_.max_branches)
         follow_branch(next);
       else
-        cut(next);
+        truncate(next);
     }
     return std::move(tree_);
   }
 
  private:
-  void wait(const Traveller& traveller) { waiting_.emplace(traveller.share, traveller); }
+  void enqueue(const RayState& state) { queue_.emplace(state.power_fraction, state); }
 
-  void cut(const Traveller& traveller) {
-    ++tree_.cut;
-    tree_.cut_share += traveller.share;
+  void truncate(const RayState& state) {
+    ++tree_.truncated;
+    tree_.truncated_power += state.power_fraction;
   }
 
-  void follow_branch(Traveller now) {
+  void follow_branch(RayState now) {
     const bool main = tree_.branches.empty();
-    tree_.branches.push_back({{{}, now.ray, false, now.way}, now.ray, now.share, now.from, now.event});
-    bool goes_on = true;
-    while (goes_on && now.events < limits_.max_events && (main || now.share >= limits_.least_share))
-      goes_on = step(now);
+    tree_.branches.push_back(
+        {{{}, now.ray, false, now.polarisation}, now.ray, now.power_fraction, now.from, now.event});
+    bool active = true;
+    while (active && now.events < limits_.max_events &&
+           (main || now.power_fraction >= limits_.min_power_fraction))
+      active = step(now);
     RayTrace& trace = tree_.branches.back().trace;
     trace.last = now.ray;
-    trace.way = now.way;
-    trace.cut_short = goes_on && now.events == limits_.max_events;
-    if (goes_on) cut(now);
+    trace.polarisation = now.polarisation;
+    trace.truncated = active && now.events == limits_.max_events;
+    if (active) truncate(now);
   }
 
-  // To what the ray meets next, and past it. Whether it goes on.
-  bool step(Traveller& now) {
+  // Traces a ray to its next surface and applies it. Returns true if the ray continues.
+  bool step(RayState& now) {
     std::vector<TraceEvent>& events = tree_.branches.back().trace.events;
-    const std::optional<ExactHit> hit = intersect_exact(scene_, now.ray, now.nearest);
-    const double left =
-        transmittance(scene_, media_before(scene_, now.ray, hit, now.inside), now.ray,
+    const std::optional<ExactHit> hit = intersect_exact(scene_, now.ray, now.min_distance);
+    const double transmitted =
+        transmittance(scene_, media_before(scene_, now.ray, hit, now.media), now.ray,
                       hit ? hit->hit.t : std::numeric_limits<double>::infinity(), wavelength_nm_);
-    now.share *= left;
-    now.way.mueller *= left;
+    now.power_fraction *= transmitted;
+    now.polarisation.mueller *= transmitted;
     if (!hit) {
-      events.push_back({.kind = Kind::escape, .at = {}, .share = now.share});
+      events.push_back({.kind = Kind::escape, .at = {}, .power_fraction = now.power_fraction});
       return false;
     }
-    const Meeting met = meet(scene_, now.ray, *hit, now.nearest, now.inside);
-    now.ray.origin = met.acting.hit.point;
-    if (!met.boundary.acting) {
-      send(now, met, now.ray.direction, true);
+    const CoincidentSurfaces surfaces =
+        coincident_surfaces(scene_, now.ray, *hit, now.min_distance, now.media);
+    now.ray.origin = surfaces.acting.hit.point;
+    if (!surfaces.boundary.acting) {
+      send(now, surfaces, now.ray.direction, true);
       return true;
     }
     ++now.events;
-    const double outside = met.boundary.outside != nullptr ? met.boundary.outside->n(wavelength_nm_) : 1;
-    const Turn turn = turn_at(scene_, met.acting, -now.ray.direction, wavelength_nm_, outside);
-    const RayWay* way = way_of(turn);
+    const double outside =
+        surfaces.boundary.outside != nullptr ? surfaces.boundary.outside->n(wavelength_nm_) : 1;
+    const SmoothScattering scattering =
+        smooth_scattering_at(scene_, surfaces.acting, -now.ray.direction, wavelength_nm_, outside);
+    const OutgoingRay* outgoing = outgoing_of(scattering);
     TraceEvent event{.kind = Kind::hit,
-                     .at = met.acting.hit,
-                     .shape = met.acting.shape,
+                     .at = surfaces.acting.hit,
+                     .shape = surfaces.acting.shape,
                      .passage = {},
-                     .share = now.share,
-                     .R = turn.reflected ? share_of(now, turn, *turn.reflected) : 0,
-                     .T = turn.through ? share_of(now, turn, *turn.through) : 0};
-    if (way != nullptr) {
-      event.kind = way->kind;
-      event.passage = turn.passage;
-      event.passage->angle_out_deg = way->angle_deg;
+                     .power_fraction = now.power_fraction,
+                     .R = scattering.reflected ? fraction_taken(now, scattering, *scattering.reflected) : 0,
+                     .T = scattering.through ? fraction_taken(now, scattering, *scattering.through) : 0};
+    if (outgoing != nullptr) {
+      event.kind = outgoing->kind;
+      event.passage = scattering.passage;
+      event.passage->angle_out_deg = outgoing->angle_deg;
     }
-    const Traveller before = now;
-    const bool through = turn.through && way == &*turn.through;
-    if (way != nullptr) {
-      take(now, turn, *way);
-      send(now, met, way->direction, through);
-      event.polarisation = EventPolarisation{turn.axis, way->mueller, now.way.mueller * light_};
+    const RayState before = now;
+    const bool through = scattering.through && outgoing == &*scattering.through;
+    if (outgoing != nullptr) {
+      take(now, scattering, *outgoing);
+      send(now, surfaces, outgoing->direction, through);
+      event.polarisation =
+          EventPolarisation{scattering.axis, outgoing->mueller, now.polarisation.mueller * light_};
     }
     events.push_back(event);
-    if (follow_ == Follow::both) part(before, met, turn, way);
-    return way != nullptr;
+    if (follow_ == Follow::both) queue_branches(before, surfaces, scattering, outgoing);
+    return outgoing != nullptr;
   }
 
-  // The way of the branch itself, nullptr where it ends.
-  [[nodiscard]] const RayWay* way_of(const Turn& turn) const {
-    const RayWay* reflected = turn.reflected ? &*turn.reflected : nullptr;
-    const RayWay* through = turn.through ? &*turn.through : nullptr;
+  // Outgoing ray that the current branch follows; nullptr if the branch ends.
+  [[nodiscard]] const OutgoingRay* outgoing_of(const SmoothScattering& scattering) const {
+    const OutgoingRay* reflected = scattering.reflected ? &*scattering.reflected : nullptr;
+    const OutgoingRay* through = scattering.through ? &*scattering.through : nullptr;
     if (follow_ == Follow::reflection) return reflected != nullptr ? reflected : through;
-    if (turn.ends) return nullptr;
+    if (scattering.ends) return nullptr;
     return through != nullptr ? through : reflected;
   }
 
-  // The light of a ray by a way on, its direction being still that before.
-  void take(Traveller& now, const Turn& turn, const RayWay& way) const {
-    now.way.turn_to(turn.axis, now.ray.direction);
-    now.way.mueller = way.mueller * now.way.mueller;
-    now.share = (now.way.mueller * light_)[0];
+  // Applies an outgoing ray to the light. The ray must still have its incident direction.
+  void take(RayState& now, const SmoothScattering& scattering, const OutgoingRay& outgoing) const {
+    now.polarisation.turn_to(scattering.axis, now.ray.direction);
+    now.polarisation.mueller = outgoing.mueller * now.polarisation.mueller;
+    now.power_fraction = (now.polarisation.mueller * light_)[0];
   }
 
-  // Of the light that arrives, what a way on takes.
-  [[nodiscard]] double share_of(const Traveller& now, const Turn& turn, const RayWay& way) const {
-    Traveller after = now;
-    take(after, turn, way);
-    return now.share > 0 ? after.share / now.share : 0;
+  // Fraction of the incident power that an outgoing ray takes.
+  [[nodiscard]] double fraction_taken(const RayState& now, const SmoothScattering& scattering,
+                                      const OutgoingRay& outgoing) const {
+    RayState after = now;
+    take(after, scattering, outgoing);
+    return now.power_fraction > 0 ? after.power_fraction / now.power_fraction : 0;
   }
 
-  // The ways on that the branch does not take itself.
-  void part(const Traveller& now, const Meeting& met, const Turn& turn, const RayWay* taken) {
+  // Queues the outgoing rays that the current branch does not follow.
+  void queue_branches(const RayState& now, const CoincidentSurfaces& surfaces,
+                      const SmoothScattering& scattering, const OutgoingRay* taken) {
     for (const bool through : {false, true}) {
-      const std::optional<RayWay>& way = through ? turn.through : turn.reflected;
-      if (!way || taken == &*way) continue;
-      Traveller other = now;
-      take(other, turn, *way);
+      const std::optional<OutgoingRay>& outgoing = through ? scattering.through : scattering.reflected;
+      if (!outgoing || taken == &*outgoing) continue;
+      RayState other = now;
+      take(other, scattering, *outgoing);
       other.from = tree_.branches.size() - 1;
       other.event = tree_.branches.back().trace.events.size() - 1;
-      send(other, met, way->direction, through);
-      if (other.share >= limits_.least_share)
-        wait(other);
+      send(other, surfaces, outgoing->direction, through);
+      if (other.power_fraction >= limits_.min_power_fraction)
+        enqueue(other);
       else
-        cut(other);
+        truncate(other);
     }
   }
 
-  void send(Traveller& now, const Meeting& met, const Imath::V3d& direction, bool through) const {
+  void send(RayState& now, const CoincidentSurfaces& surfaces, const Imath::V3d& direction,
+            bool through) const {
     now.ray.direction = direction;
-    if (through) now.inside = met.boundary.beyond;
-    now.nearest = kSelf * (size_ + now.ray.origin.length()) +
-                  met.spread / std::abs(met.acting.hit.normal.dot(direction));
+    if (through) now.media = surfaces.boundary.media_behind;
+    now.min_distance = kSelfIntersection * (size_ + now.ray.origin.length()) +
+                       surfaces.spread / std::abs(surfaces.acting.hit.normal.dot(direction));
   }
 
   const Scene& scene_;
   double wavelength_nm_;
-  StokesVector light_;  // of I = 1
+  StokesVector light_;  // I = 1
   Follow follow_;
   const FollowLimits& limits_;
   double size_;
   RayTree tree_;
-  std::multimap<double, Traveller, std::greater<>> waiting_;  // of equal shares the earlier one first
+  // by falling power, equal ones in order of insertion
+  std::multimap<double, RayState, std::greater<>> queue_;
 };
 
 }  // namespace
@@ -268,7 +280,7 @@ double angle_deg(const Imath::V3d& a, const Imath::V3d& b) {
 
 RayTree follow_ray(const Scene& scene, const BasicRay<double>& ray, double wavelength_nm, Follow follow,
                    const FollowLimits& limits, const StokesVector& light) {
-  return Follower(scene, wavelength_nm, follow, limits, light)(ray);
+  return RayFollower(scene, wavelength_nm, follow, limits, light)(ray);
 }
 
 RayTrace trace_ray(const Scene& scene, const BasicRay<double>& ray, double wavelength_nm, int max_events) {

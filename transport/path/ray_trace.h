@@ -10,90 +10,94 @@
 
 namespace abbe {
 
-/// What a smooth surface does to a ray. Indices are relative to air; n_to is that of the other side, which a
-/// reflected ray does not enter.
+/// Reflection or refraction at a smooth surface. Indices are relative to air; n_to is that of the other side,
+/// even for a reflected ray.
 struct Passage {
   double n_from;
-  double n_to;  ///< 0 of a mirror without an index.
-  double k_to;  ///< Extinction of the other side; 0 for dielectrics.
+  double n_to;  ///< 0 for a mirror without an index.
+  double k_to;  ///< Extinction coefficient of the other side; 0 for dielectrics.
   double angle_in_deg, angle_out_deg;
   double Rs, Rp;
 };
 
-/// What an event did to polarised light on the way that is followed.
+/// Effect of an event on the polarisation of the light, on the branch that is followed.
 struct EventPolarisation {
-  Imath::V3d axis;      ///< The first axis of the frames before and after the event, across both directions.
-  FullMueller mueller;  ///< Whose first element is what unpolarised light keeps of its power.
-  StokesVector stokes;  ///< What goes on, the light that set out having I = 1.
+  /// First axis of the frames before and after the event, perpendicular to both directions.
+  Imath::V3d axis;
+  FullMueller mueller;  ///< Its first element is the fraction of unpolarised power that continues.
+  StokesVector stokes;  ///< Stokes vector after the event; the light starts with I = 1.
 };
 
-/// One thing that happened to a ray.
+/// Event of a traced ray.
 struct TraceEvent {
   enum class Kind { refract, reflect, total_reflection, hit, escape };
   Kind kind;
-  ShapeHit<double> at;  ///< Nothing of it holds for `escape`.
+  ShapeHit<double> at;  ///< Undefined for `escape`.
   std::uint32_t shape = 0;
-  std::optional<Passage> passage = {};  ///< Of a smooth surface.
-  double share = 1;                     ///< Of the ray's power at its start, what arrives.
-  double R = 0, T = 0;                  ///< Of what arrives, what goes on reflected and through.
-  std::optional<EventPolarisation> polarisation = {};  ///< Where the ray goes on.
+  std::optional<Passage> passage = {};  ///< Set for smooth surfaces.
+  double power_fraction = 1;            ///< Fraction of the ray's initial power that arrives here.
+  double R = 0, T = 0;                  ///< Reflected and transmitted fractions of the power that arrives.
+  std::optional<EventPolarisation> polarisation = {};  ///< Set if the ray continues.
 };
 
-/// A ray's whole way.
+/// Events of a single ray.
 struct RayTrace {
   std::vector<TraceEvent> events;
-  BasicRay<double> last;  ///< Where the ray ended or left from, and its direction there.
-  bool cut_short;         ///< Still going after as many events as were allowed.
-  PolarisedWay way;       ///< From the start of the ray, all its branches included.
+  BasicRay<double> last;         ///< Position and direction with which the ray ended or left the scene.
+  bool truncated;                ///< True if the ray still continued after the maximum number of events.
+  RayPolarisation polarisation;  ///< From the start of the ray, including the branches before this one.
 };
 
-/// Which way is followed where a surface both reflects and lets through.
+/// Outgoing ray to follow at a surface that reflects and transmits.
 enum class Follow { refraction, reflection, both };
 
-/// Where following ends.
+/// Limits at which tracing stops.
 struct FollowLimits {
-  int max_events = 64;        ///< From the start of the ray, through all branches.
-  double least_share = 1e-6;  ///< Of the power; branches of less are cut, but not the main one.
-  std::size_t most_branches = 10000;
+  int max_events = 64;  ///< Counted from the start of the ray through all branches.
+  /// Branches with a smaller fraction of the initial power are truncated, except for the main branch.
+  double min_power_fraction = 1e-6;
+  std::size_t max_branches = 10000;
 };
 
-/// One of the ways of a ray, from the event at which it parted from another.
+/// Branch of a ray, from the event at which it split off another branch.
 struct RayBranch {
   RayTrace trace;
   BasicRay<double> start;
-  double share;           ///< Of the ray's power, what sets out.
-  std::size_t from = 0;   ///< The branch it parted from, an earlier one; of the main branch itself.
-  std::size_t event = 0;  ///< At this event of that.
+  double power_fraction;  ///< Fraction of the ray's initial power at the start of the branch.
+  std::size_t from = 0;   ///< Index of the branch from which it split off; 0 for the main branch.
+  std::size_t event = 0;  ///< Index of the event on that branch.
 };
 
-/// All the ways of a ray that were followed: first the main one, then the others, those of more power first.
-/// What does not end on surfaces is in what escapes, in what is absorbed and in `cut_share`.
+/// All traced branches of a ray: the main one first, then the others by falling power. Power that does not
+/// end on a surface escapes, is absorbed, or is in `truncated_power`.
 struct RayTree {
   std::vector<RayBranch> branches;
-  std::size_t cut = 0;   ///< Branches that end, or do not begin, as the limits forbid to go on.
-  double cut_share = 0;  ///< Their power.
+  std::size_t truncated = 0;   ///< Number of branches that the limits ended or excluded.
+  double truncated_power = 0;  ///< Fraction of the initial power in those branches.
 };
 
-/// Follows one ray in double precision by the shapes' own code, through every surface that sends light on in
-/// single directions: refracted by smooth dielectrics, straight on through panes and boundaries of matter,
-/// reflected by metals, mirrors and coats. Surfaces that scatter end it. `Follow::refraction` reflects it
-/// only where nothing is let through, `Follow::reflection` lets it through only where nothing is reflected,
-/// and `Follow::both` follows refraction in the main branch, which ends at a surface that also scatters, and
-/// every other way in a branch of its own. Coordinates are the scene's own [m].
+/// Traces one ray in double precision, with the intersection code of the shapes, through all surfaces that
+/// send light in single directions. Smooth dielectrics refract it, panes and medium boundaries transmit it
+/// straight, metals, mirrors and coats reflect it. Scattering surfaces end it. Coordinates are those of the
+/// scene [m].
+/// - `Follow::refraction` reflects only if nothing is transmitted.
+/// - `Follow::reflection` transmits only if nothing is reflected.
+/// - `Follow::both` refracts in the main branch, which ends at a surface that also scatters, and traces every
+///   other outgoing ray as a branch.
 ///
-/// Polarisation is carried from surface to surface: shares of power are those of light that sets out with the
-/// Stokes vector `light`, I = 1, in the frame that a `PolarisedWay` starts from. On the way between surfaces
-/// matter takes what it absorbs and scatters. Meshes of polarisers and wave plates end a ray, as a hit does
-/// not tell the coordinates that their axis needs.
+/// Polarisation is carried from surface to surface: power fractions are those of light that starts with the
+/// Stokes vector `light`, I = 1, in the first frame of `RayPolarisation`. Media attenuate by absorption and
+/// scattering. Meshes with polarisers or wave plates end a ray, because a hit has no coordinates for their
+/// axis.
 [[nodiscard]] RayTree follow_ray(const Scene& scene, const BasicRay<double>& ray, double wavelength_nm,
                                  Follow follow, const FollowLimits& limits,
                                  const StokesVector& light = {1, 0, 0, 0});
 
-/// The main branch alone, as `Follow::refraction` has it.
+/// Main branch alone, with `Follow::refraction`.
 [[nodiscard]] RayTrace trace_ray(const Scene& scene, const BasicRay<double>& ray, double wavelength_nm,
                                  int max_events);
 
-/// Angle between two directions of any length, accurate for small angles too [degrees].
+/// Angle between two directions of any length [degrees]; accurate for small angles.
 [[nodiscard]] double angle_deg(const Imath::V3d& a, const Imath::V3d& b);
 
 }  // namespace abbe

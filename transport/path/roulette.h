@@ -8,55 +8,55 @@
 
 namespace abbe {
 
-/// Events after which a path is most likely to end: see `survival`.
+/// Depth above which paths end more often; see `survival`.
 inline constexpr int kLongPath = 64;
 
-/// Events after which any path is cut, and counted as cut, that nothing else has ended. Never a time, so that
-/// the same paths are cut wherever they are traced.
-inline constexpr int kMostEvents = 100000;
+/// Depth at which every path is truncated, and counted as such. A limit on depth, unlike one on time,
+/// truncates the same paths on every machine.
+inline constexpr int kMaxPathDepth = 100000;
 
-/// Most events of a path of the scene, at surfaces and within matter, between its ends.
-[[nodiscard]] inline int most_events(const RenderSettings& render) {
-  return std::min(render.max_depth.value_or(kMostEvents), kMostEvents);
+/// Maximum number of scattering events of the scene's paths, on surfaces and in media.
+[[nodiscard]] inline int depth_limit(const RenderSettings& render) {
+  return std::min(render.max_depth.value_or(kMaxPathDepth), kMaxPathDepth);
 }
 
-/// Whether Russian roulette decides if a path goes on that has had so many events.
-[[nodiscard]] inline bool plays_roulette(const RenderSettings& render, int events) {
-  return render.roulette_depth >= 0 && events >= render.roulette_depth;
+/// True if Russian roulette applies to a path of this depth.
+[[nodiscard]] inline bool plays_roulette(const RenderSettings& render, int depth) {
+  return render.roulette_depth >= 0 && depth >= render.roulette_depth;
 }
 
-/// The `a` of `survival`: of paths whose cost is in proportion to their events, of those whose last event was
-/// specular, and, at surfaces, of those that are joined to others at many of their vertices.
-inline constexpr float kEndingOfPaths = 0.5F;
-inline constexpr float kEndingOfSpecularPaths = 1;
-inline constexpr float kEndingOfJoinedPaths = 2;
+/// Exponents `a` of `survival`: for paths whose cost is in proportion to their length; for paths whose last
+/// event was specular; at surfaces, for paths that are connected at many of their vertices.
+inline constexpr float kPathRouletteExponent = 0.5F;
+inline constexpr float kSpecularRouletteExponent = 1;
+inline constexpr float kJoinedRouletteExponent = 2;
 
-/// Probability that a path goes on after so many events when it carries `throughput`: that, within [0.1, 1]
-/// [Marschner2021, sec. 14.4], and beyond 64 events no more than 1 - a/events, so that paths end where
-/// nothing is absorbed. What goes on is divided by it, so the mean stays what it is, and the weight of a path
-/// of n events grows as n^a. Light comes out of a thick white cloud after n events with a probability in
-/// proportion to n^(-3/2), so that the second moment of what it carries, the sum of n^(a - 3/2), is finite
-/// for a < 1/2, while the events of a path are in proportion to the sum of n^(-1/2 - a). Their product is
-/// least for a = 1/2 up to the most events there are. Light that total reflection holds in clear glass for
-/// ever ends ten times sooner by a = 1. Paths that are joined to others end sooner still at surfaces, by
-/// a = 2, since these absorb enough to leave little for long ones; clouds do not.
-[[nodiscard]] inline float survival(float throughput, int events, float a) {
-  const float most = events > kLongPath ? 1 - a / static_cast<float>(events) : 1;
-  return std::min(most, std::max(0.1F, throughput));
+/// Probability that a path of this depth survives roulette: its throughput, clamped to [0.1, 1]
+/// [Marschner2021, sec. 14.4], and above depth 64 at most 1 - a/depth. The bound ends paths even if nothing
+/// absorbs them. Survivors are divided by the probability, so the estimate stays unbiased and the weight at
+/// depth n grows as n^a.
+///
+/// Light leaves a thick white cloud at depth n with a probability in proportion to n^(-3/2). The second
+/// moment, the sum of n^(a - 3/2), is finite for a < 1/2, and the mean length is in proportion to the sum of
+/// n^(-1/2 - a). Their product is smallest for a = 1/2, up to the maximum depth. With a = 1, light trapped by
+/// total reflection in clear glass ends ten times sooner. Connected paths use a = 2 at surfaces, which absorb
+/// enough to leave little for long paths; clouds do not.
+[[nodiscard]] inline float survival(float throughput, int depth, float a) {
+  const float max_survival = depth > kLongPath ? 1 - a / static_cast<float>(depth) : 1;
+  return std::min(max_survival, std::max(0.1F, throughput));
 }
 
-/// By how many times what it carries a camera path plays roulette that is connected to lights as it goes: it
-/// goes on for sure while it carries a quarter. Where a share N_n of the paths has n events and these carry
-/// T_n, their light has a variance in proportion to T_n^2/N_n and costs N_n, so that N_n is best in
-/// proportion to T_n: that is roulette by what is carried, whatever the factor. The larger it is, the less of
-/// all noise is that of long paths, and the more of all time; between 2.5 and 6 error costs least in scenes
-/// of many kinds.
-inline constexpr float kGoingOnOfCameraPaths = 4;
+/// Factor between the throughput of a camera path with NEE and its survival probability: the path certainly
+/// survives while it carries a quarter. Let a fraction N_n of the paths get to depth n with the throughput
+/// T_n. Their variance is in proportion to T_n^2/N_n, their cost to N_n. The best N_n is in proportion to
+/// T_n, which is roulette by throughput with any factor. A larger factor lowers the noise of long paths and
+/// increases their time. Factors between 2.5 and 6 have the lowest cost for a given error in many scenes.
+inline constexpr float kCameraRouletteScale = 4;
 
-/// The share of the paths which roulette lets have so many events, where nothing but it ends them and a is
-/// 1/2: the product of `survival`, about.
-[[nodiscard]] inline float kept_share(std::size_t events) {
-  return events > kLongPath ? std::sqrt(kLongPath / static_cast<float>(events)) : 1.0F;
+/// Approximate fraction of paths that roulette lets get to a depth if nothing else ends them and a is 1/2:
+/// the product of `survival`.
+[[nodiscard]] inline float survival_fraction(std::size_t depth) {
+  return depth > kLongPath ? std::sqrt(kLongPath / static_cast<float>(depth)) : 1.0F;
 }
 
 }  // namespace abbe

@@ -15,52 +15,53 @@ bool is_delta_light(const Scene& scene, const PathVertex& vertex) {
   return light != nullptr && scene.lights[light->light].is_delta();
 }
 
-// Of a direction that the vertex `from` draws to its neighbour `to`.
+// Pdf [1/sr] with which the vertex `from` samples the direction to its neighbour `to`.
 SampledSpectrum direction_between(const Scene& scene, const JoinedPath& path, std::size_t from,
                                   std::size_t to) {
   const PathVertex& vertex = *path.z[from];
   const std::size_t other = to > from ? from - 1 : from + 1;
   const bool camera = other >= path.z.size();
-  const Imath::V3f before = camera ? Imath::V3f(0) : way_from(vertex, *path.z[other]).direction;
-  return direction_pdf(scene, vertex, before, way_from(vertex, *path.z[to]).direction);
+  const Imath::V3f before = camera ? Imath::V3f(0) : segment_between(vertex, *path.z[other]).direction;
+  return direction_pdf(scene, vertex, before, segment_between(vertex, *path.z[to]).direction);
 }
 
-// Whether light goes on at a vertex in more than a single direction.
-bool joins(const JoinedPath& path, std::size_t i) {
+// True if the vertex scatters into more than a single direction.
+bool is_connectible(const JoinedPath& path, std::size_t i) {
   const std::size_t last = path.z.size() - 1;
   const bool joint = path.t <= last && (i + 1 == path.t || (i == path.t && path.merged == nullptr));
   return i == 0 || i == last || joint || !path.z[i]->delta;
 }
 
-// How many vertices the light makes where the camera makes `t`.
-std::size_t rest_of(const JoinedPath& path, std::size_t t) {
+// Number of light vertices if the camera subpath has `t` vertices.
+std::size_t light_vertex_count(const JoinedPath& path, std::size_t t) {
   return path.z.size() - std::min(t, path.z.size());
 }
 
-// Which share of the paths from both ends roulette lets have so many vertices,
-float kept(const JoinedPath& path, std::size_t t) {
-  return kept_share(t) * kept_share(rest_of(path, t));
+// Fraction of the subpaths of both ends that roulette lets get to these lengths.
+float expected_survival(const JoinedPath& path, std::size_t t) {
+  return survival_fraction(t) * survival_fraction(light_vertex_count(path, t));
 }
 
-// and which share of these is joined at the last of both.
-float joined(const JoinedPath& path, std::size_t t) {
-  const std::size_t rest = rest_of(path, t);
-  return rest == 0 ? 1 : joined_share(t) * joined_share(rest);
+// Probability that the last vertices of both subpaths are connected.
+float joining_fraction(const JoinedPath& path, std::size_t t) {
+  const std::size_t rest = light_vertex_count(path, t);
+  return rest == 0 ? 1 : joining_probability(t) * joining_probability(rest);
 }
 
-// How many paths of strategy `t` there are for each path through the pixel; 0 where it cannot make this one.
-float count(const JoinedPath& path, const EndDensities& ends, std::size_t t) {
+// Number of paths of strategy `t` per camera path; 0 if it cannot sample this path.
+float sample_count(const JoinedPath& path, const EndDensities& ends, std::size_t t) {
   const std::size_t last = path.z.size() - 1;
   if (t > last) return 1;
-  if (!joins(path, t - 1) || !joins(path, t)) return 0;
+  if (!is_connectible(path, t - 1) || !is_connectible(path, t)) return 0;
   if (t > 1) return 1;
-  return t == last ? static_cast<float>(ends.camera_takes_lights) : ends.lens_connections;
+  return t == last ? static_cast<float>(ends.lights_connect_to_camera) : ends.lens_connections;
 }
 
-// The same of merging at the last of the first `t` vertices, times the area.
-float merging(const JoinedPath& path, const EndDensities& ends, std::size_t t) {
+// Merging at the last of the first `t` vertices: number of paths times the merging area; 0 if it cannot merge
+// there.
+float merging_count(const JoinedPath& path, const EndDensities& ends, std::size_t t) {
   const bool on_surface = t > 1 && std::holds_alternative<SurfaceVertex>(path.z[t - 1]->at);
-  return on_surface && t < path.z.size() && joins(path, t - 1) ? ends.merging : 0;
+  return on_surface && t < path.z.size() && is_connectible(path, t - 1) ? ends.merging : 0;
 }
 
 }  // namespace
@@ -68,18 +69,18 @@ float merging(const JoinedPath& path, const EndDensities& ends, std::size_t t) {
 StrategyWeights::StrategyWeights(const Scene& scene, RayCaster& caster)
     : scene_(scene), caster_(caster), has_free_paths_(has_free_paths(scene)) {}
 
-// Vertices that their own path has drawn know how, and beyond the two next to the joint how the other way;
-// beside the joint that depends on what is joined.
-SampledSpectrum StrategyWeights::by_camera(const JoinedPath& path, std::size_t i) const {
+// A vertex sampled by its own subpath has its pdf; past the two vertices next to the connection it also has
+// the reverse pdf. Next to the connection the reverse pdf depends on the other subpath.
+SampledSpectrum StrategyWeights::pdf_from_camera(const JoinedPath& path, std::size_t i) const {
   const PathVertex& vertex = *path.z[i];
   if (i < path.t) return vertex.pdf_forward;
   if (is_delta_light(scene_, vertex)) return {};
   if (i > path.t + 1 || (i > path.t && path.merged != nullptr)) return vertex.pdf_reverse;
-  return drawn(path, direction_between(scene_, path, i - 1, i), i - 1, i);
+  return area_pdf(path, direction_between(scene_, path, i - 1, i), i - 1, i);
 }
 
-SampledSpectrum StrategyWeights::by_light(const JoinedPath& path, const EndDensities& ends,
-                                          std::size_t i) const {
+SampledSpectrum StrategyWeights::pdf_from_light(const JoinedPath& path, const EndDensities& ends,
+                                                std::size_t i) const {
   const std::size_t last = path.z.size() - 1;
   const PathVertex& vertex = *path.z[i];
   if (i == last) return SampledSpectrum(ends.light_start);
@@ -88,62 +89,63 @@ SampledSpectrum StrategyWeights::by_light(const JoinedPath& path, const EndDensi
   if (emitted && !(ends.emission > 0)) return {};
   if (i >= path.t) return vertex.pdf_forward;
   if (i + 2 < path.t) return vertex.pdf_reverse;
-  return drawn(path, emitted ? SampledSpectrum(ends.emission) : direction_between(scene_, path, i + 1, i),
-               i + 1, i);
+  return area_pdf(path, emitted ? SampledSpectrum(ends.emission) : direction_between(scene_, path, i + 1, i),
+                  i + 1, i);
 }
 
-SampledSpectrum StrategyWeights::drawn(const JoinedPath& path, const SampledSpectrum& direction,
-                                       std::size_t from, std::size_t to) const {
+SampledSpectrum StrategyWeights::area_pdf(const JoinedPath& path, const SampledSpectrum& direction,
+                                          std::size_t from, std::size_t to) const {
   const PathVertex& a = *path.z[from];
   const PathVertex& b = *path.z[to];
   return direction * solid_angle_per_area(scene_, a, b) * b.event_pdf *
-         (std::max(from, to) == path.t ? path.passed : passed_between(a, b));
+         (std::max(from, to) == path.t ? path.passing_pdf : passing_pdf_between(a, b));
 }
 
-SampledSpectrum StrategyWeights::passed_between(const PathVertex& a, const PathVertex& b) const {
+SampledSpectrum StrategyWeights::passing_pdf_between(const PathVertex& a, const PathVertex& b) const {
   if (!has_free_paths_) return SampledSpectrum(1.0F);
-  if (a.at_infinity()) return passed_between(b, a);  // both ways alike; none can start there
-  return transmission_along(scene_, caster_, a, way_from(a, b)).density;
+  if (a.at_infinity()) return passing_pdf_between(b, a);  // symmetric, and no ray can start at infinity
+  return transmission_along(scene_, caster_, a, segment_between(a, b)).pdf;
 }
 
-float StrategyWeights::of(const JoinedPath& path, const EndDensities& ends) {
+float StrategyWeights::weight_of(const JoinedPath& path, const EndDensities& ends) {
   const std::size_t last = path.z.size() - 1;
   const int hero = path.z[0]->packet.hero;
-  // Everything over the hero's density of the strategy in hand. First what the light makes of z_t' ... z_k,
-  at_.resize(last + 1);
+  // All pdfs are relative to the hero's pdf of the current strategy. First the products of light pdfs over
+  // z_t' ... z_k.
+  vertex_pdfs_.resize(last + 1);
   from_light_.assign(last + 2, SampledSpectrum(1.0F));
-  sum_ = own_ = SampledSpectrum();
+  sum_ = path_tracing_sum_ = SampledSpectrum();
   for (std::size_t i = last; i > 0; --i) {
-    Densities& at = at_[i];
-    at.by_camera = by_camera(path, i);
-    at.by_light = by_light(path, ends, i);
-    at.ours = i < path.t ? at.by_camera[hero] : at.by_light[hero];
-    if (i == last && path.t == last && path.merged == nullptr) at.ours = ends.light_connection;
-    // What was drawn on the rim of a lamp's cone, or left for what is far, may be nothing that the lamp
-    // sends.
-    if (!(at.ours > 0)) return 0;
-    from_light_[i] = from_light_[i + 1] * at.by_light * (1 / at.ours);
+    VertexPdfs& pdfs = vertex_pdfs_[i];
+    pdfs.pdf_from_camera = pdf_from_camera(path, i);
+    pdfs.pdf_from_light = pdf_from_light(path, ends, i);
+    pdfs.current = i < path.t ? pdfs.pdf_from_camera[hero] : pdfs.pdf_from_light[hero];
+    if (i == last && path.t == last && path.merged == nullptr) pdfs.current = ends.light_connection;
+    // A point on the rim of a light's cone, or rounded for a distant light, may receive no emission at all.
+    if (!(pdfs.current > 0)) return 0;
+    from_light_[i] = from_light_[i + 1] * pdfs.pdf_from_light * (1 / pdfs.current);
   }
-  // then, strategy by strategy, times what the camera makes of z_1 ... z_{t'-1}.
-  const SampledSpectrum connected(ends.light_connection / at_[last].ours);
+  // Then, for each strategy, the product of camera pdfs over z_1 ... z_{t'-1}.
+  const SampledSpectrum light_connection(ends.light_connection / vertex_pdfs_[last].current);
   SampledSpectrum from_camera(1.0F);
   for (std::size_t t = 1; t <= last + 1; ++t) {
-    if (const float n = count(path, ends, t) * kept(path, t); n > 0) {
-      const SampledSpectrum density = from_camera * (t == last ? connected : from_light_[t]) * n;
-      sum_ += density * joined(path, t);
-      if (t >= last) own_ += density;
+    if (const float n = sample_count(path, ends, t) * expected_survival(path, t); n > 0) {
+      const SampledSpectrum density = from_camera * (t == last ? light_connection : from_light_[t]) * n;
+      sum_ += density * joining_fraction(path, t);
+      if (t >= last) path_tracing_sum_ += density;
     }
-    if (const float n = merging(path, ends, t) * kept(path, t) * joined(path, t); n > 0)
-      sum_ += from_camera * at_[t - 1].by_light * from_light_[t] * n;
-    if (t <= last) from_camera *= at_[t].by_camera * (1 / at_[t].ours);
+    if (const float n = merging_count(path, ends, t) * expected_survival(path, t) * joining_fraction(path, t);
+        n > 0)
+      sum_ += from_camera * vertex_pdfs_[t - 1].pdf_from_light * from_light_[t] * n;
+    if (t <= last) from_camera *= vertex_pdfs_[t].pdf_from_camera * (1 / vertex_pdfs_[t].current);
   }
-  // Throughputs are measured in the unit of their lane densities, which need not be that of the hero.
+  // Throughputs are in the unit of their lane pdfs, which need not be that of the hero.
   float unit = path.z[path.t - 1]->packet.lane_pdf[hero];
   if (path.merged != nullptr)
     unit *= path.merged->packet.lane_pdf[hero] / path.merged->pdf_forward[hero];
   else if (path.t <= last)
     unit *= path.z[path.t]->packet.lane_pdf[hero];
-  const float weight = kept(path, path.t) * joined(path, path.t) / (sum_.sum() * unit);
+  const float weight = expected_survival(path, path.t) * joining_fraction(path, path.t) / (sum_.sum() * unit);
   return std::isfinite(weight) ? weight : 0.0F;
 }
 

@@ -8,83 +8,83 @@
 
 namespace abbe {
 
-/// A path z_0 z_1 ... z_k from the camera to a light, of which one from the camera made the first `t`
-/// vertices and one from the light the rest.
+/// Path z_0 z_1 ... z_k from the camera to a light. A camera subpath sampled its first `t` vertices, a light
+/// subpath the others.
 struct JoinedPath {
   std::vector<const PathVertex*> z;
   std::size_t t = 0;
-  SampledSpectrum passed{1.0F};  ///< `Connection::density` of the way between both.
-  /// Where the path from the light came to as well as that from the camera, whose last vertex it is merged
-  /// with; nullptr where both are connected. It is not among `z`.
+  SampledSpectrum passing_pdf{1.0F};  ///< `Connection::passing_pdf` of the connecting segment.
+  /// Vertex of the light subpath that is merged with the last vertex of the camera subpath; nullptr for a
+  /// connection. It is not in `z`.
   const PathVertex* merged = nullptr;
 };
 
-/// Densities at the ends of a path, which depend on how techniques start there.
+/// Pdfs at the ends of a path, which depend on how techniques start there.
 struct EndDensities {
-  float light_start = 0;       ///< Of the light's point, where a path sets out from it,
-  float light_connection = 0;  ///< and where z_{k-1} is connected to a light drawn for it.
-  /// Of the light's direction to z_{k-1}, of one that sets out; for light from infinity of the way's place. 0
-  /// where none is to come from there, whatever the path did.
+  float light_start = 0;       ///< Pdf of the light's point for an emitted path.
+  float light_connection = 0;  ///< Pdf of the light's point for next-event estimation at z_{k-1}.
+  /// Pdf of the light's direction to z_{k-1} for an emitted path; for a light at infinity, of the ray's
+  /// position. 0 if no emitted path arrives there.
   float emission = 0;
-  /// How many paths from lights may be connected to a pixel of the camera for each path through it; 0 where
-  /// it takes no connections.
+  /// Number of light subpaths that may be connected to a pixel of the camera, per camera path of that pixel;
+  /// 0 if the camera has no connections.
   float lens_connections = 0;
-  bool camera_takes_lights = false;  ///< Whether a light may be connected to the camera itself.
-  /// Area that vertices on a surface are merged within [m^2], times the number of paths from lights that any
-  /// path through a pixel may be merged with; 0 where none is.
+  bool lights_connect_to_camera = false;  ///< True if a light may be connected to the camera itself.
+  /// Area within which vertices on a surface are merged [m^2], times the number of light subpaths that may be
+  /// merged; 0 without merging.
   float merging = 0;
 };
 
-/// The balance heuristic over all lanes and all ways in which a path may have come about, z_0 ... z_{t-1}
-/// from the camera and z_t ... z_k from the light [Veach1997, eq. 10.9] [Wilkie2014, eq. 6]:
-///     w f / P_t,hero = [f / P_t,hero] / sum_k sum_t' n_t' P_t',k / P_t,hero,
-///     P_t',k = prod_{i < t'} p_k(z_{i-1} -> z_i) prod_{i >= t'} p_k(z_{i+1} -> z_i),
-/// P_t',k being the density of strategy t', were lane k the hero, and n_t' the number of its paths for each
-/// path through the pixel. Merging at z_m is a strategy too [Georgiev2012], whose density, with N
-/// paths from lights and the radius r, is N pi r^2 prod_{i <= m} p_k(z_{i-1} -> z_i) prod_{i >= m}
-/// p_k(z_{i+1} -> z_i). Strategies that would join at a vertex where light goes in a single direction are
-/// left out. Long paths end by roulette and are joined at some of their vertices alone: n_t' counts that as
-/// if nothing but `kept_share` ended them, as the weights of a path need not be exact but to add up to 1, and
-/// what comes of strategy t is multiplied by the same share, which its throughputs were divided by. Serves
-/// one thread.
+/// Balance heuristic over all wavelengths and all strategies that can sample a path. The camera samples z_0
+/// ... z_{t-1} and the light z_t ... z_k [Veach1997, eq. 10.9] [Wilkie2014, eq. 6]:
+///     w f / P_t,hero = [f / P_t,hero] / sum_k sum_t' n_t' P_t',k / P_t,hero;
+///     P_t',k = prod_{i < t'} p_k(z_{i-1} -> z_i) prod_{i >= t'} p_k(z_{i+1} -> z_i).
+/// P_t',k is the pdf of strategy t' with wavelength k as the hero, n_t' its number of paths per camera path.
+/// Merging at z_m is a further strategy [Georgiev2012]. With N light subpaths and the radius r its pdf is
+///     N pi r^2 prod_{i <= m} p_k(z_{i-1} -> z_i) prod_{i >= m} p_k(z_{i+1} -> z_i).
+///
+/// Strategies that would connect at a vertex with a delta distribution are left out. Long paths end by
+/// roulette and are connected at some of their vertices only. n_t' includes both, with `survival_fraction`
+/// for roulette: weights need not be exact as long as they sum to 1. The contribution of strategy t is
+/// multiplied by the same fraction, because its throughput was divided by it. One instance per thread.
 class StrategyWeights {
  public:
   StrategyWeights(const Scene& scene, RayCaster& caster);
 
-  /// What the path's contribution by its throughputs is to be multiplied by.
-  [[nodiscard]] float of(const JoinedPath& path, const EndDensities& ends);
+  /// MIS weight for the path's contribution, which is the product of its throughputs.
+  [[nodiscard]] float weight_of(const JoinedPath& path, const EndDensities& ends);
 
-  /// The density of that path by path tracing, whose path from the camera meets the light, or is connected at
-  /// each of its vertices to one drawn for it, over that of all strategies together: their share, or more
-  /// where these join some of the vertices alone. 0 where path tracing cannot make it.
-  [[nodiscard]] float by_path_tracing() const {
+  /// Pdf of the last weighted path by path tracing (emitter hit, or NEE at each vertex) over the summed pdfs
+  /// of all strategies. May exceed 1 if the strategies connect some vertices only. 0 if path tracing cannot
+  /// sample the path.
+  [[nodiscard]] float path_tracing_fraction() const {
     const float all = sum_.sum();
-    return all > 0 ? own_.sum() / all : 0;
+    return all > 0 ? path_tracing_sum_.sum() / all : 0;
   }
 
-  /// With which density the way between two vertices is come through, lane by lane.
-  [[nodiscard]] SampledSpectrum passed_between(const PathVertex& a, const PathVertex& b) const;
+  /// Probability, per wavelength, of passing the media between two vertices.
+  [[nodiscard]] SampledSpectrum passing_pdf_between(const PathVertex& a, const PathVertex& b) const;
 
  private:
-  // How densely a vertex is drawn from the one before it, and from the one after.
-  struct Densities {
-    SampledSpectrum by_camera;
-    SampledSpectrum by_light;
-    float ours = 0;  // by the strategy in hand, were it the hero's
+  // Pdf of a vertex sampled from the one before it, and from the one after it.
+  struct VertexPdfs {
+    SampledSpectrum pdf_from_camera;
+    SampledSpectrum pdf_from_light;
+    float current = 0;  // the hero's pdf by the current strategy
   };
 
-  [[nodiscard]] SampledSpectrum by_camera(const JoinedPath& path, std::size_t i) const;
-  [[nodiscard]] SampledSpectrum by_light(const JoinedPath& path, const EndDensities& ends,
-                                         std::size_t i) const;
-  [[nodiscard]] SampledSpectrum drawn(const JoinedPath& path, const SampledSpectrum& direction,
-                                      std::size_t from, std::size_t to) const;
+  [[nodiscard]] SampledSpectrum pdf_from_camera(const JoinedPath& path, std::size_t i) const;
+  [[nodiscard]] SampledSpectrum pdf_from_light(const JoinedPath& path, const EndDensities& ends,
+                                               std::size_t i) const;
+  [[nodiscard]] SampledSpectrum area_pdf(const JoinedPath& path, const SampledSpectrum& direction,
+                                         std::size_t from, std::size_t to) const;
   const Scene& scene_;
   RayCaster& caster_;
   bool has_free_paths_;
-  std::vector<Densities> at_;                // of the path in hand
-  std::vector<SampledSpectrum> from_light_;  // products of what the light makes of z_i ... z_k
-  SampledSpectrum sum_;                      // of the densities of all strategies,
-  SampledSpectrum own_;                      // and of those of path tracing
+  std::vector<VertexPdfs> vertex_pdfs_;      // of the current path
+  std::vector<SampledSpectrum> from_light_;  // products of light pdfs over z_i ... z_k
+  SampledSpectrum sum_;                      // pdfs of all strategies
+  SampledSpectrum path_tracing_sum_;         // pdfs of path tracing
 };
 
 }  // namespace abbe

@@ -8,12 +8,12 @@
 namespace abbe {
 namespace {
 
-// Whether light may come through, so that directions of both sides are drawn.
+// True if light may be transmitted, so that both sides are sampled.
 bool is_two_sided(const SurfaceVertex& vertex) {
-  return !vertex.place().side;
+  return !vertex.light_context().side;
 }
 
-// p(wi), local.
+// p(wi) of a local direction [1/sr].
 float density(DirectionSampling directions, const SurfaceVertex& vertex, const Imath::V3f& wi) {
   const bool both = is_two_sided(vertex);
   if (!both && !(vertex.wo.z * wi.z > 0)) return 0;
@@ -23,7 +23,7 @@ float density(DirectionSampling directions, const SurfaceVertex& vertex, const I
   return both ? over_side / 2 : over_side;
 }
 
-// Draws it; of two sides a half of the first number chooses one.
+// Samples a local direction; with two sides the first number also selects the side.
 Imath::V3f draw(DirectionSampling directions, const SurfaceVertex& vertex, Imath::V2f u) {
   float side = std::copysign(1.0F, vertex.wo.z);
   if (is_two_sided(vertex)) {

@@ -6,16 +6,17 @@
 
 namespace abbe {
 
-/// Directions at a surface that are not drawn by its scattering. With q_k the probability that lane k's event
-/// is delta there and p(wi) the density of DirectionSampling, the density of a direction is
+/// Sampling of directions at a surface independently of its BSDF. Let q_k be the probability that wavelength
+/// k's event is delta, and p(wi) the pdf of DirectionSampling. The pdf of a direction is
 ///     P_k(wi) = (1 - q_k) p(wi),
-/// and the weight of an event f |cos wi| / P_hero. Surfaces of single directions alone are left as they are.
+/// and the weight of an event is f |cos wi| / P_hero. Surfaces with delta distributions only are sampled by
+/// their BSDF.
 
-/// P_k(wi) [1/sr] of each lane, for a local direction.
+/// P_k(wi) [1/sr] per wavelength, for a local direction.
 [[nodiscard]] SampledSpectrum pdf_of_directions(DirectionSampling directions, const SurfaceVertex& vertex,
                                                 const Imath::V3f& wi);
 
-/// An event so drawn: the surface's own where that is delta; nothing where no light goes.
+/// Samples an event: the BSDF's own if that is delta. Returns nothing if the surface scatters no light there.
 [[nodiscard]] std::optional<BsdfSample> sample_directions(DirectionSampling directions,
                                                           const SurfaceVertex& vertex, const BsdfRandom& u,
                                                           int hero, TransportMode mode);

@@ -9,98 +9,97 @@
 #include <ImathBox.h>
 #include <ImathVec.h>
 
-#include "spectral/packet.h"
+#include "spectral/sampled_spectrum.h"
 
 namespace abbe {
 
-/// A photon that came through specular matter alone to where it may scatter.
+/// Photon that arrived by specular events alone at a surface that may scatter it.
 struct CausticPhoton {
   Imath::V3f point;
-  Imath::V3f from;       ///< The unit direction to where it came from.
-  float last_distance;   ///< To the surface that sent it here [m],
-  float whole_distance;  ///< and to its light along the way it took, perhaps infinite.
-  float power;           ///< Over the number of photons that set out.
-  float unhindered;      ///< Irradiance here [power/m^2] of all lights, were nothing in between.
+  Imath::V3f from;              ///< Unit direction towards its origin.
+  float last_distance;          ///< Distance to the last surface before this one [m].
+  float path_distance;          ///< Distance to the light along the path [m], which may be infinite.
+  float power;                  ///< Power divided by the number of emitted photons.
+  float unoccluded_irradiance;  ///< Unoccluded irradiance of all lights at this point [power/m^2].
 };
 
-/// Directions in which to look for light that comes to a place through specular matter: lobes around the
-/// directions to some points in space, or of some rays. Refers to its guide.
+/// Directions from which caustic light arrives at a point: lobes around the directions to points in space, or
+/// around constant directions. Refers to its guide, which must outlive it.
 class CausticLobes {
  public:
-  static constexpr std::size_t kTogether = 8;
-  /// Some lobes, number by number, so that a processor takes all of them at once. From a point p a lobe
-  /// points along (x, y, z) - near p, and is chosen with the probability `share`. One that is not there has
-  /// none.
-  struct Lobes {
-    using Numbers = std::array<float, kTogether>;
-    Numbers x{};
-    Numbers y{};
-    Numbers z = [] {
-      Numbers up;
-      up.fill(1);  // so that those that are not there have an axis as well
+  static constexpr std::size_t kLobesPerPacket = 8;
+  /// Several lobes in structure-of-arrays layout, for vector instructions. From a point p a lobe points along
+  /// (x, y, z) - near p, with the selection probability `probability`. Unused lobes have the probability 0.
+  struct LobePacket {
+    using Floats = std::array<float, kLobesPerPacket>;
+    Floats x{};
+    Floats y{};
+    Floats z = [] {
+      Floats up;
+      up.fill(1);  // a valid axis for unused lobes
       return up;
     }();
-    Numbers near{};  ///< 1, or 0 of a lobe that points the same way from everywhere.
-    Numbers share{};
+    Floats near{};  ///< 1, or 0 for a constant direction.
+    Floats probability{};
   };
 
   CausticLobes() = default;
-  CausticLobes(std::span<const Lobes> lobes, float width, float share)
-      : lobes_(lobes), width_(width), share_(share) {}
+  CausticLobes(std::span<const LobePacket> lobes, float width, float probability)
+      : lobes_(lobes), width_(width), probability_(probability) {}
 
   [[nodiscard]] bool empty() const { return lobes_.empty(); }
-  /// Probability that a path draws an additional direction from the lobes.
-  [[nodiscard]] float share() const { return share_; }
+  /// Probability with which a path draws an additional direction from the lobes.
+  [[nodiscard]] float probability() const { return probability_; }
   /// These lobes with their selection probability multiplied by `factor`.
-  [[nodiscard]] CausticLobes scaled(float factor) const { return {lobes_, width_, share_ * factor}; }
-  /// A direction to look in from a point, by `lobe` and `u` in [0, 1).
+  [[nodiscard]] CausticLobes scaled(float factor) const { return {lobes_, width_, probability_ * factor}; }
+  /// Samples a direction from a point; `lobe` and `u` are in [0, 1).
   [[nodiscard]] Imath::V3f sample(const Imath::V3f& point, float lobe, Imath::V2f u) const;
-  /// Its density [1/sr], of any unit direction.
+  /// Pdf [1/sr] of a unit direction.
   [[nodiscard]] float pdf(const Imath::V3f& point, const Imath::V3f& direction) const;
-  /// Density of a direction [1/sr], wavelength by wavelength, among all directions that a path is followed
-  /// in: one of the density `scattering`, and `share()` on average from the lobes. The lobes count only for
-  /// wavelengths that scattering can send there.
+  /// Pdf [1/sr], per wavelength, of a direction over all paths that leave the vertex: one with the pdf
+  /// `scattering`, and on average `probability()` from the lobes. The lobes count only for wavelengths that
+  /// scattering can send there.
   [[nodiscard]] SampledSpectrum combined_pdf(const SampledSpectrum& scattering, const Imath::V3f& point,
                                              const Imath::V3f& direction) const {
-    const float added = share_ * pdf(point, direction);
+    const float added = probability_ * pdf(point, direction);
     return SampledSpectrum::map(scattering, [added](float s) { return s > 0 ? s + added : 0; });
   }
 
  private:
-  std::span<const Lobes> lobes_;
+  std::span<const LobePacket> lobes_;
   float width_ = 0;
-  float share_ = 0;
+  float probability_ = 0;
 };
 
-/// Tells from where caustics come at a place, as photons have shown [Jensen1995]: space is halved until few
-/// photons share a region, and each of a region's is the axis of a lobe
+/// Guide for camera paths to caustics, trained with photons [Jensen1995]. Space is halved until few photons
+/// remain per region. Each photon of a region is the axis of a lobe
 ///     p(w) = a^2 / (pi (a^2 + tan^2 t)^2 cos^3 t),
-/// t being the angle between w and the axis, whose width a is told by how well the axes of the other photons
-/// predict each one's direction. As a lamp is seen elsewhere from another place of a region, an axis points
-/// to a point of its photon's way [Ruppert2020]: to where it left the last surface, or as far away as its
-/// light, where flat mirrors show it, whichever leaves the lobes of a region sharper.
+/// with the angle t between w and the axis. The width a follows from how well the axes of the other photons
+/// predict each photon's direction. The direction to a light varies within a region, so an axis points to a
+/// point on its photon's path [Ruppert2020]. This is the last surface before the hit, or a point at the
+/// distance of the light, where flat mirrors show its image. The choice with the sharper lobes is used.
 class CausticGuide {
  public:
   CausticGuide() = default;
-  /// `scene` is a box around the shapes, which cells of space are divided from.
+  /// Builds the guide. `scene` is the bounding box of the shapes, which is divided into cells.
   CausticGuide(std::vector<CausticPhoton> photons, const Imath::Box3d& scene);
 
-  /// Whether there is nothing to look for anywhere.
+  /// True if no region has lobes.
   [[nodiscard]] bool empty() const { return regions_.empty(); }
-  /// The lobes at a point; none where no caustics are known, or where they come from so wide around that
-  /// scattering finds them.
+  /// Lobes at a point. Empty if no caustics are known there, or if they arrive from such a wide angle that
+  /// scattering samples them.
   [[nodiscard]] CausticLobes at(const Imath::V3f& point) const;
 
  private:
-  // Lobes from `first` on, and the box that says how far they may be asked.
+  // Lobes from index `first` on, and the box in which they are valid.
   struct Region {
     Imath::Box3f box;
     std::uint32_t first = 0;
     std::uint32_t count = 0;
     float width = 0;
-    float share = 0;
+    float probability = 0;
   };
-  // Halves space at `at` along `axis`; below it the next node, above it `above`. A leaf has no axis.
+  // Divides space at `at` along `axis`: the next node is below, node `above` is above. A leaf has axis -1.
   struct Node {
     float at = 0;
     int axis = -1;
@@ -108,20 +107,20 @@ class CausticGuide {
     std::uint32_t region = 0;
   };
 
-  // A part of space, its photons, and those of the smallest part around it that has enough.
+  // Cell of space with its photons, and those of the smallest enclosing cell that has enough.
   struct Cell {
     std::span<CausticPhoton> photons;
-    std::span<const CausticPhoton> around;
+    std::span<const CausticPhoton> fallback;
     Imath::Box3f box;
     int depth;
   };
 
   void build(Cell cell);
-  void add_region(std::span<const CausticPhoton> all);
+  void add_region(std::span<const CausticPhoton> region_photons);
 
   std::vector<Node> nodes_;
   std::vector<Region> regions_;
-  std::vector<CausticLobes::Lobes> lobes_;
+  std::vector<CausticLobes::LobePacket> lobes_;
 };
 
 }  // namespace abbe

@@ -7,7 +7,7 @@
 namespace abbe {
 namespace {
 
-// The unit vector at the angle `turn` from `axis`, on the way to `towards`.
+// Unit vector at the angle `turn` from `axis`, rotated towards `towards`.
 Imath::V3d turned(const Imath::V3d& axis, const Imath::V3d& towards, double turn) {
   const Imath::V3d across = towards - axis * axis.dot(towards);
   return (axis * std::cos(turn) + across.normalized() * std::sin(turn)).normalized();
@@ -31,7 +31,7 @@ double measure(const EmissionCone& cone) {
   const double rim = std::min(cone.spread + cone.falloff, std::numbers::pi);
   const double cosine = std::cos(cone.spread);
   const double sine = std::sin(cone.spread);
-  // 2 pi times the integrals of sin t to the spread and of cos(t - spread) sin t from there to the rim.
+  // 2 pi times the integrals of sin t up to the spread, and of cos(t - spread) sin t from there to the rim.
   return 2 * std::numbers::pi * (1 - cosine) +
          std::numbers::pi / 2 * (2 * (rim - cone.spread) * sine + cosine - std::cos(cone.spread - 2 * rim));
 }

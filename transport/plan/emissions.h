@@ -7,12 +7,15 @@
 
 namespace abbe {
 
-/// What the lights of a scene emit, as its sensor sees it.
+/// Emission of a scene's lights as weighted by its sensor.
 struct Emissions {
-  /// Mean emissions, proportional ones once, so that many lamps of one kind cost what one costs and starve no
-  /// other kind of wavelengths.
+  /// Mean emission curves, with proportional ones merged. Many lights of one kind then cost as much as one,
+  /// and do not take wavelengths from other kinds.
   std::vector<Curve> distinct;
-  std::vector<double> seen;  ///< Of each light: the integral of |emission x response| of its largest channel.
+  std::vector<double>
+      /// Sensor-weighted emission per light: integral of |emission x response| for the channel with the
+      /// largest one.
+      sensor_emissions;
 };
 [[nodiscard]] Emissions emissions_of(const Scene& scene);
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr EmissionCone kEverywhere{{0, 0, 1}, std::numbers::pi, 0};
 
-// What an outer side shows of itself: its greatest area as seen from afar [m^2], and where its normals point.
+// Outer side of a shape: its maximum projected area from afar [m^2], and the cone of its normals.
 struct Face {
   double area;
   EmissionCone normals;
@@ -27,7 +27,8 @@ Face face_of(const Disc& disc, double area) {
 Face face_of(const Quad& quad, double area) {
   return {area, {normal_of(quad), 0, std::numbers::pi / 2}};
 }
-// A flat mesh shows all of its area along its axis, a closed convex one a quarter of it in the mean.
+// A flat mesh shows all of its area along its axis; a closed convex mesh shows a quarter of its area on
+// average.
 Face face_of(const Mesh& mesh, double area) {
   Imath::V3d sum(0);
   for (std::size_t i = 0; i < mesh.triangles.size(); ++i) sum += area_vector(mesh, i);
@@ -43,16 +44,15 @@ Face face_of(const PlacedShape&, double area) {
   return {area, kEverywhere};
 }
 
-LightBounds area_light_bounds(const AreaLight& light, const Scene& scene, double seen) {
+LightBounds area_light_bounds(const AreaLight& light, const Scene& scene, double emission) {
   const Shape& shape = scene.shapes[light.shape].shape;
   Face face = std::visit([&](const auto& s) { return face_of(s, light.area); }, shape);
   if (light.two_sided) face.normals = kEverywhere;
   const Imath::Box3d box = bounds(shape);
   const auto* sphere = std::get_if<Sphere>(&shape);
   const double radius = sphere != nullptr ? sphere->radius : box.size().length() / 2;
-  const double nearest =
-      std::sqrt(face.area / std::numbers::pi);  // no irradiance is more than pi times a radiance
-  const double intensity = seen * face.area;
+  const double nearest = std::sqrt(face.area / std::numbers::pi);  // irradiance is at most pi times radiance
+  const double intensity = emission * face.area;
   return {box, radius, nearest, face.normals, intensity, intensity};
 }
 
@@ -64,40 +64,43 @@ LightBounds bounds_at_infinity(const Imath::V3f& towards, double cap, double fac
 }  // namespace
 
 Imath::Box3d bounds_of(const Light& light, const Scene& scene) {
-  const Imath::V3f* at = place(light);
+  const Imath::V3f* at = light_position(light);
   const Motion* motion = motion_of(light, scene.shapes);
   if (at != nullptr && motion != nullptr) return motion->sweep({Imath::V3d(*at)}, 0, 1);
   if (at != nullptr) return Imath::Box3d(Imath::V3d(*at));
   return bounds(scene.shapes[std::get<AreaLight>(light.kind).shape].shape);
 }
 
-LightBounds light_bounds(const Light& light, const Scene& scene, double seen) {
-  if (const auto* area = std::get_if<AreaLight>(&light.kind)) return area_light_bounds(*area, scene, seen);
+LightBounds light_bounds(const Light& light, const Scene& scene, double emission) {
+  if (const auto* area = std::get_if<AreaLight>(&light.kind))
+    return area_light_bounds(*area, scene, emission);
   if (const auto* sun = std::get_if<SunLight>(&light.kind)) {
-    const double irradiance = seen * sun->projected_solid_angle();
+    const double irradiance = emission * sun->projected_solid_angle();
     return bounds_at_infinity(sun->towards, static_cast<double>(sun->cap), irradiance, irradiance);
   }
-  if (const auto* beam = std::get_if<DirectionalLight>(&light.kind))
-    return bounds_at_infinity(beam->towards, 0, seen, seen);
+  if (const auto* directional = std::get_if<DirectionalLight>(&light.kind))
+    return bounds_at_infinity(directional->towards, 0, emission, emission);
   if (const auto* environment = std::get_if<EnvironmentLight>(&light.kind)) {
-    LightBounds sky = bounds_at_infinity({0, 0, 1}, 2, seen * std::numbers::pi, seen * 4 * std::numbers::pi);
-    sky.box = Imath::Box3d(Imath::V3d(0));
-    sky.ambient = environment->image == nullptr;
-    return sky;
+    LightBounds environment_bounds =
+        bounds_at_infinity({0, 0, 1}, 2, emission * std::numbers::pi, emission * 4 * std::numbers::pi);
+    environment_bounds.box = Imath::Box3d(Imath::V3d(0));
+    environment_bounds.ambient = environment->image == nullptr;
+    return environment_bounds;
   }
   EmissionCone cone = kEverywhere;
   if (const auto* spot = std::get_if<SpotLight>(&light.kind); spot != nullptr && !spot->motion)
     cone = {Imath::V3d(spot->axis), std::acos(1 - static_cast<double>(spot->cap)), 0};
   const Imath::Box3d box = bounds_of(light, scene);
-  return {box, box.size().length() / 2, 0, cone, seen, seen};
+  return {box, box.size().length() / 2, 0, cone, emission, emission};
 }
 
 LightBounds union_of(const LightBounds& a, const LightBounds& b) {
   Imath::Box3d box = a.box;
   box.extendBy(b.box);
-  // At the middle of lamps spread through a ball 1/d^2 is 3/r^2 in the mean. Less than that, as here, lets
-  // the nearer half of a node have more of it: the second moment of tests/transport/light_sampler_test.cpp
-  // is 1.75 at r^2/2, 1.46 at r^2/8, and less gains nothing.
+  // At the center of lights spread uniformly through a ball, the mean of 1/d^2 is 3/r^2. A smaller bound, as
+  // here, gives more weight to the nearer half of a node. The second moment of
+  // tests/transport/light_sampler_test.cpp is 1.75 at r^2/2 and 1.46 at r^2/8; smaller values do not improve
+  // it.
   constexpr double kNearest = 0.35;
   const double radius = box.size().length() / 2;
   return {box,

@@ -6,18 +6,18 @@
 namespace abbe {
 namespace {
 
-// cos(max(0, a - b)) of two angles in [0, pi] by their cosines.
-float cos_beyond(float cos_a, float cos_b) {
+// cos(max(0, a - b)) of two angles in [0, pi], given their cosines.
+float cos_excess(float cos_a, float cos_b) {
   if (cos_a >= cos_b) return 1;
   return cos_a * cos_b + std::sqrt(std::max(0.0F, (1 - cos_a * cos_a) * (1 - cos_b * cos_b)));
 }
 
 }  // namespace
 
-LightImportance::LightImportance(const LightBounds& bounds, double scale, double least_distance)
+LightImportance::LightImportance(const LightBounds& bounds, double scale, double min_distance)
     : center_(bounds.box.center()),
       radius2_(static_cast<float>(bounds.radius * bounds.radius)),
-      nearest2_(static_cast<float>(std::pow(std::max(bounds.nearest, least_distance), 2))),
+      nearest2_(static_cast<float>(std::pow(std::max(bounds.nearest, min_distance), 2))),
       axis_(bounds.cone.axis),
       cos_spread_(static_cast<float>(std::cos(bounds.cone.spread))),
       cos_falloff_(static_cast<float>(std::cos(bounds.cone.falloff))),
@@ -26,20 +26,21 @@ LightImportance::LightImportance(const LightBounds& bounds, double scale, double
       at_infinity_(bounds.at_infinity),
       ambient_(bounds.ambient) {}
 
-float LightImportance::irradiance(const LightSampleContext& place) const {
-  if (ambient_ && place.glossy) return 0;
-  const float strength = place.side ? facing_ : all_sides_;
+float LightImportance::irradiance(const LightSampleContext& context) const {
+  if (ambient_ && context.glossy) return 0;
+  const float strength = context.side ? facing_ : all_sides_;
   if (at_infinity_)
-    return place.side ? strength * std::max(0.0F, cos_beyond(place.side->dot(axis_), cos_spread_)) : strength;
-  const Imath::V3f way = center_ - place.point;
-  const float distance2 = way.length2();
+    return context.side ? strength * std::max(0.0F, cos_excess(context.side->dot(axis_), cos_spread_))
+                        : strength;
+  const Imath::V3f to_center = center_ - context.point;
+  const float distance2 = to_center.length2();
   const float nearness = strength / std::max(distance2, nearest2_);
   if (!(distance2 > radius2_)) return nearness;
-  const Imath::V3f towards = way * (1 / std::sqrt(distance2));
-  const float cos_seen = std::sqrt(1 - radius2_ / distance2);  // half the angle the sphere is seen under
-  const float emitted = cos_beyond(cos_beyond(-axis_.dot(towards), cos_spread_), cos_seen);
+  const Imath::V3f towards = to_center * (1 / std::sqrt(distance2));
+  const float cos_half_angle = std::sqrt(1 - radius2_ / distance2);  // half angle of the sphere
+  const float emitted = cos_excess(cos_excess(-axis_.dot(towards), cos_spread_), cos_half_angle);
   if (emitted < cos_falloff_) return 0;
-  const float received = place.side ? cos_beyond(place.side->dot(towards), cos_seen) : 1;
+  const float received = context.side ? cos_excess(context.side->dot(towards), cos_half_angle) : 1;
   return nearness * std::max(0.0F, emitted) * std::max(0.0F, received);
 }
 

@@ -7,17 +7,17 @@
 
 namespace abbe {
 
-/// The bounds of lights, made ready to be evaluated at each vertex of a path.
+/// Bounds of lights, prepared for evaluation at path vertices.
 class LightImportance {
  public:
-  /// Takes the strengths of `bounds` times `scale` [1/unit of them], and `nearest` no less than
-  /// `least_distance` [m] > 0, which keeps the irradiance finite at the place of a lamp.
-  LightImportance(const LightBounds& bounds, double scale, double least_distance);
+  /// Multiplies the strengths of `bounds` by `scale`. `min_distance` [m] > 0 is a lower bound for `nearest`,
+  /// so that the irradiance at the position of a light is finite.
+  LightImportance(const LightBounds& bounds, double scale, double min_distance);
 
-  /// Irradiance of a place: what the lamps could send there from the most favourable place in their sphere,
-  /// with nothing in between, but for their distance, which is that of the middle. Not negative; 0 where they
-  /// cannot shine. [Conty2018] Nothing of ambient light to a glossy place.
-  [[nodiscard]] float irradiance(const LightSampleContext& place) const;
+  /// Irradiance bound for a vertex: the unoccluded irradiance from the most favourable direction and
+  /// orientation within the lights' sphere, at the distance of its center. Not negative; 0 if no emission can
+  /// arrive. [Conty2018] Ambient light counts 0 for glossy vertices.
+  [[nodiscard]] float irradiance(const LightSampleContext& context) const;
 
  private:
   Imath::V3f center_;

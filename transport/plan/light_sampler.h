@@ -9,48 +9,48 @@
 
 namespace abbe {
 
-/// Chooses a light for a place: by what each sends there, nothing standing in between, nine parts in ten, and
-/// uniformly over all lights for the rest, so that none starves where it alone is not hidden. Up to 16 lights
-/// are weighed one by one. Of more, trees are descended by what each half sends [Conty2018], one over the
-/// lamps and one over the lights at infinity; light that is the same from all directions is by itself.
+/// Samples a light for a vertex. Nine in ten samples are in proportion to the unoccluded irradiance; the
+/// others are uniform over all lights, because only one of them may be unoccluded. Up to 16 lights are
+/// evaluated individually. For more, trees are descended by the irradiance bound of each half [Conty2018]:
+/// one for nearby lights and one for lights at infinity. Ambient light is separate.
 class LightSampler {
  public:
   using Pick = PowerLightSampler::SampledLight;
 
-  /// `seen` stands for each light's emission, as in `Emissions`; lights of 0 are never chosen. Where
-  /// scattering finds light too, and both ways are balanced, glossy places leave what is the same from all
-  /// directions to it [Karlik2019]: it sends them nothing.
-  LightSampler(const Scene& scene, const std::vector<double>& seen, bool scattering_finds);
+  /// `sensor_emissions` is as in `Emissions`; lights with 0 are never chosen. Set `scattering_finds` if
+  /// emitter hits and NEE are balanced: then glossy vertices leave ambient light to scattering [Karlik2019].
+  LightSampler(const Scene& scene, const std::vector<double>& sensor_emissions, bool scattering_finds);
 
-  /// Whether no light can be chosen.
+  /// True if no light can be chosen.
   [[nodiscard]] bool empty() const { return roots_.empty(); }
 
-  /// Irradiance at a place by all lights together, nothing standing in between, as `pick` weighs them, in the
-  /// unit of `seen` times what `light_bounds` measures by.
-  [[nodiscard]] double irradiance(const LightSampleContext& place) const;
+  /// Total unoccluded irradiance bound at a vertex, as `pick` weights it, in the unit of `sensor_emissions`
+  /// times that of `light_bounds`.
+  [[nodiscard]] double irradiance(const LightSampleContext& context) const;
 
-  /// A light for a place. `u` is in [0, 1); the lights follow each other along it, neighbours in space mostly
-  /// near.
-  [[nodiscard]] Pick pick(const LightSampleContext& place, float u) const;
-  /// Probability with which `pick` chooses that light for that place: the same number to the bit.
-  [[nodiscard]] float probability(std::uint32_t light, const LightSampleContext& place) const;
+  /// Picks a light for a vertex with `u` in [0, 1). Neighbouring values of `u` mostly select neighbouring
+  /// lights.
+  [[nodiscard]] Pick pick(const LightSampleContext& context, float u) const;
+  /// Probability with which `pick` chooses the light for the vertex; bit-identical to that of `pick`.
+  [[nodiscard]] float probability(std::uint32_t light, const LightSampleContext& context) const;
 
  private:
-  // From a root to a light: bit k says whether turn k goes to the second child.
-  struct Way {
+  // Path from a root to a light: bit k is 1 if turn k selects the second child.
+  struct TreePath {
     std::uint64_t turns = 0;
     std::uint32_t root = 0;
     bool exists = false;
   };
 
   void open_roots();
-  void note_ways();
+  void record_tree_paths();
 
   std::vector<LightNode> nodes_;
-  std::vector<std::uint32_t> roots_;  // nodes that stand for all lights together; empty when no light is seen
-  std::vector<Way> ways_;             // of each light of the scene
-  std::uint32_t lights_ = 0;          // that can be chosen
-  double unit_ = 0;                   // of what the nodes send
+  // Nodes that cover all lights together; empty if no light can be chosen.
+  std::vector<std::uint32_t> roots_;
+  std::vector<TreePath> tree_paths_;  // per light of the scene
+  std::uint32_t lights_ = 0;          // number of lights that can be chosen
+  double unit_ = 0;                   // of the nodes' irradiance
 };
 
 }  // namespace abbe

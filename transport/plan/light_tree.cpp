@@ -9,23 +9,23 @@ namespace abbe {
 namespace {
 
 constexpr std::size_t kBuckets = 12;
-constexpr int kMostUneven = 32;  // turns; after them halves are equal, of fewer than 2^32 lights
+constexpr int kMaxUnevenTurns = 32;  // depth after which halves are equal, for fewer than 2^32 lights
 
-Imath::Box3d box_of_middles(std::span<const LightLeaf> leaves) {
+Imath::Box3d box_of_centers(std::span<const LightLeaf> leaves) {
   Imath::Box3d box;
   for (const LightLeaf& leaf : leaves) box.extendBy(leaf.bounds.box.center());
   return box;
 }
 
-// The buckets along an axis, from `from` on, `width` wide together.
+// Buckets along an axis that start at `from` and span `width`.
 struct Buckets {
   unsigned axis;
   double from;
   double width;
 
   [[nodiscard]] std::size_t of(const LightLeaf& leaf) const {
-    const double share = (leaf.bounds.box.center()[axis] - from) / width;
-    return std::min(kBuckets - 1, static_cast<std::size_t>(share * kBuckets));
+    const double fraction = (leaf.bounds.box.center()[axis] - from) / width;
+    return std::min(kBuckets - 1, static_cast<std::size_t>(fraction * kBuckets));
   }
 };
 
@@ -33,13 +33,13 @@ void include(std::optional<LightBounds>& sum, const LightBounds& more) {
   sum = sum ? union_of(*sum, more) : more;
 }
 
-// How much the choice within a half is likely to be off: the measure of [Conty2018] with the sphere around
-// the lamps for their box, as the irradiance of a node is bounded by that.
+// Cost of a half: the measure of [Conty2018], with the sphere around the lights instead of their box, because
+// the sphere bounds the irradiance of a node.
 double cost(const std::optional<LightBounds>& half) {
   return half ? half->facing * half->radius * half->radius * measure(half->cone) : 0;
 }
 
-// The number of buckets in the first half of the best split_leaves.
+// Number of buckets in the first half of the best split.
 std::size_t best_split(const std::array<std::optional<LightBounds>, kBuckets>& in) {
   std::array<double, kBuckets> costs{};
   std::optional<LightBounds> sum;
@@ -55,14 +55,14 @@ std::size_t best_split(const std::array<std::optional<LightBounds>, kBuckets>& i
   return static_cast<std::size_t>(std::min_element(costs.begin() + 1, costs.end()) - costs.begin());
 }
 
-// Puts the leaves of the first half first; how many these are.
+// Partitions the leaves and returns the number of those in the first half.
 std::size_t split_leaves(std::span<LightLeaf> leaves, int turns) {
-  const Imath::Box3d middles = box_of_middles(leaves);
-  const unsigned axis = middles.majorAxis();
-  const Buckets buckets{axis, middles.min[axis], middles.size()[axis]};
+  const Imath::Box3d centers = box_of_centers(leaves);
+  const unsigned axis = centers.majorAxis();
+  const Buckets buckets{axis, centers.min[axis], centers.size()[axis]};
   const std::size_t half = leaves.size() / 2;
   if (!(buckets.width > 0)) return half;
-  if (turns >= kMostUneven) {
+  if (turns >= kMaxUnevenTurns) {
     std::nth_element(leaves.begin(), leaves.begin() + static_cast<std::ptrdiff_t>(half), leaves.end(),
                      [axis](const LightLeaf& a, const LightLeaf& b) {
                        return a.bounds.box.center()[axis] < b.bounds.box.center()[axis];
@@ -72,9 +72,9 @@ std::size_t split_leaves(std::span<LightLeaf> leaves, int turns) {
   std::array<std::optional<LightBounds>, kBuckets> in;
   for (const LightLeaf& leaf : leaves) include(in[buckets.of(leaf)], leaf.bounds);
   const std::size_t first = best_split(in);
-  const auto middle = std::partition(leaves.begin(), leaves.end(),
-                                     [&](const LightLeaf& leaf) { return buckets.of(leaf) < first; });
-  return static_cast<std::size_t>(middle - leaves.begin());
+  const auto boundary = std::partition(leaves.begin(), leaves.end(),
+                                       [&](const LightLeaf& leaf) { return buckets.of(leaf) < first; });
+  return static_cast<std::size_t>(boundary - leaves.begin());
 }
 
 class Builder {
@@ -88,7 +88,7 @@ class Builder {
       return leaves[0].bounds;
     }
     const std::size_t first = split_leaves(leaves, turns);
-    // A place is kept: what both halves reach together is known when they are.
+    // Placeholder: its importance is set after both children.
     nodes_.push_back({importance(leaves[0].bounds), static_cast<std::uint32_t>(leaves.size()), 0});
     const LightBounds one = append(leaves.first(first), turns + 1);
     nodes_[at].next = static_cast<std::uint32_t>(nodes_.size());
@@ -99,7 +99,7 @@ class Builder {
 
  private:
   [[nodiscard]] LightImportance importance(const LightBounds& bounds) const {
-    return {bounds, scale_.strength, scale_.least_distance};
+    return {bounds, scale_.strength, scale_.min_distance};
   }
 
   const LightScale& scale_;

@@ -9,13 +9,12 @@
 
 namespace abbe {
 
-/// Whether the number of photons of a sample is for the scene to say, as it is nothing that camera paths rely
-/// on.
-[[nodiscard]] bool traces_photons_alone(std::span<const Technique> techniques);
+/// True if the scene determines the number of photons per sample, because camera paths do not depend on it.
+[[nodiscard]] bool scene_sets_photon_count(std::span<const Technique> techniques);
 
-/// The keys of `render/photons` that the scene sets to other values than those they have by themselves, and
-/// that its integrator makes no use of, in the order of the list. Where Integrator::automatic may choose
-/// Integrator::vcm, the radius is of use.
+/// Keys of `render/photons` that the scene sets to other values than the defaults and that its integrator
+/// does not use, in the order of the list. With Integrator::automatic the radius counts as used if
+/// Integrator::vcm may be chosen.
 [[nodiscard]] std::vector<std::string_view> unused_photon_settings(const Scene& scene);
 
 }  // namespace abbe

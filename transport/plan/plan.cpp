@@ -5,53 +5,54 @@
 
 #include <fmt/format.h>
 
-#include "scene/extent.h"
-#include "transport/plan/aiming.h"
+#include "scene/working_range.h"
 #include "transport/plan/emissions.h"
 #include "transport/plan/light_bounds.h"
+#include "transport/plan/make_photon_guides.h"
 #include "transport/plan/photon_settings.h"
 
 namespace abbe {
 namespace {
 
-// Per light, whether photons start there at all.
+// True for each light that emits photons.
 std::vector<bool> traced_lights(const Scene& scene) {
   std::vector<bool> traced(scene.lights.size(), false);
   const std::vector<Technique> techniques = chosen_techniques(scene);
   if (!starts_at_lights(techniques)) return traced;
   const bool all = !uses(techniques, Technique::path);
-  const bool with_sky = !uses(techniques, Technique::light) && !uses(techniques, Technique::bdpt);
+  const bool with_environment = !uses(techniques, Technique::light) && !uses(techniques, Technique::bdpt);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    traced[i] = (with_sky || !scene.lights[i].is_environment()) && (all || scene.needs.light_is_traced[i]);
+    traced[i] =
+        (with_environment || !scene.lights[i].is_environment()) && (all || scene.features.light_is_traced[i]);
   return traced;
 }
 
-// How far [m] the nearest of what a lamp at a point lights is: a meter, and what rays along the axes meet;
-// not so near that what is lit evenly would be lost beside it.
-double nearest_lit(const Scene& scene, const Imath::V3f& lamp) {
-  constexpr double kLeast = 1e-3;  // of the scene's radius
+// Distance [m] of the nearest surface that a light at a point illuminates: a probe, and the hits of rays
+// along the axes. A lower bound prevents it from dominating evenly illuminated surfaces.
+double nearest_illuminated(const Scene& scene, const Imath::V3f& light_position) {
+  constexpr double kMinDistance = 1e-3;  // fraction of the scene's radius
   const double radius = scene_radius(scene.bounds);
   double nearest = radius;
-  if (is_meter(scene.camera))
-    nearest = std::min(nearest, (position(scene.camera) - Imath::V3d(lamp)).length());
+  if (is_probe(scene.camera))
+    nearest = std::min(nearest, (position(scene.camera) - Imath::V3d(light_position)).length());
   for (const Imath::V3f& axis : {Imath::V3f(1, 0, 0), Imath::V3f(0, 1, 0), Imath::V3f(0, 0, 1)})
     for (const Imath::V3f& direction : {axis, -axis})
-      if (const auto hit = scene.intersect(ray_at(lamp, direction, 0)))
+      if (const auto hit = scene.intersect(ray_at(light_position, direction, 0)))
         nearest = std::min(nearest, static_cast<double>(hit->t));
-  return std::max(nearest, kLeast * radius);
+  return std::max(nearest, kMinDistance * radius);
 }
 
-// What a pixel sees of a light, over its emission, to within a few orders of magnitude: the light fills the
-// view, or shines on what is nearest to it. Of a far lamp that is half way between its radiance and what it
-// lights.
+// Radiance at a pixel per emission of a light, to within a few orders of magnitude: the light fills the view,
+// or illuminates the nearest surface. For a distant light it is half way between its radiance and what it
+// illuminates.
 double strength(const Scene& scene, const Light& light) {
-  const auto lamp = far_away(light, scene);
-  if (const Imath::V3f* at = place(light); at != nullptr)
-    return std::pow(lamp ? lamp->distance : nearest_lit(scene, *at), -2);
-  return lamp ? std::min(1.0, lamp->radius / lamp->distance) : 1;
+  const auto distant = distant_light(light, scene);
+  if (const Imath::V3f* at = light_position(light); at != nullptr)
+    return std::pow(distant ? distant->distance : nearest_illuminated(scene, *at), -2);
+  return distant ? std::min(1.0, distant->radius / distant->distance) : 1;
 }
 
-// What lights of these emissions give a bright pixel, to within a few orders of magnitude: the strongest.
+// Film value of a bright pixel, to within a few orders of magnitude, from the strongest light.
 double nominal_value(const Scene& scene, std::span<const double> emissions) {
   const Imath::V2f center(static_cast<float>(scene.camera.width) / 2,
                           static_cast<float>(scene.camera.height) / 2);
@@ -62,49 +63,48 @@ double nominal_value(const Scene& scene, std::span<const double> emissions) {
   return nominal * weight;
 }
 
-// The strongest spectral emission of each light that the sensor sees, of which paths carry a part: without
-// the response, by which a sensor may count 1e18 electrons for a joule.
+// Maximum spectral emission of each light that the sensor records, without the response, because a sensor may
+// count 1e18 electrons per joule.
 std::vector<double> spectral_emissions(const Scene& scene, const Emissions& emissions) {
   std::vector<double> strongest;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    strongest.push_back(emissions.seen[i] > 0 ? mean_emission(scene.lights[i]).max() : 0);
+    strongest.push_back(emissions.sensor_emissions[i] > 0 ? mean_emission(scene.lights[i]).max() : 0);
   return strongest;
 }
 
-// Why floats cannot hold so weak or strong an exposure: what paths carry may be far less than a bright one
-// has, and far more.
-std::optional<Error> beyond_floats(double nominal, const char* unit) {
-  constexpr double kFaintest = 1e-32;  // a float's least is 1e-38,
-  constexpr double kBrightest = 1e35;  // its greatest 3e38
+// Error if the exposure is outside the range of floats, with a margin: paths may carry far less and far more
+// than a bright pixel.
+std::optional<Error> float_range_error(double nominal, const char* unit) {
+  constexpr double kFaintest = 1e-32;  // the smallest float is 1e-38
+  constexpr double kBrightest = 1e35;  // the largest float is 3e38
   const bool faint = nominal > 0 && nominal < kFaintest;
   if (!faint && !(nominal > kBrightest)) return std::nullopt;
   return Error(
       ErrorCode::scene, "",
-      fmt::format("exposure and lights give the film {} (got about {:.2g}{} where it is bright, allowed "
-                  "{:g} to {:g})",
-                  faint ? "less than floats can tell from nothing" : "more than floats can hold", nominal,
-                  unit, kFaintest, kBrightest));
+      fmt::format("exposure and lights give film values {} the range of floats (got about {:.2g}{} at a "
+                  "bright pixel, allowed {:g} to {:g}): change the exposure or the lights",
+                  faint ? "below" : "above", nominal, unit, kFaintest, kBrightest));
 }
 
-// The share of a light's power that comes to the scene.
-double arriving_share(const Scene& scene, const Light& light) {
-  const auto lamp = far_away(light, scene);
-  return lamp ? std::min(1.0, std::pow(scene_radius(scene.bounds) / lamp->distance, 2)) : 1;
+// Fraction of a light's power that arrives at the scene.
+double arriving_fraction(const Scene& scene, const Light& light) {
+  const auto distant = distant_light(light, scene);
+  return distant ? std::min(1.0, std::pow(scene_radius(scene.bounds) / distant->distance, 2)) : 1;
 }
 
 std::vector<double> sensor_weighted_powers(const Scene& scene, const Emissions& emissions) {
   std::vector<double> powers;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    powers.push_back(emissions.seen[i] * etendue(scene.lights[i], scene_radius(scene.bounds)) *
-                     arriving_share(scene, scene.lights[i]));
+    powers.push_back(emissions.sensor_emissions[i] * etendue(scene.lights[i], scene_radius(scene.bounds)) *
+                     arriving_fraction(scene, scene.lights[i]));
   return powers;
 }
 
-// Lamps at points, whose light falls off with the square of the distance wherever it is scattered.
-PowerLightSampler lamps_along_matter(const Scene& scene, const Emissions& emissions) {
+// Point and spot lights; their irradiance varies with the inverse squared distance along scattering segments.
+PowerLightSampler equiangular_light_sampler(const Scene& scene, const Emissions& emissions) {
   std::vector<double> powers = sensor_weighted_powers(scene, emissions);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    if (!scene.needs.scattering || !scene.lights[i].is<PointLight, SpotLight>()) powers[i] = 0;
+    if (!scene.features.scattering || !scene.lights[i].is<PointLight, SpotLight>()) powers[i] = 0;
   return PowerLightSampler(powers);
 }
 
@@ -114,49 +114,49 @@ WavelengthDistribution make_wavelengths(const Scene& scene, std::span<const Curv
   return {emissions, responses};
 }
 
-std::vector<WavelengthDistribution> make_own_wavelengths(const Scene& scene,
-                                                         std::span<const Curve> emissions) {
+std::vector<WavelengthDistribution> make_channel_wavelengths(const Scene& scene,
+                                                             std::span<const Curve> emissions) {
   std::vector<WavelengthDistribution> own;
-  if (scene.mosaic && !traits(scene.camera).displaces_lanes)
+  if (scene.mosaic && !traits(scene.camera).displaces_wavelengths)
     for (const Channel& channel : scene.channels)
       own.emplace_back(emissions, std::span(&envelope(channel), 1));
   return own;
 }
 
-// Of a sample where they are gathered, so that small films are not blurred more than large ones.
-constexpr std::uint64_t kLeastPhotonsPerSample = 16384;
+// Lower bound, so that small films are not blurred more than large ones.
+constexpr std::uint64_t kMinPhotonsPerSample = 16384;
 
-// Such that one photon would lie within, were they spread evenly over the ball around the scene.
+// Radius that contains one photon if photons are uniform over the ball around the scene.
 double first_gather_radius(const Scene& scene, std::uint64_t photons) {
   if (scene.render.photons.radius_m) return *scene.render.photons.radius_m;
-  const auto many = static_cast<double>(std::max(photons, kLeastPhotonsPerSample));
+  const auto many = static_cast<double>(std::max(photons, kMinPhotonsPerSample));
   return 2 * scene_radius(scene.bounds) / std::sqrt(many);
 }
 
 std::uint64_t photons_of(const Scene& scene, std::span<const Technique> techniques) {
   const std::uint64_t pixels =
       static_cast<std::uint64_t>(scene.camera.width) * static_cast<std::uint64_t>(scene.camera.height);
-  return traces_photons_alone(techniques)
-             ? scene.render.photons.per_sample.value_or(std::max(pixels, kLeastPhotonsPerSample))
+  return scene_sets_photon_count(techniques)
+             ? scene.render.photons.per_sample.value_or(std::max(pixels, kMinPhotonsPerSample))
              : pixels;
 }
 
-// A lens, as a meter of some size, may stand in several kinds of matter at once.
-bool camera_matter_varies(const Scene& scene) {
+// A lens or probe of finite size may be in several media at once.
+bool camera_media_vary(const Scene& scene) {
   const bool extended = traits(scene.camera).opening.has_value();
-  return (scene.needs.motion || extended) &&
-         matter_moves(scene, bounds(scene.camera), scene.camera.motion != nullptr || extended);
+  return (scene.features.motion || extended) &&
+         media_may_change(scene, bounds(scene.camera), scene.camera.motion != nullptr || extended);
 }
 
-void look_for_moving_matter(Plan& plan) {
+void find_varying_media(Plan& plan) {
   const Scene& scene = plan.scene;
   for (const Light& light : scene.lights)
-    plan.light_matter_moves.push_back(
-        !light.at_infinity() && !scene.is_far(light) &&
-        matter_moves(scene, bounds_of(light, scene), motion_of(light, scene.shapes) != nullptr));
+    plan.light_media_vary.push_back(
+        !light.at_infinity() && !scene.is_distant(light) &&
+        media_may_change(scene, bounds_of(light, scene), motion_of(light, scene.shapes) != nullptr));
 }
 
-// Whether light that camera paths are connected to is balanced with what they find by the model's scattering.
+// True if NEE of camera paths is balanced with emitter hits by BSDF sampling.
 bool balances_lights(const Scene& scene, const std::vector<Technique>& techniques) {
   return uses(techniques, Technique::path)
              ? scene.render.sampling.lights == LightStrategy::mis &&
@@ -164,39 +164,42 @@ bool balances_lights(const Scene& scene, const std::vector<Technique>& technique
              : uses(techniques, Technique::bdpt) || uses(techniques, Technique::vcm);
 }
 
-// Nothing being known of `refusal`.
+// Makes a plan without the checks of `refusal`.
 Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissions& emissions,
              const std::vector<bool>& traced) {
   const bool light_only = techniques == std::vector{Technique::light};
   const bool traces_light = starts_at_lights(techniques);
   const std::vector<Curve> equal_energy{Curve(1.0)};
-  const std::span<const Curve> seen =
+  const std::span<const Curve> emission_curves =
       uses(techniques, Technique::adjoint_brute) ? equal_energy : emissions.distinct;
   const std::uint64_t photons = photons_of(scene, techniques);
   std::vector<double> traced_powers = sensor_weighted_powers(scene, emissions);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (!traced[i]) traced_powers[i] = 0;
-  const WavelengthDistribution wavelengths = make_wavelengths(scene, seen);
-  const bool aims = uses(techniques, Technique::light);
-  Plan plan{scene,
-            wavelengths,
-            LightSampler(scene, emissions.seen, balances_lights(scene, techniques)),
-            PowerLightSampler(traced_powers),
-            traced,
-            {aims ? make_aims(scene, traced_powers, light_only) : std::vector<Aim>(), wavelengths},
-            std::move(techniques),
-            photons,
-            1,
-            nominal_value(scene, emissions.seen),
-            make_own_wavelengths(scene, seen),
-            around_camera(scene),
-            std::vector<MediumStack>(traces_light ? scene.lights.size() : 0)};
+  const WavelengthDistribution wavelengths = make_wavelengths(scene, emission_curves);
+  const bool guides_photons = uses(techniques, Technique::light);
+  Plan plan{
+      scene,
+      wavelengths,
+      LightSampler(scene, emissions.sensor_emissions, balances_lights(scene, techniques)),
+      PowerLightSampler(traced_powers),
+      traced,
+      {guides_photons ? make_photon_guides(scene, traced_powers, light_only) : std::vector<PhotonGuide>(),
+       wavelengths},
+      std::move(techniques),
+      photons,
+      1,
+      nominal_value(scene, emissions.sensor_emissions),
+      make_channel_wavelengths(scene, emission_curves),
+      media_at_camera(scene),
+      std::vector<MediumStack>(traces_light ? scene.lights.size() : 0)};
   plan.gather_radius = static_cast<float>(first_gather_radius(scene, photons));
-  plan.camera_matter_varies = camera_matter_varies(scene);
-  if (scene.needs.motion) look_for_moving_matter(plan);
-  if (uses(plan.techniques, Technique::path)) plan.lights_along = lamps_along_matter(scene, emissions);
+  plan.camera_media_vary = camera_media_vary(scene);
+  if (scene.features.motion) find_varying_media(plan);
+  if (uses(plan.techniques, Technique::path))
+    plan.equiangular_lights = equiangular_light_sampler(scene, emissions);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    if (traced[i]) plan.light_inside[i] = around_light(scene, scene.lights[i]).value();
+    if (traced[i]) plan.light_media[i] = media_at_light(scene, scene.lights[i]).value();
   if (traces_light && plan.traced_lights.empty()) {
     std::erase(plan.techniques, Technique::light);
     plan.traced.assign(scene.lights.size(), false);
@@ -204,25 +207,24 @@ Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissi
   return plan;
 }
 
-// Why photons cannot start from one of these lights.
-std::optional<Error> refusal_to_start(const Scene& scene, const std::vector<bool>& traced) {
+// Error for a light in `traced` from which photons cannot start.
+std::optional<Error> photon_start_error(const Scene& scene, const std::vector<bool>& traced) {
   for (std::size_t i = 0; i < traced.size(); ++i)
-    if (traced[i] && !around_light(scene, scene.lights[i]))
+    if (traced[i] && !media_at_light(scene, scene.lights[i]))
       return Error(ErrorCode::scene, scene.lights[i].name,
-                   "photons cannot start from a lamp that stands in two kinds of matter at once: "
-                   "--integrator path renders it");
+                   "photons cannot start from a light that is in two media at once: use --integrator path");
   return std::nullopt;
 }
 
 std::optional<Error> refusal_of(const Scene& scene, const Emissions& emissions) {
-  if (auto beyond = beyond_floats(nominal_value(scene, emissions.seen), "")) return beyond;
-  const double carried = nominal_value(scene, spectral_emissions(scene, emissions));
-  if (auto beyond = beyond_floats(carried, " J/m^2 and nm")) return beyond;
+  if (auto error = float_range_error(nominal_value(scene, emissions.sensor_emissions), "")) return error;
+  const double nominal_spectral = nominal_value(scene, spectral_emissions(scene, emissions));
+  if (auto error = float_range_error(nominal_spectral, " J/(m^2 nm)")) return error;
   std::vector<bool> traced = traced_lights(scene);
-  if (auto refused = refusal_to_start(scene, traced)) return refused;
-  const bool aims = uses(chosen_techniques(scene), Technique::light);
+  if (auto refused = photon_start_error(scene, traced)) return refused;
+  const bool guides_photons = uses(chosen_techniques(scene), Technique::light);
   for (std::size_t i = 0; i < traced.size(); ++i)
-    traced[i] = traced[i] && (aims || scene.lights[i].at_infinity());  // others shine everywhere
+    traced[i] = traced[i] && (guides_photons || scene.lights[i].at_infinity());  // other lights emit unguided
   return refusal(scene, traced, scene.render.integrator != Integrator::automatic);
 }
 
@@ -233,7 +235,7 @@ std::uint64_t photons_of_sample(const Scene& scene) {
 }
 
 std::uint64_t paths_to_any_pixel(const Plan& plan) {
-  const bool any = starts_at_lights(plan.techniques) || traits(plan.scene.camera).displaces_lanes;
+  const bool any = starts_at_lights(plan.techniques) || traits(plan.scene.camera).displaces_wavelengths;
   return any ? plan.photons : 0;
 }
 
@@ -249,7 +251,7 @@ Plan make_plan(const Scene& scene) {
 
 std::optional<Plan> make_photon_plan(const Scene& scene, const Emissions& emissions,
                                      const std::vector<bool>& lights) {
-  if (refusal(scene, lights, false) || refusal_to_start(scene, lights)) return std::nullopt;
+  if (refusal(scene, lights, false) || photon_start_error(scene, lights)) return std::nullopt;
   Plan plan = plan_of(scene, {Technique::path, Technique::light}, emissions, lights);
   if (plan.traced_lights.empty()) return std::nullopt;
   return plan;

@@ -8,83 +8,85 @@
 #include "scene/scene.h"
 #include "spectral/wavelength_distribution.h"
 #include "transport/path/medium_stack.h"
-#include "transport/plan/aim.h"
 #include "transport/plan/caustic_guide.h"
 #include "transport/plan/emissions.h"
 #include "transport/plan/light_sampler.h"
+#include "transport/plan/photon_guide.h"
 #include "transport/plan/power_light_sampler.h"
 #include "transport/plan/techniques.h"
 
 namespace abbe {
 
-/// Where photons and camera paths go to find light: alike everywhere, until pilots have taught it.
-struct Guides {
-  std::vector<Aim> aims;  ///< Per light where photons start at all.
-  /// Where photons that share no packet with camera paths draw their wavelengths from.
+/// Distributions that guide photons and camera paths; uniform until pilots have trained them.
+struct GuidingData {
+  std::vector<PhotonGuide> photon_guides;  ///< One per light if photons are traced.
+  /// Wavelengths of photons whose packet is not that of camera paths.
   WavelengthDistribution photon_wavelengths;
-  /// Where camera paths look for the caustics of lights that photons are not traced from,
-  CausticGuide caustics_of_paths = {};
-  /// and of all lights that they can meet, once they have come through specular matter from the camera.
-  CausticGuide caustics_seen_through = {};
-  /// Whether a tenth of what photons of pilots bring the film, or more, is brought by too few to aim by.
-  bool photons_are_rare = false;
-  /// Fraction of the film's light, as weighted in training, on branches that fewer than `Aim::kEnough` pilot
-  /// photons took. The guide knows these branches badly, so that their error is uncertain.
+  /// Caustics of lights that photons are not traced from, for camera paths.
+  CausticGuide path_caustics = {};
+  /// Caustics of all lights that camera paths can hit, for paths that arrive through specular surfaces.
+  CausticGuide caustics_through_specular = {};
+  /// True if a tenth of the pilots' film values, or more, comes from lights with too few pilot photons.
+  bool undertrained = false;
+  /// Fraction of the pilots' film values, weighted as for training, in branches with fewer than
+  /// `PhotonGuide::kEnoughPhotons` photons each. The guide may be incomplete for these.
   double undertrained_fraction = 0;
 };
 
-/// What a render works out once from the scene: which technique owns which light's caustics, where
-/// wavelengths and lights are drawn from, and where photons are aimed.
+/// Data that a render computes once from the scene: techniques and their lights, and all sampling
+/// distributions.
 struct Plan {
   const Scene& scene;
   WavelengthDistribution wavelengths;
-  LightSampler path_lights;         ///< For light sampling at path vertices.
-  PowerLightSampler traced_lights;  ///< For starting photons.
-  std::vector<bool> traced;         ///< Per light: the light tracer owns its caustics.
-  Guides guides;
-  std::vector<Technique> techniques;  ///< In the order of their list; those that own some path.
-  std::uint64_t photons;              ///< Of a sample.
-  std::uint32_t path_interval;        ///< A pixel has camera paths in one of so many samples.
+  LightSampler path_lights;         ///< Lights for next-event estimation.
+  PowerLightSampler traced_lights;  ///< Lights that emit photons.
+  std::vector<bool> traced;         ///< Per light: true if the light tracer owns its caustics.
+  GuidingData guides;
+  std::vector<Technique> techniques;  ///< Those that own some path, in the order of the enumeration.
+  std::uint64_t photons;              ///< Number per sample.
+  std::uint32_t path_interval;        ///< A pixel has camera paths in one of this many samples.
   double nominal_value;               ///< Order of magnitude of a film value.
-  /// Per channel, for the pixels of a mosaic; none where lanes of a path fall on several pixels.
-  std::vector<WavelengthDistribution> own_wavelengths;
-  MediumStack camera_inside;              ///< Where camera paths start,
-  std::vector<MediumStack> light_inside;  ///< and photons, likewise.
-  bool camera_matter_varies = false;      ///< Whether that depends on time, or on where on a lens or meter,
-  std::vector<bool> light_matter_moves = {};  ///< and per light on time; none where nothing moves.
-  float gather_radius = 0;                    ///< Of the first sample [m].
-  /// Those at points that camera paths connect to along matter that scatters.
-  PowerLightSampler lights_along{std::vector<double>()};
-  /// Whether those of light tracing go on lane by lane where glass disperses them, each along its own way.
-  bool photons_part = false;
-  /// Each camera path goes on in 2^this where it first scatters, if light is to be found behind.
-  int split_bits = 0;
+  /// Wavelengths per channel of a mosaic; empty if wavelengths of a path fall on several pixels.
+  std::vector<WavelengthDistribution> channel_wavelengths;
+  MediumStack camera_media;              ///< Media at the start of camera paths.
+  std::vector<MediumStack> light_media;  ///< Media at each traced light.
+  /// True if `camera_media` depends on time, or on the position on a lens or probe.
+  bool camera_media_vary = false;
+  /// True per light whose `light_media` depend on time; empty if nothing moves.
+  std::vector<bool> light_media_vary = {};
+  float gather_radius = 0;  ///< Radius for the first sample [m].
+  /// Point and spot lights that camera paths connect to along scattering segments.
+  PowerLightSampler equiangular_lights{std::vector<double>()};
+  /// True if photons of the light tracer split into wavelengths at dispersive glass.
+  bool photons_split_wavelengths = false;
+  /// Base-2 logarithm of the number of paths into which a camera path splits at its first scattering surface.
+  int log2_splits = 0;
 
-  /// Where camera paths through a pixel draw theirs from.
+  /// Wavelengths of camera paths through a pixel.
   [[nodiscard]] const WavelengthDistribution& wavelengths_at(int x, int y) const {
-    return own_wavelengths.empty() ? wavelengths
-                                   : own_wavelengths[static_cast<std::size_t>(scene.mosaic->at(x, y))];
+    return channel_wavelengths.empty()
+               ? wavelengths
+               : channel_wavelengths[static_cast<std::size_t>(scene.mosaic->at(x, y))];
   }
 };
 
-/// How many photons the scene asks for in a sample.
+/// Number of photons per sample.
 [[nodiscard]] std::uint64_t photons_of_sample(const Scene& scene);
 
-/// How many paths of a sample may expose any pixel: the photons, or where there are none the camera paths
-/// through a lens that displaces lanes; 0 where each pixel has its own alone.
+/// Number of paths per sample that may expose any pixel: photons, or the camera paths of a lens that
+/// disperses wavelengths; 0 if each pixel has only its own.
 [[nodiscard]] std::uint64_t paths_to_any_pixel(const Plan& plan);
 
-/// Why a scene cannot be rendered, as Error{scene}; nothing where a plan can be made. Photons cannot light it
-/// though it would have them, since a shape that light from afar meets is too large or too far for them, or a
-/// far lamp too large: the error names it. Or exposure and lights are so weak that floats hold nothing of it.
+/// Error{scene} if the scene cannot be rendered, nothing otherwise. Either photons cannot illuminate it
+/// although its integrator needs them: the error names the shape or distant light that is too large or too
+/// far. Or exposure and lights are outside the range of floats.
 [[nodiscard]] std::optional<Error> refusal(const Scene& scene);
 
-/// What can be told without tracing a path: photons are aimed at all of their targets alike. Throws what
-/// `refusal` tells.
+/// Plan without training, from the scene alone. Throws the error of `refusal`.
 [[nodiscard]] Plan make_plan(const Scene& scene);
 
-/// The plan of pilots that start photons from some lights of a scene of these emissions, whatever techniques
-/// the scene asks for. Nothing where none of them has power, or their photons are refused.
+/// Plan of pilots that trace photons from the given lights, whatever the scene's integrator. Nothing if none
+/// of the lights has power, or if photons cannot start from them.
 [[nodiscard]] std::optional<Plan> make_photon_plan(const Scene& scene, const Emissions& emissions,
                                                    const std::vector<bool>& lights);
 

@@ -5,11 +5,11 @@
 
 namespace abbe {
 
-/// A discrete distribution over the lights of a scene.
+/// Discrete distribution over the lights of a scene.
 class PowerLightSampler {
  public:
-  /// Proportional to `weights`, nine parts in ten, and uniform over the lights of positive weight for the
-  /// rest.
+  /// Nine in ten samples are in proportion to `weights`, the others uniform over the lights of positive
+  /// weight.
   explicit PowerLightSampler(const std::vector<double>& weights);
 
   struct SampledLight {
@@ -21,7 +21,7 @@ class PowerLightSampler {
   [[nodiscard]] bool empty() const { return cdf_.empty(); }
 
  private:
-  std::vector<float> cdf_;  // empty when no light has weight
+  std::vector<float> cdf_;  // empty if no light has weight
   std::vector<float> probability_;
 };
 

@@ -11,18 +11,18 @@ std::string_view name_of(Technique technique) {
 }
 
 std::vector<Technique> chosen_techniques(const Scene& scene) {
-  // Both lists have one order, but for `automatic`, which comes first, and their words too.
+  // Both lists and their names have the same order, after `automatic`.
   constexpr auto kLast = static_cast<std::size_t>(Technique::adjoint_brute);
   static_assert(static_cast<std::size_t>(Integrator::adjoint_brute) == kLast + 1);
   static_assert(kIntegratorNames.size() == kLast + 2);
   if (scene.render.integrator != Integrator::automatic)
     return {static_cast<Technique>(static_cast<int>(scene.render.integrator) - 1)};
-  if (scene.needs.light_tracing) return {Technique::path, Technique::light};
+  if (scene.features.light_tracing) return {Technique::path, Technique::light};
   return {Technique::path};
 }
 
 std::vector<PathClass> unreached(const Scene& scene) {
-  return unreached(scene, scene.needs, uses(chosen_techniques(scene), Technique::light));
+  return unsampled_paths(scene, scene.features, uses(chosen_techniques(scene), Technique::light));
 }
 
 bool uses(std::span<const Technique> techniques, Technique technique) {
@@ -49,14 +49,14 @@ std::string_view bias_of(Technique technique) {
 std::string owned_paths(Technique technique, std::span<const Technique> active, const Camera& camera) {
   switch (technique) {
     case Technique::bdpt:
-      return "E (S|D)* L but, of lights without area, those of no D beside another or L";
+      return "E (S|D)* L, except paths to lights without area that have no D next to another D or L";
     case Technique::photon_map:
     case Technique::ppm:
     case Technique::sppm:
     case Technique::vcm:
-      return "E (S|D)* L but, of lights without area, E S* L";
+      return "E (S|D)* L, except E S* L of lights without area";
     case Technique::photon_brute:
-      return "E (S|D)* L where E is an opening of some size";
+      return "E (S|D)* L if E has an opening of finite size";
     case Technique::adjoint_brute:
       return "E (S|D)* L of lights with area";
     case Technique::path:
@@ -64,11 +64,11 @@ std::string owned_paths(Technique technique, std::span<const Technique> active, 
       break;
   }
   const bool alone = active.size() == 1;
-  if (technique == Technique::light && is_meter(camera))
+  if (technique == Technique::light && is_probe(camera))
     return alone ? "E (S|D)* L"
-                 : "E S L and E S (S|D)* S L of traced lights, E (S|D)* S L of those without area";
+                 : "E S L and E S (S|D)* S L of traced lights, E (S|D)* S L of lights without area";
   if (technique == Technique::light) return alone ? "E D (S|D)* L" : "E D (S|D)* S L of traced lights";
-  return alone ? "E (S|D)* L" : "E (S|D)* L but those of light";
+  return alone ? "E (S|D)* L" : "E (S|D)* L, except paths owned by light";
 }
 
 }  // namespace abbe

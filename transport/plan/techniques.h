@@ -7,51 +7,52 @@
 #include <vector>
 
 #include "scene/scene.h"
-#include "scene/unreached.h"
+#include "scene/unsampled_paths.h"
 
 namespace abbe {
 
-/// The closed list of techniques from which a plan chooses. Each estimates the light of the classes of paths
-/// that it owns, and no path has two owners.
+/// Techniques from which a plan chooses. Each estimates the classes of paths that it owns; no path has two
+/// owners.
 enum class Technique : std::uint8_t {
-  path,   ///< Path tracing from the camera [Kajiya1986]: `PathTracer`.
+  path,   ///< Path tracing [Kajiya1986]: `PathTracer`.
   light,  ///< Light tracing [Arvo1986]: `LightTracer`.
-  bdpt,   ///< Bidirectional path tracing [Veach1997]: `BidirectionalTracer`. Alone.
-  /// Photon density estimation: `PhotonGatherer`. Alone. With so many nearest photons [Jensen1996];
+  bdpt,   ///< Bidirectional path tracing [Veach1997]: `BidirectionalTracer`. Used alone.
+  /// Photon density estimation with the nearest photons [Jensen1996]: `PhotonGatherer`. Used alone.
   photon_map,
-  /// within a radius that shrinks from sample to sample, at the same places [Hachisuka2008],
+  /// Photon density estimation with a decreasing radius at the same points [Hachisuka2008]: `PhotonGatherer`.
+  /// Used alone.
   ppm,
-  /// or at new ones [Hachisuka2009].
+  /// Photon density estimation with a decreasing radius at new points [Hachisuka2009]: `PhotonGatherer`. Used
+  /// alone.
   sppm,
-  vcm,            ///< Vertex connection and merging [Georgiev2012]: `BidirectionalTracer`. Alone.
-  photon_brute,   ///< Photons that come through the lens by themselves: `BrutePhotonTracer`. Alone.
-  adjoint_brute,  ///< Paths from the camera that meet lights by themselves: `AdjointBruteTracer`. Alone.
+  vcm,            ///< Vertex connection and merging [Georgiev2012]: `BidirectionalTracer`. Used alone.
+  photon_brute,   ///< Photons that enter the lens by chance: `BrutePhotonTracer`. Used alone.
+  adjoint_brute,  ///< Camera paths that hit lights by chance: `AdjointBruteTracer`. Used alone.
 };
 
-/// The name of a technique in scenes and answers.
+/// Name of a technique in scene files and answers.
 [[nodiscard]] std::string_view name_of(Technique technique);
 
-/// The techniques that the scene's integrator allows and the scene asks for, in the order of the list.
+/// Techniques of the scene's integrator, in the order of the enumeration.
 [[nodiscard]] std::vector<Technique> chosen_techniques(const Scene& scene);
 
-/// The classes of paths of a scene that they do not reach.
+/// Classes of light paths of a scene that these techniques cannot sample.
 [[nodiscard]] std::vector<PathClass> unreached(const Scene& scene);
 
-/// Whether a technique is among some.
+/// True if `techniques` contains `technique`.
 [[nodiscard]] bool uses(std::span<const Technique> techniques, Technique technique);
 
-/// Whether one of some starts paths from lights.
+/// True if one of the techniques starts paths at lights.
 [[nodiscard]] bool starts_at_lights(std::span<const Technique> techniques);
 
-/// Whether a technique gathers photons that all paths from lights of a sample leave first.
+/// True if a technique gathers photons that the light paths of a sample store first.
 [[nodiscard]] bool gathers_photons(Technique technique);
 
-/// What a technique's estimate converges to with more samples, where that is not plainly the light: "", or
-/// why.
+/// Reason why a technique's estimate is biased; "" if it is unbiased.
 [[nodiscard]] std::string_view bias_of(Technique technique);
 
-/// Tells which classes of paths to a camera a technique owns beside the others of `active`, in the notation
-/// of [Heckbert1990]: E is the camera, S an event of a single direction, D any other, and L the light.
+/// Classes of camera paths that a technique owns in addition to the others of `active`, in the notation of
+/// [Heckbert1990]: E is the camera, S a delta event, D any other event, and L the light.
 [[nodiscard]] std::string owned_paths(Technique technique, std::span<const Technique> active,
                                       const Camera& camera);
 

@@ -11,98 +11,104 @@
 #include <fmt/format.h>
 
 #include "transport/plan/plan.h"
-#include "transport/render/learnt_plan.h"
 #include "transport/render/pilot.h"
 #include "transport/render/technique_pilots.h"
+#include "transport/render/trained_plan.h"
 
 namespace abbe {
 namespace {
 
-// What a ray of bidirectional path tracing takes over one of path tracing, with the weights that come with
-// it, where paths are long: 1.9 in the Cornell box, about 1 where they are short.
-constexpr double kCostOfJoinedRay = 2;
+// Cost of a ray of bidirectional path tracing, with its MIS weights, relative to one of path tracing: 1.9 in
+// the Cornell box, where paths are long, about 1 where they are short.
+constexpr double kConnectedRayCost = 2;
 
-// By how much the pilots must prefer another way.
-constexpr double kLeastRatio = 1.5;
+// Cost ratio above which the alternative is chosen.
+constexpr double kMinCostRatio = 1.5;
 
-// Pixels that pilots look at.
+// Pixels through which pilots trace paths, in the second and third round.
 constexpr std::uint32_t kFewPixels = 512;
 constexpr std::uint32_t kManyPixels = 4096;
 
-// Films of meters have few pixels, whose mean takes many samples.
-constexpr double kRaysOfMeter = 1 << 21;
+// Films of probes have few pixels, whose mean takes many samples.
+constexpr double kProbeRayBudget = 1 << 21;
 
-// The light that merging finds and nothing else.
-std::vector<PathClass> found_by_merging(const Scene& scene, const Scene& merging) {
-  std::vector<PathClass> found = unreached(scene);
-  const std::vector<PathClass> still = unreached(merging);
-  std::erase_if(found, [&](const PathClass& lost) {
-    return std::find(still.begin(), still.end(), lost) != still.end();
+// Light paths that only photon merging samples.
+std::vector<PathClass> paths_found_by_merging(const Scene& scene, const Scene& merging) {
+  std::vector<PathClass> merging_only = unreached(scene);
+  const std::vector<PathClass> unsampled_by_merging = unreached(merging);
+  std::erase_if(merging_only, [&](const PathClass& path_class) {
+    return std::find(unsampled_by_merging.begin(), unsampled_by_merging.end(), path_class) !=
+           unsampled_by_merging.end();
   });
-  return found;
+  return merging_only;
 }
 
-// Another way than path tracing, and light tracing beside it, what error costs by it, and the rays that
-// pilots may cast to find out.
-struct OtherWay {
+// An alternative to path tracing with light tracing: its cost of error, and the rays that pilots may cast.
+struct AlternativeIntegrator {
   Integrator integrator;
-  double (*cost)(const PilotFindings& found);
-  double most_rays;
+  double (*cost)(const TechniqueStatistics& statistics);
+  double max_rays;
 };
 
-double cost_of_joining(const PilotFindings& joined) {
-  return (joined.path_variance + joined.photon_variance) * joined.path_rays * kCostOfJoinedRay;
+double bidirectional_cost(const TechniqueStatistics& bidirectional) {
+  return (bidirectional.path_variance + bidirectional.photon_variance) * bidirectional.path_rays *
+         kConnectedRayCost;
 }
 
-double cost_of_photons(const PilotFindings& found) {
-  return found.photon_variance * found.photon_rays;
+double photon_cost(const TechniqueStatistics& statistics) {
+  return statistics.photon_variance * statistics.photon_rays;
 }
 
-// And by path tracing, and light tracing beside it. Light that camera paths find by chance so rare that no
-// pilot of theirs has is in what the joined ones tell of it.
-double cost_apart(const PilotFindings& apart, const PilotFindings& joined) {
-  const double squared_mean = apart.path_square - apart.path_variance;
-  const double path_variance = std::max(apart.path_variance, joined.path_tracing_square - squared_mean);
-  return std::pow(
-      std::sqrt(path_variance * apart.path_rays) + std::sqrt(apart.photon_variance * apart.photon_rays), 2);
+// Cost of error of path tracing with light tracing. Camera paths may hit some light so rarely that no pilot
+// of theirs has hit it; the bidirectional pilots then estimate its mean square.
+double path_and_light_cost(const TechniqueStatistics& unidirectional,
+                           const TechniqueStatistics& bidirectional) {
+  const double squared_mean = unidirectional.path_square - unidirectional.path_variance;
+  const double path_variance =
+      std::max(unidirectional.path_variance, bidirectional.path_tracing_square - squared_mean);
+  return std::pow(std::sqrt(path_variance * unidirectional.path_rays) +
+                      std::sqrt(unidirectional.photon_variance * unidirectional.photon_rays),
+                  2);
 }
 
-// The findings with a variance of camera paths two standard errors larger: few samples more often miss the
-// rare paths of high variance than contain them.
-PilotFindings with_tail(PilotFindings apart) {
-  apart.path_variance += 2 * apart.path_variance_error;
-  apart.path_square += 2 * apart.path_variance_error;
-  return apart;
+// The statistics with the variance of camera paths increased by two standard errors: few samples more often
+// miss the rare paths of high variance than contain them.
+TechniqueStatistics with_tail(TechniqueStatistics unidirectional) {
+  unidirectional.path_variance += 2 * unidirectional.path_variance_error;
+  unidirectional.path_square += 2 * unidirectional.path_variance_error;
+  return unidirectional;
 }
 
-// By few pilots first, as in most scenes it is plain enough, and by very few for what they cost. None where
-// the film is too small for them to be worth that, or has no light that would tell.
-std::optional<double> cost_ratio(const Plan& apart, const Scene& other, const OtherWay& way, int threads) {
+// Cost ratio of path and light tracing over the alternative. Few pilots decide most scenes; a first, very
+// small round measures only the rays per pixel. Empty if the film is too small for the pilots to pay off, or
+// too dark.
+std::optional<double> cost_ratio(const Plan& unidirectional, const Scene& alternative_scene,
+                                 const AlternativeIntegrator& alternative, int threads) {
   constexpr std::uint32_t kFirst = 4;
-  constexpr double kPlain = 0.75;
-  double rays_per_pixel = 2 * kPilotPathsPerPixel;  // at least, of both
-  if (kFewPixels * rays_per_pixel > way.most_rays) return std::nullopt;
-  const Plan plan = make_learnt_plan(other, threads);
+  constexpr double kStopRatio = 0.75;
+  double rays_per_pixel = 2 * kPilotPathsPerPixel;  // lower bound, for both plans
+  if (kFewPixels * rays_per_pixel > alternative.max_rays) return std::nullopt;
+  const Plan plan = make_trained_plan(alternative_scene, threads);
   std::optional<double> ratio;
   for (const std::uint32_t pixels : {kFirst, kFewPixels, kManyPixels}) {
-    if (pixels * rays_per_pixel > way.most_rays) return std::nullopt;
-    const PilotFindings by_paths = try_techniques(apart, threads, pixels);
-    const PilotFindings by_other = try_techniques(plan, threads, pixels);
-    rays_per_pixel = static_cast<double>(by_paths.rays + by_other.rays) / pixels;
-    const double cost = way.cost(by_other);
+    if (pixels * rays_per_pixel > alternative.max_rays) return std::nullopt;
+    const TechniqueStatistics by_paths = measure_techniques(unidirectional, threads, pixels);
+    const TechniqueStatistics by_alternative = measure_techniques(plan, threads, pixels);
+    rays_per_pixel = static_cast<double>(by_paths.rays + by_alternative.rays) / pixels;
+    const double cost = alternative.cost(by_alternative);
     if (pixels == kFirst || !(cost > 0)) continue;
-    ratio = cost_apart(by_paths, by_other) / cost;
-    if (!(cost_apart(with_tail(by_paths), by_other) / cost > kPlain)) break;
+    ratio = path_and_light_cost(by_paths, by_alternative) / cost;
+    if (!(path_and_light_cost(with_tail(by_paths), by_alternative) / cost > kStopRatio)) break;
   }
   return ratio && std::isfinite(*ratio) ? ratio : std::nullopt;
 }
 
-// What photons bring a meter that they run into joined paths would not find. Photons alone may do, where they
-// reach everything.
-OtherWay other_way(const Plan& plan) {
-  if (is_meter(plan.scene.camera) && uses(plan.techniques, Technique::light))
-    return {Integrator::light, cost_of_photons, kRaysOfMeter};
-  return {Integrator::bdpt, cost_of_joining, rays_of_pilots(plan.scene.camera)};
+// Bidirectional path tracing would not sample light that photons add by hitting a probe. Photons alone may
+// suffice.
+AlternativeIntegrator choose_alternative(const Plan& plan) {
+  if (is_probe(plan.scene.camera) && uses(plan.techniques, Technique::light))
+    return {Integrator::light, photon_cost, kProbeRayBudget};
+  return {Integrator::bdpt, bidirectional_cost, pilot_ray_budget(plan.scene.camera)};
 }
 
 Scene with_integrator(Scene scene, Integrator integrator) {
@@ -113,31 +119,34 @@ Scene with_integrator(Scene scene, Integrator integrator) {
 }  // namespace
 
 IntegratorChoice choose_integrator(const Scene& scene, int threads) {
-  const bool open = scene.render.integrator == Integrator::automatic;
+  const bool is_automatic = scene.render.integrator == Integrator::automatic;
   if (const auto refused = refusal(scene)) {
     const bool by_paths =
-        open && is_meter(scene.camera) && !refusal(with_integrator(scene, Integrator::path));
+        is_automatic && is_probe(scene.camera) && !refusal(with_integrator(scene, Integrator::path));
     if (by_paths) return {Integrator::path, refused->what()};
     return {scene.render.integrator, ""};
   }
-  if (open && scene.render.consistent) {
+  if (is_automatic && scene.render.consistent) {
     const Scene merging = with_integrator(scene, Integrator::vcm);
-    const std::vector<PathClass> found = found_by_merging(scene, merging);
-    if (!found.empty() && !refusal(merging))
-      return {Integrator::vcm, fmt::format("merging finds {}", fmt::join(found, "; "))};
+    const std::vector<PathClass> merging_only = paths_found_by_merging(scene, merging);
+    if (!merging_only.empty() && !refusal(merging))
+      return {Integrator::vcm, fmt::format("only photon merging samples {}", fmt::join(merging_only, "; "))};
   }
-  Plan plan = make_learnt_plan(scene, threads);
-  const OtherWay way = other_way(plan);
-  const Integrator by = way.integrator;
-  const Scene other = with_integrator(scene, by);
-  const bool reaches_enough = by != Integrator::light || unreached(other).empty();
+  Plan plan = make_trained_plan(scene, threads);
+  const AlternativeIntegrator alternative = choose_alternative(plan);
+  const Integrator candidate = alternative.integrator;
+  const Scene alternative_scene = with_integrator(scene, candidate);
+  const bool samples_all_light = candidate != Integrator::light || unreached(alternative_scene).empty();
   std::optional<double> ratio;
-  if (open && !refusal(other) && reaches_enough) ratio = cost_ratio(plan, other, way, threads);
-  if (ratio && *ratio > kLeastRatio)
-    return {by,
-            fmt::format("pilots take it for {:.2g} times as cheap at equal error as path tracing", *ratio),
-            ratio, by};
-  return {scene.render.integrator, "", ratio, by, std::make_shared<const Guides>(std::move(plan.guides))};
+  if (is_automatic && !refusal(alternative_scene) && samples_all_light)
+    ratio = cost_ratio(plan, alternative_scene, alternative, threads);
+  if (ratio && *ratio > kMinCostRatio)
+    return {candidate,
+            fmt::format("pilots estimate that it is {:.2g} times as cheap as path tracing at equal error",
+                        *ratio),
+            ratio, candidate};
+  return {scene.render.integrator, "", ratio, candidate,
+          std::make_shared<const GuidingData>(std::move(plan.guides))};
 }
 
 }  // namespace abbe

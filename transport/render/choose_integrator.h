@@ -8,29 +8,36 @@
 
 namespace abbe {
 
-/// What a scene's integrator comes to, and why.
+/// Integrator with which a scene is rendered, and the reason for it.
 struct IntegratorChoice {
   Integrator integrator;
-  std::string because;  ///< Empty where there was nothing to choose.
-  /// What path tracing, with light tracing where the scene needs it, costs over what another way does at
-  /// equal error, by pilots.
+  std::string reason;  ///< Empty if the result is the scene's own setting.
+  /// Cost of path tracing, with light tracing if the plan has it, divided by the cost of `alternative` at
+  /// equal error. Pilots estimate it; empty if they were not run.
   std::optional<double> cost_ratio = {};
-  Integrator other = Integrator::bdpt;  ///< That way.
-  /// What pilots have taught of the scene on the way, for that integrator, as `RenderOptions` takes it.
-  std::shared_ptr<const Guides> guides = {};
+  Integrator alternative = Integrator::bdpt;  ///< Integrator with which the pilots compared path tracing.
+  /// Guiding data that pilots trained for `integrator`, to be passed on as `RenderOptions::guides`; may be
+  /// null.
+  std::shared_ptr<const GuidingData> guides = {};
 };
 
-/// Chooses for a scene that leaves it to us (Integrator::automatic); of others it is theirs.
+/// Chooses the integrator of a scene with Integrator::automatic. A scene that names its integrator is
+/// rendered with it.
 ///
-/// Where paths are left unreached that merging finds, and the scene allows what is consistent and not
-/// unbiased, it is Integrator::vcm. Else pilots estimate for both what the error costs, sum V c with the
-/// relative variance V of a sample's film values and the cost c of the sample: of camera paths with photons
-/// beside them (sqrt(V c) + sqrt(V' c'))^2, as the best share of both has it. It is Integrator::bdpt where
-/// that costs so much less that the pilots' noise does not make the difference, on a meter that photons run
-/// into and where they reach everything Integrator::light likewise, else Integrator::automatic, as it is
-/// where the film has so few pixels that pilots would not pay. A function of the scene alone, whatever its
-/// seed and samples, and the threads. Never throws what `make_plan` does: there it is Integrator::automatic,
-/// or on a meter Integrator::path where that is not refused.
+/// - Integrator::vcm if the scene allows consistent estimators (biased, converging) and photon merging
+///   samples light paths that cannot be sampled otherwise.
+/// - Integrator::light for a probe that photons can hit, if light tracing samples all light paths and is
+///   cheaper.
+/// - Integrator::bdpt for all other sensors, if it is cheaper.
+/// - Integrator::automatic otherwise, and for films so small that pilots would cost more than they save.
+///
+/// Pilots estimate the cost of error, sum V c, with the relative variance V of a sample's film values and its
+/// cost c in rays. Camera paths combined with photons cost (sqrt(V c) + sqrt(V' c'))^2, the minimum over all
+/// allocations. An alternative is cheaper if it saves more than the noise of the pilots explains.
+///
+/// The result depends on the scene alone, not on its seed, its samples or `threads`. The function throws none
+/// of the errors of `make_plan`. For a scene that `make_plan` rejects, it returns the scene's integrator, or
+/// Integrator::path for a probe if that is possible.
 [[nodiscard]] IntegratorChoice choose_integrator(const Scene& scene, int threads);
 
 }  // namespace abbe

@@ -8,13 +8,13 @@
 
 namespace abbe {
 
-/// Time that some work took, by the clock and of all threads together.
+/// Wall-clock time and CPU time of all threads that some work took.
 struct Cost {
   double wall_s = 0;
   double cpu_s = 0;
 };
 
-/// Measures from its making.
+/// Measures the time since its construction.
 class CostMeter {
  public:
   [[nodiscard]] Cost spent() const {
@@ -27,7 +27,7 @@ class CostMeter {
   double cpu_start_ = process_cpu_seconds();
 };
 
-/// Returns work that does `work` and adds its cost to `sum`.
+/// Returns a function that runs `work` and adds its cost to `sum`.
 [[nodiscard]] inline std::function<void()> metered(Cost& sum, std::function<void()> work) {
   return [&sum, work = std::move(work)] {
     const CostMeter meter;

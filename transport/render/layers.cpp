@@ -18,20 +18,20 @@ std::vector<std::string> layers_of_lights(const Scene& scene) {
   return names;
 }
 
-// Lights may share one of these layers by having one name, not by what files make of two.
-void refuse_names_that_become_one(const Scene& scene, const std::vector<std::string>& layers) {
+// Lights with one name have one layer. Two names that become equal as channel names are an error.
+void require_distinct_layers(const Scene& scene, const std::vector<std::string>& layers) {
   std::map<std::string, std::string> names;
   for (const Light& light : scene.lights) {
     const auto& [layer, other] = *names.try_emplace(layer_name(light.name), light.name).first;
     if (other != light.name && std::find(layers.begin(), layers.end(), layer) != layers.end())
       throw Error(ErrorCode::usage, "--layers",
-                  fmt::format("lights \"{}\" and \"{}\" would both be {}{}: call one otherwise", other,
-                              light.name, kLightLayer, layer));
+                  fmt::format("lights \"{}\" and \"{}\" would both give the layer {}{}: rename one of them",
+                              other, light.name, kLightLayer, layer));
   }
 }
 
-std::vector<std::string> each_once(std::vector<std::string> all,
-                                   const std::optional<std::string>& more = {}) {
+std::vector<std::string> unique_names(std::vector<std::string> all,
+                                      const std::optional<std::string>& more = {}) {
   if (more) all.push_back(*more);
   std::vector<std::string> once;
   for (const std::string& name : all)
@@ -41,9 +41,9 @@ std::vector<std::string> each_once(std::vector<std::string> all,
 
 }  // namespace
 
-std::size_t Layers::of(const LightHistory& light) const {
-  if (!of_light.empty()) return of_light[light.light];
-  return std::min(static_cast<std::size_t>(light.events), names.size() - 1);
+std::size_t Layers::layer_of(const ContributionInfo& light) const {
+  if (!layer_of_light.empty()) return layer_of_light[light.light];
+  return std::min(static_cast<std::size_t>(light.depth), names.size() - 1);
 }
 
 Layers bounce_layers(int last) {
@@ -63,30 +63,32 @@ std::string layer_name(std::string light) {
 }
 
 Layers light_layers(const Scene& scene, const std::vector<std::string>& names) {
-  const std::vector<std::string> there = layers_of_lights(scene);
-  if (there.empty()) throw Error(ErrorCode::usage, "--layers", "the scene has no light to tell apart");
+  const std::vector<std::string> available = layers_of_lights(scene);
+  if (available.empty())
+    throw Error(ErrorCode::usage, "--layers", "the scene has no light to make a layer of");
   for (const std::string& name : names)
-    if (std::find(there.begin(), there.end(), layer_name(name)) == there.end())
+    if (std::find(available.begin(), available.end(), layer_name(name)) == available.end())
       throw Error(ErrorCode::usage, "--layers",
-                  fmt::format("no light has such a name (got \"{}\", allowed {})", name,
-                              fmt::join(each_once(there), ", ")));
-  std::vector<std::string> asked;
-  for (const std::string& name : names) asked.push_back(layer_name(name));
-  Layers layers{each_once(names.empty() ? there : asked)};
-  refuse_names_that_become_one(scene, layers.names);
-  const bool all = std::all_of(there.begin(), there.end(), [&](const std::string& name) {
+                  fmt::format("no light has this name (got \"{}\", allowed {})", name,
+                              fmt::join(unique_names(available), ", ")));
+  std::vector<std::string> requested;
+  for (const std::string& name : names) requested.push_back(layer_name(name));
+  Layers layers{unique_names(names.empty() ? available : requested)};
+  require_distinct_layers(scene, layers.names);
+  const bool all = std::all_of(available.begin(), available.end(), [&](const std::string& name) {
     return std::find(layers.names.begin(), layers.names.end(), name) != layers.names.end();
   });
-  if (!all && std::find(there.begin(), there.end(), kRestOfLights) != there.end())
-    throw Error(ErrorCode::usage, "--layers",
-                fmt::format("a light has the name \"{}\", that of all others together: call it otherwise",
-                            kRestOfLights));
-  if (!all) layers.names = each_once(layers.names, kRestOfLights);
-  for (const std::string& name : there) {
+  if (!all && std::find(available.begin(), available.end(), kRestOfLights) != available.end())
+    throw Error(
+        ErrorCode::usage, "--layers",
+        fmt::format("a light has the name \"{}\", which is that of the layer for all other lights: rename it",
+                    kRestOfLights));
+  if (!all) layers.names = unique_names(layers.names, kRestOfLights);
+  for (const std::string& name : available) {
     auto found = std::find(layers.names.begin(), layers.names.end(), name);
     if (found == layers.names.end())
       found = std::find(layers.names.begin(), layers.names.end(), kRestOfLights);
-    layers.of_light.push_back(static_cast<std::uint32_t>(found - layers.names.begin()));
+    layers.layer_of_light.push_back(static_cast<std::uint32_t>(found - layers.names.begin()));
   }
   for (std::string& name : layers.names) name.insert(0, kLightLayer);
   return layers;

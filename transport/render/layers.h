@@ -12,31 +12,33 @@
 
 namespace abbe {
 
-/// How the light of a film is told apart: each path belongs to one layer, and the layers add up to the film.
+/// Layers of a film. Each path belongs to one layer, and the layers add up to the film.
 struct Layers {
   std::vector<std::string> names;
-  /// Of each light of the scene; where it is empty, the layer is the number of events between the light and
-  /// the camera, or the last.
-  std::vector<std::uint32_t> of_light = {};
+  /// Layer of each light of the scene. If empty, the layer of a path is its number of scattering events,
+  /// limited to the last layer.
+  std::vector<std::uint32_t> layer_of_light = {};
 
-  [[nodiscard]] std::size_t of(const LightHistory& light) const;
+  [[nodiscard]] std::size_t layer_of(const ContributionInfo& light) const;
 };
 
-/// The terms of the Neumann series [Kajiya1986]: `bounce0`, light that is seen as it is emitted, `bounce1`,
-/// light that was scattered once, and so on; what has had `last` events or more is in one layer,
+/// Layers for the terms of the Neumann series [Kajiya1986]. `bounce0` holds directly visible emission,
+/// `bounce1` light that was scattered once, and so on. Paths with `last` or more events go to the layer
 /// `bounce<last>plus`.
 [[nodiscard]] Layers bounce_layers(int last);
-/// What the layer of all lights that have none of their own is called.
+/// Name of the layer for all lights without a layer of their own.
 inline constexpr const char* kRestOfLights = "rest";
-/// A layer `light.NAME` for each of some lights, by the names that `layer_name` makes of theirs, which
-/// several lights may have, and `light.rest` for all others, if there are some. Of no names, all that the
-/// scene's lights have. Throws Error{usage} for a name that none has, for a scene without lights, where two
-/// names become that of one layer, and where one of them is called `rest` while there are others.
+/// One layer `light.NAME` for each of `names`, and `light.rest` for all other lights if there are any. Names
+/// are compared as `layer_name` writes them; several lights with one name have one layer. Without `names`,
+/// all names of the lights are used. Throws Error{usage} if
+/// - the scene has no light, or no light has one of the names;
+/// - two different light names give the same layer name;
+/// - a light is called `rest` although other lights are left for `light.rest`.
 [[nodiscard]] Layers light_layers(const Scene& scene, const std::vector<std::string>& names);
-/// The name of a light with _ for all but letters, digits, - and _, so that channels of files can have it.
+/// The name of a light as part of a channel name: every character but letters, digits, - and _ becomes _.
 [[nodiscard]] std::string layer_name(std::string light);
 
-/// The shape of the sums of so many layers of a film.
+/// Shape of a film that holds the planes of `film` once for each layer.
 [[nodiscard]] FilmShape layered(FilmShape film, std::size_t layers);
 
 }  // namespace abbe

@@ -26,14 +26,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Keys of the header that belong to the sums; all others are the identity.
+// Keys of the header that describe the sums; all others are the identity.
 constexpr const char* kShape = "film";
-constexpr const char* kSamples = "samples";  // or `kAreasKey`, where the pixels do not all have the same
+constexpr const char* kSamples = "samples";  // replaced by `kAreasKey` if pixels have different samples
 constexpr const char* kCounts = "paths_rays_nonfinite_cut";
 constexpr const char* kCutSum = "cut_sum";  // its upper and lower 64 bits
-constexpr std::array<std::string_view, 9> kTellNothing{"scene",        kStatedSamplesKey, "to_xyz_d65",
-                                                       kNoPictureKey,  kWhiteKey,         kWhiteXyKey,
-                                                       kWhiteAskedKey, kLightsXyKey,      kShapeNamesKey};
+constexpr std::array<std::string_view, 9> kNonDistinguishingKeys{
+    "scene",     kStatedSamplesKey,  "to_xyz_d65", kNoPictureKey, kWhiteKey,
+    kWhiteXyKey, kWhiteRequestedKey, kLightsXyKey, kShapeNamesKey};
 constexpr const char* kUnfinished = "unfinished";  // samples of a pass from first to last, and its items done
 
 template <typename Number>
@@ -56,14 +56,14 @@ std::optional<FilmShape> parse_shape(const std::string& text) {
   const auto photons = static_cast<std::uint64_t>((*n)[5]);
   const auto interval = static_cast<std::uint32_t>((*n)[6]);
   const FilmShape shape{as_int(0), as_int(1), as_int(2), as_int(3), as_int(4), photons, interval};
-  constexpr double kMostSums = 0x1p48;  // of which no machine holds the bytes
-  constexpr int kMostExponent = 2048;   // of what doubles hold, and the digits below
-  const auto up_to = [](int number, int most) { return number > 0 && number <= most; };
+  constexpr double kMaxSums = 0x1p48;  // more than the memory of any machine
+  constexpr int kMaxExponent = 2048;   // range of doubles, with the digits below
+  const auto up_to = [](int number, int limit) { return number > 0 && number <= limit; };
   const bool possible =
       up_to(shape.width, kMaxImageEdge) && up_to(shape.height, kMaxImageEdge) &&
       up_to(shape.channels, 1 << 14) && up_to(shape.replicates, 1 << 14) &&
-      double{1} * shape.width * shape.height * shape.channels * shape.replicates <= kMostSums &&
-      std::abs((*n)[4]) <= kMostExponent;
+      double{1} * shape.width * shape.height * shape.channels * shape.replicates <= kMaxSums &&
+      std::abs((*n)[4]) <= kMaxExponent;
   return possible ? std::optional(shape) : std::nullopt;
 }
 
@@ -75,12 +75,12 @@ std::string take(FilmIdentity& header, const char* key) {
 /// The header of a part or a checkpoint, parsed.
 struct ParsedHeader {
   PartHeader header;
-  SampleRanges samples = {};  ///< Of all pixels alike; else none.
+  SampleRanges samples = {};  ///< Samples of all pixels; empty if pixels differ.
   std::optional<UnfinishedPass> unfinished = {};
   RenderStats stats = {};
 };
 
-// Of a film that crops were joined to. False for areas beyond it.
+// Reads the areas of a merged film. Returns false if they do not fill its crop.
 bool take_areas(FilmIdentity& header, ParsedHeader& parsed) {
   auto areas = parse_sampled_areas(take(header, kAreasKey));
   if (!areas || bounds(*areas) != pixels_of(parsed.header.shape)) return false;
@@ -88,7 +88,7 @@ bool take_areas(FilmIdentity& header, ParsedHeader& parsed) {
   return true;
 }
 
-// Takes the samples of a film, and those of a pass that are not among them. False for what cannot be.
+// Reads the samples of a film and of its unfinished pass. Returns false if they are invalid or overlap.
 bool take_samples(FilmIdentity& header, ParsedHeader& parsed) {
   if (header.contains(kAreasKey)) return take_areas(header, parsed);
   const std::string samples = take(header, kSamples);
@@ -107,7 +107,7 @@ bool take_samples(FilmIdentity& header, ParsedHeader& parsed) {
   return add(both, parsed.unfinished->samples);
 }
 
-// False for a crop beyond the film.
+// Reads the crop. Returns false if it exceeds the film.
 bool read_crop(const FilmIdentity& header, FilmShape& shape) {
   const auto text = header.find(kCropKey);
   if (text == header.end()) return true;
@@ -163,14 +163,15 @@ void set_crop(PartHeader& header, const Crop& crop) {
   if (!whole) header.identity[kCropKey] = to_text(crop);
 }
 
-// For messages; nothing for the whole film.
+// Text for messages; empty for the whole film.
 std::string of_pixels(const Crop& pixels, const FilmShape& shape) {
   const bool whole = pixels == pixels_of(without_crop(shape));
   return whole ? "" : fmt::format(" of pixels {}", to_text(pixels));
 }
 
-// Of a checkpoint saved amid a pass: the pixels of its tiles that are done have its samples too, and a film
-// that has no others is one of these pixels. With photons, which may fall on any pixel, none has them.
+// Adds the samples of an unfinished pass to the pixels of its finished tiles. A film without other samples is
+// cropped to these pixels. Photons of the pass may fall on any pixel, so with photons no pixel has its
+// samples.
 void count_done_tiles(const fs::path& path, ParsedHeader& parsed) {
   if (!parsed.unfinished) return;
   PartHeader& header = parsed.header;
@@ -199,7 +200,7 @@ void set_areas(RenderPart& part, SampledAreas areas) {
   part.areas = everywhere ? SampledAreas{} : std::move(areas);
 }
 
-/// All that a file holds.
+/// Content of a part file.
 struct ParsedPart {
   ParsedHeader parsed;
   RenderResult result;
@@ -211,14 +212,14 @@ ParsedPart read_sums(const fs::path& path) {
   if (!parsed) refuse_contents(path);
   const PartHeader& header = parsed->header;
   const std::string_view bytes = file.bytes;
-  const std::size_t own = std::min(bytes_of_sums(header), bytes.size());
-  auto films = films_of(header.identity, header.shape, bytes.substr(0, own));
+  const std::size_t sum_bytes = std::min(bytes_of_sums(header), bytes.size());
+  auto films = films_from_bytes(header.identity, header.shape, bytes.substr(0, sum_bytes));
   if (!films) refuse_contents(path);
   if (parsed->unfinished && header.shape.photons > 0) {
-    auto before = read_replicates(*films, parsed->unfinished->samples, bytes.substr(own));
+    auto before = read_replicates(*films, parsed->unfinished->samples, bytes.substr(sum_bytes));
     if (!before) refuse_contents(path);
     films->before_pass = std::make_shared<const std::vector<Film>>(*std::move(before));
-  } else if (bytes.size() > own) {
+  } else if (bytes.size() > sum_bytes) {
     refuse_contents(path);
   }
   films->stats = parsed->stats;
@@ -263,7 +264,7 @@ RenderPart read_part(const fs::path& path) {
   auto [parsed, result] = read_sums(path);
   count_done_tiles(path, parsed);
   if (const auto before = std::exchange(result.before_pass, nullptr))
-    put_back(result, *before, parsed.unfinished->samples);
+    restore_replicates(result, *before, parsed.unfinished->samples);
   crop_films(parsed.header.shape, result);
   RenderPart part{std::move(parsed.header.identity), std::move(result)};
   set_areas(part, std::move(parsed.header.areas));
@@ -277,22 +278,22 @@ PartHeader read_part_header(const fs::path& path) {
   return std::move(parsed->header);
 }
 
-FilmIdentity told_apart_by(FilmIdentity identity) {
-  for (const std::string_view key : kTellNothing) identity.erase(std::string(key));
+FilmIdentity distinguishing_keys(FilmIdentity identity) {
+  for (const std::string_view key : kNonDistinguishingKeys) identity.erase(std::string(key));
   return identity;
 }
 
 void require_same_film(const fs::path& path, const FilmIdentity& identity, const FilmIdentity& wanted) {
   FilmIdentity all = wanted;
   all.insert(identity.begin(), identity.end());
-  const auto value = [](const FilmIdentity& of, const std::string& key) {
-    const auto found = of.find(key);
-    return found == of.end() ? std::string("none") : found->second;
+  const auto value = [](const FilmIdentity& keys, const std::string& key) {
+    const auto found = keys.find(key);
+    return found == keys.end() ? std::string("none") : found->second;
   };
-  for (const auto& [key, unused] : told_apart_by(std::move(all))) {
+  for (const auto& [key, unused] : distinguishing_keys(std::move(all))) {
     if (value(identity, key) == value(wanted, key)) continue;
     throw Error(ErrorCode::input, path.string(),
-                fmt::format("is a part of another render: another {} (got {}, allowed {})", key,
+                fmt::format("belongs to another render, with another {} (got {}, allowed {})", key,
                             value(identity, key), value(wanted, key)));
   }
 }
@@ -302,10 +303,10 @@ void merge(PartHeader& sum, const PartHeader& part, const fs::path& path) {
   if (without_crop(part.shape) != without_crop(sum.shape))
     throw Error(ErrorCode::input, path.string(), "has a film of another shape");
   for (const SampledArea& area : part.areas)
-    if (const auto there = add(sum.areas, area))
+    if (const auto overlap = add(sum.areas, area))
       throw Error(ErrorCode::input, path.string(),
-                  fmt::format("has samples that are there already (got {}{})", to_text(there->samples),
-                              of_pixels(there->pixels, part.shape)));
+                  fmt::format("has samples that are already included (got {}{})", to_text(overlap->samples),
+                              of_pixels(overlap->pixels, part.shape)));
   if (stated_samples(part.identity) > stated_samples(sum.identity))
     sum.identity[kStatedSamplesKey] = part.identity.at(kStatedSamplesKey);
   set_crop(sum, bounds(sum.areas));
@@ -316,14 +317,14 @@ std::size_t bytes_of_sums(const PartHeader& header) {
 }
 
 RenderPart empty_part(const PartHeader& header) {
-  return {header.identity, dark_films(header.identity, header.shape)};
+  return {header.identity, empty_films(header.identity, header.shape)};
 }
 
 void merge(RenderPart& sum, const RenderPart& part, const fs::path& path) {
   PartHeader header{sum.identity, sum.result.film.shape(), areas_of(sum)};
   merge(header, {part.identity, part.result.film.shape(), areas_of(part)}, path);
   if (!contains(sum.result.film.crop(), part.result.film.crop()))
-    throw Error(ErrorCode::input, path.string(), "has pixels beyond the film that it is added to");
+    throw Error(ErrorCode::input, path.string(), "has pixels outside the film that it is added to");
   add_films(sum.result, part.result);
   set_areas(sum, std::move(header.areas));
   if (const auto stated = header.identity.find(kStatedSamplesKey); stated != header.identity.end())
@@ -346,12 +347,12 @@ SampledAreas missing_samples(const PartHeader& sum, const std::optional<Crop>& c
   return missing(sum.areas, wanted);
 }
 
-std::string in_words(const SampledAreas& areas, const FilmShape& shape, std::string_view of_all) {
+std::string describe_samples(const SampledAreas& areas, const FilmShape& shape, std::string_view whole_film) {
   std::string text;
   for (const auto& [pixels, samples] : areas) {
-    const std::string where = of_pixels(pixels, shape);
+    const std::string pixel_text = of_pixels(pixels, shape);
     text += fmt::format("{}samples {}{}", text.empty() ? "" : ", ", to_text(samples),
-                        where.empty() ? std::string(of_all) : where);
+                        pixel_text.empty() ? std::string(whole_film) : pixel_text);
   }
   return text;
 }

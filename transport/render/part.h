@@ -12,91 +12,101 @@
 
 namespace abbe {
 
-/// The key under which a film's identity has the samples of the whole render, as `--spp` or its scene state
-/// them; absent where time or error decide.
+/// Attribute with the samples per pixel of the whole render, as `--spp` or the scene states them. Absent if a
+/// time or error limit ends the render.
 inline constexpr const char* kStatedSamplesKey = "samples_stated";
-/// The keys of the machine code and the processor that a film's bits depend on. Images do not tell them, so
-/// that what different machines see alike is the same file.
+/// Attributes with the build and the instruction set of the processor, on which a film's bits depend. Images
+/// omit them, so that equal pictures of different machines are equal files.
 inline constexpr const char* kBuildKey = "build";
 inline constexpr const char* kInstructionSetKey = "instruction_set";
 
-/// What a film is a film of, by name: version, scene, seed and all else its values are a function of, besides
-/// the samples. `sensor_channels` lists the film's channels, separated by commas. Some tell no films apart:
-/// `scene`, the name of the scene file, `kStatedSamplesKey`, and how pictures show it: `to_xyz_d65`, fitted
-/// on the machine that rendered, or `no_picture`, `white`, `white_xy` and `white_asked`.
+/// Attributes that identify a film, by name: version, scene, seed and all else that determines its values,
+/// except the samples. `sensor_channels` lists the film's channels, separated by commas. The following
+/// attributes do not distinguish films:
+/// - `scene`, the name of the scene file, and `kStatedSamplesKey`;
+/// - `to_xyz_d65`, which is fitted on the machine that renders, or `no_picture`;
+/// - `white`, `white_xy` and `white_asked`, which only affect pictures.
 using FilmIdentity = std::map<std::string, std::string>;
 
-/// Some samples of some pixels of a render. Parts of one identity but for their crops add up, in any order
-/// and grouping, to the film that one render of all their samples gives, bit for bit.
+/// Some samples of some pixels of a render. Parts whose identities differ in nothing but their crops can be
+/// merged in any order and grouping. The result equals, bit for bit, the film of one render of all samples.
 struct RenderPart {
   FilmIdentity identity;
-  RenderResult result;      ///< Of which `samples` are those of every area; none where they differ.
-  SampledAreas areas = {};  ///< Empty where all pixels of the film hold the samples of the result.
+  RenderResult result;      ///< Its `samples` are those of all areas; empty if areas differ.
+  SampledAreas areas = {};  ///< Empty if all pixels of the film have the samples of `result`.
 };
 
-/// What the file of a part tells before its sums.
+/// Header of a part file, which precedes the sums.
 struct PartHeader {
   FilmIdentity identity;
   FilmShape shape;
   SampledAreas areas;
 };
 
-/// What the file of a part would tell before its sums.
+/// Header that the file of this part would have.
 [[nodiscard]] PartHeader header_of(const RenderPart& part);
 
-/// Writes the exact sums, atomically. Throws Error{output}.
+/// Writes a part with its exact sums, atomically. Throws Error{output}.
 void write_part(const std::filesystem::path& path, const FilmIdentity& identity, const RenderResult& result,
                 const SampledAreas& areas = {});
 
-/// Throws Error{input} for a file that is missing, torn, damaged, no part, or without a sample of any pixel
-/// yet. Of one saved amid a pass without photons the pixels whose tiles were done have its samples too; where
-/// no pass was done before, its film is that of these pixels. With photons, the film is that before the pass.
+/// Reads a part as a film of whole samples. A checkpoint may have been saved during a pass:
+/// - Without photons, pixels whose tiles were finished include the samples of that pass. If no pass was
+///   finished before, the film is cropped to these pixels.
+/// - With photons, the film is the one before the pass.
+///
+/// Throws Error{input} for a file that is missing, truncated, damaged or not a part. Throws it also for a
+/// part without a sample of any pixel.
 [[nodiscard]] RenderPart read_part(const std::filesystem::path& path);
-/// Reads a part for a render to go on with, as `read_part` does, with what there is of a pass that was not
-/// finished.
+/// Reads a part that a render can resume, with the state of a pass that was not finished. Throws Error{input}
+/// for a file that is missing, truncated, damaged or not a part.
 [[nodiscard]] RenderPart read_checkpoint(const std::filesystem::path& path);
-/// Reads no sums, so that damage to them is not found; throws as `read_part` does otherwise.
+/// Reads the header that `read_part` would give. It does not read the sums, so it does not detect damage to
+/// them. Otherwise it throws as `read_part`.
 [[nodiscard]] PartHeader read_part_header(const std::filesystem::path& path);
 
-/// What of an identity tells its film from others.
-[[nodiscard]] FilmIdentity told_apart_by(FilmIdentity identity);
+/// Attributes of an identity that distinguish its film from others.
+[[nodiscard]] FilmIdentity distinguishing_keys(FilmIdentity identity);
 
-/// Throws Error{input} naming `path` and the first thing in which its film differs from the one wanted.
+/// Throws Error{input} naming `path` and the first attribute in which `identity` differs from `wanted`.
 void require_same_film(const std::filesystem::path& path, const FilmIdentity& identity,
                        const FilmIdentity& wanted);
 
-/// Adds what a part tells to what others tell: the crop of the sum is the smallest around theirs. Throws
-/// Error{input} naming `path` when it is of another film or has samples that pixels of `sum` have already.
+/// Adds the samples of `part` to those of `sum`, whose crop becomes the smallest around both. Throws
+/// Error{input} naming `path` for a part of another film, and for samples that pixels of `sum` have already.
 void merge(PartHeader& sum, const PartHeader& part, const std::filesystem::path& path);
 
-/// Memory that the sums of what the header tells take, with those of its features.
+/// Memory [bytes] of the sums that a header describes, with those of layers and features.
 [[nodiscard]] std::size_t bytes_of_sums(const PartHeader& header);
 
-/// Nothing yet of what the header tells, for parts to be added to.
+/// Part with the films that a header describes and without samples, to which parts can be added.
 [[nodiscard]] RenderPart empty_part(const PartHeader& header);
-/// Adds the part read from `path`, whose crop lies within the film of `sum`. Throws as for headers, and for
-/// pixels beyond it.
+/// Adds the part read from `path`. Throws as the overload for headers, and Error{input} if its crop exceeds
+/// the film of `sum`.
 void merge(RenderPart& sum, const RenderPart& part, const std::filesystem::path& path);
 
-/// What pixels of the film, or of a crop of it, lack of the samples that the renders of these parts stated;
-/// of the samples that others have where none were stated.
+/// Samples that pixels of the film, or of `crop`, still lack. The target is the number of samples that the
+/// parts state. If they state none, it is all samples that any pixel has.
 [[nodiscard]] SampledAreas missing_samples(const PartHeader& sum, const std::optional<Crop>& crop = {});
 
-/// Which samples of which pixels of a film, for messages; `of_all` stands for all pixels.
-[[nodiscard]] std::string in_words(const SampledAreas& areas, const FilmShape& shape,
-                                   std::string_view of_all = "");
+/// Text for messages: the samples of each area. `whole_film` is appended to an area that covers the film.
+[[nodiscard]] std::string describe_samples(const SampledAreas& areas, const FilmShape& shape,
+                                           std::string_view whole_film = "");
 
-/// The film with its variance, and its identity, sample count and error as metadata; without the latter two
-/// where pixels have different samples, but for an error that is infinite since those of some tell no
-/// variance. There, and where some have none, it tells by `kAreasKey` which have which, and no count.
+/// Image of the film values and variances, with identity, sample count and relative error as attributes.
+/// - If pixels have different samples, count and error are omitted. An infinite error remains: then the
+///   samples of some pixels give no variance.
+/// - If pixels have different samples, or some have none, `kAreasKey` lists the samples of each area, and the
+///   count is omitted.
 [[nodiscard]] Image image_of(const RenderPart& part);
-/// The layers of its film, each as `image_of` has the film; none where it is not told apart.
+/// One layer of a film as an image, in the form of `image_of`.
 struct LayerImage {
   std::string name;
   Image image;
 };
+/// The layers of a part; empty if its film is not split into layers.
 [[nodiscard]] std::vector<LayerImage> layer_images(const RenderPart& part);
-/// Adds the channels of its features, if it has some, to an image of it.
+/// Adds the feature channels of a part, if it has any, to its image.
 void add_features(Image& image, const RenderPart& part);
 
 }  // namespace abbe

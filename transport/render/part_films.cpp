@@ -12,19 +12,19 @@
 namespace abbe {
 namespace {
 
-// Those an identity tells, none where it tells none; nothing for what are no features.
+// Features that an identity records; an empty list without the attribute, no value for unknown names.
 std::optional<std::vector<Feature>> features_of(const FilmIdentity& identity) {
-  const auto told = identity.find(kFeaturesKey);
-  return told == identity.end() ? std::vector<Feature>() : parse_features(told->second);
+  const auto entry = identity.find(kFeaturesKey);
+  return entry == identity.end() ? std::vector<Feature>() : parse_features(entry->second);
 }
 
 std::optional<FilmShape> shape_of_layers(const FilmIdentity& identity, const FilmShape& shape) {
-  const auto told = identity.find(kLayersKey);
-  if (told == identity.end()) return std::nullopt;
-  return layered(shape, parse_layers(told->second).size());
+  const auto entry = identity.find(kLayersKey);
+  if (entry == identity.end()) return std::nullopt;
+  return layered(shape, parse_layers(entry->second).size());
 }
 
-// Calls `function` for a part's own film, that of its layers and that of its features.
+// Calls `function` for the main film, for that of the layers and for that of the features.
 template <typename Films, typename Function>
 void for_each_film(Films& films, const Function& function) {
   function(films.film);
@@ -32,8 +32,8 @@ void for_each_film(Films& films, const Function& function) {
   if (films.features) function(films.features->sums());
 }
 
-// The replicates that samples of a range belong to, in the order of the samples.
-std::vector<int> touched(const SampleRange& samples, const Film& film) {
+// Replicates of the samples of a range, in the order of the samples.
+std::vector<int> replicates_of(const SampleRange& samples, const Film& film) {
   const auto all = static_cast<std::uint64_t>(film.replicates());
   std::vector<int> some;
   for (std::uint64_t s = samples.first; s < std::min(samples.last, samples.first + all); ++s)
@@ -41,14 +41,14 @@ std::vector<int> touched(const SampleRange& samples, const Film& film) {
   return some;
 }
 
-// Whether pixels within the film's crop have no samples.
+// True if pixels within the film's crop have no samples.
 bool has_gaps(const RenderPart& part) {
-  std::size_t held = 0;
-  for (const SampledArea& area : part.areas) held += pixel_count(area.pixels);
-  return !part.areas.empty() && held < pixel_count(part.result.film.crop());
+  std::size_t sampled = 0;
+  for (const SampledArea& area : part.areas) sampled += pixel_count(area.pixels);
+  return !part.areas.empty() && sampled < pixel_count(part.result.film.crop());
 }
 
-// Whether some pixels have samples in fewer than two replicates.
+// True if the samples of some pixels lie in fewer than two replicates.
 bool lacks_variance(const RenderPart& part) {
   const int replicates = part.result.film.replicates();
   return std::any_of(part.areas.begin(), part.areas.end(), [replicates](const SampledArea& area) {
@@ -71,7 +71,7 @@ std::optional<std::size_t> bytes_of_films(const FilmIdentity& identity, const Fi
          bytes_of_features(*features, shape, film_planes(identity));
 }
 
-RenderResult dark_films(const FilmIdentity& identity, const FilmShape& shape) {
+RenderResult empty_films(const FilmIdentity& identity, const FilmShape& shape) {
   RenderResult films{Film(shape), {}, {}};
   if (const auto layers = shape_of_layers(identity, shape)) films.layers.emplace(*layers);
   if (const auto features = features_of(identity); !features->empty())
@@ -79,8 +79,8 @@ RenderResult dark_films(const FilmIdentity& identity, const FilmShape& shape) {
   return films;
 }
 
-std::optional<RenderResult> films_of(const FilmIdentity& identity, const FilmShape& shape,
-                                     std::string_view bytes) {
+std::optional<RenderResult> films_from_bytes(const FilmIdentity& identity, const FilmShape& shape,
+                                             std::string_view bytes) {
   if (bytes.size() != bytes_of_films(identity, shape)) return std::nullopt;
   const auto take = [&bytes](std::size_t count) {
     const std::string_view taken = bytes.substr(0, count);
@@ -104,9 +104,9 @@ std::vector<std::string_view> sums_of(const RenderResult& films) {
 void crop_films(const FilmShape& shape, RenderResult& films) {
   if (shape == films.film.shape()) return;
   for_each_film(films, [&shape](Film& film) {
-    FilmShape of = film.shape();
-    of.crop = shape.crop;
-    Film cropped(of);
+    FilmShape cropped_shape = film.shape();
+    cropped_shape.crop = shape.crop;
+    Film cropped(cropped_shape);
     cropped.add(film);
     film = std::move(cropped);
   });
@@ -118,29 +118,29 @@ void add_films(RenderResult& sum, const RenderResult& films) {
   if (sum.features) sum.features->sums().add(films.features->sums());
 }
 
-std::vector<Film> copy_of_replicates(const RenderResult& films, const SampleRange& samples) {
-  std::vector<Film> kept;
-  for_each_film(films, [&](const Film& film) { kept.push_back(film.only(touched(samples, film))); });
-  return kept;
+std::vector<Film> copy_replicates(const RenderResult& films, const SampleRange& samples) {
+  std::vector<Film> saved;
+  for_each_film(films, [&](const Film& film) { saved.push_back(film.only(replicates_of(samples, film))); });
+  return saved;
 }
 
 std::optional<std::vector<Film>> read_replicates(const RenderResult& films, const SampleRange& samples,
                                                  std::string_view bytes) {
-  std::vector<Film> kept;
+  std::vector<Film> saved;
   for_each_film(films, [&](const Film& film) {
     FilmShape shape = film.shape();
-    shape.replicates = static_cast<int>(touched(samples, film).size());
+    shape.replicates = static_cast<int>(replicates_of(samples, film).size());
     const std::string_view own = bytes.substr(0, bytes_of_sums(shape));
-    if (auto read = Film::from_bytes(shape, own)) kept.push_back(*std::move(read));
+    if (auto read = Film::from_bytes(shape, own)) saved.push_back(*std::move(read));
     bytes.remove_prefix(own.size());
   });
-  const bool all = kept.size() == sums_of(films).size() && bytes.empty();
-  return all ? std::optional(std::move(kept)) : std::nullopt;
+  const bool all = saved.size() == sums_of(films).size() && bytes.empty();
+  return all ? std::optional(std::move(saved)) : std::nullopt;
 }
 
-void put_back(RenderResult& films, const std::vector<Film>& kept, const SampleRange& samples) {
-  auto next = kept.begin();
-  for_each_film(films, [&](Film& film) { film.put_back(touched(samples, film), *next++); });
+void restore_replicates(RenderResult& films, const std::vector<Film>& saved, const SampleRange& samples) {
+  auto next = saved.begin();
+  for_each_film(films, [&](Film& film) { film.put_back(replicates_of(samples, film), *next++); });
 }
 
 void set_samples(RenderResult& films, const SampleRanges& samples) {

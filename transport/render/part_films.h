@@ -12,45 +12,47 @@
 
 namespace abbe {
 
-/// The films of a part: its own, and those beside it of its layers and its features, as its identity tells.
+// The functions below treat all films of a part alike: its main film and, if its identity records them, the
+// films of its layers and its features.
 
-/// Memory that their sums take; nothing for an identity that tells of none.
+/// Memory [bytes] of the sums of all films; empty if the identity records unknown features.
 [[nodiscard]] std::optional<std::size_t> bytes_of_films(const FilmIdentity& identity, const FilmShape& shape);
-/// Films of that shape, without light.
-[[nodiscard]] RenderResult dark_films(const FilmIdentity& identity, const FilmShape& shape);
-/// Those that have these bytes, as `sums_of` has them; nothing if there are more or fewer.
-[[nodiscard]] std::optional<RenderResult> films_of(const FilmIdentity& identity, const FilmShape& shape,
-                                                   std::string_view bytes);
-/// Their sums, one film after another.
+/// Films of this shape whose sums are zero.
+[[nodiscard]] RenderResult empty_films(const FilmIdentity& identity, const FilmShape& shape);
+/// Films whose sums are `bytes`, in the order of `sums_of`; empty if the size does not match.
+[[nodiscard]] std::optional<RenderResult> films_from_bytes(const FilmIdentity& identity,
+                                                           const FilmShape& shape, std::string_view bytes);
+/// Bytes of the sums of all films, one view per film. The views refer to `films`.
 [[nodiscard]] std::vector<std::string_view> sums_of(const RenderResult& films);
-/// Leaves what the pixels of a shape have that differs in its crop at most.
+/// Restricts the films to the pixels of `shape`, which may differ from theirs in nothing but the crop.
 void crop_films(const FilmShape& shape, RenderResult& films);
-/// Adds to films all that others have.
+/// Adds the sums of `films` to those of `sum`.
 void add_films(RenderResult& sum, const RenderResult& films);
-/// A copy of what samples of this range add to: of each film the replicates they belong to. The films that
-/// have these bytes, one after another; nothing if there are more or fewer. And they put back, as if the
-/// samples had never been.
-[[nodiscard]] std::vector<Film> copy_of_replicates(const RenderResult& films, const SampleRange& samples);
+/// Copies, of each film, the replicates to which the samples of a range contribute.
+[[nodiscard]] std::vector<Film> copy_replicates(const RenderResult& films, const SampleRange& samples);
+/// Reads such copies from `bytes`, one film after another; empty if the size does not match.
 [[nodiscard]] std::optional<std::vector<Film>> read_replicates(const RenderResult& films,
                                                                const SampleRange& samples,
                                                                std::string_view bytes);
-void put_back(RenderResult& films, const std::vector<Film>& kept, const SampleRange& samples);
-/// Sets the samples of all pixels that have variances.
+/// Replaces these replicates by saved copies, which undoes all contributions of the samples.
+void restore_replicates(RenderResult& films, const std::vector<Film>& saved, const SampleRange& samples);
+/// Sets the samples of all pixels in the films that estimate variances: the main film and the layers.
 void set_samples(RenderResult& films, const SampleRanges& samples);
 
-/// The names of the film's own planes.
+/// Names of the planes of the main film.
 [[nodiscard]] std::vector<std::string> film_planes(const FilmIdentity& identity);
 
-/// Relative error of the mean over the whole film, as `frame_mean_error` of its planes that count light has
-/// it. Infinite where the samples of some pixels are in fewer than two replicates, so that nothing is known
-/// of their variance; nothing where pixels have different samples else.
+/// Relative error of the mean over the whole film, for the planes that measure intensity (see the overload in
+/// sensor/film). Infinite if the samples of some pixels lie in fewer than two replicates, which gives no
+/// variance. Empty if pixels have different samples otherwise.
 [[nodiscard]] std::optional<double> frame_mean_error(const RenderPart& part);
 
-/// The samples that carry half of the variance of that mean, where these are too few to know its error.
+/// Number of samples that carry half of the variance of that mean, if these are too few to estimate its
+/// error.
 [[nodiscard]] std::optional<std::uint64_t> few_samples(const RenderPart& part);
 
-/// A film of the part's, each pixel by the samples it has, and the part's identity; where some have
-/// none, or other samples than others, by `kAreasKey` which have which.
+/// Image of one film of a part, with the part's identity as attributes. Each pixel is normalised by its own
+/// samples. If some pixels have none, or other samples than others, `kAreasKey` lists those of each area.
 [[nodiscard]] Image developed(const Film& film, std::span<const std::string> names, const RenderPart& part);
 
 }  // namespace abbe

@@ -7,7 +7,7 @@
 
 #include "io/error.h"
 #include "transport/path/dimensions.h"
-#include "transport/render/collect.h"
+#include "transport/render/light_subpaths.h"
 #include "transport/render/threads.h"
 
 namespace abbe {
@@ -16,19 +16,19 @@ namespace {
 constexpr std::uint32_t kTile = 16;
 constexpr std::uint32_t kPhotonBatch = 4096;
 
-constexpr std::uint32_t pieces(std::uint64_t whole, std::uint32_t piece) {
+constexpr std::uint32_t ceil_div(std::uint64_t whole, std::uint32_t piece) {
   return static_cast<std::uint32_t>((whole + piece - 1) / piece);
 }
 
-// Whether the work items of a technique are tiles, not batches of photons.
-bool goes_by_tiles(Technique technique) {
+// True if the work items of a technique are tiles, false if they are batches of photons.
+bool uses_tiles(Technique technique) {
   return technique != Technique::light && technique != Technique::photon_brute;
 }
 
 }  // namespace
 
 std::vector<Crop> tiles_done(const FilmShape& shape, std::uint32_t items) {
-  const std::uint32_t tiles_x = pieces(static_cast<std::uint64_t>(shape.width), kTile);
+  const std::uint32_t tiles_x = ceil_div(static_cast<std::uint64_t>(shape.width), kTile);
   const auto edge = [](std::uint64_t tiles, int end) {
     return static_cast<int>(std::min(tiles * kTile, static_cast<std::uint64_t>(end)));
   };
@@ -38,41 +38,42 @@ std::vector<Crop> tiles_done(const FilmShape& shape, std::uint32_t items) {
   for (const Crop& rows :
        {Crop{0, 0, shape.width, top}, Crop{0, top, edge(items % tiles_x, shape.width),
                                            edge(std::uint64_t{items} / tiles_x + 1, shape.height)}}) {
-    const Crop kept{std::max(rows.x0, pixels.x0), std::max(rows.y0, pixels.y0), std::min(rows.x1, pixels.x1),
-                    std::min(rows.y1, pixels.y1)};
-    if (kept.x0 < kept.x1 && kept.y0 < kept.y1) done.push_back(kept);
+    const Crop clipped{std::max(rows.x0, pixels.x0), std::max(rows.y0, pixels.y0),
+                       std::min(rows.x1, pixels.x1), std::min(rows.y1, pixels.y1)};
+    if (clipped.x0 < clipped.x1 && clipped.y0 < clipped.y1) done.push_back(clipped);
   }
   return done;
 }
 
 Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleRange& samples,
-           std::uint32_t done, std::uint64_t seed, const BesideFilms& beside)
+           std::uint32_t done, std::uint64_t seed, const AuxiliaryFilms& auxiliary)
     : plan_(plan),
       scene_(plan.scene),
       film_(film),
-      beside_(beside),
+      auxiliary_(auxiliary),
       crop_(crop.value_or(Crop{0, 0, film.width(), film.height()})),
-      displaces_lanes_(traits(plan.scene.camera).displaces_lanes),
+      displaces_wavelengths_(traits(plan.scene.camera).displaces_wavelengths),
       first_(samples.first),
       last_(samples.last),
       seed_(seed),
       next_(done) {
-  tiles_x_ = pieces(static_cast<std::uint64_t>(film.width()), kTile);
-  tiles_ = tiles_x_ * pieces(static_cast<std::uint64_t>(film.height()), kTile);
+  tiles_x_ = ceil_div(static_cast<std::uint64_t>(film.width()), kTile);
+  tiles_ = tiles_x_ * ceil_div(static_cast<std::uint64_t>(film.height()), kTile);
   photons_ = plan.photons;
   path_interval_ = plan.path_interval;
   sample_by_sample_ = uses(plan.techniques, Technique::vcm) ||
                       std::any_of(plan.techniques.begin(), plan.techniques.end(), gathers_photons);
   for (const Technique technique : plan.techniques) stages_.push_back(stage_of(technique));
-  // Tiles look at the features of their pixels themselves, so that what is done of them is done of both.
-  if (beside_.features != nullptr &&
-      std::none_of(plan.techniques.begin(), plan.techniques.end(), goes_by_tiles))
-    stages_.push_back({tiles_, &Pass::look_at_tile});
+  // Tiles trace the features of their pixels themselves, so that both have the same finished pixels. Without
+  // tiles, features need a stage of their own.
+  if (auxiliary_.features != nullptr &&
+      std::none_of(plan.techniques.begin(), plan.techniques.end(), uses_tiles))
+    stages_.push_back({tiles_, &Pass::trace_tile_features});
   for (const Stage& stage : stages_) items_ += stage.items;
 }
 
 Pass::Stage Pass::stage_of(Technique technique) const {
-  const std::uint32_t batches = pieces(photons_, kPhotonBatch);
+  const std::uint32_t batches = ceil_div(photons_, kPhotonBatch);
   const std::uint32_t all_tiles = tiles_ * static_cast<std::uint32_t>(last_ - first_);
   switch (technique) {
     case Technique::path:
@@ -80,7 +81,7 @@ Pass::Stage Pass::stage_of(Technique technique) const {
     case Technique::light:
       return {batches, &Pass::trace_batch};
     case Technique::bdpt:
-      return {tiles_, &Pass::join_tile};
+      return {tiles_, &Pass::connect_tile};
     case Technique::photon_map:
     case Technique::ppm:
     case Technique::sppm:
@@ -100,9 +101,10 @@ PassCounts Pass::run(int threads, const std::function<bool()>& pause) {
   PassCounts total;
   for (bool paused = false; !paused && !finished();) {
     const std::uint32_t sample = next_ / tiles_;
-    PassCounts again;  // by a run that was interrupted, these were counted
-    if (left_by_ != sample) collect(first_ + sample, threads, next_ % tiles_ == 0 ? total : again);
-    left_by_ = sample;
+    PassCounts discarded;  // the interrupted run has already counted them
+    if (sample_of_cloud_ != sample)
+      trace_sample_subpaths(first_ + sample, threads, next_ % tiles_ == 0 ? total : discarded);
+    sample_of_cloud_ = sample;
     total += run_until((sample + 1) * tiles_, threads, pause);
     paused = next_ < (sample + 1) * tiles_;
   }
@@ -117,33 +119,33 @@ PassCounts Pass::run_until(std::uint32_t end, int threads, const std::function<b
     const std::scoped_lock lock(mutex);
     total += counts;
   });
-  next_ = std::min(next_.load(), end);  // each thread has asked for one more than there are
+  next_ = std::min(next_.load(), end);  // each thread has taken one number too many
   return total;
 }
 
-void Pass::collect(std::uint64_t sample, int threads, PassCounts& counts) {
-  const LightNumbers numbers = [&](std::uint64_t path) { return photon_sampler(sample, path); };
-  const std::array<float, 4> common = numbers_of(sample);
-  const PathPacket packet = draw_packet(plan_.wavelengths, common[0]);
+void Pass::trace_sample_subpaths(std::uint64_t sample, int threads, PassCounts& counts) {
+  const LightPathSampler samplers = [&](std::uint64_t path) { return photon_sampler(sample, path); };
+  const std::array<float, 4> shared = sample_random_numbers(sample);
+  const PathPacket packet = draw_packet(plan_.wavelengths, shared[0]);
   if (uses(plan_.techniques, Technique::vcm)) {
-    collect_light_paths(plan_, packet, common[1], gather_radius(plan_.gather_radius, sample), numbers,
-                        threads, light_paths_, counts);
+    trace_light_subpaths(plan_, packet, shared[1], gather_radius(plan_.gather_radius, sample), samplers,
+                         threads, light_paths_, counts);
     return;
   }
-  cloud_.reset();  // first, as both would take their memory
-  cloud_ = collect_photons(plan_, packet, common[1], numbers, threads, counts);
+  cloud_.reset();  // first, so that only one cloud takes memory
+  cloud_ = trace_photon_cloud(plan_, packet, shared[1], samplers, threads, counts);
 }
 
 PassCounts Pass::work(std::uint32_t end, const std::function<bool()>& pause) {
   _MM_SET_FLUSH_ZERO_MODE(_MM_FLUSH_ZERO_ON);
   _MM_SET_DENORMALS_ZERO_MODE(_MM_DENORMALS_ZERO_ON);
-  Worker worker(plan_, beside_.features);
+  Worker worker(plan_, auxiliary_.features);
   for (std::uint32_t item = next_++; item < end; item = next_++) {
     do_item(item, worker);
     if (pause()) break;
   }
   worker.counts.rays = worker.caster.rays();
-  worker.counts.cut = worker.caster.cut();
+  worker.counts.cut = worker.caster.truncated();
   return worker.counts;
 }
 
@@ -159,17 +161,17 @@ Replicate Pass::replicate(std::uint64_t sample) const {
   return {static_cast<std::uint32_t>(sample % replicates), replicates};
 }
 
-bool Pass::holds(std::span<const double> values) const {
+bool Pass::is_representable(std::span<const double> values) const {
   return std::all_of(values.begin(), values.end(), [this](double v) { return film_.holds(v); });
 }
 
-bool Pass::keeps(std::span<const double> values, Worker& worker) const {
-  const bool good = holds(values);
+bool Pass::accept(std::span<const double> values, Worker& worker) const {
+  const bool good = is_representable(values);
   if (!good) ++worker.counts.nonfinite;
   return good;
 }
 
-std::uint32_t Pass::index(std::uint64_t sample) const {
+std::uint32_t Pass::sequence_index(std::uint64_t sample) const {
   return static_cast<std::uint32_t>(sample / static_cast<std::uint64_t>(film_.replicates()));
 }
 
@@ -177,59 +179,63 @@ Pass::Tile Pass::tile(std::uint32_t number) const {
   return {static_cast<int>(number % tiles_x_ * kTile), static_cast<int>(number / tiles_x_ * kTile)};
 }
 
-// By which all paths of a sample have a packet and a time in common where they are to be joined across
-// pixels.
-std::array<float, 4> Pass::numbers_of(std::uint64_t sample) const {
-  return Sampler(seed_, Purpose::sample, 0, 0, index(sample), replicate(sample)).group(0);
+// Random numbers of the wavelengths and the time. All paths of a sample have them in common if they are
+// connected or merged across pixels.
+std::array<float, 4> Pass::sample_random_numbers(std::uint64_t sample) const {
+  return Sampler(seed_, Purpose::sample, 0, 0, sequence_index(sample), replicate(sample)).group(0);
 }
 
-// The number of that of a sample at a pixel; none where the pixel skips it. Which samples these are is
-// chance, for each pixel and replicate, so that the mean over any of them is right.
-std::optional<std::uint32_t> Pass::path_of(std::uint64_t sample, int x, int y) const {
-  // Those of progressive photon mapping are the same in all samples.
+// Index of the camera path of a sample at a pixel; empty if the pixel skips the sample. A random phase for
+// each pixel and replicate selects the skipped samples, so that the mean over any samples is unbiased.
+std::optional<std::uint32_t> Pass::path_index(std::uint64_t sample, int x, int y) const {
+  // Progressive photon mapping repeats the same camera paths in all samples.
   if (uses(plan_.techniques, Technique::ppm)) return 0;
-  if (path_interval_ == 1) return index(sample);
+  if (path_interval_ == 1) return sequence_index(sample);
   const float u =
-      Sampler(seed_, Purpose::camera, 0, number_of(x, y), 0, replicate(sample)).group(kPhaseGroup)[0];
-  const std::uint32_t at = index(sample) + static_cast<std::uint32_t>(u * static_cast<float>(path_interval_));
+      Sampler(seed_, Purpose::camera, 0, pixel_index(x, y), 0, replicate(sample)).group(kPhaseGroup)[0];
+  const std::uint32_t at =
+      sequence_index(sample) + static_cast<std::uint32_t>(u * static_cast<float>(path_interval_));
   return at % path_interval_ == 0 ? std::optional(at / path_interval_) : std::nullopt;
 }
 
-// Of the pixels of a tile within a crop, the path that `path_of` says of each, if any.
-template <typename PathOf>
-void Pass::take_pixels(const Tile& tile, const Crop& within, std::uint64_t sample, PathOf path_of,
-                       Worker& worker) const {
+// Selects the pixels of a tile inside a crop for which `path_index` returns a path.
+template <typename PathIndex>
+void Pass::select_pixels(const Tile& tile, const Crop& within, std::uint64_t sample, PathIndex path_index,
+                         Worker& worker) const {
   constexpr int kEdge = kTile;
   worker.pixels.clear();
   for (int y = std::max(tile.y0, within.y0); y < std::min(tile.y0 + kEdge, within.y1); ++y)
     for (int x = std::max(tile.x0, within.x0); x < std::min(tile.x0 + kEdge, within.x1); ++x)
-      if (const std::optional<std::uint32_t> path = path_of(x, y))
+      if (const std::optional<std::uint32_t> path = path_index(x, y))
         worker.pixels.push_back(
-            {x, y, Sampler(seed_, Purpose::camera, 0, number_of(x, y), *path, replicate(sample)),
+            {x, y, Sampler(seed_, Purpose::camera, 0, pixel_index(x, y), *path, replicate(sample)),
              static_cast<double>(path_interval_)});
 }
 
-// One sample of each pixel of a tile: of all, where some of its lanes may fall on others that are asked for.
-void Pass::take_pixels(const Tile& tile, std::uint64_t sample, Worker& worker) const {
-  const Crop within = displaces_lanes_ ? Crop{0, 0, film_.width(), film_.height()} : crop_;
-  take_pixels(
-      tile, within, sample, [&](int x, int y) { return this->path_of(sample, x, y); }, worker);
+// Selects one sample of each pixel of a tile. If the camera moves some wavelengths to other pixels, pixels
+// outside the crop take part.
+void Pass::select_pixels(const Tile& tile, std::uint64_t sample, Worker& worker) const {
+  const Crop within = displaces_wavelengths_ ? Crop{0, 0, film_.width(), film_.height()} : crop_;
+  select_pixels(
+      tile, within, sample, [&](int x, int y) { return this->path_index(sample, x, y); }, worker);
   worker.counts.paths += worker.pixels.size();
 }
 
-// The paths from lights are those of all pixels, whichever are asked for.
-void Pass::take_pairs(const Tile& tile, std::uint64_t sample, Worker& worker) const {
+// All pixels have light subpaths, also those outside the crop.
+void Pass::select_pairs(const Tile& tile, std::uint64_t sample, Worker& worker) const {
   constexpr int kEdge = kTile;
   worker.pairs.clear();
   for (int y = tile.y0; y < std::min(tile.y0 + kEdge, film_.height()); ++y)
     for (int x = tile.x0; x < std::min(tile.x0 + kEdge, film_.width()); ++x)
       worker.pairs.push_back(
-          {x, y, Sampler(seed_, Purpose::camera, 0, number_of(x, y), index(sample), replicate(sample)),
-           photon_sampler(sample, number_of(x, y)), is_sampled(x, y)});
+          {x, y,
+           Sampler(seed_, Purpose::camera, 0, pixel_index(x, y), sequence_index(sample), replicate(sample)),
+           photon_sampler(sample, pixel_index(x, y)), is_sampled(x, y)});
 }
 
-// Those from `first` to `last` of a sample.
-void Pass::take_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t last, Worker& worker) const {
+// Selects photons `first` to `last` of a sample.
+void Pass::select_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t last,
+                          Worker& worker) const {
   worker.photons.clear();
   for (std::uint64_t photon = first; photon < last; ++photon)
     worker.photons.push_back(photon_sampler(sample, photon));
@@ -237,17 +243,17 @@ void Pass::take_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t
 }
 
 Sampler Pass::photon_sampler(std::uint64_t sample, std::uint64_t photon) const {
-  const std::uint64_t number = index(sample) * photons_ + photon;
-  constexpr std::uint64_t kOfStream = 1U << Sampler::kIndexBits;
+  const std::uint64_t number = sequence_index(sample) * photons_ + photon;
+  constexpr std::uint64_t kStreamLength = 1U << Sampler::kIndexBits;
   return {seed_,
           Purpose::light,
           0,
-          static_cast<std::uint32_t>(number / kOfStream),
-          static_cast<std::uint32_t>(number % kOfStream),
+          static_cast<std::uint32_t>(number / kStreamLength),
+          static_cast<std::uint32_t>(number % kStreamLength),
           replicate(sample)};
 }
 
-// As the films take them.
+// Returns the weighted values, stored in the worker.
 std::span<const double> Pass::weighted(std::span<const double> values, double weight, Worker& worker) {
   worker.values.assign(values.begin(), values.end());
   for (double& value : worker.values) value *= weight;
@@ -256,77 +262,77 @@ std::span<const double> Pass::weighted(std::span<const double> values, double we
 
 void Pass::deposit(std::uint64_t sample, const FilmPoint& at, std::span<const double> values, double weight,
                    Worker& worker) {
-  if (is_asked_for(at.x, at.y) && keeps(weighted(values, weight, worker), worker))
-    film_.add(number_of(at.x, at.y), static_cast<int>(replicate(sample).number), worker.values);
+  if (is_requested(at.x, at.y) && accept(weighted(values, weight, worker), worker))
+    film_.add(pixel_index(at.x, at.y), static_cast<int>(replicate(sample).number), worker.values);
 }
 
-// What the layers get of what the film gets.
-void Pass::deposit_apart(std::uint64_t sample, const FilmPoint& at, const LightHistory& of,
-                         std::span<const double> values, double weight, Worker& worker) {
-  if (is_asked_for(at.x, at.y) && holds(weighted(values, weight, worker)))
-    beside_.layer_sums->add(number_of(at.x, at.y), static_cast<int>(replicate(sample).number), worker.values,
-                            beside_.layers->of(of) * values.size());
+// Adds a contribution to its layer.
+void Pass::deposit_to_layer(std::uint64_t sample, const FilmPoint& at, const ContributionInfo& history,
+                            std::span<const double> values, double weight, Worker& worker) {
+  if (is_requested(at.x, at.y) && is_representable(weighted(values, weight, worker)))
+    auxiliary_.layer_sums->add(pixel_index(at.x, at.y), static_cast<int>(replicate(sample).number),
+                               worker.values, auxiliary_.layers->layer_of(history) * values.size());
 }
 
-Deposit Pass::pixels_deposit(std::uint64_t sample, Worker& worker) {
+Deposit Pass::pixel_deposit(std::uint64_t sample, Worker& worker) {
   return [=, this, &worker](std::uint32_t path, const FilmPoint& at, std::span<const double> values) {
     deposit(sample, at, values, worker.pixels[path].weight, worker);
   };
 }
 
-ContributionDeposit Pass::pixels_apart(std::uint64_t sample, Worker& worker) {
-  if (beside_.layers == nullptr) return {};
-  return [=, this, &worker](std::uint32_t path, const FilmPoint& at, const LightHistory& of,
+ContributionDeposit Pass::pixel_layer_deposit(std::uint64_t sample, Worker& worker) {
+  if (auxiliary_.layers == nullptr) return {};
+  return [=, this, &worker](std::uint32_t path, const FilmPoint& at, const ContributionInfo& history,
                             std::span<const double> values) {
-    deposit_apart(sample, at, of, values, worker.pixels[path].weight, worker);
+    deposit_to_layer(sample, at, history, values, worker.pixels[path].weight, worker);
   };
 }
 
-// Paths from lights may come to any pixel of the film; those that are not asked for get nothing.
-Deposit Pass::splats_of(std::uint64_t sample, Worker& worker) {
+// Light subpaths may end at any pixel of the film; pixels outside the crop discard them.
+Deposit Pass::splat_deposit(std::uint64_t sample, Worker& worker) {
   return [=, this, &worker](std::uint32_t, const FilmPoint& at, std::span<const double> values) {
     deposit(sample, at, values, 1, worker);
   };
 }
 
-ContributionDeposit Pass::splats_apart(std::uint64_t sample, Worker& worker) {
-  if (beside_.layers == nullptr) return {};
-  return [=, this, &worker](std::uint32_t, const FilmPoint& at, const LightHistory& of,
+ContributionDeposit Pass::splat_layer_deposit(std::uint64_t sample, Worker& worker) {
+  if (auxiliary_.layers == nullptr) return {};
+  return [=, this, &worker](std::uint32_t, const FilmPoint& at, const ContributionInfo& history,
                             std::span<const double> values) {
-    deposit_apart(sample, at, of, values, 1, worker);
+    deposit_to_layer(sample, at, history, values, 1, worker);
   };
 }
 
-// What the samples of a tile's pixels see first, whichever of them have camera paths.
-void Pass::look(const Tile& tile, std::uint64_t sample, Worker& worker) {
-  if (beside_.features == nullptr) return;
-  take_pixels(
-      tile, crop_, sample, [&](int, int) { return std::optional(index(sample)); }, worker);
+// Traces the features of a sample in a tile, for all pixels of the crop, with or without a camera path.
+void Pass::trace_features(const Tile& tile, std::uint64_t sample, Worker& worker) {
+  if (auxiliary_.features == nullptr) return;
+  select_pixels(
+      tile, crop_, sample, [&](int, int) { return std::optional(sequence_index(sample)); }, worker);
   worker.feature_tracer->trace(worker.pixels, sample == 0,
                                [this](const PixelSample& at, std::span<const double> values) {
-                                 beside_.features->add(number_of(at.x, at.y), values);
+                                 auxiliary_.features->add(pixel_index(at.x, at.y), values);
                                });
 }
 
-void Pass::look_at_tile(std::uint32_t number, Worker& worker) {
-  for (std::uint64_t s = first_; s < last_; ++s) look(tile(number), s, worker);
+void Pass::trace_tile_features(std::uint32_t number, Worker& worker) {
+  for (std::uint64_t s = first_; s < last_; ++s) trace_features(tile(number), s, worker);
 }
 
 void Pass::render_tile(std::uint32_t number, Worker& worker) {
   for (std::uint64_t s = first_; s < last_; ++s) {
-    look(tile(number), s, worker);
-    take_pixels(tile(number), s, worker);
-    worker.path_tracer.tell_apart(pixels_apart(s, worker));
-    worker.path_tracer.trace(worker.pixels, pixels_deposit(s, worker));
+    trace_features(tile(number), s, worker);
+    select_pixels(tile(number), s, worker);
+    worker.path_tracer.set_layer_sink(pixel_layer_deposit(s, worker));
+    worker.path_tracer.trace(worker.pixels, pixel_deposit(s, worker));
   }
 }
 
 void Pass::render_tile_brutely(std::uint32_t number, Worker& worker) {
   for (std::uint64_t s = first_; s < last_; ++s) {
-    look(tile(number), s, worker);
-    take_pixels(tile(number), s, worker);
-    worker.adjoint_brute_tracer.tell_apart(pixels_apart(s, worker));
-    worker.adjoint_brute_tracer.trace(worker.pixels, pixels_deposit(s, worker));
+    trace_features(tile(number), s, worker);
+    select_pixels(tile(number), s, worker);
+    worker.adjoint_brute_tracer.set_layer_sink(pixel_layer_deposit(s, worker));
+    worker.adjoint_brute_tracer.trace(worker.pixels, pixel_deposit(s, worker));
   }
 }
 
@@ -337,39 +343,39 @@ void Pass::gather_tile(std::uint32_t item, Worker& worker) {
     kernel.nearest = static_cast<std::size_t>(scene_.render.photons.nearest);
     kernel.final_gather = scene_.render.photons.final_gather;
   }
-  look(tile(item % tiles_), sample, worker);
-  take_pixels(tile(item % tiles_), sample, worker);
-  worker.photon_gatherer.tell_apart(pixels_apart(sample, worker));
-  worker.photon_gatherer.trace(worker.pixels, *cloud_, kernel, pixels_deposit(sample, worker));
+  trace_features(tile(item % tiles_), sample, worker);
+  select_pixels(tile(item % tiles_), sample, worker);
+  worker.photon_gatherer.set_layer_sink(pixel_layer_deposit(sample, worker));
+  worker.photon_gatherer.trace(worker.pixels, *cloud_, kernel, pixel_deposit(sample, worker));
 }
 
-void Pass::join_tile(std::uint32_t number, Worker& worker) {
+void Pass::connect_tile(std::uint32_t number, Worker& worker) {
   for (std::uint64_t s = first_; s < last_; ++s) {
-    look(tile(number), s, worker);
-    take_pairs(tile(number), s, worker);
-    for (const PixelPair& pair : worker.pairs) worker.counts.paths += pair.seen ? 2 : 1;
-    worker.bidirectional_tracer.tell_apart(splats_apart(s, worker));
-    worker.bidirectional_tracer.trace(worker.pairs, splats_of(s, worker));
+    trace_features(tile(number), s, worker);
+    select_pairs(tile(number), s, worker);
+    for (const PixelPair& pair : worker.pairs) worker.counts.paths += pair.exposes_pixel ? 2 : 1;
+    worker.bidirectional_tracer.set_layer_sink(splat_layer_deposit(s, worker));
+    worker.bidirectional_tracer.trace(worker.pairs, splat_deposit(s, worker));
   }
 }
 
 void Pass::merge_tile(std::uint32_t item, Worker& worker) {
   const std::uint64_t sample = first_ + item / tiles_;
-  look(tile(item % tiles_), sample, worker);
-  take_pairs(tile(item % tiles_), sample, worker);
-  for (const PixelPair& pair : worker.pairs) worker.counts.paths += pair.seen ? 1 : 0;
-  worker.bidirectional_tracer.tell_apart(splats_apart(sample, worker));
-  worker.bidirectional_tracer.trace(worker.pairs, light_paths_, splats_of(sample, worker));
+  trace_features(tile(item % tiles_), sample, worker);
+  select_pairs(tile(item % tiles_), sample, worker);
+  for (const PixelPair& pair : worker.pairs) worker.counts.paths += pair.exposes_pixel ? 1 : 0;
+  worker.bidirectional_tracer.set_layer_sink(splat_layer_deposit(sample, worker));
+  worker.bidirectional_tracer.trace(worker.pairs, light_paths_, splat_deposit(sample, worker));
 }
 
 void Pass::trace_batch(std::uint32_t batch, Worker& worker) {
   const std::uint64_t begin = std::uint64_t{batch} * kPhotonBatch;
   const std::uint64_t end = std::min(begin + kPhotonBatch, photons_);
   for (std::uint64_t s = first_; s < last_; ++s) {
-    const Deposit deposit = splats_of(s, worker);
-    worker.light_tracer.tell_apart(splats_apart(s, worker));
-    for (std::uint64_t first = begin; first < end; first += kPathsTogether) {
-      take_photons(s, first, std::min<std::uint64_t>(first + kPathsTogether, end), worker);
+    const Deposit deposit = splat_deposit(s, worker);
+    worker.light_tracer.set_layer_sink(splat_layer_deposit(s, worker));
+    for (std::uint64_t first = begin; first < end; first += kBatchSize) {
+      select_photons(s, first, std::min<std::uint64_t>(first + kBatchSize, end), worker);
       worker.light_tracer.trace(worker.photons, deposit);
     }
   }
@@ -379,9 +385,9 @@ void Pass::trace_batch_brutely(std::uint32_t batch, Worker& worker) {
   const std::uint64_t begin = std::uint64_t{batch} * kPhotonBatch;
   const std::uint64_t end = std::min(begin + kPhotonBatch, photons_);
   for (std::uint64_t s = first_; s < last_; ++s) {
-    take_photons(s, begin, end, worker);
-    worker.brute_photon_tracer.tell_apart(splats_apart(s, worker));
-    worker.brute_photon_tracer.trace(worker.photons, splats_of(s, worker));
+    select_photons(s, begin, end, worker);
+    worker.brute_photon_tracer.set_layer_sink(splat_layer_deposit(s, worker));
+    worker.brute_photon_tracer.trace(worker.photons, splat_deposit(s, worker));
   }
 }
 

@@ -21,7 +21,7 @@
 
 namespace abbe {
 
-/// What a pass counted.
+/// Work that a pass counted, and what it dropped.
 struct PassCounts {
   std::uint64_t paths = 0;
   std::uint64_t rays = 0;
@@ -37,40 +37,42 @@ struct PassCounts {
   }
 };
 
-/// What a pass fills beside its film, where it is asked for.
-struct BesideFilms {
+/// Films that a pass fills in addition to its main film; null if not requested.
+struct AuxiliaryFilms {
   FeatureFilm* features = nullptr;
-  const Layers* layers = nullptr;  ///< With `layer_sums`, of as many times the planes of the film.
-  Film* layer_sums = nullptr;
+  const Layers* layers = nullptr;  ///< Set together with `layer_sums`.
+  Film* layer_sums = nullptr;      ///< Planes of all layers, one layer after another.
 };
 
-/// The pixels of which the first items of a pass without photons have all samples: rectangles of a film of
-/// this shape that do not overlap.
+/// Pixels that have all samples of a pass without photons after its first `items` work items, as rectangles
+/// that do not overlap.
 [[nodiscard]] std::vector<Crop> tiles_done(const FilmShape& shape, std::uint32_t items);
 
-/// Samples [first, last) of every pixel, with the photons and at the interval of camera paths of the plan.
-/// Sample s belongs to replicate s mod R and is number s / R of that replicate's sequence. Each technique of
-/// the plan has a stage of work items, tiles or batches of photons, that threads take from one counter, so
-/// that those done are always the first ones. No stage waits for the one before, but where paths from the
-/// camera gather what paths from lights have left: then samples are taken one by one, the items being their
-/// tiles, and all threads trace the paths from lights of a sample first.
+/// One pass: samples [first, last) of every pixel, with the photons and the path interval of the plan. With R
+/// replicates, sample s is number s / R of the random-number sequence of replicate s mod R.
+///
+/// Each technique of the plan has a stage of work items: tiles, or batches of photons. Threads take items
+/// from one counter, so the finished items are always the first ones. No stage waits for the one before.
+///
+/// If camera paths gather photons or merge with light subpaths, the pass takes the samples one by one. All
+/// threads first trace the light subpaths of a sample; the work items are then its tiles.
 class Pass {
  public:
-  /// Prepares a pass of whose items the film has the first `done` already. `seed` is that of the random
-  /// numbers.
+  /// Prepares a pass; the film has the first `done` work items already. `seed` selects the random numbers.
   Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleRange& samples, std::uint32_t done,
-       std::uint64_t seed, const BesideFilms& beside = {});
+       std::uint64_t seed, const AuxiliaryFilms& auxiliary = {});
 
-  /// Runs on that many threads until all is done, or until `pause`, which any thread may ask after any item,
-  /// says so; exceptions of workers are rethrown here.
+  /// Runs on `threads` threads until all items are done or `pause` returns true. Any thread may call `pause`
+  /// after any item. Rethrows exceptions of the threads.
   PassCounts run(int threads, const std::function<bool()>& pause);
 
-  /// How many items are done, and whether these are all. Not while it runs.
+  /// Number of finished items, not to be called during `run`.
   [[nodiscard]] std::uint32_t done() const { return std::min(next_.load(), items_); }
+  /// True if all items are done.
   [[nodiscard]] bool finished() const { return done() == items_; }
 
  private:
-  // What one thread keeps between items.
+  // State of one thread, reused for all its items.
   struct Worker {
     Worker(const Plan& plan, const FeatureFilm* features)
         : caster(plan.scene),
@@ -92,20 +94,20 @@ class Pass {
     PhotonGatherer photon_gatherer;
     BrutePhotonTracer brute_photon_tracer;
     AdjointBruteTracer adjoint_brute_tracer;
-    std::optional<FeatureTracer> feature_tracer;  // where there is a film of them
+    std::optional<FeatureTracer> feature_tracer;  // if features are requested
     std::vector<PixelSample> pixels;
     std::vector<PixelPair> pairs;
     std::vector<Sampler> photons;
-    std::vector<double> values;  // of a camera path, or of a layer, as the films take them
+    std::vector<double> values;  // weighted film values of one contribution
     PassCounts counts;
   };
 
-  // What a technique does: `work` for each of so many items.
+  // The work items of one technique.
   struct Stage {
     std::uint32_t items;
     void (Pass::*work)(std::uint32_t item, Worker& worker);
   };
-  // Where a tile begins.
+  // Top left pixel of a tile.
   struct Tile {
     int x0, y0;
   };
@@ -113,57 +115,57 @@ class Pass {
   [[nodiscard]] Stage stage_of(Technique technique) const;
   PassCounts run_until(std::uint32_t end, int threads, const std::function<bool()>& pause);
   PassCounts work(std::uint32_t end, const std::function<bool()>& pause);
-  void collect(std::uint64_t sample, int threads, PassCounts& counts);
+  void trace_sample_subpaths(std::uint64_t sample, int threads, PassCounts& counts);
   void do_item(std::uint32_t item, Worker& worker);
   void render_tile(std::uint32_t tile, Worker& worker);
   void render_tile_brutely(std::uint32_t tile, Worker& worker);
   void gather_tile(std::uint32_t item, Worker& worker);
-  void join_tile(std::uint32_t tile, Worker& worker);
+  void connect_tile(std::uint32_t tile, Worker& worker);
   void merge_tile(std::uint32_t item, Worker& worker);
-  void look_at_tile(std::uint32_t tile, Worker& worker);
-  void look(const Tile& tile, std::uint64_t sample, Worker& worker);
+  void trace_tile_features(std::uint32_t tile, Worker& worker);
+  void trace_features(const Tile& tile, std::uint64_t sample, Worker& worker);
   void trace_batch(std::uint32_t batch, Worker& worker);
   void trace_batch_brutely(std::uint32_t batch, Worker& worker);
 
   [[nodiscard]] Tile tile(std::uint32_t number) const;
-  template <typename PathOf>
-  void take_pixels(const Tile& tile, const Crop& within, std::uint64_t sample, PathOf path_of,
-                   Worker& worker) const;
-  void take_pixels(const Tile& tile, std::uint64_t sample, Worker& worker) const;
-  void take_pairs(const Tile& tile, std::uint64_t sample, Worker& worker) const;
-  void take_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t last, Worker& worker) const;
+  template <typename PathIndex>
+  void select_pixels(const Tile& tile, const Crop& within, std::uint64_t sample, PathIndex path_index,
+                     Worker& worker) const;
+  void select_pixels(const Tile& tile, std::uint64_t sample, Worker& worker) const;
+  void select_pairs(const Tile& tile, std::uint64_t sample, Worker& worker) const;
+  void select_photons(std::uint64_t sample, std::uint64_t first, std::uint64_t last, Worker& worker) const;
   [[nodiscard]] Sampler photon_sampler(std::uint64_t sample, std::uint64_t photon) const;
-  [[nodiscard]] std::array<float, 4> numbers_of(std::uint64_t sample) const;
+  [[nodiscard]] std::array<float, 4> sample_random_numbers(std::uint64_t sample) const;
   [[nodiscard]] static std::span<const double> weighted(std::span<const double> values, double weight,
                                                         Worker& worker);
   void deposit(std::uint64_t sample, const FilmPoint& at, std::span<const double> values, double weight,
                Worker& worker);
-  void deposit_apart(std::uint64_t sample, const FilmPoint& at, const LightHistory& of,
-                     std::span<const double> values, double weight, Worker& worker);
-  [[nodiscard]] Deposit pixels_deposit(std::uint64_t sample, Worker& worker);
-  [[nodiscard]] ContributionDeposit pixels_apart(std::uint64_t sample, Worker& worker);
-  [[nodiscard]] ContributionDeposit splats_apart(std::uint64_t sample, Worker& worker);
-  [[nodiscard]] Deposit splats_of(std::uint64_t sample, Worker& worker);
-  // Whether the pixel is asked for, or another one's light may fall on it.
-  [[nodiscard]] bool is_sampled(int x, int y) const { return displaces_lanes_ || is_asked_for(x, y); }
-  [[nodiscard]] bool is_asked_for(int x, int y) const {
+  void deposit_to_layer(std::uint64_t sample, const FilmPoint& at, const ContributionInfo& history,
+                        std::span<const double> values, double weight, Worker& worker);
+  [[nodiscard]] Deposit pixel_deposit(std::uint64_t sample, Worker& worker);
+  [[nodiscard]] ContributionDeposit pixel_layer_deposit(std::uint64_t sample, Worker& worker);
+  [[nodiscard]] ContributionDeposit splat_layer_deposit(std::uint64_t sample, Worker& worker);
+  [[nodiscard]] Deposit splat_deposit(std::uint64_t sample, Worker& worker);
+  // True if the pixel lies in the crop, or its light may fall on a pixel of the crop.
+  [[nodiscard]] bool is_sampled(int x, int y) const { return displaces_wavelengths_ || is_requested(x, y); }
+  [[nodiscard]] bool is_requested(int x, int y) const {
     return x >= crop_.x0 && x < crop_.x1 && y >= crop_.y0 && y < crop_.y1;
   }
-  [[nodiscard]] std::uint32_t number_of(int x, int y) const {
+  [[nodiscard]] std::uint32_t pixel_index(int x, int y) const {
     return static_cast<std::uint32_t>(y * film_.width() + x);
   }
-  [[nodiscard]] bool holds(std::span<const double> values) const;
-  [[nodiscard]] bool keeps(std::span<const double> values, Worker& worker) const;
+  [[nodiscard]] bool is_representable(std::span<const double> values) const;
+  [[nodiscard]] bool accept(std::span<const double> values, Worker& worker) const;
   [[nodiscard]] Replicate replicate(std::uint64_t sample) const;
-  [[nodiscard]] std::uint32_t index(std::uint64_t sample) const;
-  [[nodiscard]] std::optional<std::uint32_t> path_of(std::uint64_t sample, int x, int y) const;
+  [[nodiscard]] std::uint32_t sequence_index(std::uint64_t sample) const;
+  [[nodiscard]] std::optional<std::uint32_t> path_index(std::uint64_t sample, int x, int y) const;
 
   const Plan& plan_;
   const Scene& scene_;
   Film& film_;
-  BesideFilms beside_;
+  AuxiliaryFilms auxiliary_;
   Crop crop_;
-  bool displaces_lanes_;  // the camera
+  bool displaces_wavelengths_;  // the camera moves some wavelengths to other pixels
   std::uint64_t first_;
   std::uint64_t last_;
   std::uint64_t seed_;
@@ -172,9 +174,10 @@ class Pass {
   std::vector<Stage> stages_;
   std::uint32_t items_ = 0;  // of all stages
   bool sample_by_sample_;
-  std::optional<std::uint32_t> left_by_;  // the sample of the pass whose paths from lights have left these:
+  // sample of the pass to which `cloud_` or `light_paths_` belongs
+  std::optional<std::uint32_t> sample_of_cloud_;
   std::optional<PhotonCloud> cloud_;
-  LightPaths light_paths_;
+  LightSubpaths light_paths_;
   std::uint64_t photons_;
   std::uint32_t path_interval_;
   std::atomic<std::uint32_t> next_;

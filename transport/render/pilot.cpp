@@ -18,55 +18,54 @@ namespace abbe {
 namespace {
 
 constexpr std::uint64_t kPaths = 1U << 16;
-constexpr std::uint64_t kMostSamples = 16;
+constexpr std::uint64_t kMaxPilotSamples = 16;
 
 constexpr std::uint32_t kPilotBatches = 64;
 constexpr std::uint32_t kPilotBatch = 256;
-constexpr double kAll = kPilotBatches * kPilotBatch;
+constexpr double kPilotPaths = kPilotBatches * kPilotBatch;
 
-// Pixels all over the film.
+// Pixel samples of a batch, spread over the whole film.
 std::vector<PixelSample> pixels_of(const Plan& plan, std::uint32_t batch) {
   const Camera& camera = plan.scene.camera;
   std::vector<PixelSample> samples;
   for (std::uint32_t i = batch * kPilotBatch; i < (batch + 1) * kPilotBatch; ++i) {
-    const auto [x, y] = pixel_of_pilot(camera, 0, i);
-    samples.push_back({x, y, Sampler(kSeedOfPilots, Purpose::camera, 0, 0, i)});
+    const auto [x, y] = pilot_pixel(camera, 0, i);
+    samples.push_back({x, y, Sampler(kPilotSeed, Purpose::camera, 0, 0, i)});
   }
   return samples;
 }
 
-// Adds up what each light deposits.
-ContributionDeposit by_light(ExposureByLight& sums) {
-  return [&sums](std::uint32_t, const FilmPoint&, const LightHistory& of, std::span<const double> values) {
-    sums.add(of.light, values);
-  };
+// Sink that adds up the contributions of each light.
+ContributionDeposit sum_by_light(ExposureByLight& sums) {
+  return [&sums](std::uint32_t, const FilmPoint&, const ContributionInfo& history,
+                 std::span<const double> values) { sums.add(history.light, values); };
 }
 
-// Camera paths, whose mean stands for all pixels.
+// Traces camera paths and scales their mean to the sum over all pixels.
 void expose_batch(const Plan& plan, std::uint32_t batch, RayCaster& caster, ExposureByLight& sums) {
   const Camera& camera = plan.scene.camera;
   PathTracer tracer(plan, caster);
-  tracer.tell_apart(by_light(sums));
+  tracer.set_layer_sink(sum_by_light(sums));
   tracer.trace(pixels_of(plan, batch), [](std::uint32_t, const FilmPoint&, std::span<const double>) {});
-  for (double& sum : sums.exposure) sum *= static_cast<double>(camera.width) * camera.height / kAll;
+  for (double& sum : sums.exposure) sum *= static_cast<double>(camera.width) * camera.height / kPilotPaths;
 }
 
-void expose_joined(const Plan& plan, std::uint32_t batch, RayCaster& caster, ExposureByLight& sums) {
+void expose_bidirectional(const Plan& plan, std::uint32_t batch, RayCaster& caster, ExposureByLight& sums) {
   std::vector<PixelPair> pairs;
   for (const PixelSample& sample : pixels_of(plan, batch)) {
     const auto i = static_cast<std::uint32_t>(batch * kPilotBatch + pairs.size());
-    pairs.push_back({sample.x, sample.y, sample.sampler, {kSeedOfPilots, Purpose::light, 0, 0, i}, true});
+    pairs.push_back({sample.x, sample.y, sample.sampler, {kPilotSeed, Purpose::light, 0, 0, i}, true});
   }
   BidirectionalTracer tracer(plan, caster);
-  tracer.tell_apart(by_light(sums));
+  tracer.set_layer_sink(sum_by_light(sums));
   tracer.trace(pairs, [](std::uint32_t, const FilmPoint&, std::span<const double>) {});
 }
 
 void expose_photons(const Plan& plan, std::uint32_t batch, RayCaster& caster, ExposureByLight& sums) {
   std::vector<Sampler> photons;
   for (std::uint32_t i = batch * kPilotBatch; i < (batch + 1) * kPilotBatch; ++i)
-    photons.emplace_back(kSeedOfPilots, Purpose::light, 0, 0, i);
-  LightTracer tracer(plan, caster, 1 / kAll);
+    photons.emplace_back(kPilotSeed, Purpose::light, 0, 0, i);
+  LightTracer tracer(plan, caster, 1 / kPilotPaths);
   const std::size_t planes = plan.scene.film_planes().size();
   std::vector<double> values(photons.size() * planes);
   tracer.trace(photons, [&](std::uint32_t photon, const FilmPoint&, std::span<const double> splat) {
@@ -86,7 +85,7 @@ std::optional<Film> film_of(const Plan& plan, int threads, const std::optional<C
   const Camera& camera = plan.scene.camera;
   Film film(camera.width, camera.height, static_cast<int>(plan.scene.film_planes().size()), replicates,
             plan.nominal_value, replicates > 1 ? paths_to_any_pixel(plan) : 0, plan.path_interval, crop);
-  Pass pass(plan, film, crop, samples, 0, kSeedOfPilots);
+  Pass pass(plan, film, crop, samples, 0, kPilotSeed);
   pass.run(threads, stop);
   if (!pass.finished()) return std::nullopt;
   film.set_samples(count_per_replicate({samples}, replicates));
@@ -95,18 +94,18 @@ std::optional<Film> film_of(const Plan& plan, int threads, const std::optional<C
 
 }  // namespace
 
-std::pair<int, int> pixel_of_pilot(const Camera& camera, std::uint32_t stream, std::uint32_t pilot) {
-  const std::array<float, 4> u = Sampler(kSeedOfPilots, Purpose::pilot, 0, stream, pilot).group(0);
+std::pair<int, int> pilot_pixel(const Camera& camera, std::uint32_t stream, std::uint32_t pilot) {
+  const std::array<float, 4> u = Sampler(kPilotSeed, Purpose::pilot, 0, stream, pilot).group(0);
   return {std::min(static_cast<int>(u[0] * static_cast<float>(camera.width)), camera.width - 1),
           std::min(static_cast<int>(u[1] * static_cast<float>(camera.height)), camera.height - 1)};
 }
 
-PixelNoise noise_of_pixel(std::span<const double> values, std::size_t paths_of_replicate) {
-  const auto paths = static_cast<double>(paths_of_replicate);
+PixelNoise estimate_pixel_noise(std::span<const double> values, std::size_t paths_per_replicate) {
+  const auto paths = static_cast<double>(paths_per_replicate);
   const double replicates = static_cast<double>(values.size()) / paths;
   PixelNoise noise{std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size())};
-  for (std::size_t first = 0; first < values.size(); first += paths_of_replicate) {
-    const auto replicate = values.subspan(first, paths_of_replicate);
+  for (std::size_t first = 0; first < values.size(); first += paths_per_replicate) {
+    const auto replicate = values.subspan(first, paths_per_replicate);
     const double mean = std::accumulate(replicate.begin(), replicate.end(), 0.0) / paths;
     noise.variance += paths * std::pow(mean - noise.mean, 2) / (replicates - 1);
   }
@@ -115,7 +114,7 @@ PixelNoise noise_of_pixel(std::span<const double> values, std::size_t paths_of_r
 
 std::optional<Film> pilot_film(const Plan& plan, int threads, std::optional<Crop> crop,
                                const std::function<bool()>& stop) {
-  const std::uint64_t samples = std::clamp<std::uint64_t>(kPaths / pixel_total(plan), 1, kMostSamples);
+  const std::uint64_t samples = std::clamp<std::uint64_t>(kPaths / pixel_total(plan), 1, kMaxPilotSamples);
   return film_of(plan, threads, crop, stop, {0, samples}, 1);
 }
 
@@ -125,8 +124,8 @@ std::optional<Film> noise_pilot(const Plan& plan, int threads, std::optional<Cro
   const std::uint64_t samples =
       kPaths / std::max(pixel_total(plan), plan.photons) / kReplicates * kReplicates;
   if (samples == 0) return std::nullopt;
-  // The samples after those of `pilot_film`.
-  return film_of(plan, threads, crop, stop, {kMostSamples, kMostSamples + samples}, kReplicates);
+  // Samples after those of `pilot_film`, so that the random numbers differ.
+  return film_of(plan, threads, crop, stop, {kMaxPilotSamples, kMaxPilotSamples + samples}, kReplicates);
 }
 
 void pilot_exposures(const Plan& plan, int threads, ExposureByLight& sums) {
@@ -139,10 +138,10 @@ void pilot_exposures(const Plan& plan, int threads, ExposureByLight& sums) {
       if (uses(plan.techniques, Technique::path)) expose_batch(plan, batch, caster, batches[batch]);
       if (uses(plan.techniques, Technique::light)) expose_photons(plan, batch, caster, batches[batch]);
       if (!uses(plan.techniques, Technique::path) && !uses(plan.techniques, Technique::light))
-        expose_joined(plan, batch, caster, batches[batch]);
+        expose_bidirectional(plan, batch, caster, batches[batch]);
     }
   });
-  // In their order, whichever threads traced them.
+  // The order of the batches makes the sum independent of the threads.
   for (const ExposureByLight& batch : batches)
     for (std::size_t group = 0; group < sums.exposure.size(); ++group)
       sums.exposure[group] += batch.exposure[group];

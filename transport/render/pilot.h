@@ -15,10 +15,10 @@
 
 namespace abbe {
 
-/// Seed of the random numbers of pilots: scene files have none so large.
-inline constexpr std::uint64_t kSeedOfPilots = std::uint64_t{1} << 63;
+/// Seed of the random numbers of pilots. Scene files cannot have so large a seed.
+inline constexpr std::uint64_t kPilotSeed = std::uint64_t{1} << 63;
 
-/// What pilots judge film values by: the sum of their magnitudes over the channels, 0 where one is not
+/// Magnitude of film values for pilots: the sum of their absolute values over the channels, 0 if one is not
 /// finite.
 [[nodiscard]] inline double magnitude(std::span<const double> values) {
   double sum = 0;
@@ -26,43 +26,45 @@ inline constexpr std::uint64_t kSeedOfPilots = std::uint64_t{1} << 63;
   return std::isfinite(sum) ? sum : 0;
 }
 
-/// The rays that pilots may cast to choose how a film is rendered: 64 for each of its pixels, about what path
-/// tracing does in ten samples, so that they cost little of it. The samples themselves do not count, as parts
-/// of one film may state different ones.
-[[nodiscard]] inline double rays_of_pilots(const Camera& camera) {
+/// Number of rays that pilots may cast to choose how a film is rendered: 64 per pixel, about as many as path
+/// tracing casts in ten samples. The samples of the render do not count, because parts of one film may state
+/// different ones.
+[[nodiscard]] inline double pilot_ray_budget(const Camera& camera) {
   return 64.0 * camera.width * camera.height;
 }
 
-/// A pixel of the film that a pilot looks at: one of a sequence spread over all of it.
-[[nodiscard]] std::pair<int, int> pixel_of_pilot(const Camera& camera, std::uint32_t stream,
-                                                 std::uint32_t pilot);
+/// Pixel x, y of a pilot path: element `pilot` of a sequence that covers the whole film evenly.
+[[nodiscard]] std::pair<int, int> pilot_pixel(const Camera& camera, std::uint32_t stream,
+                                              std::uint32_t pilot);
 
-/// What pilots find of a pixel: the mean, and the variance of a path as replicates tell it.
+/// Noise of a pixel as pilots estimate it.
 struct PixelNoise {
   double mean = 0;
   double variance = 0;
 };
 
-/// Of the values of its paths, so many of them one after the other in each replicate.
-[[nodiscard]] PixelNoise noise_of_pixel(std::span<const double> values, std::size_t paths_of_replicate);
+/// Mean and variance of one path from the values of a pixel's paths. Each replicate has `paths_per_replicate`
+/// consecutive values; the variance follows from the scatter of the replicates.
+[[nodiscard]] PixelNoise estimate_pixel_noise(std::span<const double> values,
+                                              std::size_t paths_per_replicate);
 
-/// A film, of one replicate, of few samples per pixel that depend on nothing but the plan: 65536 paths or so,
-/// at least one and at most 16 for each pixel, and as many photons where these are traced. Its random numbers
-/// are those of no render, so that what is chosen by it is independent of the samples it is chosen for.
-/// Nothing if `stop`, which any thread may ask, says so before it is done.
+/// A film of one replicate and few samples per pixel, which depends on the plan alone. It has about 65536
+/// paths, at least one and at most 16 per pixel, and as many photons if the plan traces photons. No render
+/// uses its random numbers, so choices that follow from it are independent of the samples of the render.
+/// Empty if `stop` returned true before the film was finished; any thread may call `stop`.
 [[nodiscard]] std::optional<Film> pilot_film(
     const Plan& plan, int threads, std::optional<Crop> crop = {},
     const std::function<bool()>& stop = [] { return false; });
 
-/// A film of eight replicates and at most 65536 camera paths and as many photons, for `hidden_noise` to
-/// compare a small film with. No render has its random numbers. Nothing for films of more than 8192 pixels or
-/// photons per sample, and if `stop` returns true before it is done.
+/// A film of eight replicates and at most 65536 camera paths and photons, with which `hidden_noise` compares
+/// a small film. No render uses its random numbers. Empty for films of more than 8192 pixels or photons per
+/// sample, and if `stop` returned true before the film was finished.
 [[nodiscard]] std::optional<Film> noise_pilot(
     const Plan& plan, int threads, std::optional<Crop> crop = {},
     const std::function<bool()>& stop = [] { return false; });
 
-/// What each group of lights adds to such a film in all: to `sums.exposure`, from 16384 paths, and as many
-/// photons where these are traced, however many pixels there are.
+/// Adds to `sums.exposure` what each group of lights contributes to the whole film in a sample. The estimate
+/// uses 16384 camera paths, and as many photons if the plan traces photons, for any number of pixels.
 void pilot_exposures(const Plan& plan, int threads, ExposureByLight& sums);
 
 }  // namespace abbe

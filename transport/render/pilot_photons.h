@@ -16,45 +16,52 @@
 
 namespace abbe {
 
-/// What photons of pilots are for, each with random numbers of its own.
-enum class PilotStage : std::uint32_t { first_aims, aims, wavelengths, caustic_aims, caustics, meter_aims };
+/// Purpose of pilot photons. Each stage has random numbers of its own.
+enum class PilotStage : std::uint32_t {
+  coarse_guides,
+  photon_guides,
+  wavelengths,
+  caustic_photon_guides,
+  caustics,
+  probe_guides
+};
 
 inline constexpr std::uint32_t kPilotPhotonBatch = 1U << 9;
 
-/// As many rays as photons of a stage may cast, so that matter that holds light for thousands of events costs
-/// no more than any other.
-inline constexpr std::uint64_t kMostPilotRays = 1U << 23;
+/// Maximum number of rays that the photons of a stage may cast. It limits the cost of media in which photons
+/// scatter thousands of times.
+inline constexpr std::uint64_t kMaxPilotRays = 1U << 23;
 
-/// The photons of a stage: at most so many from the one of that number on, both in multiples of
-/// `kPilotPhotonBatch`, and no more once enough has been found or so many rays were cast.
+/// The photons of a stage: indices `first` to `first + max_photons`, both multiples of `kPilotPhotonBatch`.
+/// Tracing stops early after `sufficient_results` results or `max_rays` rays.
 struct PilotPhotons {
   PilotStage stage;
-  std::uint32_t most;
-  std::size_t enough = std::numeric_limits<std::size_t>::max();
+  std::uint32_t max_photons;
+  std::size_t sufficient_results = std::numeric_limits<std::size_t>::max();
   std::uint32_t first = 0;
-  std::uint64_t most_rays = kMostPilotRays;
+  std::uint64_t max_rays = kMaxPilotRays;
 };
 
-/// What `trace(tracer, photons)` returns of each batch of photons, in their order whichever threads traced
-/// them, each thread by a tracer `make_tracer(caster)` of its own; its `size()` is how much has been found.
-/// The random numbers are the same for all scenes and seeds, and so is when no more are traced for any number
-/// of threads.
+/// Returns the results of `trace(tracer, photons)` for each batch of photons, in the order of the batches.
+/// Each thread uses its own tracer, `make_tracer(caster)`. The `size()` of a result counts towards
+/// `sufficient_results`. The random numbers are the same for all scenes and seeds. Neither the results nor
+/// their number depend on `threads`.
 template <typename MakeTracer, typename Trace>
 [[nodiscard]] auto trace_pilot_photons(const Scene& scene, const PilotPhotons& pilots, int threads,
                                        MakeTracer make_tracer, Trace trace) {
   using Tracer = std::invoke_result_t<MakeTracer, RayCaster&>;
-  using Found = std::invoke_result_t<Trace, Tracer&, std::span<const Sampler>>;
+  using BatchResult = std::invoke_result_t<Trace, Tracer&, std::span<const Sampler>>;
   constexpr std::uint64_t kSeed = 0;
-  constexpr std::size_t kFewestAtATime = 4;
-  constexpr std::size_t kMostAtATime = 32;
+  constexpr std::size_t kMinBatches = 4;
+  constexpr std::size_t kMaxBatches = 32;
   const auto stage = static_cast<std::uint32_t>(pilots.stage);
-  const std::size_t most = pilots.most / kPilotPhotonBatch;
-  std::vector<Found> batches;
-  std::size_t found = 0;
+  const std::size_t max_batches = pilots.max_photons / kPilotPhotonBatch;
+  std::vector<BatchResult> batches;
+  std::size_t results = 0;
   std::atomic<std::uint64_t> rays = 0;
-  while (batches.size() < most && found < pilots.enough && rays < pilots.most_rays) {
+  while (batches.size() < max_batches && results < pilots.sufficient_results && rays < pilots.max_rays) {
     const std::size_t first = batches.size();
-    batches.resize(std::min(first + std::clamp(first, kFewestAtATime, kMostAtATime), most));
+    batches.resize(std::min(first + std::clamp(first, kMinBatches, kMaxBatches), max_batches));
     std::atomic<std::size_t> next = first;
     run_on_threads(threads, [&] {
       RayCaster caster(scene);
@@ -69,7 +76,7 @@ template <typename MakeTracer, typename Trace>
       }
       rays += caster.rays();
     });
-    for (std::size_t i = first; i < batches.size(); ++i) found += batches[i].size();
+    for (std::size_t i = first; i < batches.size(); ++i) results += batches[i].size();
   }
   return batches;
 }

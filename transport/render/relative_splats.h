@@ -11,22 +11,22 @@
 
 namespace abbe {
 
-/// A value that a photon of a pilot adds to the film.
+/// A value that a pilot photon adds to the film.
 struct Splat {
-  std::size_t of;     ///< The photon, or what it stands for.
-  std::size_t place;  ///< Of `RelativePlaces`.
+  std::size_t source;  ///< Index of the photon, or of the group to which it belongs.
+  std::size_t cell;    ///< Index in `RelativeErrorCells`.
   double value;
 };
 
-/// The places of a film at which errors are relative to the same mean: each plane, of an observer those of
-/// linear sRGB, of each block of pixels.
-class RelativePlaces {
+/// Cells of a film inside which errors are relative to the same mean: every plane of every block of pixels.
+/// The planes of an observer are those of linear sRGB.
+class RelativeErrorCells {
  public:
-  explicit RelativePlaces(const Scene& scene);
+  explicit RelativeErrorCells(const Scene& scene);
 
   [[nodiscard]] std::size_t count() const;
-  /// Adds what comes there to `splats`.
-  void add(std::size_t of, const FilmPoint& at, std::span<const double> values,
+  /// Adds to `splats` what the film values at a film point contribute to their cells.
+  void add(std::size_t source, const FilmPoint& at, std::span<const double> values,
            std::vector<Splat>& splats) const;
 
  private:
@@ -37,9 +37,9 @@ class RelativePlaces {
   std::optional<Matrix3> from_xyz_;  // to linear sRGB
 };
 
-/// Of so many photons, or what they stand for, the squares of what they add relative to the squared mean
-/// around and the usual part (`kUsualFloor`) of that of the film: what their noise counts in relMSE.
+/// Contribution of each of `count` sources to relMSE: the sum of its squared splats, each divided by the
+/// squared mean of the cell plus `kUsualFloor` times the squared mean of the film.
 [[nodiscard]] std::vector<double> relative_squares(std::span<const Splat> splats,
-                                                   const RelativePlaces& places, std::size_t count);
+                                                   const RelativeErrorCells& cells, std::size_t count);
 
 }  // namespace abbe

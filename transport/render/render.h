@@ -14,77 +14,82 @@
 #include "sensor/film/relative_error.h"
 #include "transport/path/truncated_paths.h"
 #include "transport/plan/plan.h"
-#include "transport/render/crew.h"
 #include "transport/render/layers.h"
+#include "transport/render/mpi_group.h"
 #include "transport/render/sample_ranges.h"
 
 namespace abbe {
 
-/// How far a render has come.
+/// Progress of a render.
 struct Progress {
-  double share;           ///< Of the work, in [0, 1]; an estimate where time or error decides.
-  std::uint64_t samples;  ///< Finished, per pixel, those of an earlier run too.
-  double rate;            ///< Of this run, without its planning [samples/s]; 0 before its first.
+  double fraction_done;   ///< In [0, 1]; an estimate if a time or error limit ends the render.
+  std::uint64_t samples;  ///< Finished samples per pixel, including those of an earlier run.
+  double rate;            ///< Rate of this run without its planning [samples/s]; 0 before its first sample.
   double elapsed_s;
-  double left_s;                ///< An estimate; NaN before there is one.
-  RelativeError error;          ///< Of the film when it had
-  std::uint64_t error_samples;  ///< so many per pixel.
+  double left_s;                ///< Estimated time to the end; NaN while unknown.
+  RelativeError error;          ///< Latest estimate of the film's error.
+  std::uint64_t error_samples;  ///< Samples per pixel when `error` was estimated.
 };
 
 struct RenderResult;
 
-/// A pass that is not finished: these samples of the first tiles and photons only.
+/// State of a pass that was interrupted: it has finished the first items of its samples.
 struct UnfinishedPass {
   SampleRange samples;
-  std::uint32_t items;  ///< Tiles and photon batches done, in their order.
+  std::uint32_t items;  ///< Number of finished tiles and photon batches, in their order.
 };
 
-/// When to stop, and with what.
+/// Options of a render: its limits, its outputs and its callbacks.
 struct RenderOptions {
-  int threads = 0;                          ///< 0: one per processor.
-  std::optional<double> time_limit_s = {};  ///< Stops after the first pass that ends then.
-  /// Stops after a pass whose relative error is no larger: the median, or that of the means of the first so
-  /// many planes over the whole film. An error that is not yet known (`is_known`) must be four times smaller.
+  int threads = 0;                          ///< Number of threads; 0 for one per processor.
+  std::optional<double> time_limit_s = {};  ///< Stops after the first pass that ends after this time.
+  /// Stops after a pass whose relative error is no larger than this. With `target_planes` = 0 this is the
+  /// median error. Otherwise it is the error of the mean over the whole film, the largest of the first
+  /// `target_planes` planes. An error that is not yet known (`is_known`) must be four times smaller.
   std::optional<double> target_error = {};
   int target_planes = 0;
   std::optional<Crop> crop = {};
-  bool measure_error = false;  ///< Also find `error` where neither a target nor progress asks for it.
-  bool measure_replay =
-      false;  ///< Also find `embree_replay_share`, at the cost of rendering a few paths again.
-  std::optional<SampleRange> samples = {};  ///< Only these of the samples the scene asks for.
-  std::optional<Layers> layers = {};        ///< Into which the film is also told apart.
-  std::vector<Feature> features = {};  ///< Of the first surfaces that are met, each once, in their order.
-  /// Called with what is done, maybe amid a pass, once `checkpoint_interval_s` has gone by since the last
-  /// call or since the start, and so seldom that the calls take no more than a hundredth of the time; and
-  /// once as soon as a stop is asked for.
+  bool measure_error = false;  ///< Estimate the final error even if neither a target nor `progress` needs it.
+  /// Measure `embree_replay_fraction`, by tracing a few paths again.
+  bool measure_replay = false;
+  std::optional<SampleRange> samples = {};  ///< Restricts the render to these samples; empty for all.
+  std::optional<Layers> layers = {};        ///< Layers into which the film is split in addition.
+  /// Features of the first surface hit to record; each once, in the order of `Feature`.
+  std::vector<Feature> features = {};
+  /// Called with the current result, possibly during a pass:
+  /// - once `checkpoint_interval_s` has passed since the last call or the start, but so seldom that the calls
+  ///   take at most 1 % of the time;
+  /// - once as soon as a stop is requested.
   std::function<void(const RenderResult&)> checkpoint = {};
   double checkpoint_interval_s = 60;
-  const std::atomic<bool>* stop = nullptr;  ///< Stops after the pass that runs, so that the mean is right.
+  /// Set to true to stop after the current pass. Whole passes leave the mean unbiased.
+  const std::atomic<bool>* stop = nullptr;
   std::function<void(const Progress&)> progress = {};
-  /// Asked after each pass whether `show` is to be called with what is done: whole passes, never a part.
-  std::function<bool()> wants_to_see = {};
+  /// Called after each pass; `show` then receives the result of all whole passes if this returned true.
+  std::function<bool()> viewer_is_ready = {};
   std::function<void(const RenderResult&)> show = {};
-  /// What pilots have taught of the same scene (`IntegratorChoice::guides`); else they are asked first.
-  std::shared_ptr<const Guides> guides = {};
-  Crew crew = {};  ///< The processes that render this together.
+  /// Guiding data that pilots trained for the same scene (`IntegratorChoice::guides`); null to train them
+  /// first.
+  std::shared_ptr<const GuidingData> guides = {};
+  MpiGroup mpi_group = {};  ///< The MPI processes that render this film together.
 };
 
-/// What a render did.
+/// Work and time of a render.
 struct RenderStats {
   double wall_s = 0;
   double cpu_s = 0;
-  int threads = 1;         ///< Of each process.
-  int processes = 1;       ///< Of the crew, whose work these figures count.
-  int path_splitting = 1;  ///< Into how many a camera path goes on where it first scatters.
+  int threads = 1;         ///< Threads of each process.
+  int processes = 1;       ///< Processes whose work these figures add up.
+  int path_splitting = 1;  ///< Directions in which a camera path continues from its first scattering vertex.
   std::uint64_t samples_per_pixel = 0;
-  std::uint64_t samples_before = 0;  ///< Of an earlier run: the counts are of these too, the times are not.
+  std::uint64_t samples_before = 0;  ///< Samples of an earlier run. Counts include that run, times do not.
   std::uint64_t paths = 0;
   std::uint64_t rays = 0;
-  std::uint64_t nonfinite_samples = 0;  ///< Dropped.
+  std::uint64_t nonfinite_samples = 0;  ///< Samples with values that are not finite, which are dropped.
   TruncatedPaths cut = {};
   RelativeError error = {};
-  double embree_replay_share =
-      0;  ///< Time of the logged rays through Embree alone over the time to trace their paths.
+  /// Time that Embree alone takes for logged rays, divided by the time to trace their paths.
+  double embree_replay_fraction = 0;
   bool interrupted = false;
 };
 
@@ -92,23 +97,23 @@ struct RenderResult {
   Film film;
   SampleRanges samples;
   RenderStats stats;
-  std::optional<UnfinishedPass> unfinished = {};  ///< Only in what a checkpoint gets.
-  /// What the replicates that an unfinished pass adds to held before it, of a film with photons: until all of
-  /// a sample's are there, no pixel has the sample.
+  std::optional<UnfinishedPass> unfinished = {};  ///< Only in the result that a checkpoint receives.
+  /// Copies of the replicates to which an unfinished pass contributes, from before the pass. Only for films
+  /// with photons: no pixel has a sample until all photons of that sample are traced.
   std::shared_ptr<const std::vector<Film>> before_pass = {};
-  std::optional<Film> layers = {};           ///< Their planes one after another, if some were asked for.
-  std::optional<FeatureFilm> features = {};  ///< If some were asked for.
+  std::optional<Film> layers = {};           ///< Planes of all layers, one layer after another, if requested.
+  std::optional<FeatureFilm> features = {};  ///< If features were requested.
 };
 
-/// Renders the scene, or those of its samples that `start` does not have. For fixed samples the film is a
-/// pure function of scene, data, version and seed: threads, processes, interruptions and their timing change
-/// nothing. Of a crew, the result is that of its first process; the others are left with empty films.
-/// Throws Error{resource} when the film does not fit in memory.
+/// Renders the scene, or those of its samples that `start` does not have. With fixed samples, the film
+/// depends only on scene, data, version and seed, not on threads, processes or interruptions. In an MPI
+/// group, rank 0 returns the result and the other processes return empty films. Throws Error{resource} if the
+/// film does not fit in memory.
 [[nodiscard]] RenderResult render(const Scene& scene, const RenderOptions& options,
                                   std::optional<RenderResult> start = {});
 
-/// Replicates of the scene's film: by its samples per pixel, where time or error do not decide; enough for a
-/// variance, few enough to leave the sequences long.
+/// Number of replicates of the scene's film: enough to estimate a variance, few enough for long sequences. It
+/// follows from the samples per pixel, unless a time or error limit ends the render.
 [[nodiscard]] int replicate_count(const Scene& scene, const RenderOptions& options);
 
 }  // namespace abbe

@@ -19,7 +19,7 @@ double cpu_seconds(clockid_t clock) {
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
 
-// Paths spread evenly over the film, and as many photons.
+// Traces paths spread evenly over the film, and as many photons.
 void trace_some(const Plan& plan, RayCaster& caster) {
   constexpr std::uint32_t kPaths = 1U << 15;
   constexpr std::uint32_t kTogether = 256;
@@ -60,7 +60,7 @@ double process_cpu_seconds() {
   return cpu_seconds(CLOCK_PROCESS_CPUTIME_ID);
 }
 
-double measure_replay_share(const Plan& plan) {
+double measure_replay_fraction(const Plan& plan) {
   std::vector<LoggedRay> log;
   RayCaster logging(plan.scene, &log);
   trace_some(plan, logging);

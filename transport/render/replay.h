@@ -4,13 +4,14 @@
 
 namespace abbe {
 
-/// Time of a render's rays through Embree alone over the time to trace their paths: some paths, of path and
-/// light tracing as the plan has them and bidirectional ones for all other techniques, are traced with their
-/// rays logged, and those rays replayed; each is timed on this thread, the best of three.
-[[nodiscard]] double measure_replay_share(const Plan& plan);
+/// Time that Embree alone takes for a render's rays, divided by the time to trace their paths. Some paths are
+/// traced with their rays logged: path and light tracing as in the plan, bidirectional paths for all other
+/// techniques. Then the rays are replayed. Each time is CPU time of this thread, the shortest of three.
+[[nodiscard]] double measure_replay_fraction(const Plan& plan);
 
-/// CPU time of this thread or of the whole process [s].
+/// CPU time of this thread [s].
 [[nodiscard]] double thread_cpu_seconds();
+/// CPU time of the whole process [s].
 [[nodiscard]] double process_cpu_seconds();
 
 }  // namespace abbe

@@ -16,7 +16,7 @@ std::optional<std::uint64_t> parse_count(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size() ? std::optional(count) : std::nullopt;
 }
 
-// Of the samples before `end`, those of one replicate.
+// Number of samples before `end` that belong to one replicate.
 std::uint64_t count_before(std::uint64_t end, std::uint64_t replicate, std::uint64_t replicates) {
   return (end + replicates - 1 - replicate) / replicates;
 }
@@ -41,13 +41,13 @@ bool add(SampleRanges& ranges, const SampleRange& more) {
 
 std::optional<SampleRange> first_missing(const SampleRanges& ranges, const SampleRange& wanted) {
   SampleRange missing = wanted;
-  for (const SampleRange& there : ranges) {
-    if (there.last <= missing.first) continue;
-    if (there.first > missing.first) {
-      missing.last = std::min(missing.last, there.first);
+  for (const SampleRange& range : ranges) {
+    if (range.last <= missing.first) continue;
+    if (range.first > missing.first) {
+      missing.last = std::min(missing.last, range.first);
       break;
     }
-    missing.first = there.last;
+    missing.first = range.last;
   }
   return missing.first < missing.last ? std::optional(missing) : std::nullopt;
 }

@@ -16,25 +16,26 @@ struct SampleRange {
   bool operator==(const SampleRange&) const = default;
 };
 
-/// Which samples per pixel a film holds: disjoint ranges in ascending order that do not touch.
+/// Samples per pixel that a film holds: disjoint ranges in ascending order, with a gap between neighbours.
 using SampleRanges = std::vector<SampleRange>;
 
-/// Adds a range; false, and nothing done, if some of it is there already.
+/// Adds a range. Returns false and changes nothing if `ranges` has some of its samples already.
 [[nodiscard]] bool add(SampleRanges& ranges, const SampleRange& more);
 
-/// The first stretch of `wanted` that is not there.
+/// The first range of `wanted` that is missing in `ranges`; empty if there is none.
 [[nodiscard]] std::optional<SampleRange> first_missing(const SampleRanges& ranges, const SampleRange& wanted);
 
-/// All stretches of `wanted` that are not there, in ascending order.
+/// All ranges of `wanted` that are missing in `ranges`, in ascending order.
 [[nodiscard]] SampleRanges missing(const SampleRanges& ranges, const SampleRange& wanted);
 
-/// How many samples there are, and how many of them each replicate has: sample s belongs to s mod
-/// `replicates`.
+/// Number of samples.
 [[nodiscard]] std::uint64_t count(const SampleRanges& ranges);
+/// Number of samples of each replicate: sample s belongs to replicate s mod `replicates`.
 [[nodiscard]] std::vector<std::uint64_t> count_per_replicate(const SampleRanges& ranges, int replicates);
 
-/// Ranges as text such as "0:16,32:64", and back; nothing for any other text.
+/// Text of ranges, such as "0:16,32:64".
 [[nodiscard]] std::string to_text(const SampleRanges& ranges);
+/// Inverse of `to_text`; empty for any other text.
 [[nodiscard]] std::optional<SampleRanges> parse_sample_ranges(std::string_view text);
 
 }  // namespace abbe

@@ -9,7 +9,7 @@
 namespace abbe {
 namespace {
 
-// What is left of a rectangle without another that lies within it: above, below, left and right.
+// Parts of a rectangle around a hole inside it: above, below, left and right.
 std::vector<Crop> around(const Crop& whole, const Crop& hole) {
   std::vector<Crop> rest;
   for (const Crop& piece :
@@ -19,7 +19,7 @@ std::vector<Crop> around(const Crop& whole, const Crop& hole) {
   return rest;
 }
 
-// What is left of a rectangle without the areas.
+// Parts of a rectangle outside the areas.
 std::vector<Crop> without(const Crop& whole, const SampledAreas& areas) {
   std::vector<Crop> rest{whole};
   for (const SampledArea& area : areas) {
@@ -36,8 +36,8 @@ std::vector<Crop> without(const Crop& whole, const SampledAreas& areas) {
   return rest;
 }
 
-// The rows y0 <= y < y1 of disjoint areas, none of which ends between: from left to right, neighbours alike
-// joined.
+// The band y0 <= y < y1 of disjoint areas, none of which ends inside it. Areas run from left to right, and
+// neighbours with equal samples are joined.
 SampledAreas band(const SampledAreas& areas, int y0, int y1) {
   SampledAreas row;
   for (const SampledArea& area : areas)
@@ -60,13 +60,13 @@ bool continues(const SampledAreas& above, const SampledAreas& below) {
   });
 }
 
-// Whether an area may be next to another in the list: to the right in its band, or below.
+// True if `next` may follow `before` in the list: to its right in the same band, or below.
 bool follows(const Crop& before, const Crop& next) {
-  const bool beside = next.y0 == before.y0 && next.y1 == before.y1 && next.x0 >= before.x1;
-  return beside || next.y0 >= before.y1;
+  const bool is_right_neighbour = next.y0 == before.y0 && next.y1 == before.y1 && next.x0 >= before.x1;
+  return is_right_neighbour || next.y0 >= before.y1;
 }
 
-// The one list of all that describe the same.
+// Canonical list of areas for given contents.
 SampledAreas in_bands(const SampledAreas& areas) {
   std::vector<int> edges;
   for (const SampledArea& area : areas) edges.insert(edges.end(), {area.pixels.y0, area.pixels.y1});

@@ -18,24 +18,25 @@ struct SampledArea {
   bool operator==(const SampledArea&) const = default;
 };
 
-/// Which samples the pixels of a film hold: disjoint areas, cut into bands across and as few as these allow,
-/// from top to bottom and left to right, so that equal holdings are equal lists.
+/// Samples that the pixels of a film hold: disjoint areas from top to bottom and left to right, cut into the
+/// fewest possible horizontal bands. Equal contents give equal lists.
 using SampledAreas = std::vector<SampledArea>;
 
-/// Adds samples to the pixels of an area. Where some are there already, gives the first pixels and samples
-/// of which that is so, and does nothing.
+/// Adds samples to the pixels of an area. If some pixels have some of the samples already, changes nothing
+/// and returns the first such pixels and samples.
 [[nodiscard]] std::optional<SampledArea> add(SampledAreas& areas, const SampledArea& more);
 
-/// What `wanted` has beyond the areas.
+/// Samples of `wanted` that its pixels lack in `areas`.
 [[nodiscard]] SampledAreas missing(const SampledAreas& areas, const SampledArea& wanted);
 
-/// The smallest rectangle around the areas, of which there is one at least.
+/// The smallest rectangle around the areas; `areas` must not be empty.
 [[nodiscard]] Crop bounds(const SampledAreas& areas);
-/// Whether `inner` lies within `outer`.
+/// True if `inner` lies within `outer`.
 [[nodiscard]] bool contains(const Crop& outer, const Crop& inner);
 
-/// Areas as text "x0,y0,x1,y1=0:16,32:64 ..."; and back, nothing for any other text.
+/// Text of areas, "x0,y0,x1,y1=0:16,32:64 ...".
 [[nodiscard]] std::string to_text(const SampledAreas& areas);
+/// Inverse of `to_text`; empty for any other text.
 [[nodiscard]] std::optional<SampledAreas> parse_sampled_areas(std::string_view text);
 
 }  // namespace abbe

@@ -8,8 +8,8 @@
 
 namespace abbe {
 
-int thread_count(int asked) {
-  return asked > 0 ? asked : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
+int thread_count(int requested) {
+  return requested > 0 ? requested : static_cast<int>(std::max(1U, std::thread::hardware_concurrency()));
 }
 
 void run_on_threads(int threads, const std::function<void()>& task) {

@@ -4,11 +4,10 @@
 
 namespace abbe {
 
-/// Threads a render runs on: as many as asked for, or one per processor when asked for none.
-[[nodiscard]] int thread_count(int asked);
+/// Number of threads of a render: `requested`, or one per processor if that is 0.
+[[nodiscard]] int thread_count(int requested);
 
-/// Calls `task` once on each of that many threads and waits for all; the exception of one of them is thrown
-/// again here.
+/// Calls `task` once on each of `threads` threads and waits for all. Rethrows the exception of one of them.
 void run_on_threads(int threads, const std::function<void()>& task);
 
 }  // namespace abbe

@@ -6,19 +6,23 @@
 
 namespace abbe {
 
-/// The light that exposes the film most, lamps whose spectra differ by a factor counting as one: by
-/// luminance for the observer and for a spectral sensor, else by the sum of the film values of all channels.
-/// Where there are several spectra a pilot tells, a render of few paths whose random numbers depend on the
-/// scene alone. So the render's seed does not matter; nor does the order of the lights, but between lights
-/// that give the film the same within the pilot's noise, about a percent. Equal energy for a scene without a
-/// light; the strongest where no photons can light the scene (`refusal`). The pilot has the guides of the
-/// scene that are given, else learns them.
+/// White of the light that exposes the film most. Lights with proportional spectra count as one. The measure
+/// is luminance for an observer and for a spectral sensor, otherwise the sum of the film values of all
+/// channels.
+///
+/// If the scene has several spectra, a pilot of few paths decides. Its random numbers depend on the scene
+/// alone, so neither the seed of the render nor the order of the lights matters. An exception are lights that
+/// contribute equally within the noise of the pilot, about 1 %. The pilot uses `guides`, or trains them if
+/// null.
+///
+/// The white is equal energy for a scene without lights. If no photons can illuminate the scene (`refusal`),
+/// the strongest light decides.
 [[nodiscard]] White main_light(const Scene& scene, int threads = 1,
-                               const std::shared_ptr<const Guides>& guides = {});
+                               const std::shared_ptr<const GuidingData>& guides = {});
 
-/// The white the scene asks for, else the main light; with the spectrum that cameras are characterised in:
-/// that of the white if it is a light of the scene, else of the main light.
+/// White that the scene requests, else that of `main_light`. Its spectrum is the one in which cameras are
+/// characterised: that of the requested white if it is a light of the scene, else of `main_light`.
 [[nodiscard]] White white_of(const Scene& scene, int threads = 1,
-                             const std::shared_ptr<const Guides>& guides = {});
+                             const std::shared_ptr<const GuidingData>& guides = {});
 
 }  // namespace abbe

@@ -7,67 +7,72 @@
 
 #include "sampling/sampler.h"
 #include "transport/path/film_response.h"
-#include "transport/path/found_light.h"
 #include "transport/path/joined_vertices.h"
+#include "transport/path/path_radiance.h"
 #include "transport/path/path_recorder.h"
 #include "transport/path/strategies.h"
 #include "transport/plan/plan.h"
 #include "transport/technique/ghost_lights.h"
-#include "transport/technique/light_paths.h"
+#include "transport/technique/light_subpaths.h"
 
 namespace abbe {
 
-/// One sample of a pixel, with a path from a light beside that from the camera.
+/// Sample of a pixel: a camera subpath and a light subpath.
 struct PixelPair {
   int x;
   int y;
   Sampler camera;
   Sampler light;
-  bool seen;  ///< Whether the pixel itself is asked for; if not, its light's path exposes others alone.
+  /// True if the camera subpath is traced; if not, only the light subpath exposes, at other pixels.
+  bool exposes_pixel;
+  ///< alone.
 };
 
-/// Bidirectional path tracing [Lafortune1993] [Veach1997, ch. 10]: a path from the camera and one from a
-/// light, of the same wavelengths and hero, are joined at their vertices, many of those of long paths left
-/// out (`choose_joined`), and what they carry is balanced over all strategies and lanes. With the paths from
-/// lights of a whole sample, a vertex of the camera's path is also merged with those of any of them close by,
-/// a strategy beside the others: vertex connection and merging [Georgiev2012] [Hachisuka2012]. Serves one
+/// Bidirectional path tracing [Lafortune1993] [Veach1997, ch. 10]. A camera subpath and a light subpath with
+/// the same wavelengths and hero are connected at their vertices; long subpaths at some of them only
+/// (`choose_joined`). MIS: balance heuristic over all strategies and wavelengths.
+///
+/// With the light subpaths of a whole sample, a camera vertex is also merged with all light vertices close
+/// by, as a further strategy: vertex connection and merging [Georgiev2012] [Hachisuka2012]. One instance per
 /// thread.
 ///
-/// Owned: every path that ends on a light with area, and of those that end on another one all that have two
-/// neighbouring vertices, the light's own included, where light does not go in a single direction. By
-/// merging, which blurs, all that has one such vertex at a surface.
+/// Path classes owned:
+/// - every path that ends on an area light;
+/// - of paths that end on another light, those with two neighbouring vertices, the light's own included,
+///   without a delta distribution;
+/// - with merging, which blurs, those with one such vertex on a surface.
 class BidirectionalTracer {
  public:
   BidirectionalTracer(const Plan& plan, RayCaster& caster);
 
-  /// Lets the tracer, from now on, also tell each contribution by itself, whose sum it deposits.
-  void tell_apart(ContributionDeposit deposit) { apart_ = std::move(deposit); }
+  /// Sets a callback that receives every contribution separately, in addition to the deposited sums.
+  void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
-  /// Traces both paths of each of some samples, and deposits what they find by their numbers.
+  /// Traces the subpaths of all samples and deposits each sum under its sample's index.
   void trace(std::span<const PixelPair> samples, const Deposit& deposit);
 
-  /// The same with paths from lights that have been traced, of which the samples' own are connected and all
-  /// are merged with; the samples' `light` is not asked.
-  void trace(std::span<const PixelPair> samples, const LightPaths& from_lights, const Deposit& deposit);
+  /// Like the other `trace`, with light subpaths traced before. Those of the sample's own pixel are
+  /// connected, all are merged; `PixelPair::light` is not used.
+  void trace(std::span<const PixelPair> samples, const LightSubpaths& subpaths, const Deposit& deposit);
 
  private:
-  void trace_together(std::span<const PixelPair> samples, std::uint32_t first);
+  void trace_batch(std::span<const PixelPair> samples, std::uint32_t first);
   void join(std::uint32_t i);
   void join(std::uint32_t i, const JoinedVertex& x);
-  void meet(std::uint32_t i, const MetLight& met);
+  void add_emission(std::uint32_t i, const EmitterHit& emitter_hit);
   void connect_to_light(std::uint32_t i, std::size_t t);
   void connect(std::uint32_t i, std::size_t t, std::size_t s);
   void connect_to_lens(std::uint32_t i, std::size_t s);
   void merge(std::uint32_t i, std::size_t t);
-  void merge(std::uint32_t i, std::size_t t, const LightPaths::Vertex& at);
-  [[nodiscard]] LightPaths::Path own_light_path(std::uint32_t i);
-  void set_joined(std::uint32_t i, std::size_t t, const LightPaths::Path& photon, std::size_t s);
+  void merge(std::uint32_t i, std::size_t t, const LightSubpaths::Vertex& at);
+  [[nodiscard]] LightSubpaths::Path own_light_subpath(std::uint32_t i);
+  void set_joined(std::uint32_t i, std::size_t t, const LightSubpaths::Path& photon, std::size_t s);
   void add_joined(std::uint32_t i, const FilmPoint& at);
   [[nodiscard]] float weight();
-  [[nodiscard]] float by_path_tracing() const;
+  [[nodiscard]] float path_tracing_fraction() const;
   [[nodiscard]] FilmPoint film_point(std::uint32_t i, std::size_t t, const PathVertex& b);
   void add(std::uint32_t i, const FilmPoint& at, std::uint32_t light, const SampledSpectrum& contribution,
-           const std::optional<StokesSpectrum>& seen);
+           const std::optional<StokesSpectrum>& stokes);
   template <typename Contribution>
   void expose(std::uint32_t i, const FilmPoint& at, const Contribution& contribution);
   template <typename Contribution, typename DepositAt>
@@ -76,26 +81,26 @@ class BidirectionalTracer {
   const Plan& plan_;
   const Scene& scene_;
   RayCaster& caster_;
-  bool meter_;  // instead of a lens
-  std::size_t most_vertices_;
+  bool probe_;  // the camera is a probe
+  std::size_t max_vertices_;
   FilmResponse response_;
   PathRecorder<TransportMode::radiance> from_camera_;
   PathRecorder<TransportMode::power> from_light_;
   GhostLights ghosts_;
-  const LightPaths* from_lights_ = nullptr;  // if they are given
+  const LightSubpaths* shared_subpaths_ = nullptr;  // nullptr if each sample traces its own
   const Deposit* deposit_ = nullptr;
-  ContributionDeposit apart_;           // if it is told
-  std::span<const PixelPair> samples_;  // under way
-  std::uint32_t first_ = 0;             // number of the first of the samples under way
-  std::vector<FilmPoint> at_;           // where each exposes the film,
-  std::vector<LaneImages> images_;      // and its lanes, behind a lens that displaces them,
-  FoundLight found_;                    // and with what
+  ContributionDeposit layer_sink_;        // may be empty
+  std::span<const PixelPair> samples_;    // samples of the current batch
+  std::uint32_t first_ = 0;               // index of the first of them
+  std::vector<FilmPoint> film_points_;    // film point of each sample
+  std::vector<WavelengthImages> images_;  // film position per wavelength, for lenses that disperse them
+  PathRadiance radiance_;                 // sums of each sample
   StrategyWeights weights_;
   JoinedPath joined_;
-  float count_ = 1;                      // how often it counts
-  std::vector<JoinedVertex> of_camera_;  // of the paths in hand, which are joined
-  std::vector<JoinedVertex> of_light_;
-  std::vector<LightPaths::Vertex> near_;  // at one place
+  float joining_weight_ = 1;                          // weight 1/p of the current connection
+  std::vector<JoinedVertex> joined_camera_vertices_;  // vertices of the current subpaths to be connected
+  std::vector<JoinedVertex> joined_light_vertices_;
+  std::vector<LightSubpaths::Vertex> nearby_;  // light vertices near the current camera vertex
 };
 
 }  // namespace abbe

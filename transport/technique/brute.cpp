@@ -5,125 +5,128 @@
 #include <limits>
 
 #include "transport/path/dimensions.h"
+#include "transport/path/emitter_hit.h"
 #include "transport/path/free_path.h"
-#include "transport/path/met_lights.h"
 #include "transport/path/polarised_ends.h"
 #include "transport/technique/subpaths.h"
 
 namespace abbe {
 
 template <TransportMode mode>
-void BruteWalk<mode>::keep_hero(PathPacket& packet) {
+void BruteForceTechnique<mode>::keep_hero_only(PathPacket& packet) {
   const SampledSpectrum hero = SampledSpectrum::only(packet.hero, 1);
   advance(packet, hero, hero);
 }
 
-// What matter has taken on the way here is taken by the same chance.
+// The absorption decision also covers the attenuation by media on the way to this vertex.
 template <TransportMode mode>
-std::optional<BsdfSample> BruteWalk<mode>::scatter(RecordedPath& path, const SurfaceVertex& vertex,
-                                                   const BsdfRandom& u) const {
+std::optional<BsdfSample> BruteForceTechnique<mode>::scatter(RecordedPath& path, const SurfaceVertex& vertex,
+                                                             const BsdfRandom& u) const {
   std::optional<BsdfSample> event = vertex.scatter(u, path.packet.hero, mode);
   if (!event) return event;
   const int hero = path.packet.hero;
   if (mode == TransportMode::radiance) path.eta_scale *= vertex.squared_eta(*event, hero);
-  const float kept = carried(path) * event->weight[hero];
-  if (kept >= 1 || !(kept > 0)) return event;
-  if (path.sampler.group(absorption_group(path.events))[0] >= kept) return std::nullopt;
-  event->weight *= 1 / kept;
+  const float survival = throughput_estimate(path) * event->weight[hero];
+  if (survival >= 1 || !(survival > 0)) return event;
+  if (path.sampler.group(absorption_group(path.depth))[0] >= survival) return std::nullopt;
+  event->weight *= 1 / survival;
   return event;
 }
 
-template class BruteWalk<TransportMode::power>;
-template class BruteWalk<TransportMode::radiance>;
+template class BruteForceTechnique<TransportMode::power>;
+template class BruteForceTechnique<TransportMode::radiance>;
 
-BrutePhotonTracer::BrutePhotonTracer(const Plan& plan, RayCaster& caster, double share)
+BrutePhotonTracer::BrutePhotonTracer(const Plan& plan, RayCaster& caster, double sample_fraction)
     : plan_(plan),
       scene_(plan.scene),
       caster_(caster),
       opening_(traits(plan.scene.camera).opening),
-      scale_(static_cast<float>(share * plan.scene.exposure_s)),
+      scale_(static_cast<float>(sample_fraction * plan.scene.exposure_s)),
       measures_polarisation_(measures_polarisation(plan.scene)),
       response_(film_response_of(plan.scene)),
-      walks_(plan.scene, caster) {}
+      batch_(plan.scene, caster) {}
 
-// The estimate of a film value is the sum over photons of the power Phi that each set out with, over its
-// density, times what the camera makes of a flux that comes in: sum Phi W.
+// The estimate of a film value is the sum over photons of their initial power Phi over its pdf, times the
+// camera's response W to incident flux: sum Phi W.
 void BrutePhotonTracer::trace(std::span<const Sampler> photons, const Deposit& deposit) {
   deposit_ = &deposit;
-  std::vector<RecordedPath>& paths = walks_.paths();
+  std::vector<RecordedPath>& paths = batch_.paths();
   paths.clear();
   for (std::uint32_t i = 0; i < photons.size(); ++i) {
     RecordedPath& path = paths.emplace_back(photons[i], i);
-    const std::array<float, 4> aim = photons[i].group(kAimGroup);
-    path.packet = draw_packet(plan_.wavelengths, aim[2]);
-    keep_hero(path.packet);
-    start_from_light(plan_, caster_, aim[kTimeNumber], path);
+    const std::array<float, 4> guide_random = photons[i].group(kPhotonGuideGroup);
+    path.packet = draw_packet(plan_.wavelengths, guide_random[2]);
+    keep_hero_only(path.packet);
+    start_from_light(plan_, caster_, guide_random[kTimeIndex], path);
     if (path.vertices.empty()) continue;
-    look_for_camera(path, 0);
-    walks_.going().push_back(i);
+    record_camera_hit(path, 0);
+    batch_.active().push_back(i);
   }
-  walks_.run(*this);
+  batch_.run(*this);
 }
 
-// The camera stands in no photon's way, as in none of other techniques. What matter takes before it is
-// weighed.
-void BrutePhotonTracer::look_for_camera(const RecordedPath& path, int events) {
+// The camera occludes no photon, as in the other techniques. The transmittance of media in front of it is a
+// weight.
+void BrutePhotonTracer::record_camera_hit(const RecordedPath& path, int depth) {
   if (!opening_) return;
-  const auto seen = connection_through(scene_.camera, *opening_, path.ray, path.lambda_nm());
-  if (!seen) return;
+  const auto connection = connection_through(scene_.camera, *opening_, path.ray, path.lambda_nm());
+  if (!connection) return;
   const auto through = unblocked_transmission(
-      scene_, caster_, way_between(path.ray.origin, seen->lens_point, path.ray.time), path.ray, path.around,
-      path.lambda_nm(), (seen->lens_point - path.ray.origin).length());
+      scene_, caster_, shadow_ray_between(path.ray.origin, connection->lens_point, path.ray.time), path.ray,
+      path.media, path.lambda_nm(), (connection->lens_point - path.ray.origin).length());
   if (!through) return;
-  const FilmPoint at{static_cast<int>(seen->film.x), static_cast<int>(seen->film.y), seen->cos_film,
-                     path.ray.time, images_of(*seen)};
-  const LightHistory of{std::get<LightVertex>(path.vertices.front().at).light, events};
-  const auto arrives = seen_on_film(scene_, path.packet, path.ray.direction, path.ray.time, images_of(*seen));
-  with_seen(measures_polarisation_, path.packet.throughput * seen->weight * through->transmittance * scale_,
-            pointer_to(arrives), [&](const auto& light) {
-              response_.expose(at, path.packet.wavelengths, let_through(scene_.shutter, at, light),
-                               [&](const FilmPoint& pixel, std::span<const double> values) {
-                                 (*deposit_)(path.path, pixel, values);
-                                 if (apart_) apart_(path.path, pixel, of, values);
-                               });
-            });
+  const FilmPoint at{static_cast<int>(connection->film.x), static_cast<int>(connection->film.y),
+                     connection->cos_film, path.ray.time, images_of(*connection)};
+  const ContributionInfo info{std::get<LightVertex>(path.vertices.front().at).light, depth};
+  const auto arrives =
+      measured_on_film(scene_, path.packet, path.ray.direction, path.ray.time, images_of(*connection));
+  with_measurement(measures_polarisation_,
+                   path.packet.throughput * connection->weight * through->transmittance * scale_,
+                   pointer_to(arrives), [&](const auto& light) {
+                     response_.expose(at, path.packet.wavelengths, apply_shutter(scene_.shutter, at, light),
+                                      [&](const FilmPoint& pixel, std::span<const double> values) {
+                                        (*deposit_)(path.index, pixel, values);
+                                        if (layer_sink_) layer_sink_(path.index, pixel, info, values);
+                                      });
+                   });
 }
 
 AdjointBruteTracer::AdjointBruteTracer(const Plan& plan, RayCaster& caster)
     : plan_(plan),
       scene_(plan.scene),
       response_(film_response_of(plan.scene)),
-      walks_(plan.scene, caster),
-      found_(plan.scene) {}
+      batch_(plan.scene, caster),
+      radiance_(plan.scene) {}
 
-// The estimate of a pixel's film value is what a path set out with, over its density, times the radiance of
-// the lights it meets.
+// The estimate of a film value is the initial throughput of a path over its pdf, times the radiance of the
+// lights it hits.
 void AdjointBruteTracer::trace(std::span<const PixelSample> samples, const Deposit& deposit) {
-  std::vector<RecordedPath>& paths = walks_.paths();
+  std::vector<RecordedPath>& paths = batch_.paths();
   paths.clear();
-  at_.resize(samples.size());
+  film_points_.resize(samples.size());
   images_.resize(samples.size());
-  found_.reset(samples.size());
+  radiance_.reset(samples.size());
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     RecordedPath& path = paths.emplace_back(samples[i].sampler, i);
     const std::array<float, 4> film = path.sampler.group(kFilmGroup);
     path.packet = draw_packet(plan_.wavelengths_at(samples[i].x, samples[i].y), film[2]);
-    at_[i] = start_from_camera(plan_, samples[i].x, samples[i].y,
-                               scene_.shutter.draw(samples[i].y, film[kTimeNumber]), path, images_[i]);
-    if (at_[i].images != nullptr) {
-      const SampledSpectrum others = openings_over_own(scene_.shutter, at_[i]);
-      advance(path.packet, others, others);
+    film_points_[i] =
+        start_from_camera(plan_, samples[i].x, samples[i].y,
+                          scene_.shutter.sample(samples[i].y, film[kTimeIndex]), path, images_[i]);
+    if (film_points_[i].images != nullptr) {
+      const SampledSpectrum shutter_weights = relative_shutter_weights(scene_.shutter, film_points_[i]);
+      advance(path.packet, shutter_weights, shutter_weights);
     }
-    keep_hero(path.packet);
-    if (path.packet.throughput.is_zero()) continue;  // no light comes through a lens or a shutter there
-    path.carried_at_start = path.packet.carried();
-    walks_.going().push_back(i);
+    keep_hero_only(path.packet);
+    if (path.packet.throughput.is_zero()) continue;  // no light passes the lens or the shutter there
+    path.initial_throughput = path.packet.throughput_estimate();
+    batch_.active().push_back(i);
   }
-  walks_.run(*this);
+  batch_.run(*this);
   for (const RecordedPath& path : paths)
-    found_.tell(path.path, [&](const auto& found) {
-      expose(path, found,
-             [&](const FilmPoint& at, std::span<const double> values) { deposit(path.path, at, values); });
+    radiance_.visit(path.index, [&](const auto& value) {
+      expose(path, value,
+             [&](const FilmPoint& at, std::span<const double> values) { deposit(path.index, at, values); });
     });
 }
 
@@ -131,30 +134,31 @@ template <typename Contribution, typename DepositAt>
 void AdjointBruteTracer::expose(const RecordedPath& path, const Contribution& contribution,
                                 DepositAt deposit) {
   const SampledSpectrum scale(static_cast<float>(scene_.exposure_s * scene_.shutter.mean()));
-  response_.expose(at_[path.path], path.packet.wavelengths, contribution * scale, deposit);
+  response_.expose(film_points_[path.index], path.packet.wavelengths, contribution * scale, deposit);
 }
 
-void AdjointBruteTracer::add_met(const RecordedPath& path, std::uint32_t light) {
+void AdjointBruteTracer::add_emission(const RecordedPath& path, std::uint32_t light) {
   const Light& emitter = scene_.lights[light];
   const Imath::V3f& towards = path.ray.direction;
   const SampledSpectrum contribution =
       path.packet.throughput * emission_from(emitter, towards, path.lambda_nm());
-  const auto seen = seen_of(emitter, path.packet, towards);
-  found_.add(path.path, contribution, pointer_to(seen));
-  if (!apart_) return;
-  const LightHistory of{light, path.events};
-  found_.tell(contribution, pointer_to(seen), [&](const auto& brought) {
-    expose(path, brought,
-           [&](const FilmPoint& at, std::span<const double> values) { apart_(path.path, at, of, values); });
+  const auto measured = measured_emission(emitter, path.packet, towards);
+  radiance_.add(path.index, contribution, pointer_to(measured));
+  if (!layer_sink_) return;
+  const ContributionInfo info{light, path.depth};
+  radiance_.visit(contribution, pointer_to(measured), [&](const auto& value) {
+    expose(path, value, [&](const FilmPoint& at, std::span<const double> values) {
+      layer_sink_(path.index, at, info, values);
+    });
   });
 }
 
-void AdjointBruteTracer::escape(RecordedPath& path) {
-  find_background(scene_, path, [&](const LightVertex& light) { add_met(path, light.light); });
+void AdjointBruteTracer::on_escape(RecordedPath& path) {
+  visit_escaped_lights(scene_, path, [&](const LightVertex& light) { add_emission(path, light.light); });
 }
 
-void AdjointBruteTracer::meet(RecordedPath& path, const SurfaceHit& hit) {
-  if (const auto light = light_met(scene_, hit, path.ray.direction)) add_met(path, light->light);
+void AdjointBruteTracer::on_hit(RecordedPath& path, const SurfaceHit& hit) {
+  if (const auto light = emitter_hit(scene_, hit, path.ray.direction)) add_emission(path, light->light);
 }
 
 }  // namespace abbe

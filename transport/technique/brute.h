@@ -7,66 +7,72 @@
 #include <vector>
 
 #include "transport/path/film_response.h"
-#include "transport/path/found_light.h"
+#include "transport/path/path_batch.h"
+#include "transport/path/path_radiance.h"
 #include "transport/path/path_recorder.h"
-#include "transport/path/random_walk.h"
 #include "transport/plan/plan.h"
 #include "transport/technique/path.h"
 
 namespace abbe {
 
-/// What both kinds of brute force have in common [Marschner2021, ch. 14]: paths of one wavelength each,
-/// that are never connected to anything, and whose events leave them what they set out with or end them by
-/// chance.
+/// Common part of both brute-force techniques [Marschner2021, ch. 14]. Paths have one wavelength each and are
+/// never connected. An event preserves the throughput or absorbs the path at random.
 template <TransportMode mode>
-class BruteWalk {
+class BruteForceTechnique {
  public:
   using Path = RecordedPath;
   static constexpr TransportMode kMode = mode;
 
-  /// Leaves a packet its hero alone.
-  static void keep_hero(PathPacket& packet);
+  /// Removes all wavelengths but the hero from a packet.
+  static void keep_hero_only(PathPacket& packet);
 
-  // What RandomWalks asks.
-  void reach(RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/) {}
+  // Interface of PathTechnique.
+  void prepare_scatter(RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/) {}
   void connect(RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/, const std::array<float, 4>& /*u*/) {}
-  void connect_within(RecordedPath& /*path*/, const PhaseFunction& /*phase*/,
-                      const std::array<float, 4>& /*u*/) {}
+  void connect_in_medium(RecordedPath& /*path*/, const PhaseFunction& /*phase*/,
+                         const std::array<float, 4>& /*u*/) {}
   [[nodiscard]] std::optional<BsdfSample> scatter(RecordedPath& path, const SurfaceVertex& vertex,
                                                   const BsdfRandom& u) const;
-  [[nodiscard]] bool follows(RecordedPath& /*path*/, const BsdfSample& /*event*/) const { return true; }
-  [[nodiscard]] bool follows_within(const RecordedPath& /*path*/) const { return true; }
-  [[nodiscard]] float carried(const RecordedPath& path) const { return path.carried(); }
+  [[nodiscard]] bool continues_after(RecordedPath& /*path*/, const BsdfSample& /*event*/) const {
+    return true;
+  }
+  [[nodiscard]] bool continues_in_medium(const RecordedPath& /*path*/) const { return true; }
+  [[nodiscard]] float throughput_estimate(const RecordedPath& path) const {
+    return path.throughput_estimate();
+  }
   void resolve_connections() {}
 };
 
-/// Brute-force photons: from the lights, of one wavelength each, to where they come in through the opening of
-/// the camera, or onto its meter, by themselves. Serves one thread.
+/// Brute-force photon tracing: photons of one wavelength each that enter the camera's opening, or hit its
+/// probe, by chance. One instance per thread.
 ///
-/// Owned: everything but what a camera without an opening sees, and what a beam or a point sends a meter that
-/// is a point.
-class BrutePhotonTracer : public BruteWalk<TransportMode::power> {
+/// Path classes owned: all, except light to a camera without an opening, and light from a directional or
+/// point light to a probe that is a point.
+class BrutePhotonTracer : public BruteForceTechnique<TransportMode::power> {
  public:
-  /// `share` is the part of a sample per pixel one photon stands for.
-  BrutePhotonTracer(const Plan& plan, RayCaster& caster, double share);
+  /// `sample_fraction` is the fraction of a sample per pixel that one photon represents.
+  BrutePhotonTracer(const Plan& plan, RayCaster& caster, double sample_fraction);
 
-  /// Lets the tracer, from now on, also tell each contribution by itself, whose sum it deposits.
-  void tell_apart(ContributionDeposit deposit) { apart_ = std::move(deposit); }
+  /// Sets a callback that receives every contribution separately, in addition to the deposited sums.
+  void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
-  /// Traces a photon for each of the samplers, and deposits those that the camera sees by their numbers.
+  /// Traces a photon for each sampler and deposits those that the camera records, under the photon's index.
   void trace(std::span<const Sampler> photons, const Deposit& deposit);
 
-  // What RandomWalks asks besides.
-  void escape(RecordedPath& /*path*/) {}
-  void meet(RecordedPath& /*path*/, const SurfaceHit& /*hit*/) {}
-  [[nodiscard]] float kept(RecordedPath& path, const SurfaceVertex& /*vertex*/, const BsdfSample& /*event*/) {
-    return look_for_camera(path, path.events + 1), 1.0F;
+  // Remaining interface of PathTechnique.
+  void on_escape(RecordedPath& /*path*/) {}
+  void on_hit(RecordedPath& /*path*/, const SurfaceHit& /*hit*/) {}
+  [[nodiscard]] float survival_weight(RecordedPath& path, const SurfaceVertex& /*vertex*/,
+                                      const BsdfSample& /*event*/) {
+    return record_camera_hit(path, path.depth + 1), 1.0F;
   }
-  [[nodiscard]] float kept_within(RecordedPath& path) { return look_for_camera(path, path.events + 1), 1.0F; }
+  [[nodiscard]] float survival_weight_in_medium(RecordedPath& path) {
+    return record_camera_hit(path, path.depth + 1), 1.0F;
+  }
 
  private:
-  // By the ray that the path goes on along after so many events.
-  void look_for_camera(const RecordedPath& path, int events);
+  // Records the path if its current ray, at the given depth, enters the opening.
+  void record_camera_hit(const RecordedPath& path, int depth);
 
   const Plan& plan_;
   const Scene& scene_;
@@ -75,47 +81,47 @@ class BrutePhotonTracer : public BruteWalk<TransportMode::power> {
   float scale_;
   bool measures_polarisation_;
   FilmResponse response_;
-  RandomWalks<BrutePhotonTracer> walks_;
+  PathBatch<BrutePhotonTracer> batch_;
   const Deposit* deposit_ = nullptr;
-  ContributionDeposit apart_;  // if it is told
+  ContributionDeposit layer_sink_;  // may be empty
 };
 
-/// Brute-force adjoint photons, which run the other way in time: from the pixels, of one wavelength each, to
-/// where they meet lights by themselves. Serves one thread.
+/// Brute-force adjoint tracing: paths of one wavelength each from the pixels that hit lights by chance. One
+/// instance per thread.
 ///
-/// Owned: everything that ends on a light with area.
-class AdjointBruteTracer : public BruteWalk<TransportMode::radiance> {
+/// Path classes owned: all that end on a light with area.
+class AdjointBruteTracer : public BruteForceTechnique<TransportMode::radiance> {
  public:
   AdjointBruteTracer(const Plan& plan, RayCaster& caster);
 
-  /// Lets the tracer, from now on, also tell each contribution by itself, whose sum it deposits.
-  void tell_apart(ContributionDeposit deposit) { apart_ = std::move(deposit); }
+  /// Sets a callback that receives every contribution separately, in addition to the deposited sums.
+  void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
-  /// Traces a path for each of some samples, and deposits what they find by their numbers.
+  /// Traces a path for each sample and deposits each sum under its sample's index.
   void trace(std::span<const PixelSample> samples, const Deposit& deposit);
 
-  // What RandomWalks asks besides.
-  void escape(RecordedPath& path);
-  void meet(RecordedPath& path, const SurfaceHit& hit);
-  [[nodiscard]] float kept(RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/,
-                           const BsdfSample& /*event*/) const {
+  // Remaining interface of PathTechnique.
+  void on_escape(RecordedPath& path);
+  void on_hit(RecordedPath& path, const SurfaceHit& hit);
+  [[nodiscard]] float survival_weight(RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/,
+                                      const BsdfSample& /*event*/) const {
     return 1;
   }
-  [[nodiscard]] float kept_within(const RecordedPath& /*path*/) const { return 1; }
+  [[nodiscard]] float survival_weight_in_medium(const RecordedPath& /*path*/) const { return 1; }
 
  private:
-  void add_met(const RecordedPath& path, std::uint32_t light);
+  void add_emission(const RecordedPath& path, std::uint32_t light);
   template <typename Contribution, typename DepositAt>
   void expose(const RecordedPath& path, const Contribution& contribution, DepositAt deposit);
 
   const Plan& plan_;
   const Scene& scene_;
   FilmResponse response_;
-  RandomWalks<AdjointBruteTracer> walks_;
-  std::vector<FilmPoint> at_;       // where each path exposes the film,
-  std::vector<LaneImages> images_;  // and its lanes, behind a lens that displaces them,
-  FoundLight found_;                // and with what
-  ContributionDeposit apart_;       // if it is told
+  PathBatch<AdjointBruteTracer> batch_;
+  std::vector<FilmPoint> film_points_;    // film point of each path
+  std::vector<WavelengthImages> images_;  // film position per wavelength, for lenses that disperse them
+  PathRadiance radiance_;                 // sums of each path
+  ContributionDeposit layer_sink_;        // may be empty
 };
 
 }  // namespace abbe

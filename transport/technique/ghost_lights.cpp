@@ -5,12 +5,12 @@
 #include <optional>
 
 #include "scene/lights/emission.h"
-#include "scene/polarisation_need.h"
+#include "scene/polarisation_cause.h"
 #include "transport/path/dimensions.h"
 #include "transport/path/free_path.h"
 #include "transport/path/mis_weight.h"
 #include "transport/path/polarised_ends.h"
-#include "transport/technique/start_matter.h"
+#include "transport/technique/start_media.h"
 
 namespace abbe {
 
@@ -25,50 +25,51 @@ GhostLights::GhostLights(const Plan& plan, RayCaster& caster)
       scale_(static_cast<float>(plan.scene.exposure_s / plan.scene.camera.width / plan.scene.camera.height)) {
 }
 
-// With y a point of the lens and a route, drawn together with the density p(y), and w a direction to a light,
-// drawn with p(w), a sample of each of N pixels adds
+// A sample has a point y of the lens and a route, sampled jointly with the pdf p(y), and a direction w to a
+// light, sampled with p(w). With one sample for each of N pixels it adds
 //     [1/N] W_j T L_j cos / (p(y) p(w))
-// at the film point x_j of each lane, W being what the camera makes of the flux along w: all lanes share y
-// and w, and are balanced alike. Times are those of the whole span in which the film is exposed.
+// at the film point x_j of each wavelength. W is the camera's response to flux along w. All wavelengths have
+// the same y and w and equal weights. Times are uniform over the whole exposure.
 void GhostLights::connect(const Sampler& sampler, const SampledWavelengths& wavelengths, std::uint32_t path,
-                          const Deposit& deposit, const ContributionDeposit& apart) {
+                          const Deposit& deposit, const ContributionDeposit& layer_sink) {
   if (!any_) return;
-  const std::array<float, 4> of_lens = sampler.group(kGhostGroup);
-  const std::array<float, 4> of_light = sampler.group(kGhostGroup + 1);
-  const float time = of_lens[kTimeNumber];
-  const auto from = sample_ghost(scene_.camera, {of_lens[0], of_lens[1]}, time);
+  const std::array<float, 4> lens_random = sampler.group(kGhostGroup);
+  const std::array<float, 4> light_random = sampler.group(kGhostGroup + 1);
+  const float time = lens_random[kTimeIndex];
+  const auto from = sample_ghost(scene_.camera, {lens_random[0], lens_random[1]}, time);
   if (!from) return;
-  const LightSampleContext place{from->point, from->normal};
-  const PowerLightSampler::SampledLight pick = plan_.path_lights.pick(place, of_light[0]);
+  const LightSampleContext context{from->point, from->normal};
+  const PowerLightSampler::SampledLight pick = plan_.path_lights.pick(context, light_random[0]);
   const Light& light = scene_.lights[pick.light];
-  const auto towards = sample_light(light, scene_.shapes, place, {of_light[1], of_light[2]}, time);
+  const auto towards = sample_light(light, scene_.shapes, context, {light_random[1], light_random[2]}, time);
   if (!towards) return;
   const Imath::V3f& wi = towards->wi;
   const Ray ray = ray_at(from->point, wi, time);
   const SampledSpectrum& nm = wavelengths.lambda_nm;
-  const auto seen = density(scene_.camera, ray, nm, from->route);
-  if (!seen) return;
-  Surroundings around;
-  if (const MediumStack inside = camera_matter(plan_, from->point, time); !inside.empty())
-    around.enter(scene_, inside, nm);
+  const auto camera = density(scene_.camera, ray, nm, from->route);
+  if (!camera) return;
+  MediumState media;
+  if (const MediumStack stack = camera_media(plan_, from->point, time); !stack.empty())
+    media.enter(scene_, stack, nm);
   const auto passed =
-      unblocked_transmission(scene_, caster_, way_to(ray, *towards), ray, around, nm, towards->distance);
+      unblocked_transmission(scene_, caster_, shadow_ray(ray, *towards), ray, media, nm, towards->distance);
   if (!passed) return;
   const float weight =
       mis_weight(SampledSpectrum(), from->pdf * pick.probability * towards->pdf, static_cast<float>(kLanes));
-  const SampledSpectrum found = emission_from(light, wi, nm) * seen->importance * passed->transmittance *
-                                (towards->factor * seen->cos_theta * weight * scale_);
+  const SampledSpectrum contribution = emission_from(light, wi, nm) * camera->importance *
+                                       passed->transmittance *
+                                       (towards->factor * camera->cos_theta * weight * scale_);
   std::optional<StokesSpectrum> measured;
   if (carries_polarisation_)
     measured =
-        polarisation_of_film(scene_, -wi, time, images_of(*seen)).of(polarisation_of_lamp(light, -wi), -wi);
-  const FilmPoint at{static_cast<int>(seen->film.x), static_cast<int>(seen->film.y), seen->cos_film, time,
-                     images_of(*seen)};
-  with_seen(measures_polarisation_, found, pointer_to(measured), [&](const auto& arriving) {
-    response_.expose(at, wavelengths, let_through(scene_.shutter, at, arriving),
+        polarisation_of_film(scene_, -wi, time, images_of(*camera)).of(emitted_polarisation(light, -wi), -wi);
+  const FilmPoint at{static_cast<int>(camera->film.x), static_cast<int>(camera->film.y), camera->cos_film,
+                     time, images_of(*camera)};
+  with_measurement(measures_polarisation_, contribution, pointer_to(measured), [&](const auto& value) {
+    response_.expose(at, wavelengths, apply_shutter(scene_.shutter, at, value),
                      [&](const FilmPoint& pixel, std::span<const double> values) {
                        deposit(path, pixel, values);
-                       if (apart) apart(path, pixel, {pick.light, 0}, values);
+                       if (layer_sink) layer_sink(path, pixel, {pick.light, 0}, values);
                      });
   });
 }

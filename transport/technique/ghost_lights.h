@@ -10,20 +10,20 @@
 
 namespace abbe {
 
-/// What lights send straight into a lens and its ghosts bring to the film, which paths from the camera would
-/// hardly ever find of small lights, and which techniques that start there leave to this: points of the lens
-/// are connected to lights, and each lane of a connection falls where the ghost takes it. Serves one thread.
+/// Direct light on the lens that its ghosts send to the film. Camera paths hardly ever hit small lights by
+/// way of a ghost, and leave these contributions to this class. It connects points of the lens to lights;
+/// each wavelength falls where the ghost sends it. One instance per thread.
 class GhostLights {
  public:
   GhostLights(const Plan& plan, RayCaster& caster);
 
-  /// Whether there is anything to connect.
+  /// True if the camera has ghosts and a light can be sampled.
   [[nodiscard]] bool any() const { return any_; }
 
-  /// Makes the connection of one sample of a pixel, if there is any, by its numbers and its wavelengths, and
-  /// deposits it as of the path of that number; tells `apart`, unless it is empty, of which light it is.
+  /// Makes the connection of one sample of a pixel, with its random numbers and wavelengths, and deposits it
+  /// under the index `path`. `layer_sink` may be empty.
   void connect(const Sampler& sampler, const SampledWavelengths& wavelengths, std::uint32_t path,
-               const Deposit& deposit, const ContributionDeposit& apart);
+               const Deposit& deposit, const ContributionDeposit& layer_sink);
 
  private:
   const Plan& plan_;

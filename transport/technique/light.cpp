@@ -9,146 +9,150 @@
 namespace abbe {
 namespace {
 
-std::optional<Opening> opening_of_meter(const Camera& camera) {
-  return is_meter(camera) ? traits(camera).opening : std::nullopt;
+std::optional<Opening> probe_opening(const Camera& camera) {
+  return is_probe(camera) ? traits(camera).opening : std::nullopt;
 }
 
 std::optional<Sphere> ball_around(const Camera& meter, std::optional<double> radius) {
-  return radius ? std::optional(Sphere{middle(meter), *radius}) : std::nullopt;
+  return radius ? std::optional(Sphere{center(meter), *radius}) : std::nullopt;
 }
 
 }  // namespace
 
-LightTracer::LightTracer(const Plan& plan, RayCaster& caster, double share, std::optional<double> ball_radius)
+LightTracer::LightTracer(const Plan& plan, RayCaster& caster, double sample_fraction,
+                         std::optional<double> ball_radius)
     : plan_(plan),
       scene_(plan.scene),
       caster_(caster),
-      scale_(static_cast<float>(share * plan.scene.exposure_s)),
-      alone_(!uses(plan.techniques, Technique::path)),
-      meter_(opening_of_meter(plan.scene.camera)),
+      scale_(static_cast<float>(sample_fraction * plan.scene.exposure_s)),
+      sole_technique_(!uses(plan.techniques, Technique::path)),
+      probe_opening_(probe_opening(plan.scene.camera)),
       ball_(ball_around(plan.scene.camera, ball_radius)),
       response_(film_response_of(plan.scene)),
       measures_polarisation_(measures_polarisation(plan.scene)),
-      walks_(plan.scene, caster) {}
+      batch_(plan.scene, caster) {}
 
-// The estimate of a film value is, over photons y_0 y_1 ... of power Phi from the lights,
-//     sum_n w_n Phi [T_n / P_n] f cos W,
-// T_n being the throughput up to y_n and P_n its density, and W what the camera makes of intensity towards
-// its lens: each vertex is connected to the lens, and `mis_weight` balances the lanes. A meter has no lens:
-// of a photon that runs into it after y_n the term is w_n Phi [T_(n+1) / P_(n+1)] W, W being what it makes of
-// power that comes in. A photon has a time of the whole span in which the film is exposed, and W contains
-// what the shutter of the row that it comes to passes then (`Shutter::weight`).
+// The estimate of a film value is a sum over photons y_0 y_1 ... of power Phi of
+//     sum_n w_n Phi [T_n / P_n] f cos W.
+// T_n is the throughput up to y_n, P_n its pdf, and W the camera's response to intensity towards its lens.
+// Each vertex is connected to the lens, and `lane_balance` weights the wavelengths. A probe has no lens. For
+// a photon that hits it after y_n the term is w_n Phi [T_(n+1) / P_(n+1)] W, where W is the response to
+// incident power. The time of a photon is uniform over the whole exposure, and W includes `Shutter::weight`
+// of the film row at that time.
 void LightTracer::trace(std::span<const Sampler> photons, const Deposit& deposit) {
   deposit_ = &deposit;
   starts_.assign(photons.size(), {});
-  std::vector<LightPath>& paths = walks_.paths();
+  std::vector<LightPath>& paths = batch_.paths();
   paths.clear();
   for (std::uint32_t i = 0; i < photons.size(); ++i) {
     LightPath& path = paths.emplace_back(photons[i], i);
     starts_[i] = start_photon(plan_, caster_, path);
     path.power = path.packet.throughput.max();
     if (path.packet.throughput.is_zero()) continue;
-    if (meter_ && alone_) run_into_meter(path, 0);
-    walks_.going().push_back(i);
+    if (probe_opening_ && sole_technique_) record_probe_hit(path, 0);
+    batch_.active().push_back(i);
   }
-  walks_.run(*this);
+  batch_.run(*this);
 }
 
 void LightTracer::connect(LightPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u) {
-  if (!owned(path)) return;
+  if (!owns(path)) return;
   const std::optional<CameraConnection> lens =
       sample_towards(scene_.camera, vertex.hit.point, {u[0], u[1]}, path.lambda_nm(), path.ray.time);
   if (!lens) return;
   const Imath::V3f towards = (lens->lens_point - vertex.hit.point).normalized();
-  const auto [wi, f, crosses] = vertex.towards(towards, kMode);
+  const auto [wi, f, crosses] = vertex.eval_towards(towards, kMode);
   if (f.is_zero()) return;
-  std::optional<StokesSpectrum> arrives;
-  if (path.packet.polarisation) arrives = arriving(path, vertex.mueller(wi, false), towards, *lens);
-  Surroundings crossed;
-  if (crosses) crossed.enter(scene_, vertex.behind(scene_, path.around.inside), path.lambda_nm());
-  connect_to(path, path.events + 1, *lens, f * std::abs(wi.z), vertex.leave(towards, path.ray.time),
-             crosses ? crossed : path.around, arrives);
+  std::optional<StokesSpectrum> measured;
+  if (path.packet.polarisation) measured = measured_stokes(path, vertex.mueller(wi, false), towards, *lens);
+  MediumState crossed;
+  if (crosses) crossed.enter(scene_, vertex.media_behind(scene_, path.media.stack), path.lambda_nm());
+  connect_to(path, path.depth + 1, *lens, f * std::abs(wi.z), vertex.spawn_ray(towards, path.ray.time),
+             crosses ? crossed : path.media, measured);
 }
 
-void LightTracer::connect_within(LightPath& path, const PhaseFunction& phase, const std::array<float, 4>& u) {
+void LightTracer::connect_in_medium(LightPath& path, const PhaseFunction& phase,
+                                    const std::array<float, 4>& u) {
   const std::optional<CameraConnection> lens =
       sample_towards(scene_.camera, path.ray.origin, {u[0], u[1]}, path.lambda_nm(), path.ray.time);
   if (!lens) return;
   const Imath::V3f towards = (lens->lens_point - path.ray.origin).normalized();
-  std::optional<StokesSpectrum> arrives;
+  std::optional<StokesSpectrum> measured;
   if (path.packet.polarisation)
-    arrives = arriving(path, mueller(phase, path.ray.direction, towards), towards, *lens);
-  connect_to(path, path.events + 1, *lens, SampledSpectrum(pdf(phase, path.ray.direction, towards)),
-             ray_at(path.ray.origin, towards, path.ray.time), path.around, arrives);
+    measured = measured_stokes(path, mueller(phase, path.ray.direction, towards), towards, *lens);
+  connect_to(path, path.depth + 1, *lens, SampledSpectrum(pdf(phase, path.ray.direction, towards)),
+             ray_at(path.ray.origin, towards, path.ray.time), path.media, measured);
 }
 
-// What an event of that matrix sends along `towards`, to the film, over what it would send were all of it
-// unpolarised.
-StokesSpectrum LightTracer::arriving(const LightPath& path, const std::optional<MuellerMatrix>& matrix,
-                                     const Imath::V3f& towards, const CameraConnection& lens) const {
+// Stokes vector that the film measures of an event with this matrix in the direction `towards`, relative to
+// an unpolarised estimate.
+StokesSpectrum LightTracer::measured_stokes(const LightPath& path, const std::optional<MuellerMatrix>& matrix,
+                                            const Imath::V3f& towards, const CameraConnection& lens) const {
   const Polarisation light =
       path.packet.polarisation->through(matrix, light_travels(path.ray.direction, kMode), kMode);
   return polarisation_of_film(scene_, towards, path.ray.time, images_of(lens)).of(light, towards);
 }
 
-// After so many events `scattered` is the share of the photon's power that leaves along `ray`, towards the
-// lens [1/sr], or all of it, into a meter, were it unpolarised, and `arrives` how it is polarised there,
-// where that is carried.
-void LightTracer::connect_to(const LightPath& path, int events, const CameraConnection& lens,
-                             const SampledSpectrum& scattered, const Ray& ray, const Surroundings& around,
-                             const std::optional<StokesSpectrum>& arrives) {
+// Queues a connection of a photon at the given depth. `scattered` is the fraction of its power that leaves
+// along `ray` towards the lens [1/sr], or 1 for a probe hit. `measured` is the polarised estimate relative to
+// an unpolarised one, if polarisation is carried.
+void LightTracer::connect_to(const LightPath& path, int depth, const CameraConnection& lens,
+                             const SampledSpectrum& scattered, const Ray& ray, const MediumState& media,
+                             const std::optional<StokesSpectrum>& measured) {
   SampledSpectrum contribution =
       scattered * (path.packet.throughput * (lens.weight * lane_balance(path.packet.lane_pdf)));
   const float distance = (lens.lens_point - ray.origin).length();
-  if (walks_.has_free_paths())
-    through_.push_back({ray, around, distance});
+  if (batch_.has_free_paths())
+    through_media_.push_back({ray, media, distance});
   else
-    around.medium.attenuate(contribution, distance);
+    media.medium.attenuate(contribution, distance);
   connections_.push_back(
-      {path.path,
-       events,
+      {path.index,
+       depth,
        contribution,
        {static_cast<int>(lens.film.x), static_cast<int>(lens.film.y), lens.cos_film, ray.time},
        path.branch});
   if (lens.images) images_.push_back(*lens.images);
-  if (arrives) arrives_.push_back(*arrives);
-  ways_.push_back(way_between(ray.origin, lens.lens_point, ray.time));
+  if (measured) measured_stokes_.push_back(*measured);
+  shadow_rays_.push_back(shadow_ray_between(ray.origin, lens.lens_point, ray.time));
 }
 
 void LightTracer::resolve_connections() {
-  blocked_.resize(ways_.size());
-  caster_.occluded(ways_, blocked_);
-  for (std::size_t i = 0; i < ways_.size(); ++i) {
-    if (blocked_[i] != 0) continue;
-    Connection& found = connections_[i];
-    if (!through_.empty()) {
-      const auto& [ray, around, distance] = through_[i];
-      const SampledSpectrum& wavelengths_nm = walks_.paths()[found.path].lambda_nm();
-      found.contribution *=
-          transmission(scene_, caster_, ray, around, wavelengths_nm, distance).transmittance;
+  occluded_.resize(shadow_rays_.size());
+  caster_.occluded(shadow_rays_, occluded_);
+  for (std::size_t i = 0; i < shadow_rays_.size(); ++i) {
+    if (occluded_[i] != 0) continue;
+    Connection& connection = connections_[i];
+    if (!through_media_.empty()) {
+      const auto& [ray, media, distance] = through_media_[i];
+      const SampledSpectrum& wavelengths_nm = batch_.paths()[connection.path].lambda_nm();
+      connection.contribution *=
+          transmission(scene_, caster_, ray, media, wavelengths_nm, distance).transmittance;
     }
-    if (!images_.empty()) found.at.images = &images_[i];
-    with_seen(measures_polarisation_, found.contribution, arrives_.empty() ? nullptr : &arrives_[i],
-              [&](const auto& light) { expose(found, light); });
+    if (!images_.empty()) connection.at.images = &images_[i];
+    with_measurement(measures_polarisation_, connection.contribution,
+                     measured_stokes_.empty() ? nullptr : &measured_stokes_[i],
+                     [&](const auto& light) { expose(connection, light); });
   }
   connections_.clear();
   images_.clear();
-  arrives_.clear();
-  through_.clear();
-  ways_.clear();
+  measured_stokes_.clear();
+  through_media_.clear();
+  shadow_rays_.clear();
 }
 
 template <typename Contribution>
-void LightTracer::expose(const Connection& found, Contribution contribution) {
+void LightTracer::expose(const Connection& connection, Contribution contribution) {
   contribution *= SampledSpectrum(scale_);
-  response_.expose(
-      found.at, walks_.paths()[found.path].packet.wavelengths,
-      let_through(scene_.shutter, found.at, contribution),
-      [&](const FilmPoint& at, std::span<const double> values) {
-        (*deposit_)(found.path, at, values);
-        if (apart_)
-          apart_(found.path, at, {starts_[found.path].light, found.events, 1, found.branch}, values);
-      });
+  response_.expose(connection.at, batch_.paths()[connection.path].packet.wavelengths,
+                   apply_shutter(scene_.shutter, connection.at, contribution),
+                   [&](const FilmPoint& at, std::span<const double> values) {
+                     (*deposit_)(connection.path, at, values);
+                     if (layer_sink_)
+                       layer_sink_(connection.path, at,
+                                   {starts_[connection.path].light, connection.depth, 1, connection.branch},
+                                   values);
+                   });
 }
 
 }  // namespace abbe

@@ -9,17 +9,17 @@
 
 #include "sampling/sampler.h"
 #include "transport/path/film_response.h"
-#include "transport/path/random_walk.h"
+#include "transport/path/path_batch.h"
 #include "transport/path/ray_caster.h"
 #include "transport/plan/plan.h"
 #include "transport/technique/photon_start.h"
 
 namespace abbe {
 
-/// A path from a light, under way: a photon.
-struct LightPath : Walk {
-  using Walk::Walk;
-  float power = 0;  ///< That it set out with, its largest lane's.
+/// Photon of the light tracer.
+struct LightPath : PathState {
+  using PathState::PathState;
+  float power = 0;  ///< Largest initial power of a wavelength.
   /// Hash of the specular events before the first event of another kind, and of their shapes.
   std::uint32_t branch = 0;
   bool scattered = false;  ///< True after an event that is not specular: the branch is complete.
@@ -31,112 +31,118 @@ struct LightPath : Walk {
   }
 };
 
-/// Light tracing [Arvo1986]: from the lights that need it, with a connection to the camera at every vertex
-/// that is not specular. A photon whose first vertex is not specular is not followed, as path tracing owns
-/// it, unless no other technique is in the plan. A meter is exposed where photons run into it: by all of
-/// them, or beside path tracing by those whose last vertex is specular and all of lights without area. Where
-/// the plan says so photons part into their lanes in dispersive glass. Serves one thread.
+/// Light tracing [Arvo1986] from the lights that the plan traces, with a connection to the camera at every
+/// non-specular vertex. Path tracing owns photons whose first vertex is not specular; these are traced only
+/// if no other technique is in the plan. Photons expose a probe where they hit it: all of them without path
+/// tracing, otherwise those whose last vertex is specular, and all of lights without area. If the plan
+/// selects it, photons split into their wavelengths at dispersive glass. One instance per thread.
 class LightTracer {
  public:
   using Path = LightPath;
   static constexpr TransportMode kMode = TransportMode::power;
 
-  /// `share` is the part of a sample per pixel one photon stands for: 1/pixels when a sample per pixel is as
-  /// many photons as pixels. With a `ball_radius` [m] a meter's first pixel is exposed by whatever comes
-  /// into, or starts within, the ball of that radius around its middle, which tells what passes near the
-  /// meter.
-  LightTracer(const Plan& plan, RayCaster& caster, double share, std::optional<double> ball_radius = {});
+  /// `sample_fraction` is the fraction of a sample per pixel that one photon represents: 1/pixels if a sample
+  /// has one photon per pixel. With a `ball_radius` [m], photons that enter or start within the ball of that
+  /// radius around the probe's center expose its first pixel instead. This measures the light that passes
+  /// near the probe.
+  LightTracer(const Plan& plan, RayCaster& caster, double sample_fraction,
+              std::optional<double> ball_radius = {});
 
-  /// Lets the tracer, from now on, also tell by which way the light of each deposit came.
-  void tell_apart(ContributionDeposit deposit) { apart_ = std::move(deposit); }
+  /// Sets a callback that receives every contribution with its light, depth and branch, in addition to the
+  /// deposits.
+  void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
-  /// Traces a photon for each of the samplers, and deposits what its connections bring, by its number.
+  /// Traces a photon for each sampler and deposits its connections under the photon's index.
   void trace(std::span<const Sampler> photons, const Deposit& deposit);
-  /// Tells how the photons of the last call set out.
+  /// Starts of the photons of the last call.
   [[nodiscard]] std::span<const PhotonStart> starts() const { return starts_; }
 
-  // What RandomWalks asks.
-  void escape(LightPath& /*path*/) {}
-  void meet(LightPath& /*path*/, const SurfaceHit& /*hit*/) {}
-  void reach(LightPath& /*path*/, const SurfaceVertex& /*vertex*/) {}
+  // Interface of PathTechnique.
+  void on_escape(LightPath& /*path*/) {}
+  void on_hit(LightPath& /*path*/, const SurfaceHit& /*hit*/) {}
+  void prepare_scatter(LightPath& /*path*/, const SurfaceVertex& /*vertex*/) {}
   void connect(LightPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u);
-  void connect_within(LightPath& path, const PhaseFunction& phase, const std::array<float, 4>& u);
+  void connect_in_medium(LightPath& path, const PhaseFunction& phase, const std::array<float, 4>& u);
   [[nodiscard]] std::optional<BsdfSample> scatter(const LightPath& path, const SurfaceVertex& vertex,
                                                   const BsdfRandom& u) const {
     return vertex.scatter(u, path.packet.hero, kMode);
   }
-  // Whether paths that scatter at their first vertex in more than a single direction go on.
-  [[nodiscard]] bool follows(const LightPath& path, const BsdfSample& event) const {
-    return event.delta || owned(path);
+  // Photons that scatter at their first vertex continue only if this technique owns them.
+  [[nodiscard]] bool continues_after(const LightPath& path, const BsdfSample& event) const {
+    return event.delta || owns(path);
   }
-  [[nodiscard]] bool follows_within(const LightPath& path) const { return owned(path); }
-  // Whether the lanes of a photon go on by themselves where glass disperses them.
-  [[nodiscard]] bool parts_lanes() const { return plan_.photons_part; }
-  // The power a photon starts with says nothing about what it adds to the film: roulette goes by what the
-  // event itself keeps. Its ray has left by then.
-  [[nodiscard]] float kept(LightPath& path, const SurfaceVertex& vertex, const BsdfSample& event) {
+  [[nodiscard]] bool continues_in_medium(const LightPath& path) const { return owns(path); }
+  // True if photons split into their wavelengths at dispersive glass.
+  [[nodiscard]] bool splits_wavelengths() const { return plan_.photons_split_wavelengths; }
+  // The initial power of a photon does not predict its contribution, so roulette uses the throughput of the
+  // event. The path already has its new ray here.
+  [[nodiscard]] float survival_weight(LightPath& path, const SurfaceVertex& vertex, const BsdfSample& event) {
     path.extend_branch(vertex.hit.shape, event);
-    if (meter_ && (event.delta || owns_scattered(path))) run_into_meter(path, path.events + 1);
-    return kept_by(event);
+    if (probe_opening_ && (event.delta || owns_scattered(path))) record_probe_hit(path, path.depth + 1);
+    return event_throughput(event);
   }
-  [[nodiscard]] float kept_within(LightPath& path) {
+  [[nodiscard]] float survival_weight_in_medium(LightPath& path) {
     path.scattered = true;
-    if (meter_ && owns_scattered(path)) run_into_meter(path, path.events + 1);
+    if (probe_opening_ && owns_scattered(path)) record_probe_hit(path, path.depth + 1);
     return 1;
   }
-  [[nodiscard]] float carried(const LightPath& path) const { return path.packet.carried() / path.power; }
+  [[nodiscard]] float throughput_estimate(const LightPath& path) const {
+    return path.packet.throughput_estimate() / path.power;
+  }
   void resolve_connections();
 
  private:
   struct Connection {
     std::uint32_t path;
-    int events;
-    SampledSpectrum contribution;  // but for what `ThroughMatter` takes
+    int depth;
+    SampledSpectrum contribution;  // without the transmittance of `ThroughMedia`
     FilmPoint at;
     std::uint32_t branch;
   };
-  // The way of a connection whose matter is followed once nothing is known to block it.
-  struct ThroughMatter {
+  // Segment of a connection whose media are evaluated if the shadow ray is unoccluded.
+  struct ThroughMedia {
     Ray ray;
-    Surroundings around;
+    MediumState media;
     float distance;
   };
 
-  [[nodiscard]] bool owned(const LightPath& path) const { return path.events > 0 || alone_; }
-  // Whether also what scattering sends a meter is for photons alone.
+  [[nodiscard]] bool owns(const LightPath& path) const { return path.depth > 0 || sole_technique_; }
+  // True if photons also own the light that the last vertex scatters to a probe.
   [[nodiscard]] bool owns_scattered(const LightPath& path) const {
-    return alone_ || scene_.lights[starts_[path.path].light].is_delta();
+    return sole_technique_ || scene_.lights[starts_[path.index].light].is_delta();
   }
-  [[nodiscard]] std::optional<CameraConnection> into_meter(const LightPath& path) const;
-  // By the ray that the path goes on along after so many events.
-  void run_into_meter(const LightPath& path, int events);
-  void connect_to(const LightPath& path, int events, const CameraConnection& lens,
-                  const SampledSpectrum& scattered, const Ray& ray, const Surroundings& around,
-                  const std::optional<StokesSpectrum>& arrives);
-  [[nodiscard]] StokesSpectrum arriving(const LightPath& path, const std::optional<MuellerMatrix>& matrix,
-                                        const Imath::V3f& towards, const CameraConnection& lens) const;
+  [[nodiscard]] std::optional<CameraConnection> probe_connection(const LightPath& path) const;
+  // Records the path if its current ray, at the given depth, hits the probe.
+  void record_probe_hit(const LightPath& path, int depth);
+  void connect_to(const LightPath& path, int depth, const CameraConnection& lens,
+                  const SampledSpectrum& scattered, const Ray& ray, const MediumState& media,
+                  const std::optional<StokesSpectrum>& measured);
+  [[nodiscard]] StokesSpectrum measured_stokes(const LightPath& path,
+                                               const std::optional<MuellerMatrix>& matrix,
+                                               const Imath::V3f& towards, const CameraConnection& lens) const;
   template <typename Contribution>
-  void expose(const Connection& found, Contribution contribution);
+  void expose(const Connection& connection, Contribution contribution);
 
   const Plan& plan_;
   const Scene& scene_;
   RayCaster& caster_;
   float scale_;
-  bool alone_;  // owns all that photons bring
-  std::optional<Opening> meter_;
+  bool sole_technique_;  // no other technique is in the plan
+  std::optional<Opening> probe_opening_;
   std::optional<Sphere> ball_;
   FilmResponse response_;
   bool measures_polarisation_;
-  RandomWalks<LightTracer> walks_;
+  PathBatch<LightTracer> batch_;
   const Deposit* deposit_ = nullptr;
-  ContributionDeposit apart_;  // if it is told
+  ContributionDeposit layer_sink_;  // may be empty
   std::vector<PhotonStart> starts_;
-  std::vector<Connection> connections_;  // of the step under way,
-  std::vector<StokesSpectrum> arrives_;  // how their light is polarised, where that is carried,
-  std::vector<LaneImages> images_;       // where their lanes fall, behind a lens that displaces these,
-  std::vector<ThroughMatter> through_;   // what they come through, where any matter has to be followed,
-  std::vector<BasicRay<double>> ways_;   // their ways to the lens,
-  std::vector<std::uint8_t> blocked_;    // and whether something stands on them
+  std::vector<Connection> connections_;          // connections of the current step
+  std::vector<StokesSpectrum> measured_stokes_;  // measured polarisation of each, if carried
+  std::vector<WavelengthImages>
+      images_;  // film position per wavelength of each, for lenses that disperse them
+  std::vector<ThroughMedia> through_media_;    // segments through media, if free paths exist
+  std::vector<BasicRay<double>> shadow_rays_;  // shadow rays to the lens
+  std::vector<std::uint8_t> occluded_;         // 1 if occluded
 };
 
 }  // namespace abbe

@@ -6,8 +6,8 @@
 
 #include "materials/bsdf/warp.h"
 #include "transport/path/connect.h"
+#include "transport/path/emitter_hit.h"
 #include "transport/path/merge.h"
-#include "transport/path/met_lights.h"
 #include "transport/path/mis_weight.h"
 #include "transport/path/polarised_ends.h"
 #include "transport/technique/subpaths.h"
@@ -15,7 +15,7 @@
 namespace abbe {
 namespace {
 
-// Not std::lgamma, which writes a sign that all threads have in common.
+// Not std::lgamma, which writes a global variable for the sign.
 double log_gamma(double x) {
   int sign = 0;
   return ::lgamma_r(x, &sign);
@@ -34,162 +34,164 @@ PhotonGatherer::PhotonGatherer(const Plan& plan, RayCaster& caster)
     : plan_(plan),
       scene_(plan.scene),
       caster_(caster),
-      meter_(is_meter(plan.scene.camera)),
-      most_events_(most_events(plan.scene.render)),
+      probe_(is_probe(plan.scene.camera)),
+      max_depth_(depth_limit(plan.scene.render)),
       response_(film_response_of(plan.scene)),
-      walks_(plan.scene, caster),
+      batch_(plan.scene, caster),
       ghosts_(plan, caster),
-      found_(plan.scene) {}
+      radiance_(plan.scene) {}
 
-// The estimate of a film value is, over paths from the camera that come to x with the throughput T_x over
-// their density, and N paths from lights that left photons of the power T_y over theirs within r of x,
-//     T_x [sum_y f T_y / (pi r^2 N) + f G T L_e / p_light],
-// besides the light that events of a single direction meet: `mis_weight` balances the lanes, which are those
-// of all paths of a sample. So is the time, one of all those of the exposure, and each row counts what its
-// shutter passes then.
+// The estimate of a film value is a sum over camera paths that arrive at x with the throughput T_x over its
+// pdf. Of N light paths, those that stored photons of power T_y over its pdf within r of x count:
+//     T_x [sum_y f T_y / (pi r^2 N) + f G T L_e / p_light].
+// Emitter hits after delta events are added. `lane_balance` weights the wavelengths, which are those of all
+// paths of a sample. The time is common to all paths as well, uniform over the exposure, and the shutter
+// weights each film row.
 void PhotonGatherer::trace(std::span<const PixelSample> samples, const PhotonCloud& cloud,
                            const GatherKernel& kernel, const Deposit& deposit) {
   cloud_ = &cloud;
   kernel_ = kernel;
   deposit_ = &deposit;
-  for (first_ = 0; first_ < samples.size(); first_ += kPathsTogether)
-    trace_together(samples.subspan(first_, std::min<std::size_t>(kPathsTogether, samples.size() - first_)));
+  for (first_ = 0; first_ < samples.size(); first_ += kBatchSize)
+    trace_batch(samples.subspan(first_, std::min<std::size_t>(kBatchSize, samples.size() - first_)));
 }
 
-void PhotonGatherer::trace_together(std::span<const PixelSample> samples) {
-  std::vector<GatherPath>& paths = walks_.paths();
+void PhotonGatherer::trace_batch(std::span<const PixelSample> samples) {
+  std::vector<GatherPath>& paths = batch_.paths();
   paths.clear();
-  at_.resize(samples.size());
+  film_points_.resize(samples.size());
   images_.resize(samples.size());
-  found_.reset(samples.size());
+  radiance_.reset(samples.size());
   for (std::uint32_t i = 0; i < samples.size(); ++i) {
     GatherPath& path = paths.emplace_back(samples[i].sampler, i);
     path.packet = cloud_->packet;
-    at_[i] = start_from_camera(plan_, samples[i].x, samples[i].y, cloud_->time, path, images_[i]);
+    film_points_[i] = start_from_camera(plan_, samples[i].x, samples[i].y, cloud_->time, path, images_[i]);
     if (ghosts_.any())
-      ghosts_.connect(samples[i].sampler, path.packet.wavelengths, first_ + i, *deposit_, apart_);
+      ghosts_.connect(samples[i].sampler, path.packet.wavelengths, first_ + i, *deposit_, layer_sink_);
     if (path.vertices.empty()) continue;
-    if (meter_) connect_meter(path);
-    walks_.going().push_back(i);
+    if (probe_) connect_probe(path);
+    batch_.active().push_back(i);
   }
-  walks_.run(*this);
+  batch_.run(*this);
   for (const GatherPath& path : paths)
-    found_.tell(path.path, [&](const auto& found) { expose(path, at_[path.path], found); });
+    radiance_.visit(path.index, [&](const auto& value) { expose(path, film_points_[path.index], value); });
 }
 
-// What a connection would have found is not counted again where a path meets it, nor what photons of caustics
-// have brought; from a meter both are balanced.
-void PhotonGatherer::add_met(GatherPath& path, const LightVertex& light) {
-  if (path.connected != 0 || path.seeks_photons) return;
-  if (path.events == 0 && on_ghost(path.vertices.front())) return;  // see `GhostLights`
+// Emission is not counted again if a connection or caustic photons own it; at a probe, connection and emitter
+// hit are balanced.
+void PhotonGatherer::add_emission(GatherPath& path, const LightVertex& light) {
+  if (path.nee_path_pdf != 0 || path.seeks_photons) return;
+  if (path.depth == 0 && on_ghost(path.vertices.front())) return;  // see `GhostLights`
   float weight = lane_balance(path.packet.lane_pdf);
-  if (meter_ && path.events == 0) weight *= 1 - share_of_connecting(path.vertices.front(), {.at = light});
+  if (probe_ && path.depth == 0) weight *= 1 - connection_mis_weight(path.vertices.front(), {.at = light});
   const Light& emitter = scene_.lights[light.light];
   const Imath::V3f& towards = path.ray.direction;
-  add(path, {light.light, path.events},
+  add(path, {light.light, path.depth},
       path.packet.throughput * emission_from(emitter, towards, path.lambda_nm()) * weight,
-      pointer_to(seen_of(emitter, path.packet, towards)));
+      pointer_to(measured_emission(emitter, path.packet, towards)));
 }
 
-// By the balance heuristic over both ways in which a meter's path may come to a light.
-float PhotonGatherer::share_of_connecting(const PathVertex& meter, const PathVertex& light) const {
+// Balance heuristic for a probe's path to a light, which a connection or a sampled direction may find.
+float PhotonGatherer::connection_mis_weight(const PathVertex& probe, const PathVertex& light) const {
   if (scene_.lights[std::get<LightVertex>(light.at).light].is_delta()) return 1;
-  const float connected = end_densities(plan_, meter, light).light_connection;
-  const Imath::V3f w = way_from(meter, light).direction;
-  const float met = direction_pdf(scene_, meter, Imath::V3f(0), w)[meter.packet.hero] *
-                    solid_angle_per_area(scene_, meter, light);
-  return connected > 0 ? connected / (connected + met) : 0;
+  const float connection_pdf = end_densities(plan_, probe, light).light_connection;
+  const Imath::V3f w = segment_between(probe, light).direction;
+  const float direction_sampling_pdf = direction_pdf(scene_, probe, Imath::V3f(0), w)[probe.packet.hero] *
+                                       solid_angle_per_area(scene_, probe, light);
+  return connection_pdf > 0 ? connection_pdf / (connection_pdf + direction_sampling_pdf) : 0;
 }
 
-void PhotonGatherer::escape(GatherPath& path) {
-  find_background(scene_, path, [&](const LightVertex& light) { add_met(path, light); });
+void PhotonGatherer::on_escape(GatherPath& path) {
+  visit_escaped_lights(scene_, path, [&](const LightVertex& light) { add_emission(path, light); });
 }
 
-void PhotonGatherer::meet(GatherPath& path, const SurfaceHit& hit) {
-  if (const auto light = light_met(scene_, hit, path.ray.direction)) add_met(path, *light);
+void PhotonGatherer::on_hit(GatherPath& path, const SurfaceHit& hit) {
+  if (const auto light = emitter_hit(scene_, hit, path.ray.direction)) add_emission(path, *light);
 }
 
 void PhotonGatherer::connect(GatherPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u) {
   PathVertex here{.at = vertex, .packet = path.packet};
-  here.inside = path.around.inside;
-  here.beyond = vertex.behind(scene_, path.around.inside);
+  here.media_front = path.media.stack;
+  here.media_behind = vertex.media_behind(scene_, path.media.stack);
   here.time = path.ray.time;
   connect_to_light(path, here, u);
   gather(path, vertex);
 }
 
-void PhotonGatherer::connect_within(GatherPath& path, const PhaseFunction& phase,
-                                    const std::array<float, 4>& u) {
+void PhotonGatherer::connect_in_medium(GatherPath& path, const PhaseFunction& phase,
+                                       const std::array<float, 4>& u) {
   PathVertex here{.at = MediumVertex{path.ray.origin, path.ray.direction, phase}, .packet = path.packet};
-  here.inside = here.beyond = path.around.inside;
+  here.media_front = here.media_behind = path.media.stack;
   here.time = path.ray.time;
   connect_to_light(path, here, u);
 }
 
 void PhotonGatherer::connect_to_light(GatherPath& path, const PathVertex& vertex,
                                       const std::array<float, 4>& u) {
-  const std::optional<PathVertex> light = light_for(plan_, vertex, u);
+  const std::optional<PathVertex> light = sample_light_vertex(plan_, vertex, u);
   if (!light) return;
-  const std::optional<Connection> joint = abbe::connect(scene_, caster_, vertex, *light);
-  if (!joint) return;
-  add(path, {std::get<LightVertex>(light->at).light, path.events + 1},
-      joint->contribution * lane_balance(vertex.packet.lane_pdf), pointer_to(joint->seen));
+  const std::optional<Connection> connection = abbe::connect(scene_, caster_, vertex, *light);
+  if (!connection) return;
+  add(path, {std::get<LightVertex>(light->at).light, path.depth + 1},
+      connection->contribution * lane_balance(vertex.packet.lane_pdf), pointer_to(connection->stokes));
 }
 
-// A light that a meter sees has an angle of its own.
-void PhotonGatherer::connect_meter(GatherPath& path) {
-  const PathVertex& meter = path.vertices.front();
+// A probe receives each light at its own angle of incidence.
+void PhotonGatherer::connect_probe(GatherPath& path) {
+  const PathVertex& probe = path.vertices.front();
   const std::optional<PathVertex> light =
-      light_for(plan_, meter, path.sampler.group(scattering_group(kMeterEvent) + 1));
+      sample_light_vertex(plan_, probe, path.sampler.group(scattering_group(kProbeDepth) + 1));
   if (!light) return;
-  const std::optional<Connection> joint = abbe::connect(scene_, caster_, meter, *light);
-  if (!joint) return;
-  FilmPoint at = at_[path.path];
-  at.cos_film = way_from(meter, *light).direction.dot(*normal_of(scene_, meter));
+  const std::optional<Connection> connection = abbe::connect(scene_, caster_, probe, *light);
+  if (!connection) return;
+  FilmPoint at = film_points_[path.index];
+  at.cos_film = segment_between(probe, *light).direction.dot(*normal_of(scene_, probe));
   const SampledSpectrum contribution =
-      joint->contribution * (lane_balance(meter.packet.lane_pdf) * share_of_connecting(meter, *light));
+      connection->contribution * (lane_balance(probe.packet.lane_pdf) * connection_mis_weight(probe, *light));
   expose(path, at, contribution);
-  if (apart_) expose_apart(path, at, {std::get<LightVertex>(light->at).light, 0}, contribution);
+  if (layer_sink_) deposit_to_layer(path, at, {std::get<LightVertex>(light->at).light, 0}, contribution);
 }
 
-// The sensor measures `seen` of a contribution of 1, where polarisation is carried.
-void PhotonGatherer::add(const GatherPath& path, const LightHistory& of, const SampledSpectrum& contribution,
-                         const StokesSpectrum* seen) {
-  found_.add(path.path, contribution, seen);
-  if (apart_)
-    found_.tell(contribution, seen,
-                [&](const auto& brought) { expose_apart(path, at_[path.path], of, brought); });
+// Adds a contribution; `measured` is the polarised estimate of a contribution of 1, if polarisation is
+// carried.
+void PhotonGatherer::add(const GatherPath& path, const ContributionInfo& info,
+                         const SampledSpectrum& contribution, const StokesSpectrum* measured) {
+  radiance_.add(path.index, contribution, measured);
+  if (layer_sink_)
+    radiance_.visit(contribution, measured, [&](const auto& value) {
+      deposit_to_layer(path, film_points_[path.index], info, value);
+    });
 }
 
 template <typename Contribution, typename DepositAt>
 void PhotonGatherer::expose(const GatherPath& path, const FilmPoint& at, const Contribution& contribution,
                             DepositAt deposit) {
-  response_.expose(
-      at, path.packet.wavelengths,
-      let_through(scene_.shutter, at, contribution) * SampledSpectrum(static_cast<float>(scene_.exposure_s)),
-      deposit);
+  response_.expose(at, path.packet.wavelengths,
+                   apply_shutter(scene_.shutter, at, contribution) *
+                       SampledSpectrum(static_cast<float>(scene_.exposure_s)),
+                   deposit);
 }
 
 template <typename Contribution>
 void PhotonGatherer::expose(const GatherPath& path, const FilmPoint& at, const Contribution& contribution) {
   expose(path, at, contribution, [&](const FilmPoint& pixel, std::span<const double> values) {
-    (*deposit_)(first_ + path.path, pixel, values);
+    (*deposit_)(first_ + path.index, pixel, values);
   });
 }
 
 template <typename Contribution>
-void PhotonGatherer::expose_apart(const GatherPath& path, const FilmPoint& at, const LightHistory& of,
-                                  const Contribution& contribution) {
+void PhotonGatherer::deposit_to_layer(const GatherPath& path, const FilmPoint& at,
+                                      const ContributionInfo& info, const Contribution& contribution) {
   expose(path, at, contribution, [&](const FilmPoint& pixel, std::span<const double> values) {
-    apart_(first_ + path.path, pixel, of, values);
+    layer_sink_(first_ + path.index, pixel, info, values);
   });
 }
 
-bool PhotonGatherer::follows(GatherPath& path, const BsdfSample& event) const {
+bool PhotonGatherer::continues_after(GatherPath& path, const BsdfSample& event) const {
   if (event.delta) return true;
-  const bool goes_on = kernel_.final_gather && !path.final_gather;
+  const bool continues = kernel_.final_gather && !path.final_gather;
   path.final_gather = path.seeks_photons = true;
-  return goes_on;
+  return continues;
 }
 
 void PhotonGatherer::gather(GatherPath& path, const SurfaceVertex& vertex) {
@@ -197,28 +199,29 @@ void PhotonGatherer::gather(GatherPath& path, const SurfaceVertex& vertex) {
   const Imath::V3f& x = vertex.hit.point;
   float radius = kernel_.radius;
   if (kernel_.nearest == 0) {
-    map.within(x, radius, near_);
+    map.within(x, radius, nearby_);
   } else {
-    // The farthest only says how large the disc is, in which the others then lie by chance alone.
-    map.nearest(x, kernel_.nearest + 1, near_);
-    if (near_.size() < 2) return;
-    radius = (cloud_->photons[near_.back()].point - x).length();
-    near_.pop_back();
+    // The farthest photon only determines the disc's radius; given the radius, the others are distributed
+    // independently within it.
+    map.nearest(x, kernel_.nearest + 1, nearby_);
+    if (nearby_.size() < 2) return;
+    radius = (cloud_->photons[nearby_.back()].point - x).length();
+    nearby_.pop_back();
   }
-  const float all = disc_area(radius) * static_cast<float>(cloud_->paths);
-  if (!(all > 0)) return;
-  const bool caustics_alone = kernel_.final_gather && !path.final_gather;
-  for (const std::uint32_t i : near_)
-    if (const Photon& photon = cloud_->photons[i]; photon.caustic || !caustics_alone)
-      gather(photon, path, vertex, 1 / all);
+  const float area_times_paths = disc_area(radius) * static_cast<float>(cloud_->paths);
+  if (!(area_times_paths > 0)) return;
+  const bool caustics_only = kernel_.final_gather && !path.final_gather;
+  for (const std::uint32_t i : nearby_)
+    if (const Photon& photon = cloud_->photons[i]; photon.caustic || !caustics_only)
+      gather(photon, path, vertex, 1 / area_times_paths);
 }
 
 void PhotonGatherer::gather(const Photon& photon, const GatherPath& path, const SurfaceVertex& vertex,
                             float per_area) {
-  if (path.events + 1 + photon.events > most_events_) return;
+  if (path.depth + 1 + photon.depth > max_depth_) return;
   const SampledSpectrum f = merged_scattering(vertex, photon.from, photon.normal);
   if (f.is_zero()) return;
-  add(path, {photon.light, path.events + 1 + photon.events},
+  add(path, {photon.light, path.depth + 1 + photon.depth},
       path.packet.throughput * photon.power * f *
           (per_area * lane_balance(path.packet.lane_pdf * photon.lane_pdf)),
       pointer_to(merged_polarisation(vertex, path.packet.polarisation, photon.from, photon.polarisation)));

@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "transport/path/film_response.h"
-#include "transport/path/found_light.h"
+#include "transport/path/path_batch.h"
+#include "transport/path/path_radiance.h"
 #include "transport/path/path_recorder.h"
-#include "transport/path/random_walk.h"
 #include "transport/plan/plan.h"
 #include "transport/technique/ghost_lights.h"
 #include "transport/technique/path.h"
@@ -18,32 +18,33 @@
 
 namespace abbe {
 
-/// Over which photons an estimate is made: those within a radius, or so many nearest ones.
+/// Photons of a density estimate: all within a radius, or a number of nearest ones.
 struct GatherKernel {
   float radius = 0;
-  std::size_t nearest = 0;    ///< 0: by the radius.
-  bool final_gather = false;  ///< One event later, but for photons of caustics.
+  std::size_t nearest = 0;    ///< Number of nearest photons; 0 selects the radius.
+  bool final_gather = false;  ///< Gathers one event later, except for caustic photons.
 };
 
-/// The radius of gathering of the sample with that number, from 0: r_i^2 = r_1^2 prod_{k<i} (k + a)/(k + 1)
-/// with a = 2/3, which lets the squared bias and the variance of the mean over i samples shrink alike
-/// [Knaus2011] [Kaplanyan2013].
+/// Gathering radius of a sample, numbered from 0: r_i^2 = r_1^2 prod_{k<i} (k + a)/(k + 1) with a = 2/3. The
+/// squared bias and the variance of the mean over i samples then decrease at the same rate [Knaus2011]
+/// [Kaplanyan2013].
 [[nodiscard]] float gather_radius(float first_radius, std::uint64_t sample);
 
-/// A path from the camera that gathers photons, under way.
+/// Camera path that gathers photons.
 struct GatherPath : RecordedPath {
   using RecordedPath::RecordedPath;
-  bool final_gather = false;  ///< It has left the surface where only photons of caustics are gathered,
-  /// and since then no matter has scattered it: of light that it meets those photons have told.
+  bool final_gather = false;  ///< True after the surface at which only caustic photons are gathered.
+  /// True after a non-delta event until a medium scatters the path; caustic photons then own its emitter
+  /// hits.
   bool seeks_photons = false;
 };
 
-/// Photon density estimation [Jensen1996]: paths from the camera go on from events of a single direction and
-/// within matter, and gather photons at the first surface that scatters otherwise; or, with a final gather,
-/// those of caustics there and all at the next. Serves one thread.
+/// Photon density estimation [Jensen1996]. Camera paths continue from delta events and within media, and
+/// gather photons at the first other surface. With a final gather they gather caustic photons there and all
+/// photons at the next one. One instance per thread.
 ///
-/// Owned: everything but what comes to a point, spot or directional light by events of a single direction
-/// alone. The estimate is blurred by the kernel: it is consistent, not unbiased, where radii shrink.
+/// Path classes owned: all, except light of point, spot and directional lights that arrives by delta events
+/// alone. The kernel blurs the estimate: it is consistent, not unbiased, if radii decrease.
 class PhotonGatherer {
  public:
   using Path = GatherPath;
@@ -51,73 +52,76 @@ class PhotonGatherer {
 
   PhotonGatherer(const Plan& plan, RayCaster& caster);
 
-  /// Lets the gatherer, from now on, also tell each contribution by itself, whose sum it deposits.
-  void tell_apart(ContributionDeposit deposit) { apart_ = std::move(deposit); }
+  /// Sets a callback that receives every contribution separately, in addition to the deposited sums.
+  void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
-  /// Traces a path for each of some samples, of the packet of the photons, and deposits what they find by
-  /// their numbers.
+  /// Traces a path for each sample, with the packet of the photons, and deposits each sum under its sample's
+  /// index.
   void trace(std::span<const PixelSample> samples, const PhotonCloud& cloud, const GatherKernel& kernel,
              const Deposit& deposit);
 
-  // What RandomWalks asks.
-  void escape(GatherPath& path);
-  void meet(GatherPath& path, const SurfaceHit& hit);
-  void reach(GatherPath& /*path*/, const SurfaceVertex& /*vertex*/) {}
+  // Interface of PathTechnique.
+  void on_escape(GatherPath& path);
+  void on_hit(GatherPath& path, const SurfaceHit& hit);
+  void prepare_scatter(GatherPath& /*path*/, const SurfaceVertex& /*vertex*/) {}
   void connect(GatherPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u);
-  void connect_within(GatherPath& path, const PhaseFunction& phase, const std::array<float, 4>& u);
+  void connect_in_medium(GatherPath& path, const PhaseFunction& phase, const std::array<float, 4>& u);
   [[nodiscard]] std::optional<BsdfSample> scatter(const GatherPath& path, const SurfaceVertex& vertex,
                                                   const BsdfRandom& u) const {
     return vertex.scatter(u, path.packet.hero, kMode);
   }
-  [[nodiscard]] bool follows(GatherPath& path, const BsdfSample& event) const;
-  [[nodiscard]] bool follows_within(GatherPath& path) const {
+  [[nodiscard]] bool continues_after(GatherPath& path, const BsdfSample& event) const;
+  [[nodiscard]] bool continues_in_medium(GatherPath& path) const {
     path.seeks_photons = false;
     return true;
   }
-  [[nodiscard]] float kept(GatherPath& path, const SurfaceVertex& vertex, const BsdfSample& event) const {
+  [[nodiscard]] float survival_weight(GatherPath& path, const SurfaceVertex& vertex,
+                                      const BsdfSample& event) const {
     path.eta_scale *= vertex.squared_eta(event, path.packet.hero);
-    return carried(path);
+    return throughput_estimate(path);
   }
-  [[nodiscard]] float kept_within(const GatherPath& path) const { return carried(path); }
-  [[nodiscard]] float carried(const GatherPath& path) const { return path.carried(); }
+  [[nodiscard]] float survival_weight_in_medium(const GatherPath& path) const {
+    return throughput_estimate(path);
+  }
+  [[nodiscard]] float throughput_estimate(const GatherPath& path) const { return path.throughput_estimate(); }
   void resolve_connections() {}
 
  private:
-  void trace_together(std::span<const PixelSample> samples);
+  void trace_batch(std::span<const PixelSample> samples);
   void connect_to_light(GatherPath& path, const PathVertex& vertex, const std::array<float, 4>& u);
-  void connect_meter(GatherPath& path);
-  void add(const GatherPath& path, const LightHistory& of, const SampledSpectrum& contribution,
-           const StokesSpectrum* seen);
+  void connect_probe(GatherPath& path);
+  void add(const GatherPath& path, const ContributionInfo& info, const SampledSpectrum& contribution,
+           const StokesSpectrum* measured);
   template <typename Contribution, typename DepositAt>
   void expose(const GatherPath& path, const FilmPoint& at, const Contribution& contribution,
               DepositAt deposit);
   template <typename Contribution>
   void expose(const GatherPath& path, const FilmPoint& at, const Contribution& contribution);
   template <typename Contribution>
-  void expose_apart(const GatherPath& path, const FilmPoint& at, const LightHistory& of,
-                    const Contribution& contribution);
+  void deposit_to_layer(const GatherPath& path, const FilmPoint& at, const ContributionInfo& info,
+                        const Contribution& contribution);
   void gather(GatherPath& path, const SurfaceVertex& vertex);
   void gather(const Photon& photon, const GatherPath& path, const SurfaceVertex& vertex, float per_area);
-  void add_met(GatherPath& path, const LightVertex& light);
-  [[nodiscard]] float share_of_connecting(const PathVertex& meter, const PathVertex& light) const;
+  void add_emission(GatherPath& path, const LightVertex& light);
+  [[nodiscard]] float connection_mis_weight(const PathVertex& probe, const PathVertex& light) const;
 
   const Plan& plan_;
   const Scene& scene_;
   RayCaster& caster_;
-  bool meter_;  // instead of a lens
-  int most_events_;
+  bool probe_;  // the camera is a probe
+  int max_depth_;
   FilmResponse response_;
-  RandomWalks<PhotonGatherer> walks_;
+  PathBatch<PhotonGatherer> batch_;
   GhostLights ghosts_;
   const PhotonCloud* cloud_ = nullptr;
   GatherKernel kernel_;
   const Deposit* deposit_ = nullptr;
-  ContributionDeposit apart_;        // if it is told
-  std::uint32_t first_ = 0;          // number of the first of the samples under way
-  std::vector<FilmPoint> at_;        // where each exposes the film,
-  std::vector<LaneImages> images_;   // and its lanes, behind a lens that displaces them,
-  FoundLight found_;                 // and with what, balanced over lanes
-  std::vector<std::uint32_t> near_;  // photons, at one place
+  ContributionDeposit layer_sink_;        // may be empty
+  std::uint32_t first_ = 0;               // index of the first sample of the batch
+  std::vector<FilmPoint> film_points_;    // film point of each sample
+  std::vector<WavelengthImages> images_;  // film position per wavelength, for lenses that disperse them
+  PathRadiance radiance_;                 // sums of each sample
+  std::vector<std::uint32_t> nearby_;     // photons near the current point
 };
 
 }  // namespace abbe

@@ -7,28 +7,28 @@
 #include <vector>
 
 #include "sampling/sampler.h"
+#include "transport/path/path_batch.h"
 #include "transport/path/path_recorder.h"
 #include "transport/path/photon_map.h"
-#include "transport/path/random_walk.h"
 #include "transport/plan/plan.h"
 
 namespace abbe {
 
-/// What a path from a light brings to a surface that scatters.
+/// Photon stored on a scattering surface.
 struct Photon {
   Imath::V3f point;
-  Imath::V3f normal;         ///< Of the surface, geometric.
-  Imath::V3f from;           ///< The unit direction to where it came from.
-  SampledSpectrum power;     ///< Throughput, over the densities of the hero: flux over wavelength.
+  Imath::V3f normal;         ///< Geometric normal of the surface.
+  Imath::V3f from;           ///< Unit direction towards its origin.
+  SampledSpectrum power;     ///< Throughput over the hero's pdfs: spectral flux.
   SampledSpectrum lane_pdf;  ///< See `PathPacket`.
-  int events;                ///< That it has had before.
-  std::uint32_t light;       ///< Where it comes from.
-  bool caustic;              ///< They were of a single direction, all of them.
+  int depth;                 ///< Number of scattering events before this surface.
+  std::uint32_t light;       ///< Index of its light.
+  bool caustic;              ///< True if all events before were delta events.
   CarriedPolarisation polarisation = {};
 };
 
-/// Paths from lights that leave photons at every surface that scatters, but for the first they come to, which
-/// camera paths connect to the light themselves [Jensen1996]. Serves one thread.
+/// Light paths that store photons at every scattering surface except the first, where camera paths connect to
+/// the light themselves [Jensen1996]. One instance per thread.
 class PhotonTracer {
  public:
   using Path = RecordedPath;
@@ -36,57 +36,60 @@ class PhotonTracer {
 
   PhotonTracer(const Plan& plan, RayCaster& caster);
 
-  /// Traces a path of that packet and time for each of the samplers, and adds what they leave to `photons`,
-  /// in an order that depends on nothing else.
+  /// Traces a path with the given packet and time for each sampler and appends its photons to `photons`, in
+  /// an order that depends on nothing else.
   void trace(std::span<const Sampler> samplers, const PathPacket& packet, float time,
              std::vector<Photon>& photons);
 
-  // What RandomWalks asks.
-  void escape(RecordedPath& /*path*/) {}
-  void meet(RecordedPath& /*path*/, const SurfaceHit& /*hit*/) {}
-  void reach(RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/) {}
+  // Interface of PathTechnique.
+  void on_escape(RecordedPath& /*path*/) {}
+  void on_hit(RecordedPath& /*path*/, const SurfaceHit& /*hit*/) {}
+  void prepare_scatter(RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/) {}
   void connect(RecordedPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u);
-  void connect_within(RecordedPath& path, const PhaseFunction& phase, const std::array<float, 4>& u);
+  void connect_in_medium(RecordedPath& path, const PhaseFunction& phase, const std::array<float, 4>& u);
   [[nodiscard]] std::optional<BsdfSample> scatter(const RecordedPath& path, const SurfaceVertex& vertex,
                                                   const BsdfRandom& u) const {
     return vertex.scatter(u, path.packet.hero, kMode);
   }
-  [[nodiscard]] bool follows(RecordedPath& path, const BsdfSample& event) {
-    if (!event.delta) scattered_[path.path] = true;
+  [[nodiscard]] bool continues_after(RecordedPath& path, const BsdfSample& event) {
+    if (!event.delta) scattered_[path.index] = true;
     return true;
   }
-  [[nodiscard]] bool follows_within(const RecordedPath& /*path*/) const { return true; }
-  // As in light tracing, roulette goes by what the event keeps.
-  [[nodiscard]] float kept(const RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/,
-                           const BsdfSample& event) const {
-    return kept_by(event);
+  [[nodiscard]] bool continues_in_medium(const RecordedPath& /*path*/) const { return true; }
+  // Roulette uses the throughput of the event, as in light tracing.
+  [[nodiscard]] float survival_weight(const RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/,
+                                      const BsdfSample& event) const {
+    return event_throughput(event);
   }
-  [[nodiscard]] float kept_within(const RecordedPath& /*path*/) const { return 1; }
-  [[nodiscard]] float carried(const RecordedPath& path) const { return path.carried(); }
+  [[nodiscard]] float survival_weight_in_medium(const RecordedPath& /*path*/) const { return 1; }
+  [[nodiscard]] float throughput_estimate(const RecordedPath& path) const {
+    return path.throughput_estimate();
+  }
   void resolve_connections() {}
 
  private:
-  struct Left {
+  struct PathPhoton {
     std::uint32_t path;
     Photon photon;
   };
 
   const Plan& plan_;
   RayCaster& caster_;
-  RandomWalks<PhotonTracer> walks_;
-  std::vector<bool> scattered_;  // whether a path has had an event of more than a single direction
-  std::vector<Left> left_;       // by the paths under way
+  PathBatch<PhotonTracer> batch_;
+  std::vector<bool> scattered_;           // per path: has had an event that is not delta
+  std::vector<PathPhoton> path_photons_;  // photons of the current paths
 };
 
-/// The photons of a sample, to be gathered.
+/// Photons of a sample with their spatial index.
 struct PhotonCloud {
-  PhotonCloud(std::vector<Photon> left, std::uint64_t traced, const PathPacket& of, float at);
+  PhotonCloud(std::vector<Photon> stored_photons, std::uint64_t traced, const PathPacket& start_packet,
+              float start_time);
 
   std::vector<Photon> photons;
   PhotonMap map;
-  std::uint64_t paths;  ///< That have been traced for them.
-  PathPacket packet;    ///< That all set out with,
-  float time;           ///< and when.
+  std::uint64_t paths;  ///< Number of paths traced for them.
+  PathPacket packet;    ///< Initial packet of all paths.
+  float time;           ///< Time of all paths.
 };
 
 }  // namespace abbe

@@ -7,24 +7,24 @@
 
 namespace abbe {
 
-/// Sets a path out from the camera through pixel (x, y) at that time, with its packet and by its own numbers.
-/// Returns where it exposes the film; behind a lens that displaces lanes, `images` keeps that of each of
-/// them.
+/// Starts a camera subpath through pixel (x, y) at a time, with its packet and random numbers. Returns its
+/// film point. For lenses that disperse wavelengths, `images` receives the film position of each.
 FilmPoint start_from_camera(const Plan& plan, int x, int y, float time, RecordedPath& path,
-                            LaneImages& images);
+                            WavelengthImages& images);
 
-/// Sets a path out from one of the plan's traced lights at that time, with its packet and by its own numbers,
-/// as the light emits by itself. Light from infinity comes in through the disc that the scene fills, seen
-/// from there. Where it gets nowhere the path has no vertex.
+/// Starts a light subpath at one of the plan's traced lights at a time, with its packet and random numbers.
+/// Directions follow the light's emission; light from infinity enters through the disc of the scene as the
+/// light views it. The path has no vertex if no light is emitted.
 void start_from_light(const Plan& plan, RayCaster& caster, float time, RecordedPath& path);
 
-/// A point of a light, chosen for a vertex by the four numbers `u`, to connect it to; nothing where none of
-/// its light arrives.
-[[nodiscard]] std::optional<PathVertex> light_for(const Plan& plan, const PathVertex& vertex,
-                                                  const std::array<float, 4>& u);
+/// Samples a light vertex for next-event estimation at a vertex with four random numbers. Returns nothing if
+/// no light arrives.
+[[nodiscard]] std::optional<PathVertex> sample_light_vertex(const Plan& plan, const PathVertex& vertex,
+                                                            const std::array<float, 4>& u);
 
-/// What the functions above draw the ends of a path by whose last vertex is `light` and the one before `lit`.
-/// Of the camera nothing is told.
-[[nodiscard]] EndDensities end_densities(const Plan& plan, const PathVertex& lit, const PathVertex& light);
+/// Pdfs with which the functions above sample the ends of a path whose last vertex is `light` and whose
+/// previous one is `illuminated`. The camera's members are not set.
+[[nodiscard]] EndDensities end_densities(const Plan& plan, const PathVertex& illuminated,
+                                         const PathVertex& light);
 
 }  // namespace abbe

@@ -17,9 +17,9 @@ namespace abbe {
 namespace {
 
 constexpr double kSignificance = 0.01;
-constexpr double kLeastChange = 0.02;
+constexpr double kMinChange = 0.02;
 
-// The member of type T, which `kind` names; null, and reported, where there is none.
+// The member of type T; `kind` describes it in the error that is reported if there is none. Null then.
 template <typename T>
 const T* member_at(const JsonValue& json, const char* key, const char* kind, Diagnostics& diagnostics) {
   const JsonValue* member = json.find(key);
@@ -44,17 +44,17 @@ std::string string_at(const JsonValue& json, const char* key, Diagnostics& diagn
   return text ? *text : "";
 }
 
-// Numbers beyond an int are its ends, which no run has.
+// Numbers outside the range of int are clamped; no run has such counts.
 int count(double number) {
   return static_cast<int>(std::clamp<double>(number, 0, std::numeric_limits<int>::max()));
 }
 
-// Width and height of the film, 0 where the file has no number.
+// Width and height of the film; 0 if the file has no number.
 std::array<int, 2> resolution_at(const JsonValue& suite, Diagnostics& diagnostics) {
   std::array<int, 2> edges{};
-  const JsonValue::Array* found = array_at(suite, "resolution", diagnostics);
-  for (std::size_t i = 0; found && i < std::min(found->size(), edges.size()); ++i)
-    if (const double* number = std::get_if<double>(&(*found)[i].value)) edges[i] = count(*number);
+  const JsonValue::Array* entries = array_at(suite, "resolution", diagnostics);
+  for (std::size_t i = 0; entries && i < std::min(entries->size(), edges.size()); ++i)
+    if (const double* number = std::get_if<double>(&(*entries)[i].value)) edges[i] = count(*number);
   return edges;
 }
 
@@ -89,7 +89,7 @@ Ratio geometric_mean(const std::vector<double>& logs) {
           std::expm1(half_interval(std::sqrt(squares / (n - 1) / n), n - 1, 1 - kSignificance))};
 }
 
-// What differs, by the names of a `bench.json`.
+// The differing conditions, by the names of a `bench.json`.
 std::vector<std::string> differences(const BenchConditions& then, const BenchConditions& now) {
   std::vector<std::string> all;
   const auto compare = [&all](std::string_view name, const auto& got, const auto& allowed) {
@@ -107,7 +107,7 @@ std::vector<std::string> differences(const BenchConditions& then, const BenchCon
 
 bool Ratio::changed() const {
   const double size = std::expm1(std::abs(std::log(value)));
-  return size > noise && size > kLeastChange;
+  return size > noise && size > kMinChange;
 }
 
 std::optional<Baseline> load_baseline(const std::filesystem::path& path, Diagnostics& diagnostics) {
@@ -121,8 +121,8 @@ std::optional<Baseline> load_baseline(const std::filesystem::path& path, Diagnos
   for (std::size_t i = 0; suites && i < suites->size(); ++i) {
     const JsonValue& suite = (*suites)[i];
     baseline.suites.push_back(read_suite(suite, threads, diagnostics));
-    if (const auto* found = array_at(suite, "rows", diagnostics))
-      for (const JsonValue& row : *found)
+    if (const auto* entries = array_at(suite, "rows", diagnostics))
+      for (const JsonValue& row : *entries)
         baseline.rows.push_back(read_row(baseline.suites.back().name, row, diagnostics));
   }
   if (diagnostics.has_errors()) return std::nullopt;
@@ -133,8 +133,7 @@ void require_comparable(const BaselineSuite& then, const BenchConditions& now, D
   const std::vector<std::string> different = differences(then.conditions, now);
   if (different.empty()) return;
   diagnostics.error(then.where,
-                    fmt::format("{} was measured under other conditions, so that neither times nor errors "
-                                "compare: {}",
+                    fmt::format("suite {} cannot be compared with this run, since its conditions differ: {}",
                                 then.name, fmt::join(different, ", ")),
                     ErrorCode::input);
 }
@@ -149,7 +148,7 @@ std::vector<BaselineRow> baseline_rows(std::span<const SuiteRun> runs) {
 }
 
 std::vector<Change> compare_runs(std::span<const BaselineRow> before, std::span<const BaselineRow> after) {
-  using Subject = std::pair<std::string, std::string>;  // a suite by an integrator
+  using Subject = std::pair<std::string, std::string>;  // suite and integrator
   const auto subject_of = [](const BaselineRow& row) { return Subject(row.suite, row.integrator); };
   std::vector<Subject> subjects;
   for (const BaselineRow& row : after)

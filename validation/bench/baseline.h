@@ -12,10 +12,10 @@
 
 namespace abbe {
 
-/// What a stored run keeps of one render.
+/// One render of a stored run.
 struct BaselineRow {
   std::string suite;
-  std::string integrator;  ///< Its word.
+  std::string integrator;  ///< Name of the integrator, one of `kIntegratorNames`.
   int samples;
   std::uint64_t seed;
   double cpu_s;
@@ -23,45 +23,45 @@ struct BaselineRow {
   double rel_mse;
 };
 
-/// What a stored run keeps of one suite.
+/// One suite of a stored run.
 struct BaselineSuite {
   std::string name;
   BenchConditions conditions;
   SourcePosition where;
 };
 
-/// A stored run.
+/// A stored run, read from a `bench.json`.
 struct Baseline {
   std::vector<BaselineSuite> suites;
-  std::vector<BaselineRow> rows;  ///< Of all suites.
+  std::vector<BaselineRow> rows;  ///< Rows of all suites.
 };
 
-/// The run of a `bench.json`, its rows by `auto` where they tell no integrator. What is wrong with it is
-/// reported as input errors.
+/// Reads the run of a `bench.json`. A row without an integrator was rendered by `auto`. Faults of the file
+/// are reported as input errors; the result is empty then.
 [[nodiscard]] std::optional<Baseline> load_baseline(const std::filesystem::path& path,
                                                     Diagnostics& diagnostics);
 
-/// Reports as an input error a suite that was measured under other conditions than `now`, and in which they
-/// differ.
+/// Reports an input error if the suite was measured under conditions that differ from `now`, and names each
+/// difference.
 void require_comparable(const BaselineSuite& then, const BenchConditions& now, Diagnostics& diagnostics);
 
 [[nodiscard]] std::vector<BaselineRow> baseline_rows(std::span<const SuiteRun> runs);
 
-/// New over old, as the geometric mean over the renders that both runs did.
+/// Ratio of the new to the old value: the geometric mean over the renders that both runs contain.
 struct Ratio {
   double value;
-  /// How far its 99 % interval goes, as a factor less 1: exp(t s) - 1, t Student's, s the standard error of
-  /// the mean logarithm, from the scatter over sample counts and seeds. Infinite for one pair.
+  /// Relative half width of the 99 % interval: exp(t s) - 1, with Student's t and the standard error s of the
+  /// mean logarithm. The scatter over sample counts and seeds gives s. Infinite for a single pair.
   double noise;
 
-  /// The ends of that interval: `value` over 1 + `noise`, and times it.
+  /// Ends of the interval: value/(1 + noise) and value (1 + noise).
   [[nodiscard]] double low() const { return value / (1 + noise); }
   [[nodiscard]] double high() const { return value * (1 + noise); }
-  /// Whether the ratio differs from 1 by more than its noise, and by more than 2 %.
+  /// True if the ratio differs from 1 by more than its noise and by more than 2 %.
   [[nodiscard]] bool changed() const;
 };
 
-/// One suite by one integrator, then and now.
+/// Change of one suite, rendered by one integrator, from the old run to the new one.
 struct Change {
   std::string suite;
   std::string integrator;
@@ -70,9 +70,9 @@ struct Change {
   Ratio rel_mse;
 };
 
-/// Pairs renders of the same suite, integrator, sample count and seed. Suites without a pair are left out.
-/// The noise is that of the renders within each run; what slows a whole run, such as another machine, is not
-/// in it.
+/// Pairs the renders of equal suite, integrator, sample count and seed. Suites without a pair are omitted.
+/// The noise covers the scatter of the renders within each run. It does not cover what slows a whole run,
+/// such as another machine.
 [[nodiscard]] std::vector<Change> compare_runs(std::span<const BaselineRow> before,
                                                std::span<const BaselineRow> after);
 

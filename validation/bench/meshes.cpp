@@ -75,7 +75,7 @@ Mesh make_ring(std::uint32_t sides) {
   struct Corner {
     double radius, y;
   };
-  // Of the cross-section, in turn, so that the faces between two of them look outward.
+  // Corners of the cross-section, ordered so that the faces between neighbours point outwards.
   constexpr std::array<Corner, 4> kSection{{{0.9, 0}, {1, 0}, {1, 0.5}, {0.9, 0.5}}};
   const auto corners = static_cast<std::uint32_t>(kSection.size());
   Mesh mesh;

@@ -24,9 +24,9 @@ Image render_reference(Scene scene, std::uint64_t seed, int samples, int threads
   expose_in_srgb(scene);
   scene.render.seed = seed;
   scene.render.samples = samples;
-  RenderOptions how;
-  how.threads = threads;
-  return render(scene, how).film.image(scene.film_planes());
+  RenderOptions options;
+  options.threads = threads;
+  return render(scene, options).film.image(scene.film_planes());
 }
 
 }  // namespace

@@ -9,14 +9,14 @@
 
 namespace abbe {
 
-/// The film of a scene as linear sRGB (channels R, G, B, no adaptation): from X, Y, Z by the matrix, or R, G,
-/// B as they are. Throws Error{internal} for other channels.
+/// Converts a film with channels X, Y, Z to linear sRGB (R, G, B) without chromatic adaptation. Channels R,
+/// G, B are copied. Throws Error{internal} for other channels.
 [[nodiscard]] Image linear_srgb(const Image& film);
 
-/// Replaces X, Y, Z by the three channels of linear sRGB, so that a film knows its own variance in them.
+/// Replaces the sensor's channels X, Y, Z by those of linear sRGB, so that the film records their variances.
 void expose_in_srgb(Scene& scene);
 
-/// What a reference is a function of.
+/// Everything that a reference image depends on.
 struct ReferenceKey {
   std::string scene_sha256;
   int width, height;
@@ -25,18 +25,18 @@ struct ReferenceKey {
   std::uint64_t seed;
   int samples;
 
-  /// SHA-256 over all of them.
+  /// SHA-256 over all members, in hexadecimal.
   [[nodiscard]] std::string text() const;
 };
 
 struct Reference {
-  Image image;  ///< R, G, B and Variance.R, Variance.G, Variance.B.
+  Image image;  ///< Channels R, G, B, Variance.R, Variance.G and Variance.B.
   std::string key;
-  bool cached;  ///< Found rather than rendered.
+  bool cached;  ///< True if the image was read from the cache.
 };
 
-/// The scene's reference with `samples` per pixel of `seed`: read from `cache`, else rendered and written
-/// there. Throws as reading and writing do.
+/// Reference image of the scene with `samples` per pixel and the given seed. It is read from the folder
+/// `cache`, or rendered and written there. Throws Error{output} and the errors of reading EXR files.
 [[nodiscard]] Reference reference_of(const Scene& scene, const std::filesystem::path& cache,
                                      const std::string& version, std::uint64_t seed, int samples,
                                      int threads);

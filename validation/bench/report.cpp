@@ -6,14 +6,14 @@
 #include <fmt/ranges.h>
 
 #include "io/atomic_file.h"
-#include "validation/bench/standing.h"
+#include "validation/bench/ranking.h"
 
 namespace abbe {
 namespace {
 
-// Series of one floor: Abbe's own curve, then its rivals, a colour each.
-void add_series(LogPlot& plot, const SuiteRun& run, std::span<const Rival> rivals, double floor,
-                std::size_t& color) {
+// Adds the curves for one floor: Abbe's integrators, then the other renderers, each in its own colour.
+void add_series(LogPlot& plot, const SuiteRun& run, std::span<const OtherRendererResult> other_renderers,
+                double floor, std::size_t& color) {
   static const std::vector<std::string> kColors{"#1f77b4", "#2ca02c", "#9467bd",
                                                 "#ff7f0e", "#8c564b", "#e377c2"};
   const bool low = floor == kLowFloor;
@@ -27,18 +27,18 @@ void add_series(LogPlot& plot, const SuiteRun& run, std::span<const Rival> rival
     for (const CurvePoint& point : error_curve(rows_of(run.rows, by.integrator), floor))
       plot.series.back().points.emplace_back(point.cpu_s, point.error);
   }
-  for (const Rival& rival : rivals) {
-    if (rival.suite != run.suite.name || rival.floor != floor) continue;
-    const std::string name = rival.name();
+  for (const OtherRendererResult& other : other_renderers) {
+    if (other.suite != run.suite.name || other.floor != floor) continue;
+    const std::string name = other.name();
     if (plot.series.back().name != name)
       plot.series.push_back({name, {}, kColors[color++ % kColors.size()], low, low});
-    plot.series.back().points.emplace_back(rival.cpu_s, rival.relrmse);
+    plot.series.back().points.emplace_back(other.cpu_s, other.relrmse);
   }
 }
 
-bool has_floor(const SuiteRun& run, std::span<const Rival> rivals, double floor) {
-  for (const Rival& rival : rivals)
-    if (rival.suite == run.suite.name && rival.floor == floor) return true;
+bool has_floor(const SuiteRun& run, std::span<const OtherRendererResult> other_renderers, double floor) {
+  for (const OtherRendererResult& other : other_renderers)
+    if (other.suite == run.suite.name && other.floor == floor) return true;
   return false;
 }
 
@@ -53,8 +53,8 @@ std::string rows_text(const SuiteRun& run) {
         "{:>7.2f} "
         "{:>7.2f}\n",
         integrator_name(row.integrator), row.samples, row.cpu_s, row.wall_s, row.paths, row.rays,
-        static_cast<double>(row.rays) / row.cpu_s, row.embree_replay_share, row.rel_mse, row.rel_mse_trimmed,
-        root_of(row.rel_mse), root_of(row.n_mse), row.dE00_mean, row.dE00_p95);
+        static_cast<double>(row.rays) / row.cpu_s, row.embree_replay_fraction, row.rel_mse,
+        row.rel_mse_trimmed, root_of(row.rel_mse), root_of(row.n_mse), row.dE00_mean, row.dE00_p95);
   return all;
 }
 
@@ -62,29 +62,33 @@ std::string equal_error_text(const std::vector<EqualError>& all) {
   std::string text;
   for (const EqualError& e : all)
     text += fmt::format("  {:<34} {:>5} spp {:>7.4g} s, relRMSE {:.3g}: Abbe {:.3g} s{}, ratio {:.3g}\n",
-                        e.rival.name(), e.rival.samples, e.rival.cpu_s, e.rival.relrmse, e.abbe.cpu_s,
+                        e.other.name(), e.other.samples, e.other.cpu_s, e.other.relrmse, e.abbe.cpu_s,
                         e.abbe.extrapolated ? " (extrapolated)" : "", e.ratio());
-  return text.empty() ? "" : "at the error of a rival, which ran on another day:\n" + text;
+  return text.empty()
+             ? ""
+             : "time at the error of another renderer, which was measured in a different run:\n" + text;
 }
 
-// Beside that of the best single technique, where there is one.
-std::string cost_text(std::span<const Standing> all, const Standing& one, double Standing::*cost) {
-  const Standing* best = best_single(all, cost);
+// A cost, and its ratio to the cost of the best single integrator, if there is one.
+std::string cost_text(std::span<const RankingEntry> all, const RankingEntry& one,
+                      double RankingEntry::*cost) {
+  const RankingEntry* best = best_single(all, cost);
   if (best == nullptr) return fmt::format("{:.3g}", one.*cost);
-  return fmt::format("{:.3g} ({:.2f} times that of {})", one.*cost, one.*cost / best->*cost,
+  return fmt::format("{:.3g} ({:.2f} times the cost of {})", one.*cost, one.*cost / best->*cost,
                      integrator_name(best->by.integrator));
 }
 
-std::string standings_text(const SuiteRun& run) {
-  const std::vector<Standing> all = standings(run);
+std::string ranking_text(const SuiteRun& run) {
+  const std::vector<RankingEntry> all = ranking(run);
   if (all.size() < 2) return "";
-  std::string text = "CPU s x relMSE at the most samples:\n";
-  for (const Standing& one : all) {
+  std::string text = "CPU s x relMSE at the largest sample count:\n";
+  for (const RankingEntry& one : all) {
     text += fmt::format("  {:<13} {}; trimmed {}", integrator_name(one.by.integrator),
-                        cost_text(all, one, &Standing::cost), cost_text(all, one, &Standing::cost_trimmed));
-    if (!one.by.bias.empty()) text += "; not counted: " + one.by.bias;
-    if (!one.by.unreached.empty())
-      text += fmt::format("; not counted: does not reach {}", fmt::join(one.by.unreached, ", "));
+                        cost_text(all, one, &RankingEntry::cost),
+                        cost_text(all, one, &RankingEntry::cost_trimmed));
+    if (!one.by.bias.empty()) text += "; excluded: " + one.by.bias;
+    if (!one.by.unsampled.empty())
+      text += fmt::format("; excluded: cannot sample {}", fmt::join(one.by.unsampled, ", "));
     text += '\n';
   }
   return text;
@@ -102,9 +106,9 @@ std::string readable_text(const BenchReport& report) {
                                 report.machine.compiler, report.machine.date);
   for (const SuiteRun& run : report.runs)
     all += fmt::format("\n{}: {}\n", run.suite.name, run.suite.description) + rows_text(run) +
-           standings_text(run) + equal_error_text(equal_errors(run, report.rivals));
+           ranking_text(run) + equal_error_text(equal_errors(run, report.other_renderers));
   if (!report.changes.empty())
-    all += "\nagainst the baseline, with 99 % intervals from the scatter of the renders:\n";
+    all += "\nratio to the baseline, with 99 % intervals from the scatter of the renders:\n";
   for (const Change& change : report.changes)
     all += fmt::format("  {:<14} {:<13} CPU time per path {}, relMSE {} ({} renders)\n", change.suite,
                        change.integrator, ratio_text(change.cpu_per_path), ratio_text(change.rel_mse),
@@ -112,11 +116,12 @@ std::string readable_text(const BenchReport& report) {
   return all;
 }
 
-LogPlot error_plot(const SuiteRun& run, std::span<const Rival> rivals) {
+LogPlot error_plot(const SuiteRun& run, std::span<const OtherRendererResult> other_renderers) {
   LogPlot plot{run.suite.name, "CPU time / s", "relRMSE", {}};
   std::size_t color = 0;
   for (const double floor : {kUsualFloor, kLowFloor})
-    if (floor == kUsualFloor || has_floor(run, rivals, floor)) add_series(plot, run, rivals, floor, color);
+    if (floor == kUsualFloor || has_floor(run, other_renderers, floor))
+      add_series(plot, run, other_renderers, floor, color);
   return plot;
 }
 
@@ -140,7 +145,7 @@ void write_report(const std::filesystem::path& folder, const BenchReport& report
   write_atomically(files[0], csv_text(report.runs));
   write_atomically(files[1], json_text(report));
   for (std::size_t i = 0; i < suites.size(); ++i)
-    write_atomically(files[2 + i], svg(error_plot(report.runs[i], report.rivals)));
+    write_atomically(files[2 + i], svg(error_plot(report.runs[i], report.other_renderers)));
 }
 
 }  // namespace abbe

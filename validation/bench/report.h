@@ -7,41 +7,43 @@
 
 #include "validation/bench/baseline.h"
 #include "validation/bench/machine.h"
-#include "validation/bench/rivals.h"
+#include "validation/bench/other_renderers.h"
 #include "validation/plot/log_plot.h"
 
 namespace abbe {
 
-/// Everything a benchmark found.
+/// All results of a benchmark.
 struct BenchReport {
   Machine machine;
   BenchSettings settings;
   std::vector<SuiteRun> runs;
-  std::vector<Rival> rivals;    ///< To stand beside; empty when the films are not those they rendered.
-  std::vector<Change> changes;  ///< Against the baseline, if there is one.
+  /// Results of other renderers; empty for reduced films, which they did not render.
+  std::vector<OtherRendererResult> other_renderers;
+  std::vector<Change> changes;  ///< Changes from the baseline, if one was given.
 };
 
-/// One line per render, the first names the columns.
+/// CSV with one line per render; the first line names the columns.
 [[nodiscard]] std::string csv_text(std::span<const SuiteRun> runs);
 
-/// One JSON object, every digit kept.
+/// One JSON object with all digits of every number.
 [[nodiscard]] std::string json_text(const BenchReport& report);
 
-/// The report for reading: per suite the means over seeds, what equal error costs by each of several
-/// integrators, the times at the rivals' errors, and then the changes.
+/// Report in plain text. Each suite lists its means over seeds, the ranking of its integrators and the times
+/// at the errors of other renderers. The changes from the baseline follow.
 [[nodiscard]] std::string readable_text(const BenchReport& report);
 
-/// relRMSE against CPU time of one suite by each integrator, with its rivals.
-[[nodiscard]] LogPlot error_plot(const SuiteRun& run, std::span<const Rival> rivals);
+/// Plot of relRMSE against CPU time [s] of one suite, with a curve per integrator and per other renderer.
+[[nodiscard]] LogPlot error_plot(const SuiteRun& run, std::span<const OtherRendererResult> other_renderers);
 
-/// The files of a report on those suites.
+/// Paths of the files that `write_report` would write for these suites.
 [[nodiscard]] std::vector<std::filesystem::path> report_files(const std::filesystem::path& folder,
                                                               std::span<const BenchSuite> suites);
 
-/// Makes the folder of a report if need be. Throws Error{output} now if nothing can be written there later.
+/// Creates the folder of a report if it does not exist. Throws Error{output} if no file can be written there.
 void require_report_folder(const std::filesystem::path& folder);
 
-/// Writes `bench.csv`, `bench.json` and `<suite>.svg` to a folder that is there. Throws Error{output}.
+/// Writes `bench.csv`, `bench.json` and one `<suite>.svg` per suite to an existing folder. Throws
+/// Error{output}.
 void write_report(const std::filesystem::path& folder, const BenchReport& report);
 
 }  // namespace abbe

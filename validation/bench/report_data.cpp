@@ -1,4 +1,4 @@
-// The machine-readable halves of the report.
+// CSV and JSON of the report.
 #include <cmath>
 #include <vector>
 
@@ -6,15 +6,15 @@
 #include <nlohmann/json.hpp>
 
 #include "transport/render/threads.h"
+#include "validation/bench/ranking.h"
 #include "validation/bench/report.h"
-#include "validation/bench/standing.h"
 
 namespace abbe {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-// The columns of a render, in order, under the names that CSV and JSON share.
+// Columns of a render in order; CSV and JSON use the same names.
 Json row_json(const BenchRow& row) {
   return {{"integrator", integrator_name(row.integrator)},
           {"spp", row.samples},
@@ -24,7 +24,7 @@ Json row_json(const BenchRow& row) {
           {"paths", row.paths},
           {"rays", row.rays},
           {"rays_per_cpu_s", static_cast<double>(row.rays) / row.cpu_s},
-          {"embree_replay_share", row.embree_replay_share},
+          {"embree_replay_share", row.embree_replay_fraction},
           {"relMSE", row.rel_mse},
           {"relMSE_trimmed", row.rel_mse_trimmed},
           {"relRMSE_pbrt", root_of(row.rel_mse)},
@@ -35,35 +35,35 @@ Json row_json(const BenchRow& row) {
 }
 
 Json equal_error_json(const EqualError& e) {
-  return {{"rival", e.rival.renderer}, {"setting", e.rival.setting},
-          {"spp", e.rival.samples},    {"relRMSE", e.rival.relrmse},
-          {"floor", e.rival.floor},    {"rival_cpu_s", e.rival.cpu_s},
+  return {{"rival", e.other.renderer}, {"setting", e.other.setting},
+          {"spp", e.other.samples},    {"relRMSE", e.other.relrmse},
+          {"floor", e.other.floor},    {"rival_cpu_s", e.other.cpu_s},
           {"cpu_s", e.abbe.cpu_s},     {"extrapolated", e.abbe.extrapolated},
           {"ratio", e.ratio()}};
 }
 
-// Over the cost of the best single technique; null where there is none.
-Json over_best(std::span<const Standing> all, const Standing& one, double Standing::*cost) {
-  const Standing* best = best_single(all, cost);
+// Ratio to the cost of the best single integrator; null if there is none.
+Json over_best(std::span<const RankingEntry> all, const RankingEntry& one, double RankingEntry::*cost) {
+  const RankingEntry* best = best_single(all, cost);
   return best == nullptr ? Json() : Json(one.*cost / best->*cost);
 }
 
-Json standings_json(const SuiteRun& run) {
-  const std::vector<Standing> all = standings(run);
+Json ranking_json(const SuiteRun& run) {
+  const std::vector<RankingEntry> all = ranking(run);
   Json json = Json::array();
-  for (const Standing& one : all)
+  for (const RankingEntry& one : all)
     json.push_back({{"integrator", integrator_name(one.by.integrator)},
                     {"cost", one.cost},
                     {"cost_trimmed", one.cost_trimmed},
-                    {"over_best", over_best(all, one, &Standing::cost)},
-                    {"over_best_trimmed", over_best(all, one, &Standing::cost_trimmed)},
-                    {"counted", one.counts()},
-                    {"unreached", one.by.unreached},
+                    {"over_best", over_best(all, one, &RankingEntry::cost)},
+                    {"over_best_trimmed", over_best(all, one, &RankingEntry::cost_trimmed)},
+                    {"counted", one.is_eligible()},
+                    {"unreached", one.by.unsampled},
                     {"bias", one.by.bias.empty() ? Json() : Json(one.by.bias)}});
   return json;
 }
 
-Json suite_json(const SuiteRun& run, std::span<const Rival> rivals) {
+Json suite_json(const SuiteRun& run, std::span<const OtherRendererResult> other_renderers) {
   const BenchConditions& conditions = run.conditions;
   Json json{{"name", run.suite.name},
             {"description", run.suite.description},
@@ -72,11 +72,12 @@ Json suite_json(const SuiteRun& run, std::span<const Rival> rivals) {
             {"load_cpu_s", run.load_cpu_s},
             {"reference_spp", conditions.reference_samples},
             {"reference_key", run.reference_key},
-            {"standings", standings_json(run)},
+            {"standings", ranking_json(run)},
             {"rows", Json::array()},
             {"equal_error", Json::array()}};
   for (const BenchRow& row : run.rows) json["rows"].push_back(row_json(row));
-  for (const EqualError& e : equal_errors(run, rivals)) json["equal_error"].push_back(equal_error_json(e));
+  for (const EqualError& e : equal_errors(run, other_renderers))
+    json["equal_error"].push_back(equal_error_json(e));
   return json;
 }
 
@@ -119,7 +120,7 @@ std::string json_text(const BenchReport& report) {
             {"quick", report.settings.quick},
             {"suites", Json::array()},
             {"baseline", Json::array()}};
-  for (const SuiteRun& run : report.runs) json["suites"].push_back(suite_json(run, report.rivals));
+  for (const SuiteRun& run : report.runs) json["suites"].push_back(suite_json(run, report.other_renderers));
   for (const Change& change : report.changes)
     json["baseline"].push_back({{"suite", change.suite},
                                 {"integrator", change.integrator},

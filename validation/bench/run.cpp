@@ -17,7 +17,7 @@
 namespace abbe {
 namespace {
 
-// No seed of a measured render, so that errors are independent.
+// Differs from the seed of every measured render, so that the errors are independent.
 constexpr std::uint64_t kReferenceSeed = std::uint64_t{1} << 32;
 constexpr int kReferenceFactor = 64;
 
@@ -31,22 +31,22 @@ BenchConditions conditions_of(const Scene& scene, const BenchSettings& settings)
           thread_count(settings.threads)};
 }
 
-// A scene that leaves its integrator open is settled first, as every command that renders does.
+// `automatic` is resolved first, as every command that renders does.
 BenchRow measure(Scene& scene, Integrator integrator, const Image& reference, int samples, std::uint64_t seed,
                  int threads, bool with_replay) {
   scene.render.samples = samples;
   scene.render.seed = seed;
   scene.render.integrator = integrator;
   Cost cost;
-  RenderOptions how;
+  RenderOptions options;
   metered(cost, [&] {
     const IntegratorChoice choice = choose_integrator(scene, thread_count(threads));
     scene.render.integrator = choice.integrator;
-    how.guides = choice.guides;
+    options.guides = choice.guides;
   })();
-  how.threads = threads;
-  how.measure_replay = with_replay;
-  const RenderResult result = render(scene, how);
+  options.threads = threads;
+  options.measure_replay = with_replay;
+  const RenderResult result = render(scene, options);
   const RenderStats& stats = result.stats;
   const Image image = linear_srgb(result.film.image(scene.film_planes()));
   const auto error = [&](ErrorMeasure measure) {
@@ -60,9 +60,9 @@ BenchRow measure(Scene& scene, Integrator integrator, const Image& reference, in
                cost.wall_s + stats.wall_s,
                stats.paths,
                stats.rays,
-               stats.embree_replay_share};
+               stats.embree_replay_fraction};
   row.rel_mse = error({.floor = kUsualFloor});
-  row.rel_mse_trimmed = error({.floor = kUsualFloor, .trim = kTrimmedShare});
+  row.rel_mse_trimmed = error({.floor = kUsualFloor, .trim = kTrimmedFraction});
   row.rel_mse_low = error({.floor = kLowFloor});
   row.n_mse = error({.relative = 0, .floor = 1});
   const ColorDifference color = color_difference(image, reference).value_or(ColorDifference{});
@@ -80,9 +80,9 @@ std::vector<BenchIntegrator> integrators_on(Scene& scene, const std::vector<Inte
   return all;
 }
 
-// Adds `row`'s figures, each times `weight`.
+// Adds `weight` times the figures of `row`.
 void accumulate(BenchRow& sum, const BenchRow& row, double weight) {
-  for (double BenchRow::*figure : {&BenchRow::cpu_s, &BenchRow::wall_s, &BenchRow::embree_replay_share,
+  for (double BenchRow::*figure : {&BenchRow::cpu_s, &BenchRow::wall_s, &BenchRow::embree_replay_fraction,
                                    &BenchRow::rel_mse, &BenchRow::rel_mse_trimmed, &BenchRow::rel_mse_low,
                                    &BenchRow::n_mse, &BenchRow::dE00_mean, &BenchRow::dE00_p95})
     sum.*figure += weight * row.*figure;
@@ -114,7 +114,7 @@ SuiteRun run_suite(const BenchSuite& suite, const BenchSettings& settings) {
         const bool first = run.rows.empty();
         BenchRow row = measure(scene, integrator, reference.image, spp, static_cast<std::uint64_t>(seed),
                                settings.threads, first);
-        if (!first) row.embree_replay_share = run.rows.front().embree_replay_share;
+        if (!first) row.embree_replay_fraction = run.rows.front().embree_replay_fraction;
         say(fmt::format("{}, {} samples per pixel, seed {}: {:.3g} s CPU, relRMSE {:.3g}",
                         integrator_name(integrator), spp, seed, row.cpu_s, root_of(row.rel_mse)));
         run.rows.push_back(row);

@@ -6,90 +6,92 @@
 #include <string>
 #include <vector>
 
-#include "scene/unreached.h"
+#include "scene/unsampled_paths.h"
 #include "sensor/film/relative_error.h"
 #include "validation/bench/suite.h"
 
 namespace abbe {
 
-/// The floor under r^2 of relRMSE that Mitsuba's figures were taken with, in mean^2; pbrt-v4's have the usual
-/// one.
+/// Floor of relRMSE with which Mitsuba's results were computed, as a multiple of the squared mean. The
+/// results of pbrt-v4 have `kUsualFloor`.
 inline constexpr double kLowFloor = 0.0025;
-inline constexpr double kTrimmedShare = 1e-3;  ///< Left out of `rel_mse_trimmed`.
+inline constexpr double kTrimmedFraction = 1e-3;  ///< Fraction of values that `rel_mse_trimmed` omits.
 
-/// How to measure.
+/// Settings of a benchmark.
 struct BenchSettings {
   std::vector<Integrator> integrators{Integrator::automatic};
-  std::vector<int> samples{4, 8, 16, 32, 64};  ///< Per pixel.
-  int seeds = 3;                               ///< Renders of each by each integrator, seeds 1 to this.
-  int threads = 0;                             ///< 0: one per processor.
-  int reference_samples = 0;                   ///< 0: 64 times the largest of `samples`.
-  bool quick = false;                          ///< Films of a quarter of the edges.
-  std::filesystem::path cache;                 ///< Folder for references and made meshes.
+  std::vector<int> samples{4, 8, 16, 32, 64};  ///< Samples per pixel of the renders.
+  int seeds = 3;    ///< Renders per integrator and sample count, with seeds 1 to `seeds`.
+  int threads = 0;  ///< Number of threads; 0 for one per processor.
+  /// Samples per pixel of the reference; 0 for 64 times the largest of `samples`.
+  int reference_samples = 0;
+  bool quick = false;           ///< Film edges divided by four.
+  std::filesystem::path cache;  ///< Folder for reference images and generated meshes.
   std::string version;
-  std::function<void(const std::string&)> say;  ///< Told each step, if set.
+  std::function<void(const std::string&)> say;  ///< Called with a message for each step, if set.
 };
 
-/// One render against its reference. Errors are over linear sRGB with the reference's variance subtracted,
-/// and may be negative when the reference is not much better than the render.
+/// One render, compared with its reference. Errors are over linear sRGB with the reference's variance
+/// subtracted. They may be negative if the reference is not much better than the render.
 struct BenchRow {
-  Integrator integrator = Integrator::automatic;  ///< As asked for: what `automatic` chose is not told.
+  Integrator integrator = Integrator::automatic;  ///< Requested integrator; `automatic` stays as it is.
   int samples = 0;
   std::uint64_t seed = 0;
-  double cpu_s = 0;  ///< Of all threads, from the loaded scene to the film, choosing an integrator included.
+  /// CPU time of all threads, from the loaded scene to the film; includes the choice of an integrator.
+  double cpu_s = 0;
   double wall_s = 0;
   std::uint64_t paths = 0;
   std::uint64_t rays = 0;
-  double embree_replay_share = 0;  ///< Of the scene: measured beside the suite's first render.
-  double rel_mse = 0;              ///< Floor `kUsualFloor`.
-  double rel_mse_trimmed = 0;      ///< Without the largest `kTrimmedShare` of the values.
-  double rel_mse_low = 0;          ///< Floor `kLowFloor`.
-  double n_mse = 0;                ///< Mean square over the square of the mean.
-  double dE00_mean = 0;            ///< As `color_difference`, its exposure fixed by the reference.
+  double embree_replay_fraction = 0;  ///< Property of the scene, measured during the suite's first render.
+  double rel_mse = 0;                 ///< relMSE with the floor `kUsualFloor`.
+  double rel_mse_trimmed = 0;  ///< relMSE without the largest fraction `kTrimmedFraction` of the values.
+  double rel_mse_low = 0;      ///< relMSE with the floor `kLowFloor`.
+  double n_mse = 0;            ///< Mean squared error divided by the squared mean.
+  double dE00_mean = 0;  ///< CIEDE2000 by `color_difference`, which takes the exposure from the reference.
   double dE00_p95 = 0;
 };
 
-/// An integrator that a suite is rendered by.
+/// One of the integrators that render a suite.
 struct BenchIntegrator {
   Integrator integrator;
-  std::vector<PathClass> unreached;  ///< What it leaves out of the suite's light.
-  std::string bias;                  ///< As `bias_of`.
+  std::vector<PathClass> unsampled;  ///< Path classes of the suite that this integrator cannot sample.
+  std::string bias;                  ///< Bias as `bias_of` describes it; empty for an unbiased integrator.
 };
 
-/// What times and errors of a suite depend on beside the program, its tables and the machine: runs under
-/// other conditions do not compare.
+/// Conditions that determine times and errors of a suite, besides the program, its tables and the machine.
+/// Runs with different conditions cannot be compared.
 struct BenchConditions {
-  int width, height;  ///< Of the film, in pixels.
+  int width, height;  ///< Size of the film in pixels.
   std::string scene_sha256;
   int reference_samples;
   int threads;
 };
 
-/// The conditions of a suite, whose scene is loaded as for a run. Throws Error{input} with the loader's
-/// complaints.
+/// Loads the scene of a suite and returns its conditions. Throws Error{input} with the loader's diagnostics.
 [[nodiscard]] BenchConditions conditions_of(const BenchSuite& suite, const BenchSettings& settings);
 
-/// What a suite gave.
+/// Results of one suite.
 struct SuiteRun {
   BenchSuite suite;
   BenchConditions conditions;
-  double load_cpu_s;  ///< Reading the scene and building its acceleration structure.
+  double load_cpu_s;  ///< CPU time for reading the scene and building its acceleration structure.
   std::string reference_key;
   std::vector<BenchIntegrator> integrators;
-  std::vector<BenchRow> rows;  ///< By samples, then seed, then integrator, so that integrators take turns.
+  /// Sorted by samples, then seed, then integrator, so that the integrators alternate.
+  std::vector<BenchRow> rows;
 };
 
-/// Renders a suite at every sample count and seed by every integrator, all of them against the one reference
-/// of the suite, which its own integrator renders.
+/// Renders a suite with every integrator at every sample count and seed. All renders are compared with one
+/// reference, which the suite's own integrator renders.
 [[nodiscard]] SuiteRun run_suite(const BenchSuite& suite, const BenchSettings& settings);
 
-/// Square root of an error that noise may have made negative: 0 then.
+/// Square root of an error; 0 for an error that noise has made negative.
 [[nodiscard]] double root_of(double mean_square);
 
-/// The rows of one integrator.
+/// Rows of one integrator, in their order.
 [[nodiscard]] std::vector<BenchRow> rows_of(const std::vector<BenchRow>& rows, Integrator integrator);
 
-/// Mean over the seeds of one integrator's sample count.
+/// Mean over the seeds of each integrator and sample count. Paths and rays are those of the first seed.
 [[nodiscard]] std::vector<BenchRow> means_over_seeds(const std::vector<BenchRow>& rows);
 
 }  // namespace abbe

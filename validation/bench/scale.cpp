@@ -7,9 +7,9 @@
 
 #include "description/load.h"
 #include "io/atomic_file.h"
-#include "transport/render/learnt_plan.h"
 #include "transport/render/render.h"
 #include "transport/render/replay.h"
+#include "transport/render/trained_plan.h"
 #include "validation/bench/meshes.h"
 
 namespace abbe {
@@ -17,9 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::uint32_t kInstancedCells = 63;  // 7938 triangles, on 40 m
+constexpr std::uint32_t kInstancedCells = 63;  // 7938 triangles on 40 m
 
-// How a scene with so many of a subject is described; its files beside it.
+// A subject, its counts and the function that writes a scene's files and returns its description.
 struct Subject {
   const char* name;
   std::vector<std::uint64_t> counts;
@@ -33,23 +33,23 @@ constexpr const char* kSky = R"({"environment": {}, "emission": {"spectrum": 1, 
 constexpr const char* kObserver = R"("observer": "1931")";
 
 std::string scene_text(const std::string& shapes, const std::string& lights,
-                       const std::string& objects = "{}", const std::string& sees = kObserver) {
+                       const std::string& objects = "{}", const std::string& sensor = kObserver) {
   return fmt::format(
       R"({{"abbe": 1, "camera": {{"pinhole": {{"fov_deg": 45}}, "from": [0, 12, -30], "to": [0, 0, 0], "up": [0, 1, 0]}},
 "sensor": {{"resolution": [256, 256], {}}}, "materials": {}, "objects": {},
 "lights": [{}], "shapes": [{}], "render": {{"samples": 4, "max_depth": 6}}}})",
-      sees, kGrey, objects, lights, shapes);
+      sensor, kGrey, objects, lights, shapes);
 }
 
-// So many entries on a square grid over the ground, each described by its place and the grid's spacing.
+// Entries on a square grid over the ground; `entry` receives the position and the spacing of the grid.
 std::string grid(std::uint64_t count,
                  const std::function<std::string(double x, double z, double step)>& entry) {
   const auto side = static_cast<std::uint64_t>(std::ceil(std::sqrt(static_cast<double>(count))));
   const double step = 40.0 / static_cast<double>(side);
   std::string all;
-  const auto middle = [step](std::uint64_t cell) { return (static_cast<double>(cell) + 0.5) * step - 20; };
+  const auto center = [step](std::uint64_t cell) { return (static_cast<double>(cell) + 0.5) * step - 20; };
   for (std::uint64_t i = 0; i < count; ++i)
-    all += (i == 0 ? "" : ",\n") + entry(middle(i % side), middle(i / side), step);
+    all += (i == 0 ? "" : ",\n") + entry(center(i % side), center(i / side), step);
   return all;
 }
 
@@ -83,12 +83,12 @@ std::string instances(std::uint64_t count, const fs::path& folder) {
 }
 
 std::string lights(std::uint64_t count, const fs::path&) {
-  const auto lamp = [](double x, double z, double step) {
+  const auto light = [](double x, double z, double step) {
     return fmt::format(
         R"({{"sphere": {{"center": [{}, 3, {}], "radius": {}}}, "emission": {{"illuminant": "A", "luminance": 1000}}}})",
         x, z, step / 10);
   };
-  return scene_text(kGround, grid(count, lamp));
+  return scene_text(kGround, grid(count, light));
 }
 
 std::string channels(std::uint64_t count, const fs::path&) {
@@ -108,7 +108,7 @@ Scene load(const fs::path& path) {
 }
 
 // CPU time of all threads [s].
-double time(const std::function<void()>& work) {
+double cpu_seconds_of(const std::function<void()>& work) {
   const double start = process_cpu_seconds();
   work();
   return process_cpu_seconds() - start;
@@ -119,13 +119,13 @@ ScaleRow measure(const Subject& subject, std::uint64_t count, const fs::path& fo
   write_atomically(path, subject.describe(count, folder));
   ScaleRow row{subject.name, count, 0, 0, 0, 0, 0};
   std::optional<Scene> scene;
-  row.load_cpu_s = time([&] { scene = load(path); });
-  row.build_cpu_s = time([&] { scene->commit(); });
-  row.plan_cpu_s = time([&] { (void)make_learnt_plan(*scene, 1); });
+  row.load_cpu_s = cpu_seconds_of([&] { scene = load(path); });
+  row.build_cpu_s = cpu_seconds_of([&] { scene->commit(); });
+  row.plan_cpu_s = cpu_seconds_of([&] { (void)make_trained_plan(*scene, 1); });
   row.bytes = static_cast<double>(scene->memory_bytes()) / static_cast<double>(count);
-  RenderOptions how;
-  how.threads = threads;
-  const RenderStats stats = render(*scene, how).stats;
+  RenderOptions options;
+  options.threads = threads;
+  const RenderStats stats = render(*scene, options).stats;
   row.rays_per_cpu_s = static_cast<double>(stats.rays) / (stats.cpu_s - row.plan_cpu_s);
   return row;
 }
@@ -151,8 +151,8 @@ double growth(const ScaleRow& before, const ScaleRow& after, double ScaleRow::*f
 }
 
 std::string readable_text(const std::vector<ScaleRow>& rows) {
-  constexpr const char* kHeads = "{:>10} {:>9} {:>10} {:>11} {:>10} {:>12} {:>12} {:>18}\n";
-  std::string all = fmt::format(kHeads, "subject", "count", "load_cpu_s", "build_cpu_s", "plan_cpu_s",
+  constexpr const char* kHeader = "{:>10} {:>9} {:>10} {:>11} {:>10} {:>12} {:>12} {:>18}\n";
+  std::string all = fmt::format(kHeader, "subject", "count", "load_cpu_s", "build_cpu_s", "plan_cpu_s",
                                 "bytes/count", "rays/cpu_s", "growth load, rays");
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const ScaleRow& row = rows[i];

@@ -8,7 +8,7 @@
 #include "io/atomic_file.h"
 #include "io/data_directory.h"
 #include "io/text.h"
-#include "validation/bench/lamps.h"
+#include "validation/bench/lights.h"
 #include "validation/bench/meshes.h"
 
 namespace abbe {
@@ -23,7 +23,7 @@ void make_landscape(const fs::path& folder) {
   write_ply(folder / "ball.ply", make_bumpy_ball(kBallRows));
 }
 
-// So many sides that neighbours' pictures of the lamp overlap.
+// The number of sides is large enough for the reflections of the light in neighbouring faces to overlap.
 void make_rings(const fs::path& folder) {
   constexpr std::uint32_t kSides = 2048;
   write_ply(folder / "ring.ply", make_ring(kSides));
@@ -43,7 +43,7 @@ BenchSuite bright_room(const std::string& name, const char* ball, const char* al
   return suite;
 }
 
-// Where the scene file is: in the data, or copied beside the meshes it names.
+// Path of the scene file: the shipped file, or a copy in the folder of the generated meshes.
 fs::path scene_file(const BenchSuite& suite, const fs::path& cache, Diagnostics& diagnostics) {
   fs::path shipped = data_directory() / suite.scene;
   if (suite.make_meshes == nullptr) return shipped;
@@ -67,21 +67,22 @@ const std::vector<BenchSuite>& bench_suites() {
        {{"/sensor/resolution", "[256, 256]"}}},
       {"cornell", "the Cornell box as measured: diffuse light between walls", "scenes/cornell.json"},
       {"cornell-10nm",
-       "the same box in a lamp of 584 to 594 nm",
+       "the Cornell box under a light of 584 to 594 nm",
        "scenes/cornell.json",
        {{"/lights/0/emission", R"({"spectrum": {"band": [584, 594]}, "luminance": 13660.04})"}}},
-      {"prism-spot", "a spectrum on a screen, from a spot aimed at the slit", "scenes/prism_spot.json"},
-      {"prism-area", "the same from a panel that shines into a half space", "scenes/prism_area.json"},
-      {"glass-sphere", "the caustic of a ball of glass under a small lamp", "scenes/glass_sphere.json"},
+      {"prism-spot", "a spectrum on a screen, from a spot light aimed at the slit", "scenes/prism_spot.json"},
+      {"prism-area", "a spectrum on a screen, from a panel that emits into a half space",
+       "scenes/prism_area.json"},
+      {"glass-sphere", "the caustic of a ball of glass under a small light", "scenes/glass_sphere.json"},
       {"through-pane",
-       "the same seen through a pane of thin glass",
+       "the caustic of a ball of glass, viewed through a pane of thin glass",
        "scenes/glass_sphere.json",
        {{"/materials/pane", R"({"thin_glass": {"ior": "N-BK7"}})"},
         {"/shapes/2",
          R"({"name": "pane", "quad": {"corner": [1.5, 0.1, -6], "edge_u": [4, 0, 2], "edge_v": [0, 4, 0]}, )"
          R"("material": "pane"})"}}},
       {"through-slab",
-       "the same seen through a slab of glass, which parts wavelengths",
+       "the caustic of a ball of glass, viewed through a dispersive slab of glass",
        "scenes/glass_sphere.json",
        {{"/shapes/2", R"({"name": "slab", "mesh": {)"
                       R"("vertices": [[1.5, 0.1, -6], [5.5, 0.1, -4], [5.5, 4.1, -4], [1.5, 4.1, -6], )"
@@ -89,19 +90,20 @@ const std::vector<BenchSuite>& bench_suites() {
                       R"("triangles": [[0, 2, 1], [0, 3, 2], [4, 5, 6], [4, 6, 7], [0, 1, 5], [0, 5, 4], )"
                       R"([1, 2, 6], [1, 6, 5], [2, 3, 7], [2, 7, 6], [3, 0, 4], [3, 4, 7]]}, )"
                       R"("material": "glass"})"}}},
-      {"ring", "the caustic of a polished ring on what it stands on", "bench/ring.json", {}, make_rings},
-      {"bulb", "a lamp in a bulb of glass", "bench/bulb.json"},
+      {"ring", "the caustic of a polished ring on the ground below it", "bench/ring.json", {}, make_rings},
+      {"bulb", "a light inside a bulb of glass", "bench/bulb.json"},
       {"beam", "the beam of a spot in fog, seen from the side", "bench/beam.json"},
       {"metals",
-       "balls of polished and rough metal under a lamp and a sky, polarisation left out as the rival has it",
+       "balls of polished and rough metal under a light and a sky, without polarisation like the other "
+       "renderer",
        "bench/metals.json",
        {{"/render/polarisation", "off"}}},
-      {"metals-polarised", "the same with polarisation", "bench/metals.json"},
-      {"many-lights", "a hall with ten thousand lamps", "bench/hall.json", {{"/lights", make_lamps(100)}}},
+      {"metals-polarised", "balls of polished and rough metal under a light and a sky, with polarisation",
+       "bench/metals.json"},
+      {"many-lights", "a hall with ten thousand lights", "bench/hall.json", {{"/lights", make_lights(100)}}},
       {"mesh",
-       "a terrain and a bumpy ball of 1.05 million triangles each; the ball is diffuse, where the rivals' is "
-       "of "
-       "rough copper",
+       "a terrain and a bumpy ball of 1.05 million triangles each; the ball is diffuse, that of the other "
+       "renderers of rough copper",
        "bench/mesh.json",
        {},
        make_landscape}};

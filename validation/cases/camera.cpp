@@ -85,8 +85,8 @@ std::vector<Case> camera_cases() {
                     raw_values),
       computed_case(Suite::camera, "least-squares", "least-squares matrices of a measured camera", source, "",
                     {1e-6}, least_squares_matrices),
-      computed_case(Suite::camera, "least-squares-dE", "colour differences left by those matrices", source,
-                    "ΔE", {5.1e-5}, least_squares_differences),
+      computed_case(Suite::camera, "least-squares-dE", "residual colour differences of those matrices",
+                    source, "ΔE", {5.1e-5}, least_squares_differences),
   };
 }
 

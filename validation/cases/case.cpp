@@ -24,8 +24,7 @@ int channel_index(const Scene& scene, const std::string& name) {
   throw Error(ErrorCode::internal, "case", "no channel " + name);
 }
 
-// The film's values from 0 to twice what is expected in the mean; nothing for a film that is the same all
-// over.
+// False-colour picture of the film from 0 to twice the expected mean; empty for a uniform film.
 std::optional<Image> film_map(const Film& film, int channel, double expected) {
   constexpr double kFlat = 0.1;  // relative root mean square
   std::vector<double> values(static_cast<std::size_t>(film.width()) *
@@ -46,7 +45,7 @@ CaseResult measure(const Case& item, const Computed& method, const CaseSettings&
 const FilmMean& film_mean(const Case& item) {
   if (const auto* cell = std::get_if<TechniqueMean>(&item.method)) return cell->film;
   if (const auto* film = std::get_if<FilmMean>(&item.method)) return *film;
-  throw Error(ErrorCode::internal, item.id, "has no film");
+  throw Error(ErrorCode::internal, item.id, "the case does not render a film");
 }
 
 CaseResult measure_film(const Case& item, FilmSetup film, const CaseSettings& settings) {
@@ -71,12 +70,12 @@ CaseResult measure(const Case& item, const FilmMean&, const CaseSettings& settin
   return measure_film(item, film_of(item), settings);
 }
 
-// The classes of paths with light for this film that the scene's integrator does not reach.
-std::vector<PathClass> lost(const Scene& scene, const FilmMean& film) {
+// Path classes with light for this film that the scene's integrator cannot sample.
+std::vector<PathClass> missing_path_classes(const Scene& scene, const FilmMean& film) {
   std::vector<PathClass> classes =
-      unreached(scene, scene.needs, uses(chosen_techniques(scene), Technique::light));
-  std::erase_if(classes, [&](const PathClass& told) {
-    const std::string expression = told.substr(0, told.find(':'));
+      unsampled_paths(scene, scene.features, uses(chosen_techniques(scene), Technique::light));
+  std::erase_if(classes, [&](const PathClass& path_class) {
+    const std::string expression = path_class.substr(0, path_class.find(':'));
     return std::find(film.absent.begin(), film.absent.end(), expression) != film.absent.end();
   });
   return classes;
@@ -85,24 +84,24 @@ std::vector<PathClass> lost(const Scene& scene, const FilmMean& film) {
 CaseResult measure(const Case& item, const TechniqueMean& method, const CaseSettings& settings) {
   FilmSetup film = film_of(item);
   const Scene& scene = film.scene;
-  std::vector<PathClass> classes = lost(scene, method.film);
+  std::vector<PathClass> classes = missing_path_classes(scene, method.film);
   const std::vector<Technique> techniques = chosen_techniques(scene);
   CaseResult result = classes.empty() ? measure_film(item, std::move(film), settings)
                                       : CaseResult{{}, item.margin, Verdict::pass, 0, 0, 0};
-  result.unreached = std::move(classes);
+  result.unsampled = std::move(classes);
   for (const Technique technique : techniques)
     result.owned.push_back(owned_paths(technique, techniques, scene.camera));
   return result;
 }
 
-// Of one figure. What is not sampled has no interval.
+// Verdict of one figure. A figure that is not sampled has no interval.
 Verdict verdict_of(const Figure& figure, double allowed) {
   if (figure.measured.standard_error == 0)
     return std::abs(figure.deviation()) <= allowed ? Verdict::pass : Verdict::fail;
   return equivalence(figure.measured, figure.reference, allowed / std::abs(figure.reference));
 }
 
-void judge(CaseResult& result) {
+void set_verdict(CaseResult& result) {
   if (!result.measured()) return;
   result.verdict = result.figures.empty() ? Verdict::fail : Verdict::pass;
   double worst = -1;
@@ -111,7 +110,7 @@ void judge(CaseResult& result) {
     if (const Verdict verdict = verdict_of(figure, result.allowed(figure)); verdict != Verdict::pass)
       result.verdict = verdict;
     const double deviation = std::abs(figure.deviation()) / result.allowed(figure);
-    if (deviation <= worst) continue;  // a deviation that is not a number is the worst
+    if (deviation <= worst) continue;  // NaN counts as the worst deviation
     worst = deviation;
     result.worst = i;
   }
@@ -123,8 +122,9 @@ FilmSetup film_of(const Case& item) {
   const FilmMean& method = film_mean(item);
   std::vector<Override> settings = method.settings;
   if (const auto* cell = std::get_if<TechniqueMean>(&item.method))
-    settings.push_back({"/render/integrator",
-                        fmt::format("\"{}\"", kIntegratorNames.at(static_cast<std::size_t>(cell->by)))});
+    settings.push_back(
+        {"/render/integrator",
+         fmt::format("\"{}\"", kIntegratorNames.at(static_cast<std::size_t>(cell->integrator)))});
   Scene scene = load_case_scene(item.id, method.scene, settings);
   scene.render.samples = method.samples;
   const int channel = channel_index(scene, method.channel);
@@ -147,7 +147,7 @@ CaseResult run_case(const Case& item, const CaseSettings& settings) {
   const CostMeter meter;
   CaseResult result =
       std::visit([&](const auto& method) { return measure(item, method, settings); }, item.method);
-  judge(result);
+  set_verdict(result);
   result.cpu_s = meter.spent().cpu_s;
   return result;
 }
@@ -156,7 +156,7 @@ const std::vector<Case>& all_cases() {
   static const std::vector<Case> cases = [] {
     std::vector<Case> all;
     for (std::vector<Case> (*suite)() : {optics_cases, traced_ray_cases, radiometry_cases, enclosure_cases,
-                                         refraction_cases, scattering_cases, colour_cases, judging_cases,
+                                         refraction_cases, scattering_cases, colour_cases, color_metric_cases,
                                          chart_cases, rendered_chart_cases, camera_cases, sensor_cases})
       for (Case& item : suite()) all.push_back(std::move(item));
     for (Case& cell : technique_cases(all)) all.push_back(std::move(cell));
@@ -168,12 +168,14 @@ const std::vector<Case>& all_cases() {
 const std::vector<Uncovered>& uncovered() {
   static const std::vector<Uncovered> all{
       {Suite::optics, "published lenses: double Gauss, Edmund, Cooke, Thorlabs",
-       "no case has their published figures, but the tests of lenses do"},
-      {Suite::optics, "Airy's shift of the rainbow", "light is followed as rays, not as waves"},
+       "covered by the tests of lenses instead of a case"},
+      {Suite::optics, "Airy's shift of the rainbow", "light is traced as rays, not as waves"},
       {Suite::radiometry, "Cornell box against its photographs", "no measured pixel values are published"},
-      {Suite::radiometry, "tables of CIE 171", "paywalled; its analytic cases are recomputed from formulas"},
-      {Suite::camera, "sensitivity metamerism indices of ISO 17321", "no values per camera are at hand"},
-      {Suite::sensor, "blooming and response curves", "no case has them, but the tests of the read-out do"},
+      {Suite::radiometry, "tables of CIE 171",
+       "not freely available; its analytic cases are computed from formulas"},
+      {Suite::camera, "sensitivity metamerism indices of ISO 17321", "no published values per camera"},
+      {Suite::sensor, "blooming and response curves",
+       "covered by the tests of the read-out instead of a case"},
       {Suite::sensor, "lag and imperfect charge transfer", "the read-out does not model them"},
   };
   return all;

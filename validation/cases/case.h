@@ -11,154 +11,156 @@
 
 #include "description/load.h"
 #include "io/image.h"
-#include "scene/unreached.h"
+#include "scene/unsampled_paths.h"
 #include "validation/statistics/equivalence.h"
 
 namespace abbe {
 
-/// The largest deviation that passes.
+/// Largest deviation that passes, absolute or relative to the reference.
 struct Margin {
   enum class Kind { absolute, relative };
   double value;
   Kind kind = Kind::absolute;
 
-  /// The largest deviation that passes for one reference value, in its unit.
+  /// Largest deviation that passes for this reference value, in the unit of the value.
   [[nodiscard]] double of(double reference) const;
 };
 
-/// One figure of the program beside what it should be.
+/// A measured value and its known answer.
 struct Figure {
-  std::string what;  ///< Which of a case's figures; empty where it has one.
+  std::string what;  ///< Name of the figure within its case; empty if the case has a single one.
   double reference;
-  Estimate measured;                  ///< Its standard error is 0 where nothing is sampled.
-  std::optional<Margin> margin = {};  ///< Its own, where that is not the case's.
+  Estimate measured;                  ///< The standard error is 0 for a value that is not sampled.
+  std::optional<Margin> margin = {};  ///< Margin of this figure, if it differs from the case's.
 
-  /// Measured minus reference.
+  /// Measured value minus reference.
   [[nodiscard]] double deviation() const { return measured.mean - reference; }
 };
 
-/// Figures that follow from formulas and tables alone.
+/// Figures computed from formulas and tables, without rendering.
 struct Computed {
   std::function<std::vector<Figure>()> figures;
 };
 
-/// What closed forms tell, which is worked out when it is asked for: some take a tenth of a second.
+/// Value of a closed form. It is computed at each call, since some forms take a tenth of a second.
 class Expected {
  public:
-  Expected(double value) : work_out_([value] { return value; }) {}
+  Expected(double value) : compute_([value] { return value; }) {}
   template <std::invocable Form>
-  Expected(Form form) : work_out_(std::move(form)) {}
+  Expected(Form form) : compute_(std::move(form)) {}
 
-  [[nodiscard]] double operator()() const { return work_out_(); }
+  [[nodiscard]] double operator()() const { return compute_(); }
 
  private:
-  std::function<double()> work_out_;
+  std::function<double()> compute_;
 };
 
-/// The mean of a rendered film's channel, which closed forms tell.
+/// Mean of one channel of a rendered film, compared with a closed form.
 struct FilmMean {
-  std::string scene;               ///< Relative to `data/scenes/validation`.
-  std::vector<Override> settings;  ///< Applied to the scene.
+  std::string scene;               ///< Path relative to `data/scenes/validation`.
+  std::vector<Override> settings;  ///< Overrides applied to the scene.
   std::string channel;
   Expected expected;
-  int samples;         ///< Per pixel, for the margin of the case.
-  double fine_margin;  ///< Relative; for a thorough run.
-  /// Classes of paths, as `unreached` writes them, that bring no light to this film: losing them is no loss.
+  int samples;         ///< Samples per pixel for the margin of the case.
+  double fine_margin;  ///< Relative margin of a thorough run.
+  /// Path classes, written as `unsampled_paths` writes them, that contribute nothing to this film. An
+  /// integrator may omit them.
   std::vector<std::string> absent = {};
 };
 
-/// Which runs afford a measurement, each beside those of the ones before.
+/// Runs that include a measurement. Each tier includes the measurements of the tiers above it.
 enum class Tier {
   quick,     ///< Every validation.
   tests,     ///< The default tests.
-  thorough,  ///< Thorough validations, those of its suite alone, and the tests of the night.
-  never      ///< None: too little arrives at any number of samples, or each path takes too long.
+  thorough,  ///< Thorough validations, validations of this suite alone, and the nightly tests.
+  never      ///< No run: too little light arrives at any number of samples, or each path takes too long.
 };
 
-/// The mean of another case's film by one technique: a cell of the matrix in `docs/techniques.md`.
+/// Mean of another case's film, rendered by one integrator: a cell of the table in `docs/techniques.md`.
 struct TechniqueMean {
-  std::string of;  ///< The id of that case.
-  Integrator by;
-  FilmMean film;  ///< Rendered by that technique, whatever its settings ask for.
+  std::string case_id;  ///< Id of the other case.
+  Integrator integrator;
+  FilmMean film;  ///< Film of the other case; `integrator` replaces the one of its settings.
   Tier tier;
 };
 
-/// Colour differences of a rendered ColorChecker to what its spectra give: patch by patch, and their mean.
+/// Colour differences of a rendered ColorChecker from the colours integrated over its spectra, for each patch
+/// and in the mean.
 struct RenderedChart {
   std::string illuminant;
   int samples;
-  double mean_margin;  ///< Of the mean; the case's margin is that of each patch.
+  double mean_margin;  ///< Margin of the mean; the case's margin applies to each patch.
 };
 
-/// A part of the report.
+/// Part of the report.
 enum class Suite { optics, radiometry, colour, camera, sensor, techniques };
 inline constexpr std::array kSuiteNames{"optics", "radiometry", "colour", "camera", "sensor", "techniques"};
 
-/// Something whose answer is known.
+/// A quantity whose answer is known.
 struct Case {
   Suite suite;
   std::string id;  ///< Unique.
   std::string title;
   std::string source;  ///< Formula or measurement, with its key in `docs/references.bib`.
-  std::string unit;    ///< Of the figures; empty for pure numbers.
+  std::string unit;    ///< Unit of the figures; empty for pure numbers.
   Margin margin;
   std::variant<Computed, FilmMean, RenderedChart, TechniqueMean> method;
 };
 
-/// How carefully to measure.
+/// Accuracy and threads of a measurement.
 struct CaseSettings {
-  bool thorough = false;  ///< Films at their fine margins.
-  int threads = 0;        ///< 0: one per processor.
+  bool thorough = false;  ///< Render films at their fine margins.
+  int threads = 0;        ///< Number of threads; 0 for one per processor.
 };
 
-/// A figure that is told and not judged.
+/// A value that is reported without a verdict.
 struct Remark {
   std::string what;
   double value;
 };
 
-/// What a case measured.
+/// Result of measuring a case.
 struct CaseResult {
   std::vector<Figure> figures;
-  Margin margin;      ///< Of this run.
-  Verdict verdict;    ///< An inconclusive end counts as a failure.
-  std::size_t worst;  ///< Of the figures, the one furthest from its reference in margins.
-  int samples;        ///< Per pixel; 0 where nothing was rendered.
-  double cpu_s;       ///< Of the case as a whole, loading its scene included.
+  Margin margin;      ///< Margin of this run.
+  Verdict verdict;    ///< `inconclusive` counts as a failure.
+  std::size_t worst;  ///< Index of the figure with the largest deviation in units of its margin.
+  int samples;        ///< Samples per pixel; 0 if nothing was rendered.
+  double cpu_s;       ///< CPU time of the whole case, including loading its scene.
   std::vector<Remark> remarks = {};
-  /// The classes of paths that the technique loses: nothing was measured where there is one.
-  std::vector<PathClass> unreached = {};
-  std::vector<std::string> owned = {};  ///< Those that the techniques of a cell own, one for each.
-  std::optional<Image> picture = {};    ///< Of what was rendered, for display, where it shows something.
+  /// Path classes that the integrator cannot sample. If there is one, nothing was measured.
+  std::vector<PathClass> unsampled = {};
+  std::vector<std::string> owned = {};  ///< Path classes that each technique of a cell samples.
+  std::optional<Image> picture = {};    ///< Display picture of the film, if the film is not uniform.
 
-  /// The largest deviation that passes one of the figures.
+  /// Largest deviation with which this figure passes.
   [[nodiscard]] double allowed(const Figure& figure) const {
     return figure.margin.value_or(margin).of(figure.reference);
   }
 
-  [[nodiscard]] bool measured() const { return unreached.empty(); }
+  [[nodiscard]] bool measured() const { return unsampled.empty(); }
   [[nodiscard]] bool passed() const { return verdict == Verdict::pass; }
 };
 
-/// What a case renders.
+/// Scene, channel and expected mean of a case that renders a film.
 struct FilmSetup {
-  Scene scene;  ///< With the case's samples.
-  int channel;  ///< Of its film.
+  Scene scene;  ///< Its samples per pixel are those of the case.
+  int channel;  ///< Index of the film's channel.
   double expected;
 };
-/// The film of a case measured by `FilmMean` or `TechniqueMean`. Throws Error{internal} for another, or where
-/// its scene does not load.
+/// Scene and expected mean of a case measured by `FilmMean` or `TechniqueMean`. Throws Error{internal} for
+/// other methods and if the scene does not load.
 [[nodiscard]] FilmSetup film_of(const Case& item);
 
-/// Measures one case. A technique that does not reach a film's light passes unmeasured. A film gets up to 4
-/// doublings of its samples while the verdict is open. Throws Error{internal} when its scene does not load,
-/// and as its tables' loaders do.
+/// Measures one case. A case whose integrator cannot sample the film's light passes without a measurement.
+/// The samples of a film are doubled up to 4 times while the verdict is inconclusive. Throws Error{internal}
+/// if a scene does not load, and the errors of the table loaders.
 [[nodiscard]] CaseResult run_case(const Case& item, const CaseSettings& settings = {});
 
-/// All cases, suite by suite.
+/// All cases, sorted by suite.
 [[nodiscard]] const std::vector<Case>& all_cases();
 
-/// Something of the trade that a validation should know and Abbe cannot do yet.
+/// A topic that a validation should cover and Abbe's does not.
 struct Uncovered {
   Suite suite;
   std::string what;

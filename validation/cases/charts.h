@@ -10,17 +10,18 @@
 
 namespace abbe {
 
-/// What the CIE 1931 observer makes of a chart's patches: Y = 100 for the perfect diffuser.
+/// Colours of a chart's patches for the CIE 1931 observer, with Y = 100 for the perfect diffuser.
 struct ChartColors {
   std::vector<std::string> names;
   std::vector<XYZ> xyz;
-  std::vector<Lab> lab;  ///< Relative to the illuminant's white.
+  std::vector<Lab> lab;  ///< L*a*b* relative to the illuminant's white.
 };
-/// Colours of a chart from a shipped table of spectra, by 1 nm sums over a range.
+/// Integrates the colours of a chart in steps of 1 nm over a range. `spectra` names a shipped table of
+/// reflectances.
 [[nodiscard]] ChartColors chart_colors(const std::string& spectra, const std::string& illuminant,
                                        SumRange range = {});
 
-/// CIEDE2000 patch by patch.
+/// CIEDE2000 of each patch, with mean and maximum.
 struct ChartDifference {
   std::vector<double> patches;
   double mean = 0;
@@ -29,8 +30,8 @@ struct ChartDifference {
 [[nodiscard]] ChartDifference difference_of(const std::vector<Lab>& reference,
                                             const std::vector<Lab>& sample);
 
-/// L*a*b* of the patches of an edition of the ColorChecker under D50, as "after_nov2014": from its spectra,
-/// or as published.
+/// L*a*b* of the patches of an edition of the ColorChecker under D50, such as "after_nov2014". The values are
+/// integrated if the edition has spectra, and as published otherwise.
 [[nodiscard]] std::vector<Lab> edition_lab(const std::string& edition);
 
 }  // namespace abbe

@@ -17,7 +17,7 @@
 namespace abbe {
 namespace {
 
-// The nominal temperatures of daylight are in the scale of c2 = 1.4380e-2 m K.
+// The nominal temperatures of daylight use the scale of c2 = 1.4380e-2 m K.
 constexpr double kDaylightScale = 1.4388 / 1.4380;
 
 std::vector<Figure> observer_sums() {
@@ -41,7 +41,7 @@ void add_chromaticity(std::vector<Figure>& figures, const std::string& name,
   figures.push_back(exact_figure(name + " y", reference[1], xy[1]));
 }
 
-// Chromaticities of the white points in the columns x_`kind` and y_`kind`, where the table has them.
+// Chromaticities of the white points in the columns x_`kind` and y_`kind`, for rows that have them.
 std::vector<Figure> white_points(const std::string& kind, SumRange range,
                                  Curve (*illuminant)(const std::string&)) {
   const ReferenceTable table("white_points");
@@ -57,8 +57,8 @@ std::vector<Figure> white_points(const std::string& kind, SumRange range,
   return figures;
 }
 
-// An illuminant beyond its table: D by its components, A by its definition as the Planckian radiator of
-// 2848 K in the scale of c2 = 1.435e-2 m K.
+// Illuminant outside the range of its table. D follows from its components. A follows from its definition as
+// the Planckian radiator of 2848 K with c2 = 1.435e-2 m K.
 Curve by_definition(const std::string& name) {
   if (name == "A") return planck(2848 * photon_energy(1) / kBoltzmann / 1.435e7);
   if (name[0] == 'D') return daylight(100 * std::stod(name.substr(1)) * kDaylightScale);
@@ -78,16 +78,16 @@ std::vector<Figure> printed_whites() {
   return white_points("pub", {}, shipped_illuminant);
 }
 
-// What ASTM E308's tables take: of A its definition, of daylight the table.
+// Illuminants of the tables of ASTM E308: A by definition, daylight from its table.
 Curve astm_illuminant(const std::string& name) {
   return name == "A" ? by_definition(name) : shipped_illuminant(name);
 }
 
-// The weights that ASTM E308 prints.
+// Weights that ASTM E308 prints.
 std::vector<Figure> astm_printed_weights() {
   const ReferenceTable table("astm_e308_weights");
   std::vector<Figure> figures;
-  std::string of;
+  std::string previous;
   TristimulusWeights weights{};
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::string& light = table.text(row, "illuminant");
@@ -95,8 +95,8 @@ std::vector<Figure> astm_printed_weights() {
     const int step = static_cast<int>(table.number(row, "step_nm"));
     const int nm = static_cast<int>(table.number(row, "wavelength_nm"));
     const std::string name = fmt::format("{} {}° {} nm", light, degrees, step);
-    if (name != of) weights = astm_weights(astm_illuminant(light), observer(degrees), step, {});
-    of = name;
+    if (name != previous) weights = astm_weights(astm_illuminant(light), observer(degrees), step, {});
+    previous = name;
     const XYZ& weight = weights.weights.at(static_cast<std::size_t>((nm - weights.low_nm) / step));
     for (std::size_t i = 0; i < 3; ++i) {
       const std::string column(1, "XYZ"[i]);
@@ -154,7 +154,7 @@ std::vector<Figure> luminous_efficacies() {
   return figures;
 }
 
-// The published pairs, each both ways round; `formula` of the two colours against a column.
+// The published pairs in both orders: `formula` of the two colours against a column.
 std::vector<Figure> sharma_pairs(const char* column, double (*formula)(const Lab&, const Lab&)) {
   const ReferenceTable table("ciede2000_sharma2005");
   std::vector<Figure> figures;
@@ -209,13 +209,13 @@ std::vector<Figure> colour_matrices() {
   return figures;
 }
 
-// Lamp and white wall of the Cornell box as Cornell measured them, and means over bands 10 nm wide.
+// Light and white wall of the Cornell box as Cornell measured them, with means over bands 10 nm wide.
 std::vector<Figure> cornell_box() {
-  const Curve lamp = shipped_illuminant("cornell_box_light");
-  const Curve lit = product(lamp, shipped_curve("reflectance", "cornell_box_walls:white"));
-  const auto band_mean = [&](double nm) { return lit.integral(nm - 5, nm + 5) / 10; };
-  return {exact_figure("lamp", 3280, lamp.integral(400, 700)),
-          exact_figure("lit white", 2412.5634, lit.integral(400, 700)),
+  const Curve light = shipped_illuminant("cornell_box_light");
+  const Curve illuminated = product(light, shipped_curve("reflectance", "cornell_box_walls:white"));
+  const auto band_mean = [&](double nm) { return illuminated.integral(nm - 5, nm + 5) / 10; };
+  return {exact_figure("light", 3280, light.integral(400, 700)),
+          exact_figure("illuminated white", 2412.5634, illuminated.integral(400, 700)),
           exact_figure("450 nm", 3.0273770, band_mean(450)),
           exact_figure("550 nm", 8.6850874, band_mean(550)),
           exact_figure("650 nm", 12.3558600, band_mean(650))};
@@ -235,12 +235,12 @@ std::vector<Case> colour_cases() {
                {0.51e-6}, observer_sums),
       computed("whites", "white points of 50 illuminants for both observers, 1 nm sums", "[CIE15, sec. 7.1]",
                "", millionth, summed_whites),
-      computed("whites-truncated", "the same, summed from 380 to 780 nm", "[CIE15, sec. 7.1]", "", millionth,
-               truncated_whites),
+      computed("whites-truncated", "white points of illuminants, summed from 380 to 780 nm",
+               "[CIE15, sec. 7.1]", "", millionth, truncated_whites),
       computed("astm-weights", "tristimulus weights for 10 and 20 nm as printed", "[ASTM308], [ASTM2022]", "",
                {5.01e-4}, astm_printed_weights),
-      computed("whites-defined", "the same, with A and D by definition", "[CIE15, sec. 3]", "", millionth,
-               defined_whites),
+      computed("whites-defined", "white points of illuminants, with A and D by definition", "[CIE15, sec. 3]",
+               "", millionth, defined_whites),
       computed("whites-printed", "white points as printed, from rounded tables", "[CIE15, tables]", "",
                {3.5e-4}, printed_whites),
       computed("locus", "chromaticities of black bodies", "Planck's law [Planck1901] and [CIE15]", "",
@@ -253,11 +253,11 @@ std::vector<Case> colour_cases() {
                "683.002 lm/W at 540 THz [CIE15]", "lm/W", {1e-4}, luminous_efficacies),
       computed("dE00", "the 34 published pairs of CIEDE2000", "[Sharma2005, table 1]", "ΔE", {5.1e-5},
                pairs_2000),
-      computed("dE76", "the same pairs in L*a*b*", "[Sharma2005, table 1], [CIE15, sec. 8.2.1]", "ΔE",
-               {5.1e-5}, pairs_76),
+      computed("dE76", "the 34 pairs of CIEDE2000 by their distance in L*a*b*",
+               "[Sharma2005, table 1], [CIE15, sec. 8.2.1]", "ΔE", {5.1e-5}, pairs_76),
       computed("matrices", "RGB spaces and chromatic adaptation", "primaries of [BT709]; [Lam1985]", "",
                {1e-9}, colour_matrices),
-      computed("cornell", "lamp and white wall of the Cornell box", "measured spectra [CornellBox1998]", "",
+      computed("cornell", "light and white wall of the Cornell box", "measured spectra [CornellBox1998]", "",
                {1e-5, Margin::Kind::relative}, cornell_box),
   };
 }

@@ -1,4 +1,4 @@
-// The ColorChecker: integrated from its spectra, and its editions against each other.
+// The ColorChecker: colours integrated from its spectra, and differences between its editions.
 #include <algorithm>
 #include <array>
 #include <map>
@@ -24,7 +24,7 @@ constexpr std::array<IntegratedTable, 2> kTables{
     {{"colorchecker_babelcolor_2deg", "colorchecker24_babelcolor_average"},
      {"colorchecker_ohta_iso17321_2deg", "colorchecker24_ohta1997"}}};
 
-// X, Y, Z, L*, a*, b* of every patch of a chart under every illuminant of a table of known answers.
+// X, Y, Z, L*, a*, b* of every patch under every illuminant of a reference table.
 std::vector<Figure> patches_of(const IntegratedTable& chart, SumRange range) {
   const ReferenceTable table(chart.reference);
   std::map<std::string, ChartColors> integrated;
@@ -54,14 +54,16 @@ std::vector<Figure> whole_range_patches() {
   return patches_of({"colorchecker_babelcolor_360_830", kTables[0].spectra}, {});
 }
 
-// L*a*b* of every patch by the weights of ASTM E308, which another program computed from the same tables.
+// L*a*b* of every patch by the weights of ASTM E308. Another program computed the reference from the same
+// tables.
 std::vector<Figure> astm_patches() {
   const ReferenceTable table(kTables[0].reference);
   std::map<std::string, TristimulusWeights> weights;
   std::vector<Figure> figures;
   for (std::size_t row = 0; row < table.rows(); ++row) {
     const std::string& light = table.text(row, "illuminant");
-    if (light.starts_with("FL")) continue;  // that program holds their first value below 380 nm
+    if (light.starts_with("FL"))
+      continue;  // that program extrapolates their first value below 380 nm as a constant
     if (!weights.contains(light))
       weights[light] = astm_weights(shipped_illuminant(light), Observer::cie1931, 10);
     Diagnostics diagnostics;
@@ -78,7 +80,7 @@ std::vector<Figure> astm_patches() {
   return figures;
 }
 
-// Mean CIEDE2000 of the integrated patches against the known answers, for each table and illuminant.
+// Mean CIEDE2000 between the integrated patches and the reference, for each table and illuminant.
 std::vector<Figure> integrated_differences() {
   std::vector<Figure> figures;
   for (const IntegratedTable& chart : kTables) {
@@ -95,7 +97,7 @@ std::vector<Figure> integrated_differences() {
   return figures;
 }
 
-// Edition against edition, D50: how far the chart itself is known.
+// Differences between editions under D50: the uncertainty of the chart itself.
 std::vector<Figure> edition_spread() {
   struct Pair {
     const char *first, *second;
@@ -168,7 +170,8 @@ std::vector<Case> chart_cases() {
   return {
       computed("chart-patches", "ColorChecker, mean of 30 charts: XYZ and L*a*b* of each patch",
                "spectra of [Pascale2012], 1 nm sums [CIE15, sec. 7.1]", {1e-5}, whole_range_patches),
-      computed("chart-babelcolor", "the same, summed from 380 to 780 nm",
+      computed("chart-babelcolor",
+               "ColorChecker, mean of 30 charts, summed from 380 to 780 nm: XYZ and L*a*b* of each patch",
                "spectra of [Pascale2012], 1 nm sums [CIE15, sec. 7.1]", {1e-5}, babelcolor_patches),
       computed("chart-ohta", "ColorChecker of Ohta, summed from 380 to 780 nm: XYZ and L*a*b* of each patch",
                "spectra of [Ohta1997], 1 nm sums [CIE15, sec. 7.1]", {1e-5}, ohta_patches),

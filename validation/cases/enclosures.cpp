@@ -1,4 +1,4 @@
-// Closed spaces, where light is reflected without end.
+// Enclosures with unlimited interreflection.
 #include <cmath>
 #include <numbers>
 
@@ -13,12 +13,12 @@ namespace {
 std::vector<Case> integrating_sphere_cases() {
   const double offset = 0.3;
   const double distance2 = 1 + offset * offset;
-  const double uniform = 100 / (4 * std::numbers::pi);  // a lamp of 100 lm at the centre of a sphere of 1 m
+  const double uniform = 100 / (4 * std::numbers::pi);  // a light of 100 lm at the centre of a sphere of 1 m
   const double direct = uniform / distance2 / std::sqrt(distance2);
   const double reflectance = 0.98;
-  const double port = 0.01;  // of the sphere's area, behind the disc
+  const double port = 0.01;  // fraction of the sphere's area, behind the disc
   return {
-      film_case("T7", "integrating sphere, lamp off centre", "sphere multiplier [Goebel1967]",
+      film_case("T7", "integrating sphere, light off centre", "sphere multiplier [Goebel1967]",
                 "integrating_sphere.json", {}, direct + uniform * 0.5 / (1 - 0.5), 64),
       film_case("T8", "integrating sphere with a port of 1 %, reflectance 0.98",
                 "1/(1 - ρ(1 - f)) [Goebel1967]", "port.json", {}, uniform / (1 - reflectance * (1 - port)),
@@ -26,10 +26,10 @@ std::vector<Case> integrating_sphere_cases() {
   };
 }
 
-// Exitance 1 from the smaller of two concentric spheres, r1/r2 = 1/2, the larger reflecting 0.5.
+// The smaller of two concentric spheres with r1/r2 = 1/2 has exitance 1; the larger reflects 0.5.
 std::vector<Case> concentric_cases() {
-  const double share = 0.25;  // of the outer sphere's light that falls on the inner one
-  const double outer = share / (1 - 0.5 * (1 - share));
+  const double view_factor = 0.25;  // fraction of the outer sphere's light that arrives at the inner one
+  const double outer = view_factor / (1 - 0.5 * (1 - view_factor));
   const std::string source = "balance of two concentric spheres [Howell2010, app. C]";
   return {
       film_case("T9-outer", "concentric spheres, the outer one", source, "concentric.json", {}, outer, 64),
@@ -37,7 +37,7 @@ std::vector<Case> concentric_cases() {
                 {probe_at("[0, 0, 1.000001]", "[0, 0, 1]")}, 0.5 * outer, 64)};
 }
 
-// Two plates of reflectance 0.5 between perfect mirrors, the lower one of exitance 1.
+// Two plates of reflectance 0.5 between perfect mirrors; the lower one has exitance 1.
 std::vector<Case> plate_cases() {
   const std::string source = "balance of two infinite plates [Howell2010]";
   const double lower = 1 / (1 - 0.5 * 0.5);

@@ -8,8 +8,8 @@
 
 namespace abbe {
 
-/// A case of radiometry: the mean illuminance times time of a film, or another channel's mean, in closed
-/// form.
+/// Case of the suite radiometry: the mean of a film's channel against a closed form. By default the channel
+/// is Y, the illuminance times the exposure time.
 [[nodiscard]] inline Case film_case(std::string id, std::string title, std::string source, std::string scene,
                                     std::vector<Override> settings, Expected expected, int samples,
                                     std::string channel = "Y") {
@@ -23,11 +23,12 @@ namespace abbe {
                    0.002}};
 }
 
-/// What a pinhole of f-number 1 and a square field of view makes of unit radiance: pi/4 times the mean of
-/// cos^4.
+/// Mean exposure behind a pinhole of f-number 1 with a square field of view, for unit radiance: pi/4 times
+/// the mean of cos^4.
 [[nodiscard]] double pinhole_exposure(double fov_deg);
 
-/// A probe at a point, facing along `normal`.
+/// Override that replaces the camera by an irradiance probe at `point` with the given normal, both as JSON
+/// arrays.
 [[nodiscard]] Override probe_at(const std::string& point, const std::string& normal);
 
 }  // namespace abbe

@@ -60,7 +60,7 @@ std::vector<Figure> catalogue_indices() {
   return figures;
 }
 
-// Each row of the table with its glass, at its wavelength.
+// Calls `add` for each row of the table, with its glass and the index at its wavelength.
 std::vector<Figure> of_glasses(
     const std::function<void(std::vector<Figure>&, const ReferenceTable&, std::size_t row,
                              const std::string& name, double n)>& add) {
@@ -74,13 +74,13 @@ std::vector<Figure> of_glasses(
   return figures;
 }
 
-// The angle at which total reflection begins for light inside, by bisection [degrees].
+// Smallest angle of total internal reflection [degrees], by bisection.
 double critical_angle(double n) {
   double low = 0;
   double high = 90;
   while (high - low > 1e-10) {
-    const double middle = (low + high) / 2;
-    (fresnel_dielectric(cosine(middle), 1 / n).Ts > 0 ? low : high) = middle;
+    const double midpoint = (low + high) / 2;
+    (fresnel_dielectric(cosine(midpoint), 1 / n).Ts > 0 ? low : high) = midpoint;
   }
   return (low + high) / 2;
 }
@@ -147,7 +147,7 @@ std::vector<Figure> metals_at_three_angles() {
           at("Ag", n, k, 60, .981033),           at("Ag", n, k, 80, .983150)};
 }
 
-// The largest error of Schlick's approximation and the angle it occurs at, tenth by tenth of a degree.
+// Largest error of Schlick's approximation and its angle, in steps of a tenth of a degree.
 std::pair<double, double> worst_of_schlick(double n, double k) {
   const double r0 = fresnel_conductor(1.0, n, k).R();
   std::pair<double, double> worst{0, 0};
@@ -224,13 +224,13 @@ std::vector<Figure> absorption() {
   return figures;
 }
 
-// Reflectance of light from all directions alike, the integral of R(theta) sin(2 theta) by the midpoint rule
-// in theta; `n` is that of the far side over that of the near side.
+// Reflectance in diffuse light: the integral of R(theta) sin(2 theta) by the midpoint rule. `n` is the index
+// of the far side relative to the near side.
 double hemispherical_reflectance(double n) {
-  const auto share = [n](double theta) {
+  const auto integrand = [n](double theta) {
     return fresnel_dielectric(std::cos(theta), n).R() * std::sin(2 * theta);
   };
-  return midpoint_integral(share, 0, std::numbers::pi / 2, 2000000);
+  return midpoint_integral(integrand, 0, std::numbers::pi / 2, 2000000);
 }
 
 std::vector<Figure> hemispherical() {
@@ -238,7 +238,7 @@ std::vector<Figure> hemispherical() {
           exact_figure("from inside", 0.59634576, hemispherical_reflectance(1 / 1.5))};
 }
 
-// Of this suite.
+// A case of the suite optics.
 Case computed(std::string id, std::string title, std::string source, std::string unit, Margin margin,
               std::vector<Figure> (*figures)()) {
   return computed_case(Suite::optics, std::move(id), std::move(title), std::move(source), std::move(unit),

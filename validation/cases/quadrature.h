@@ -2,7 +2,7 @@
 
 namespace abbe {
 
-/// Integral of f from a to b by the midpoint rule of so many steps.
+/// Integral of f from a to b by the midpoint rule with `steps` intervals.
 template <typename Function>
 [[nodiscard]] double midpoint_integral(const Function& f, double a, double b, int steps) {
   const double step = (b - a) / steps;

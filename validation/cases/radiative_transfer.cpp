@@ -8,10 +8,10 @@
 namespace abbe {
 
 ChandrasekharH::ChandrasekharH(double albedo) : albedo_(albedo), h_(400, 1.0) {
-  for (int round = 0; round < 100; ++round) {
-    std::vector<double> better;
-    for (std::size_t i = 0; i < h_.size(); ++i) better.push_back((*this)(node(i)));
-    h_ = better;
+  for (int iteration = 0; iteration < 100; ++iteration) {
+    std::vector<double> next;
+    for (std::size_t i = 0; i < h_.size(); ++i) next.push_back((*this)(node(i)));
+    h_ = next;
   }
 }
 
@@ -30,14 +30,14 @@ double ChandrasekharH::mean() const {
   return std::accumulate(h_.begin(), h_.end(), 0.0) / static_cast<double>(h_.size());
 }
 
-double scattered_once(const EvenMatter& matter, double h, double before, double after) {
+double single_scattering_radiance(const HomogeneousMedium& medium, double h, double before, double after) {
   constexpr int kSteps = 20000;
-  const auto from = [&](double x) {
+  const auto integrand = [&](double x) {
     const double r = std::hypot(x, h);
-    const double cosine = -x / r;  // between the way of the light and the way to the camera, which is -x
-    return matter.phase(cosine) * std::exp(-matter.extinction * (x + before + r)) / (r * r);
+    const double cosine = -x / r;  // between the directions of the light and to the camera, which is -x
+    return medium.phase(cosine) * std::exp(-medium.extinction * (x + before + r)) / (r * r);
   };
-  return matter.scattering * midpoint_integral(from, -before, after, kSteps);
+  return medium.scattering * midpoint_integral(integrand, -before, after, kSteps);
 }
 
 }  // namespace abbe

@@ -6,15 +6,17 @@
 
 namespace abbe {
 
-/// H(mu) = 1/(sqrt(1 - albedo) + albedo/2 int_0^1 m H(m)/(mu + m) dm) of matter that scatters evenly,
-/// iterated on midpoints [Chandrasekhar1960, sec. 33]. A layer without end below an even sky looks 1 - H(mu)
-/// sqrt(1 - albedo) times as bright as that under the cosine mu.
+/// Chandrasekhar's function H(mu) of an isotropically scattering medium [Chandrasekhar1960, sec. 33].
+/// H(mu) = 1/(sqrt(1 - albedo) + albedo/2 int_0^1 m H(m)/(mu + m) dm), iterated on the nodes of the midpoint
+/// rule.
+/// A semi-infinite layer below a uniform sky, viewed at cosine mu, has 1 - H(mu) sqrt(1 - albedo) times the
+/// radiance of that sky.
 class ChandrasekharH {
  public:
   explicit ChandrasekharH(double albedo);
 
   [[nodiscard]] double operator()(double mu) const;
-  /// Over mu from 0 to 1: 2/albedo (1 - sqrt(1 - albedo)), but for rounding.
+  /// Mean over mu from 0 to 1. Exact up to rounding: 2/albedo (1 - sqrt(1 - albedo)).
   [[nodiscard]] double mean() const;
 
  private:
@@ -24,18 +26,20 @@ class ChandrasekharH {
   std::vector<double> h_;
 };
 
-/// Even matter: scattering and extinction coefficients [1/m], and the phase function [1/sr] of the cosine
-/// between the ways of the light before and after.
-struct EvenMatter {
+/// Homogeneous medium: scattering and extinction coefficients [1/m], and the phase function [1/sr] of the
+/// cosine between the directions of the light before and after scattering.
+struct HomogeneousMedium {
   double scattering;
   double extinction;
   std::function<double(double)> phase;
 };
 
-/// [W m^-2 sr^-1 nm^-1] of light scattered once on the way from a point of intensity 1 [W/(sr nm)] at
-/// distance h beside a line of sight, in even matter on that line from `before` to `after` metres off the
-/// foot of the lamp, the former nearer to the camera: scattering int phase exp(-extinction (x + before +
-/// r))/r^2 dx [Chandrasekhar1960, sec. 7].
-[[nodiscard]] double scattered_once(const EvenMatter& matter, double h, double before, double after);
+/// Single-scattering radiance [W m^-2 sr^-1 nm^-1] along a line of sight at distance h [m] from a point light
+/// of intensity 1 W/(sr nm) [Chandrasekhar1960, sec. 7]:
+/// scattering int phase exp(-extinction (x + before + r))/r^2 dx, with r = sqrt(x^2 + h^2).
+/// The medium extends along the line from `before` metres in front of the foot of the light, on the camera's
+/// side, to `after` metres behind it.
+[[nodiscard]] double single_scattering_radiance(const HomogeneousMedium& medium, double h, double before,
+                                                double after);
 
 }  // namespace abbe

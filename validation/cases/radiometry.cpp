@@ -14,13 +14,12 @@
 namespace abbe {
 namespace {
 
-// Irradiance on a face of the cubic room of side `side` m, direct and interreflected, as the mean over the
-// face [lx].
+// Mean irradiance [lx] on a wall of a cubic room with edges of `side` m, direct and interreflected.
 double room_irradiance(double flux_lm, double side, double reflectance) {
   return flux_lm / (6 * side * side) / (1 - reflectance);
 }
 
-// Configuration factor of a differential area facing a parallel X x Y rectangle at unit distance, under its
+// Configuration factor of a differential area facing a parallel x by y rectangle at unit distance, under its
 // corner.
 double corner_factor(double x, double y) {
   const double a = std::sqrt(1 + x * x);
@@ -28,31 +27,32 @@ double corner_factor(double x, double y) {
   return (x / a * std::atan(y / a) + y / b * std::atan(x / b)) / (2 * std::numbers::pi);
 }
 
-// The same for a perpendicular rectangle that starts at the normal's foot: `x` wide, `y` the distance, unit
-// height.
+// Configuration factor of a differential area and a perpendicular rectangle of unit height that starts at its
+// plane. `x` is the width of the rectangle and `y` its distance.
 double perpendicular_factor(double x, double y) {
   const double c = std::sqrt(x * x + y * y);
   return (std::atan(1 / y) - y / c * std::atan(1 / c)) / (2 * std::numbers::pi);
 }
 
-// A differential area parallel to a disc of radius r at distance h, its foot at distance a from the axis.
+// Configuration factor of a differential area and a parallel disc of radius r at distance h. The foot of the
+// area is at distance a from the axis.
 double disc_factor(double r, double h, double a) {
   const double z = h * h + a * a + r * r;
   return 0.5 * (1 - (h * h + a * a - r * r) / std::sqrt(z * z - 4 * a * a * r * r));
 }
 
-// From one face of a cube to the one opposite.
+// View factor of opposite faces of a cube.
 constexpr double kOppositeFaces = 0.19982490;
-// Between coaxial discs of radius 1 at distance 1: (3 - sqrt(5)) / 2.
+// View factor of coaxial discs of radius 1 at distance 1: (3 - sqrt(5)) / 2.
 constexpr double kCoaxialDiscs = 0.3819660113;
 
-// N plates one after the other, all reflections between them counted: (1 - R)/(1 + (2N - 1) R).
+// Transmittance of N plates in series with all reflections between them: (1 - R)/(1 + (2N - 1) R).
 double pile_transmittance(int plates, double n) {
   const double r = fresnel_dielectric(1.0, n).R();
   return (1 - r) / (1 + (2 * plates - 1) * r);
 }
 
-// Plates of glass 1 m thick and 1 m apart, as shapes of `slab.json`.
+// Plates of glass 1 m thick and 1 m from each other, as shapes of `slab.json`.
 Override plates(int count) {
   std::string shapes;
   for (int face = 0; face < 2 * count; ++face)
@@ -125,11 +125,11 @@ std::vector<Case> dome_cases() {
   };
   std::vector<Case> cases{sphere_of("glass", "glass"), sphere_of("diamond", "diamond"),
                           sphere_of("mirror", "mirror"), sphere_of("white", "white Lambertian")};
-  // FL11's Z per unit luminance, by the tables themselves.
+  // Z of FL11 per unit luminance, from the tables.
   const Curve fl11 = shipped_illuminant("FL11");
   const ColorMatching& cmf = color_matching(Observer::cie1931);
   const double blue = product(fl11, cmf.z).integral() / product(fl11, cmf.y).integral();
-  cases.push_back(film_case("T12-FL11", "diamond sphere under a dome of a fluorescent lamp, blue channel",
+  cases.push_back(film_case("T12-FL11", "diamond sphere under a dome of illuminant FL11, blue channel",
                             "nothing is lost [Pharr2023]", "dome.json",
                             {{"/shapes/0/material", "diamond"}, {"/lights/0/emission/illuminant", "FL11"}},
                             pinhole_exposure(12) * blue, 256, "Z"));
@@ -145,9 +145,9 @@ std::vector<Case> slab_cases() {
   return {
       film_case("T13-0", "plate along its normal", bounces, "slab.json", {},
                 unit * plate(0, 1.5, 1).transmittance, 64),
-      film_case("T13-60", "plate at 60°, s and p kept apart", bounces, "slab.json", {oblique},
+      film_case("T13-60", "plate at 60°, s and p separate", bounces, "slab.json", {oblique},
                 unit * plate(60, 1.5, 1).transmittance, 256),
-      film_case("T13-60-off", "plate at 60°, polarisation not carried",
+      film_case("T13-60-off", "plate at 60°, polarisation off",
                 "chained unpolarised reflectances, " + bounces, "slab.json",
                 {oblique, {"/render/polarisation", "off"}}, unit * plate_of(chained, 1).transmittance, 256),
       film_case("T14-2", "two plates along their normal", "pile of plates [Stokes1862]", "slab.json",
@@ -162,41 +162,42 @@ std::vector<Case> slab_cases() {
                  {"/lights/0/quad/edge_u", "[2000, 0, 0]"},
                  {"/lights/0/quad/edge_v", "[0, 2000, 0]"}},
                 unit * plate(0, 1.5, std::exp(-1.0)).reflectance, 1024),
-      film_case("T16-outside", "glass in diffuse light, seen from outside",
+      film_case("T16-outside", "glass in diffuse light, viewed from outside",
                 "Fresnel's formulas over a hemisphere [Born1999, sec. 1.5.2]", "interface.json", {},
                 std::numbers::pi * 0.09177796, 2048),
-      film_case("T16-inside", "glass in diffuse light, as seen from inside",
+      film_case("T16-inside", "glass in diffuse light, viewed from inside",
                 "Fresnel's formulas over a hemisphere [Born1999, sec. 1.5.2]", "interface.json",
                 {{"/materials/glass/dielectric/ior", fmt::format("{}", 1 / 1.5)}},
                 std::numbers::pi * 0.59634576, 64),
   };
 }
 
-// A prism of 60 degrees and the glass's index at the d line, seen through at least deviation: light crosses
-// both faces at the same angle, and what goes round within leaves out of sight.
-Case least_deviation_case(const char* glass) {
+// A prism of 60 degrees at minimum deviation, with the glass's index at the d line. Light crosses both faces
+// at the same angle. Internally reflected light leaves outside the field of view.
+Case minimum_deviation_case(const char* glass) {
   const double n = shipped_index(glass).catalogued_n(kLineD_nm);
   const double entering = std::asin(n / 2);
-  const double rises = entering - std::numbers::pi / 6;
-  const double c = std::cos(rises);
-  const double s = std::sin(rises);
+  const double elevation = entering - std::numbers::pi / 6;
+  const double c = std::cos(elevation);
+  const double s = std::sin(elevation);
   const FresnelPower<double> face = fresnel_dielectric(std::cos(entering), n);
   const double through = (std::pow(1 - face.Rs, 2) + std::pow(1 - face.Rp, 2)) / 2;
-  const auto place = [](double x, double y, double z) { return fmt::format("[{}, {}, {}]", x, y, z); };
+  const auto json_point = [](double x, double y, double z) { return fmt::format("[{}, {}, {}]", x, y, z); };
   constexpr double kAway = 0.1;
-  constexpr double kHalf = 0.002;  // of the lamp
-  return film_case(fmt::format("prism-{}", glass), fmt::format("prism of {} at least deviation", glass),
-                   "Fresnel's formulas, s and p kept apart [Born1999, sec. 1.5.2]", "least_deviation.json",
+  constexpr double kHalf = 0.002;  // of the light
+  return film_case(fmt::format("prism-{}", glass), fmt::format("prism of {} at minimum deviation", glass),
+                   "Fresnel's formulas, s and p separate [Born1999, sec. 1.5.2]", "least_deviation.json",
                    {{"/materials/glass/dielectric/ior", fmt::format(R"({{"n": {}}})", n)},
-                    {"/camera/from", place(-0.0075 - kAway * c, 0, 0.0043301270 - kAway * s)},
-                    {"/lights/0/quad/corner",
-                     place(0.0075 + kAway * c - kHalf * s, -kHalf, 0.0043301270 - kAway * s - kHalf * c)},
-                    {"/lights/0/quad/edge_u", place(2 * kHalf * s, 0, 2 * kHalf * c)},
-                    {"/lights/0/quad/edge_v", place(0, 2 * kHalf, 0)}},
+                    {"/camera/from", json_point(-0.0075 - kAway * c, 0, 0.0043301270 - kAway * s)},
+                    {"/lights/0/quad/corner", json_point(0.0075 + kAway * c - kHalf * s, -kHalf,
+                                                         0.0043301270 - kAway * s - kHalf * c)},
+                    {"/lights/0/quad/edge_u", json_point(2 * kHalf * s, 0, 2 * kHalf * c)},
+                    {"/lights/0/quad/edge_v", json_point(0, 2 * kHalf, 0)}},
                    pinhole_exposure(0.2) * through, 256);
 }
 
-// A Lambertian sphere of radius 1 m, its lamp (1 lx there) and the camera both 10 km away, at a phase angle.
+// A Lambertian sphere of radius 1 m at a phase angle. The light, which gives 1 lx at the sphere, and the
+// camera are both 10 km away.
 Case phase_case(double phase_deg) {
   constexpr double kDistance = 1e4;
   constexpr double kFovDeg = 0.0126;
@@ -238,7 +239,7 @@ std::vector<Case> radiometry_cases() {
   std::vector<Case> all;
   for (std::vector<Case> (*group)() : {room_cases, form_factor_cases, dome_cases, slab_cases})
     for (Case& item : group()) all.push_back(std::move(item));
-  for (const char* glass : {"N-BK7", "N-SF11"}) all.push_back(least_deviation_case(glass));
+  for (const char* glass : {"N-BK7", "N-SF11"}) all.push_back(minimum_deviation_case(glass));
   for (const double phase : {0.0, 60.0, 90.0}) all.push_back(phase_case(phase));
   return all;
 }

@@ -1,4 +1,4 @@
-// The ColorChecker through the path tracer, with the CIE 1931 observer as sensor.
+// The rendered ColorChecker, with the CIE 1931 observer as sensor.
 #include <algorithm>
 #include <array>
 #include <vector>
@@ -16,7 +16,8 @@ namespace {
 
 constexpr const char* kScene = "colorchecker.json";
 constexpr const char* kSpectra = "colorchecker24_babelcolor_average";
-// The scene's lamp gives the chart 1 lx; a pinhole of f-number 1 makes a quarter of it of white paper.
+// The scene's light gives the chart 1 lx. A pinhole of f-number 1 reduces the exposure of a perfect diffuser
+// to a quarter.
 constexpr double kWhite = 0.25;
 const std::vector<std::string> kChannels{"X", "Y", "Z"};
 
@@ -30,7 +31,8 @@ std::vector<Lab> rendered_lab(const Scene& scene, const Image& film, const XYZ& 
   return labs;
 }
 
-// How far the render is from the other editions: that with spectra under any light, the others under D50.
+// Differences between the render and other editions. The edition with spectra is compared under any light,
+// the others under D50.
 std::vector<Remark> editions(const std::vector<Lab>& rendered, const std::string& illuminant) {
   std::vector<Remark> remarks;
   const auto add = [&](const std::string& name, const std::vector<Lab>& lab) {

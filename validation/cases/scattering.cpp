@@ -1,4 +1,4 @@
-// Matter that scatters light.
+// Scattering media.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -13,15 +13,15 @@
 namespace abbe {
 namespace {
 
-// A layer of albedo 0.9 below a sky of 1 cd/m^2, deep enough to have no end, under some cosines of its
-// normal.
+// A layer of albedo 0.9 below a sky of 1 cd/m^2, viewed at some cosines. It is deep enough to count as
+// infinite.
 std::vector<Case> layer_cases() {
-  constexpr double kAlbedo = 0.9;  // as `deep_layer.json` has it
+  constexpr double kAlbedo = 0.9;  // as in `deep_layer.json`
   constexpr double kDistance = 5;
   std::vector<Case> cases;
   for (const double mu : {1.0, 0.2})
     cases.push_back(film_case(
-        fmt::format("layer-{}", mu), fmt::format("deep layer that scatters evenly, cosine {}", mu),
+        fmt::format("layer-{}", mu), fmt::format("deep isotropically scattering layer, cosine {}", mu),
         "1 - H(μ) sqrt(1 - ϖ) [Chandrasekhar1960, sec. 33]", "deep_layer.json",
         {{"/camera/from", fmt::format("[0, {}, {}]", -kDistance * std::sqrt(1 - mu * mu), kDistance * mu)}},
         [mu] { return pinhole_exposure(0.1) * (1 - ChandrasekharH(kAlbedo)(mu) * std::sqrt(1 - kAlbedo)); },
@@ -29,24 +29,24 @@ std::vector<Case> layer_cases() {
   return cases;
 }
 
-// A lamp of 1 cd half a metre beside the line of sight in fog, and paths of one event. The fog scatters the
-// same at all wavelengths, or more in the blue than in the red: then the luminance is the mean over the
+// A light of 1 cd in fog, half a metre from the line of sight, with paths of one scattering event. The fog
+// scatters equally at all wavelengths, or blue more than red. The luminance of the latter is a mean over the
 // observer.
 std::vector<Case> single_cases() {
   constexpr double kG = 0.5;  // mean cosine of the phase function [HenyeyGreenstein1941]
   const auto phase = [](double cosine) {
     return (1 - kG * kG) / (4 * std::numbers::pi * std::pow(1 + kG * kG - 2 * kG * cosine, 1.5));
   };
-  constexpr double kAbsorption = 0.1;  // as `lamp_in_fog.json` has it
-  const auto seen = [phase](double scattering) {
-    return scattered_once({scattering, scattering + kAbsorption, phase}, 0.5, 5, 95);
+  constexpr double kAbsorption = 0.1;  // as in `lamp_in_fog.json`
+  const auto radiance = [phase](double scattering) {
+    return single_scattering_radiance({scattering, scattering + kAbsorption, phase}, 0.5, 5, 95);
   };
-  const auto seen_in_blue = [seen] {
+  const auto luminance = [radiance] {
     const Curve& y = color_matching(Observer::cie1931).y;
     double sum = 0;
     double weights = 0;
     for (double nm = 382.5; nm < 780; nm += 5) {
-      sum += y(nm) * seen(1 - 0.9 * (std::clamp(nm, 440.0, 660.0) - 440) / 220);
+      sum += y(nm) * radiance(1 - 0.9 * (std::clamp(nm, 440.0, 660.0) - 440) / 220);
       weights += y(nm);
     }
     return sum / weights;
@@ -54,14 +54,14 @@ std::vector<Case> single_cases() {
   const std::string source = "the integral along the line of sight [Chandrasekhar1960, sec. 7]";
   const double unit = pinhole_exposure(0.01);
   return {film_case(
-              "scattered-once", "lamp in fog, light scattered once", source, "lamp_in_fog.json", {},
-              [=] { return unit * seen(0.3); }, 256),
+              "scattered-once", "light in fog, single scattering", source, "lamp_in_fog.json", {},
+              [=] { return unit * radiance(0.3); }, 256),
           film_case(
-              "scattered-blue", "lamp in fog that scatters blue light, scattered once", source,
+              "scattered-blue", "light in fog that scatters blue light, single scattering", source,
               "lamp_in_fog.json",
               {{"/materials/fog/medium/scattering_per_m",
                 R"({"table": {"wavelength_nm": [440, 660], "values": [1, 0.1], "outside": "clamp"}})"}},
-              [=] { return unit * seen_in_blue(); }, 8192)};
+              [=] { return unit * luminance(); }, 8192)};
 }
 
 }  // namespace

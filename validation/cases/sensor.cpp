@@ -33,7 +33,8 @@ std::vector<Figure> ccd_counts() {
   return figures;
 }
 
-// The same counts as a film's: pi/(4 N^2) of the radiance reaches the film of an f/4 lens, for 20 ms.
+// The counts of `ccd_counts` as those of a film. A fraction pi/(4 N^2) of the radiance arrives at the film of
+// an f/4 lens; the exposure is 20 ms.
 std::vector<Case> flat_fields() {
   const ReferenceTable table("ccd_bandpass_counts");
   std::vector<Case> cases;
@@ -61,8 +62,8 @@ std::vector<Case> flat_fields() {
   return cases;
 }
 
-// A dome of 0.146 W/(m^2 sr) at 555 nm through f/4 for 10 ms, 60 % of the photons counted; `exposure.json`
-// says the same.
+// A dome of 0.146 W/(m^2 sr) at 555 nm through f/4 for 10 ms, with a quantum efficiency of 60 %; as in
+// `exposure.json`.
 Case worked_example() {
   constexpr double kPerPhoton = 0.6;
   const double energy = std::numbers::pi / (4 * 4 * 4) * 0.146 * 0.01;  // per m^2 of the film
@@ -75,21 +76,21 @@ Case worked_example() {
           FilmMean{"../exposure.json", {}, "mono", energy * kPerPhoton / photon_energy(555), 64, 5e-4}};
 }
 
-// Stretched by s the band is 10 s wide and centred at 650 s; a shift of 0.05 nm changes the film by 4e-4.
+// Scaled by s, the band is 10 s wide and centred at 650 s. A shift of 0.05 nm changes the film by 4e-4.
 Case tilted_filter() {
   constexpr double kIndex = 2;
   const double s = std::sqrt(1 - 0.36 / (kIndex * kIndex));
   const double wedge = (650 * s - 500) / (700 - 500);
   return {Suite::sensor,
           "tilted-filter",
-          "interference filter of 10 nm, tilted by 36.87°: where its band stands",
+          "interference filter of 10 nm, tilted by 36.87°: position of its band",
           "λ0 sqrt(1 - sin²θ/n²) [Smith2008, ch. 11]",
           "J/m²",
           {0.01, Margin::Kind::relative},
           FilmMean{"tilted_filter.json", {}, "wedge", 0.8 / 25 * 10 * s * wedge, 128, 4e-4}};
 }
 
-// A pair of flats of one sensor, simulated.
+// Two simulated flat frames of one sensor.
 struct SimulatedPair {
   double exposure_s;
   RawFrame first;
@@ -102,7 +103,7 @@ SimulatedPair simulate(const Readout& readout, double electrons, double exposure
           read_out(readout, expected, {exposure_s, 20, frame + 1})};
 }
 
-// What photon transfer says of a sensor that is known: a million pixels, dark and lit.
+// Photon transfer of a simulated sensor with known parameters: a million pixels, dark and illuminated.
 std::vector<Figure> transferred() {
   Readout sensor;
   sensor.gain_e_per_dn = 1.6;
@@ -116,32 +117,32 @@ std::vector<Figure> transferred() {
   std::vector<SimulatedPair> frames;
   for (const double seconds : {0.01, 20.0})
     frames.push_back(simulate(sensor, 0, seconds, static_cast<std::uint32_t>(2 * frames.size())));
-  for (const double share : {0.35, 0.5, 0.65, 1.6})
-    frames.push_back(simulate(sensor, share * sensor.full_well_e, 0.01,
+  for (const double well_fraction : {0.35, 0.5, 0.65, 1.6})
+    frames.push_back(simulate(sensor, well_fraction * sensor.full_well_e, 0.01,
                               100 + static_cast<std::uint32_t>(2 * frames.size())));
   std::vector<FlatPair> pairs;
   for (const SimulatedPair& pair : frames) pairs.push_back({pair.exposure_s, pair.first.dn, pair.second.dn});
-  const PhotonTransfer found =
+  const PhotonTransfer transfer =
       photon_transfer(std::span(pairs).first(2), std::span(pairs).subspan(2), sensor.bits);
-  return {exact_figure("gain e/DN", sensor.gain_e_per_dn, found.gain_e_per_dn),
-          exact_figure("read noise e", sensor.read_noise_e, found.read_noise_e),
-          exact_figure("dark current e/s", sensor.dark_e_per_s, found.dark_e_per_s),
-          exact_figure("PRNU %", sensor.prnu_percent, found.prnu_percent),
-          exact_figure("DSNU e", sensor.dsnu_e, found.dsnu_e),
-          exact_figure("full well e", sensor.full_well_e, found.full_well_e.value_or(0))};
+  return {exact_figure("gain e/DN", sensor.gain_e_per_dn, transfer.gain_e_per_dn),
+          exact_figure("read noise e", sensor.read_noise_e, transfer.read_noise_e),
+          exact_figure("dark current e/s", sensor.dark_e_per_s, transfer.dark_e_per_s),
+          exact_figure("PRNU %", sensor.prnu_percent, transfer.prnu_percent),
+          exact_figure("DSNU e", sensor.dsnu_e, transfer.dsnu_e),
+          exact_figure("full well e", sensor.full_well_e, transfer.full_well_e.value_or(0))};
 }
 
 }  // namespace
 
 std::vector<Case> sensor_cases() {
   std::vector<Case> cases{
-      computed_case(Suite::sensor, "ccd-counts", "electrons of a filtered CCD before black bodies",
+      computed_case(Suite::sensor, "ccd-counts", "electrons of a filtered CCD in front of black bodies",
                     "photon counts of Planck's law [Planck1901] in measured passbands [Bessell1990]",
                     "1/(s m² sr)", {1e-6, Margin::Kind::relative}, ccd_counts),
       worked_example(), tilted_filter(),
-      computed_case(Suite::sensor, "photon-transfer", "photon transfer returns what a sensor was given",
-                    "the method of [EMVA1288] on simulated flats", "", {0.005, Margin::Kind::relative},
-                    transferred)};
+      computed_case(
+          Suite::sensor, "photon-transfer", "photon transfer recovers the parameters of a simulated sensor",
+          "the method of [EMVA1288] on simulated flats", "", {0.005, Margin::Kind::relative}, transferred)};
   for (Case& item : flat_fields()) cases.push_back(std::move(item));
   return cases;
 }

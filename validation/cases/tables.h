@@ -14,19 +14,20 @@
 
 namespace abbe {
 
-/// What a loader of shipped data gave. Throws Error{input} with its complaints when it gave nothing.
+/// Value that a loader of shipped data returned. Throws Error{input} with the loader's diagnostics if there
+/// is none.
 template <typename T>
 [[nodiscard]] T shipped(std::optional<T> value, const Diagnostics& diagnostics) {
   if (!value) throw Error(ErrorCode::input, "", diagnostics.text());
   return *std::move(value);
 }
 
-/// The observer of a table's column of degrees, "2" or "10".
+/// Observer of a field of view in degrees: "2" or "10".
 [[nodiscard]] inline Observer observer(const std::string& degrees) {
   return degrees == "2" ? Observer::cie1931 : Observer::cie1964;
 }
 
-/// Shipped data by name. Each throws Error{input} where there is none.
+/// Shipped data by name. Each function throws Error{input} if the name is unknown.
 [[nodiscard]] inline RefractiveIndex shipped_index(const std::string& name) {
   Diagnostics diagnostics;
   return shipped(load_index(name, {}, diagnostics), diagnostics).index;

@@ -1,4 +1,4 @@
-// The matrix of techniques: every film with a closed form by every integrator.
+// The matrix of the suite techniques: every film with a closed form, rendered by every integrator.
 #include <algorithm>
 #include <array>
 #include <set>
@@ -13,85 +13,89 @@ namespace {
 
 using Films = std::set<std::string>;
 
-// How an integrator is measured beside the film's case, and which runs afford it for which films.
+// Differences between an integrator's measurement and the film's case, and the tier of each film.
 struct MeasuredTechnique {
-  Integrator by;
-  int patience = 1;  // by which the samples are multiplied
-  int least_samples = 1;
+  Integrator integrator;
+  int sample_factor = 1;  // multiplies the samples of the case
+  int min_samples = 1;
   double margin = 0.01;
   double fine_margin = 0.002;
   std::vector<Override> settings = {};
   Films quick = {};
   Films tests = {};
   Films thorough = {};
-  Tier others = Tier::thorough;
-  Films never = {};  // too little arrives, or each path takes too long
+  Tier default_tier = Tier::thorough;
+  Films never = {};  // too little light arrives, or each path takes too long
 };
 
-// Where all paths of a sample have the same wavelengths a film takes many samples, for each of which the
-// usual photons would be too many. A map whose light is .7 % low must be told from one that is 1 % low.
+// If all paths of a sample have the same wavelengths, a film needs many samples. The default number of
+// photons for each would take too long. The samples suffice to distinguish a map that is 0.7 % low from one
+// that is 1 % low.
 constexpr int kSharedWavelengths = 256;
 
-// In the order of `kIntegratorNames`. `ppm` gathers as `sppm` does, from places that take much time to be
-// enough: a few films stand for all. What gathers photons is biased, and stays at its quick margin.
+// Sorted as `kIntegratorNames`. `ppm` gathers photons as `sppm` does, and needs long renders for enough
+// visible points, so a few films represent all. Integrators that gather photons are biased, so their fine
+// margin is the quick one.
 const std::array<MeasuredTechnique, kIntegratorNames.size()>& all_measured() {
   static const Override few_photons{"/render/photons/per_sample", "4096"};
-  static const Override few_neighbours{"/render/photons/nearest", "12"};  // no farther than 48 of the usual
-  static const Override many_places{"/sensor/resolution", "[128, 128]"};  // which `ppm` never leaves
-  static const Films of_long_paths{"T1-0.8", "T1-0.95", "T8",      "T10-upper", "T10-lower",
-                                   "T11",    "T11-16",  "layer-1", "layer-0.2", "scattered-blue"};
-  static const Films of_long_paths_or_rare = [] {
-    Films both = of_long_paths;
+  // These are as near as the nearest 48 of the default number of photons.
+  static const Override few_neighbours{"/render/photons/nearest", "12"};
+  // `ppm` never moves its visible points, so it needs many of them.
+  static const Override many_visible_points{"/sensor/resolution", "[128, 128]"};
+  static const Films long_path_films{"T1-0.8", "T1-0.95", "T8",      "T10-upper", "T10-lower",
+                                     "T11",    "T11-16",  "layer-1", "layer-0.2", "scattered-blue"};
+  static const Films long_or_rare_path_films = [] {
+    Films both = long_path_films;
     both.insert("ball-disc");
     return both;
   }();
   static const std::array<MeasuredTechnique, kIntegratorNames.size()> all{
-      {{.by = Integrator::automatic, .tests = {"ball-meter"}},
-       {.by = Integrator::path,
+      {{.integrator = Integrator::automatic, .tests = {"ball-meter"}},
+       {.integrator = Integrator::path,
         .tests = {"T1-0.2", "T5-axis", "T11", "T12-white", "T12-glass", "T13-60", "T16-inside", "pane-thick",
                   "ball-axis", "scattered-once", "scattered-blue", "layer-1"}},
-       // The sphere of T17 is met by one photon in 4e8, and the line of sight of the lamp in fog by fewer.
-       {.by = Integrator::light,
-        .patience = 16,
+       // One photon in 4e8 hits the sphere of T17, and fewer reach the line of sight in the fog.
+       {.integrator = Integrator::light,
+        .sample_factor = 16,
         .quick = {"ball-disc"},
         .tests = {"T1-0.2", "T6-discs", "ball-meter", "ball-inside"},
         .never = {"T17-0", "T17-60", "T17-90", "scattered-once", "scattered-blue"}},
-       {.by = Integrator::bdpt,
-        .patience = 2,
+       {.integrator = Integrator::bdpt,
+        .sample_factor = 2,
         .quick = {"T1-0.2", "T3-corner", "T5-axis", "T6-discs", "T9-outer", "T12-glass", "T13-60", "T17-60",
                   "ball-axis", "ball-inside"},
         .tests = {"T1-0.8", "T10-upper", "T11-4", "T15-R", "T16-inside", "ball-meter", "pane-thick"},
         .never = {"T1-0.95", "T8", "layer-0.2"}},
-       {.by = Integrator::photon_map,
-        .least_samples = 2 * kSharedWavelengths,
+       {.integrator = Integrator::photon_map,
+        .min_samples = 2 * kSharedWavelengths,
         .fine_margin = 0.01,
         .settings = {few_photons, few_neighbours},
         .tests = {"T9-outer", "T13-60"},
-        .never = of_long_paths_or_rare},
-       {.by = Integrator::ppm,
-        .least_samples = kSharedWavelengths,
+        .never = long_or_rare_path_films},
+       {.integrator = Integrator::ppm,
+        .min_samples = kSharedWavelengths,
         .fine_margin = 0.01,
-        .settings = {few_photons, many_places},
+        .settings = {few_photons, many_visible_points},
         .thorough = {"T1-0", "T1-0.2", "T1-0.5", "T2-centre", "T9-outer"},
-        .others = Tier::never},
-       {.by = Integrator::sppm,
-        .least_samples = kSharedWavelengths,
+        .default_tier = Tier::never},
+       {.integrator = Integrator::sppm,
+        .min_samples = kSharedWavelengths,
         .fine_margin = 0.01,
         .settings = {few_photons},
         .tests = {"T1-0.2", "T12-white"},
-        .never = of_long_paths_or_rare},
-       {.by = Integrator::vcm,
-        .least_samples = kSharedWavelengths,
+        .never = long_or_rare_path_films},
+       {.integrator = Integrator::vcm,
+        .min_samples = kSharedWavelengths,
         .fine_margin = 0.01,
         .quick = {"T12-white", "T9-outer"},
         .tests = {"T15-T"},
-        .never = of_long_paths},
-       {.by = Integrator::photon_brute,
+        .never = long_path_films},
+       {.integrator = Integrator::photon_brute,
         .fine_margin = 0.01,
         .tests = {"T1-0.2", "T6-discs", "T6-opposite"},
         .never = {"T1-0.95", "worked-example", "flat-bessell_V-5000"}},
-       {.by = Integrator::adjoint_brute,
-        .patience = 32,
+       {.integrator = Integrator::adjoint_brute,
+        .sample_factor = 32,
         .fine_margin = 0.005,
         .quick = {"T5-axis", "T6-discs"},
         .tests = {"T9-outer", "T12-glass", "T15-T", "ball-inside"},
@@ -103,13 +107,13 @@ Tier tier_of(const std::string& film, const MeasuredTechnique& measured) {
   if (measured.never.contains(film)) return Tier::never;
   if (measured.quick.contains(film)) return Tier::quick;
   if (measured.tests.contains(film)) return Tier::tests;
-  return measured.thorough.contains(film) ? Tier::thorough : measured.others;
+  return measured.thorough.contains(film) ? Tier::thorough : measured.default_tier;
 }
 
 Case cell(const Case& item, const FilmMean& film, const MeasuredTechnique& measured) {
-  const char* name = kIntegratorNames.at(static_cast<std::size_t>(measured.by));
-  TechniqueMean method{item.id, measured.by, film, tier_of(item.id, measured)};
-  method.film.samples = std::max(measured.least_samples, film.samples * measured.patience);
+  const char* name = kIntegratorNames.at(static_cast<std::size_t>(measured.integrator));
+  TechniqueMean method{item.id, measured.integrator, film, tier_of(item.id, measured)};
+  method.film.samples = std::max(measured.min_samples, film.samples * measured.sample_factor);
   method.film.fine_margin = measured.fine_margin;
   for (const Override& setting : measured.settings) method.film.settings.push_back(setting);
   return {Suite::techniques,
@@ -121,7 +125,7 @@ Case cell(const Case& item, const FilmMean& film, const MeasuredTechnique& measu
           std::move(method)};
 }
 
-// Of the flat fields, which differ in lamp and filter alone, one stands for all.
+// The flat fields differ only in light and filter, so one represents all.
 bool is_repeated(const std::string& film) {
   return film.starts_with("flat-") && film != "flat-bessell_V-5000";
 }

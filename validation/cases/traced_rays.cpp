@@ -1,4 +1,4 @@
-// Single rays, followed by the code of `abbe trace` through shapes in double precision.
+// Single rays in double precision, traced by the code of `abbe trace`.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -43,30 +43,29 @@ double index_at(const char* glass, const NamedLine& line) {
   return shipped_index(glass).catalogued_n(line.wavelength_nm);
 }
 
-// What became of a ray that met the first face of a prism of side 30 mm at an incidence from below its
-// normal.
+// A ray that hits the first face of a prism of side 30 mm from below its normal.
 struct PrismRay {
   RayTrace trace;
   double deviation_deg;
 
   [[nodiscard]] bool leaves() const { return trace.events.at(1).kind == TraceEvent::Kind::refract; }
 };
-PrismRay through_prism(double n, double apex_deg, double incidence_deg) {
+PrismRay trace_prism(double n, double apex_deg, double incidence_deg) {
   constexpr double kSide = 30 * kMillimetre;
   const double half = apex_deg / 2 * kDegree;
   const double elevation = incidence_deg * kDegree - half;
   const V3d direction(std::cos(elevation), 0, std::sin(elevation));
-  const V3d middle_of_face(-kSide / 2 * std::sin(half), 1.25 * kMillimetre, kSide / 6 * std::cos(half));
+  const V3d face_center(-kSide / 2 * std::sin(half), 1.25 * kMillimetre, kSide / 6 * std::cos(half));
   const Scene scene = glass_scene(n, {make_prism(apex_deg, kSide, 40 * kMillimetre)});
-  const RayTrace trace = trace_ray(scene, {middle_of_face - 0.1 * direction, direction}, kLineD_nm, 64);
+  const RayTrace trace = trace_ray(scene, {face_center - 0.1 * direction, direction}, kLineD_nm, 64);
   return {trace, angle_deg(direction, trace.last.direction)};
 }
 
-double least_incidence(double n, double apex_deg) {
+double minimum_deviation_incidence(double n, double apex_deg) {
   return std::asin(n * std::sin(apex_deg / 2 * kDegree)) / kDegree;
 }
 
-std::vector<Figure> least_deviations() {
+std::vector<Figure> minimum_deviations() {
   const ReferenceTable table("prism_minimum_deviation");
   std::vector<Figure> figures;
   for (std::size_t row = 0; row < table.rows(); ++row) {
@@ -75,7 +74,7 @@ std::vector<Figure> least_deviations() {
     const double apex = table.number(row, "apex_deg");
     const double n = shipped_index(id).catalogued_n(table.number(row, "wavelength_nm"));
     figures.push_back(exact_figure(id + " " + table.text(row, "line"), table.number(row, "min_deviation_deg"),
-                                   through_prism(n, apex, least_incidence(n, apex)).deviation_deg));
+                                   trace_prism(n, apex, minimum_deviation_incidence(n, apex)).deviation_deg));
   }
   return figures;
 }
@@ -85,14 +84,14 @@ std::vector<Figure> deviations_at_50() {
   for (const auto& [line, reference] :
        {std::pair{kC, 38.43841}, std::pair{kD, 38.65364}, std::pair{kF, 39.14097}, std::pair{kH, 39.83544}})
     figures.push_back(
-        exact_figure(line.name, reference, through_prism(index_at("N-BK7", line), 60, 50).deviation_deg));
+        exact_figure(line.name, reference, trace_prism(index_at("N-BK7", line), 60, 50).deviation_deg));
   return figures;
 }
 
 std::vector<Figure> screen_positions() {
-  const double incidence = least_incidence(index_at("N-BK7", kD), 60);
+  const double incidence = minimum_deviation_incidence(index_at("N-BK7", kD), 60);
   const auto deviation = [&](const NamedLine& line) {
-    return through_prism(index_at("N-BK7", line), 60, incidence).deviation_deg;
+    return trace_prism(index_at("N-BK7", line), 60, incidence).deviation_deg;
   };
   std::vector<Figure> figures;
   for (const auto& [line, reference] :
@@ -102,13 +101,13 @@ std::vector<Figure> screen_positions() {
   return figures;
 }
 
-// The incidence below which the second face reflects totally, by bisection.
+// Smallest incidence at which the second face transmits, by bisection.
 double edge_of_transmission(double n) {
   double low = 20;
   double high = 50;
   while (high - low > 1e-9) {
-    const double middle = (low + high) / 2;
-    (through_prism(n, 60, middle).leaves() ? high : low) = middle;
+    const double midpoint = (low + high) / 2;
+    (trace_prism(n, 60, midpoint).leaves() ? high : low) = midpoint;
   }
   return high;
 }
@@ -123,18 +122,18 @@ std::vector<Figure> edges_of_transmission() {
 
 std::vector<Figure> prism_throughput() {
   const double n = index_at("N-BK7", kD);
-  const RayTrace trace = through_prism(n, 60, least_incidence(n, 60)).trace;
+  const RayTrace trace = trace_prism(n, 60, minimum_deviation_incidence(n, 60)).trace;
   const Passage& in = trace.events.at(0).passage.value();
   const Passage& out = trace.events.at(1).passage.value();
   const double s = (1 - in.Rs) * (1 - out.Rs);
   const double p = (1 - in.Rp) * (1 - out.Rp);
   const double chained = (1 - (in.Rs + in.Rp) / 2) * (1 - (out.Rs + out.Rp) / 2);
   return {exact_figure("s", 0.786084, s), exact_figure("p", 0.991278, p),
-          exact_figure("unpolarised", 0.888681, trace.way.mueller.rows[0][0]),
-          exact_figure("polarisation not carried", 0.885710, chained)};
+          exact_figure("unpolarised", 0.888681, trace.polarisation.mueller.rows[0][0]),
+          exact_figure("polarisation off", 0.885710, chained)};
 }
 
-// A plate 10 mm thick, met at 45 degrees.
+// Lateral shift by a plate 10 mm thick at 45 degrees.
 double lateral_shift_mm(double n) {
   constexpr double kThickness = 10 * kMillimetre;
   const Quad front{{0, -1, -1}, {0, 0, 2}, {0, 2, 0}};
@@ -154,7 +153,7 @@ std::vector<Figure> lateral_shifts() {
   return figures;
 }
 
-// Of a ball 10 mm wide, from a ray beside its axis.
+// Focal length of a ball 10 mm wide, from a paraxial ray.
 double ball_focal_length_mm(double n) {
   constexpr double kHeight = 1e-7;
   const Scene scene = glass_scene(n, {Sphere{{0, 0, 0}, 5 * kMillimetre}});
@@ -170,8 +169,8 @@ std::vector<Figure> ball_lens() {
   return figures;
 }
 
-// Turns of a ray that enters a ball of index n at incidence i and leaves after k internal reflections
-// [degrees].
+// Total deviation [degrees] of a ray that enters a ball of index n at this incidence and leaves after k
+// internal reflections.
 double droplet_deviation(double n, double incidence_deg, int k) {
   const Sphere ball{V3d(0), 1};
   const double i = incidence_deg * kDegree;
@@ -239,21 +238,22 @@ Case traced(std::string id, std::string title, std::string source, std::string u
 std::vector<Case> traced_ray_cases() {
   const std::string prism = "two refractions [Born1999, sec. 4.7.2]";
   return {
-      traced("D1", "least deviation of 60° prisms, traced", prism, "°", 0.51e-6, least_deviations),
+      traced("D1", "minimum deviation of 60° prisms, traced", prism, "°", 0.51e-6, minimum_deviations),
       traced("D2", "N-BK7 prism, deviation at 50° of incidence, traced", prism, "°", 0.51e-5,
              deviations_at_50),
       traced("D3", "N-BK7 prism, lines on a screen 1 m away", prism, "mm", 0.51e-5, screen_positions),
-      traced("D4", "N-BK7 prism, where the second face begins to transmit", prism, "°", 0.51e-5,
+      traced("D4", "N-BK7 prism, incidence at which the second face begins to transmit", prism, "°", 0.51e-5,
              edges_of_transmission),
-      traced("D5", "N-BK7 prism, throughput at least deviation",
+      traced("D5", "N-BK7 prism, throughput at minimum deviation",
              prism + " and Fresnel's formulas [Born1999, sec. 1.5.2]", "", 0.51e-6, prism_throughput),
-      // The table's index of air takes the label for a wavelength in vacuum: 1e-8 in n, 3e-6 degrees here.
+      // The table evaluates the index of air at the nominal wavelength as if in vacuum: 1e-8 in n, 3e-6
+      // degrees here.
       traced("D6", "rainbows of water, traced through a sphere", "Descartes' rays [VanDeHulst1957, chap. 13]",
              "°", 5e-6, water_bows),
       traced("D6-printed", "rainbows of seven orders as printed, traced through a sphere",
              "as a textbook prints them for n = 1.331 and 1.343; Descartes' rays [VanDeHulst1957, chap. 13]",
              "°", 0.0051, printed_bows),
-      traced("D7-plate", "N-BK7 plate of 10 mm at 45°, sideways shift, traced",
+      traced("D7-plate", "N-BK7 plate of 10 mm at 45°, lateral shift, traced",
              "t (sin i - cos i tan r) [Born1999, sec. 1.5.1]", "mm", 0.51e-6, lateral_shifts),
       traced("D7-ball", "N-BK7 ball of 10 mm, focal length, traced", "nD/(4(n - 1)) [Born1999, sec. 4.4]",
              "mm", 0.51e-6, ball_lens),

@@ -18,21 +18,21 @@ constexpr double kRadius = 92;
 constexpr double kPanelTop = 40;
 constexpr double kSwatch = 24;
 
-// A line's colour: that of its wavelength, as far as displays go.
+// Colour of a line: that of its wavelength, within the display's gamut.
 std::string line_color(double nm, Observer observer) {
   const ColorMatching& eye = color_matching(observer);
   LinearRgb linear = linear_rgb_of_xyz({eye.x(nm), eye.y(nm), eye.z(nm)});
-  const double most = std::max({linear[0], linear[1], linear[2]});
-  if (!(most > 0.02)) return "#555555";  // unseen
-  for (double& v : linear) v /= most;
+  const double max_value = std::max({linear[0], linear[1], linear[2]});
+  if (!(max_value > 0.02)) return "#555555";  // invisible wavelength
+  for (double& v : linear) v /= max_value;
   return css_color(display_code(linear));
 }
 
-// f cos around the plane of incidence, by wavelength.
+// Values of f cos around the plane of incidence, by wavelength.
 struct Slice {
   static constexpr int kSteps = 720;
   std::vector<std::vector<double>> values;
-  double most = 0;
+  double max_value = 0;
 };
 Slice slice(const Material& material, const GoniometerSettings& settings, const Imath::V3f& wo) {
   Slice all;
@@ -44,23 +44,25 @@ Slice slice(const Material& material, const GoniometerSettings& settings, const 
       const double angle = 360 * kDegree * (step + 0.5) / Slice::kSteps;
       const Imath::V3f wi = direction_at(std::cos(angle), angle < 180 * kDegree ? 0 : std::numbers::pi);
       line.push_back(static_cast<double>(eval(bsdf, wo, wi, TransportMode::power)[0] * std::abs(wi.z)));
-      all.most = std::max(all.most, line.back());
+      all.max_value = std::max(all.max_value, line.back());
     }
   }
   return all;
 }
 
-std::string lobe(const std::vector<double>& line, double most, double x, double y, const std::string& color) {
+std::string lobe(const std::vector<double>& line, double max_value, double x, double y,
+                 const std::string& color) {
   SvgPoints points;
   for (std::size_t step = 0; step < line.size(); ++step) {
     const double angle = 360 * kDegree * (static_cast<double>(step) + 0.5) / static_cast<double>(line.size());
-    const double radius = kRadius * std::sqrt(line[step] / most);
+    const double radius = kRadius * std::sqrt(line[step] / max_value);
     points.emplace_back(x + radius * std::sin(angle), y - radius * std::cos(angle));
   }
   return svg_polygon(points, fmt::format("stroke=\"{}\" stroke-width=\"1.5\"", color));
 }
 
-// The single directions of the first wavelength, as long as the root of their shares.
+// Arrows for the delta events of the first wavelength; the length is the square root of the fraction of
+// power.
 std::string arrows(const Material& material, const GoniometerSettings& settings, const Imath::V3f& wo,
                    double x, double y) {
   const SampledSpectrum packet = packet_of(settings.wavelengths_nm, 0);
@@ -84,19 +86,20 @@ std::string panel(const Material& material, const GoniometerSettings& settings, 
       svg_line(x + (kRadius + 12) * static_cast<double>(wo.x), y - (kRadius + 12) * static_cast<double>(wo.z),
                x, y, "stroke=\"#bbbbbb\" stroke-dasharray=\"4 3\"");
   const Slice lines = slice(material, settings, wo);
-  if (lines.most > 0)
+  if (lines.max_value > 0)
     for (std::size_t i = 0; i < lines.values.size(); ++i)
-      all +=
-          lobe(lines.values[i], lines.most, x, y, line_color(settings.wavelengths_nm[i], settings.observer));
+      all += lobe(lines.values[i], lines.max_value, x, y,
+                  line_color(settings.wavelengths_nm[i], settings.observer));
   all += arrows(material, settings, wo, x, y);
   const double bottom = kPanelTop + kPanel;
   all += svg_rect(x - kSwatch, bottom, 2 * kSwatch, kSwatch,
                   fmt::format("fill=\"{}\" stroke=\"#888888\"",
                               css_color(display_code(linear_rgb(at.reflected_color.lab)))));
-  const std::string middle = "text-anchor=\"middle\"";
-  all += svg_text(x, kPanelTop, fmt::format("{:g}\u00b0", at.angle_deg), middle);
+  const std::string centered = "text-anchor=\"middle\"";
+  all += svg_text(x, kPanelTop, fmt::format("{:g}\u00b0", at.angle_deg), centered);
   return all + svg_text(x, bottom + kSwatch + 16,
-                        lines.most > 0 ? fmt::format("largest f cos {:.3g}/sr", lines.most) : "", middle);
+                        lines.max_value > 0 ? fmt::format("largest f cos {:.3g}/sr", lines.max_value) : "",
+                        centered);
 }
 
 }  // namespace

@@ -6,9 +6,10 @@
 
 namespace abbe {
 
-/// A polar plot for each angle as one SVG document: in the plane of incidence, the radius is the square root
-/// of f cos over the largest of its panel, one line per wavelength; an arrow for what goes in a single
-/// direction, as long as the root of its share. Below, the colour of all that is reflected.
+/// SVG document with a polar plot for each angle, in the plane of incidence.
+/// The radius of a curve is sqrt(f cos), relative to the largest value of its panel; each wavelength has a
+/// curve. An arrow marks a delta direction; its length is the square root of the fraction of power. A swatch
+/// below shows the colour of all reflected light.
 [[nodiscard]] std::string lobe_plot(const Material& material, const GoniometerSettings& settings,
                                     const GoniometerReport& report, const std::string& title);
 

@@ -13,12 +13,13 @@
 namespace abbe {
 namespace {
 
-// Streams of random numbers; low-discrepancy where means are wanted.
-enum class Stream : std::uint32_t { cells = 1, counts, albedo, pairs };
+// Streams of random numbers. Means use low-discrepancy sequences.
+enum class RandomStream : std::uint32_t { cells = 1, counts, albedo, pairs };
 
-class Numbers {
+class RandomNumbers {
  public:
-  Numbers(std::uint64_t seed, Stream stream) : seed_(seed), stream_(static_cast<std::uint32_t>(stream)) {}
+  RandomNumbers(std::uint64_t seed, RandomStream stream)
+      : seed_(seed), stream_(static_cast<std::uint32_t>(stream)) {}
 
   [[nodiscard]] std::array<float, 4> at(std::uint32_t index, std::uint32_t group = 0) const {
     return Sampler(seed_, Purpose::camera, stream_, 0, index).group(group);
@@ -33,15 +34,15 @@ class Numbers {
   std::uint32_t stream_;
 };
 
-// Independent numbers: points of a sequence would fill cells too evenly for chi-square, so each is the first
-// of a sequence of its own.
-BsdfRandom independent_event(std::uint64_t seed, Stream stream, std::uint32_t index) {
+// Independent random numbers. Points of one sequence would fill cells too evenly for a chi-square test, so
+// each is the first point of its own sequence.
+BsdfRandom independent_event(std::uint64_t seed, RandomStream stream, std::uint32_t index) {
   const auto u = Sampler(seed, Purpose::camera, static_cast<std::uint32_t>(stream), index, 0).group(0);
   return {u[2], {u[0], u[1]}};
 }
 
-std::vector<Imath::V3f> spread_directions(const LobeSampler& sampler, int hero, int samples,
-                                          std::uint64_t seed, Stream stream) {
+std::vector<Imath::V3f> non_delta_directions(const LobeSampler& sampler, int hero, int samples,
+                                             std::uint64_t seed, RandomStream stream) {
   std::vector<Imath::V3f> directions;
   for (int i = 0; i < samples; ++i) {
     const auto s = sampler(independent_event(seed, stream, static_cast<std::uint32_t>(i)), hero);
@@ -50,14 +51,14 @@ std::vector<Imath::V3f> spread_directions(const LobeSampler& sampler, int hero, 
   return directions;
 }
 
-// Pearson's statistic, cells that expect too little counted as one. Where all of these together do, they are
-// judged by Poisson's law instead.
+// Pearson's statistic. Cells with too few expected samples are pooled. If the pool also expects too few, a
+// Poisson test replaces its term.
 class ChiSquare {
  public:
   explicit ChiSquare(int samples) : unresolved_(kUnresolved * samples) {}
 
   void add(double counted, double expected) {
-    if (expected < kLeastExpected) {
+    if (expected < kMinExpected) {
       pool_counted_ += counted;
       pool_expected_ += expected;
     } else {
@@ -65,21 +66,22 @@ class ChiSquare {
     }
   }
   double p() {
-    const bool rare = pool_expected_ < kLeastExpected;
+    const bool rare = pool_expected_ < kMinExpected;
     if (!rare) count(pool_counted_, pool_expected_);
     const double common =
         cells_ < 2 ? 1 : boost::math::cdf(complement(boost::math::chi_squared(cells_ - 1), statistic_));
     if (!rare || pool_counted_ < 1) return common;
-    const double least = std::min(common, rare_p());
-    return least * (2 - least);  // Sidak, of the two
+    const double smaller_p = std::min(common, rare_p());
+    return smaller_p * (2 - smaller_p);  // Šidák correction for two tests
   }
 
  private:
-  static constexpr double kLeastExpected = 5;
-  // Of the whole: what quadrature and the rounding of directions miss at the edges of a density.
+  static constexpr double kMinExpected = 5;
+  // Fraction of all samples that may be missed by the quadrature or by rounding of directions at the edges of
+  // a density.
   static constexpr double kUnresolved = 1e-6;
 
-  // Of at least as many as were counted.
+  // Probability of at least the counted number of samples.
   [[nodiscard]] double rare_p() const {
     const boost::math::poisson law(pool_expected_ + unresolved_);
     return boost::math::cdf(complement(law, pool_counted_ - 1));
@@ -96,15 +98,16 @@ class ChiSquare {
   int cells_ = 0;
 };
 
-// A direction against the surface at random, evenly over both sides.
+// A random direction, uniform over the sphere.
 Imath::V3f any_direction(const std::array<float, 4>& u) {
   return direction_at(2 * static_cast<double>(u[0]) - 1, 2 * std::numbers::pi * static_cast<double>(u[1]));
 }
 
-// Over pairs of a random direction and one that it scatters to, or a random one too.
-template <typename Forth, typename Back>
-Asymmetry asymmetry(const Bsdf& bsdf, int pairs, std::uint64_t seed, Forth forth, Back back) {
-  const Numbers numbers(seed, Stream::pairs);
+// Statistics over pairs of directions. The first is random; the second is sampled from the BSDF or random in
+// turn.
+template <typename Forward, typename Backward>
+Asymmetry asymmetry(const Bsdf& bsdf, int pairs, std::uint64_t seed, Forward forward, Backward backward) {
+  const RandomNumbers numbers(seed, RandomStream::pairs);
   double largest = 0;
   double differences = 0;
   double values = 0;
@@ -117,11 +120,11 @@ Asymmetry asymmetry(const Bsdf& bsdf, int pairs, std::uint64_t seed, Forth forth
       if (!s || s->delta) continue;
       b = s->wi;
     }
-    const SampledSpectrum there = forth(a, b);
-    const SampledSpectrum here = back(a, b);
+    const SampledSpectrum forward_value = forward(a, b);
+    const SampledSpectrum backward_value = backward(a, b);
     for (int j = 0; j < kLanes; ++j) {
-      const double f = there[j];
-      const double g = here[j];
+      const double f = forward_value[j];
+      const double g = backward_value[j];
       if (!(std::max(f, g) > 0)) continue;
       largest = std::max(largest, std::abs(f - g) / std::max(f, g));
       differences += std::abs(f - g);
@@ -140,12 +143,14 @@ LobeSampler sampler_of(const Bsdf& bsdf, const Imath::V3f& wo, TransportMode mod
 DensityCheck check_density(const LobeSampler& sampler, const SphereDensity& density, int hero, int samples,
                            std::uint64_t seed) {
   constexpr std::size_t kCells = 400;
-  const std::vector<Imath::V3f> guides = spread_directions(sampler, hero, samples / 2, seed, Stream::cells);
-  const SphereCells cells(guides, std::max<std::size_t>(guides.size() / kCells, 10));
-  const std::vector<Imath::V3f> drawn = spread_directions(sampler, hero, samples, seed, Stream::counts);
+  const std::vector<Imath::V3f> pilot_directions =
+      non_delta_directions(sampler, hero, samples / 2, seed, RandomStream::cells);
+  const SphereCells cells(pilot_directions, std::max<std::size_t>(pilot_directions.size() / kCells, 10));
+  const std::vector<Imath::V3f> drawn =
+      non_delta_directions(sampler, hero, samples, seed, RandomStream::counts);
   std::vector<double> counted(cells.count(), 0.0);
-  for (const Imath::V3f& wi : drawn) counted[cells.of(wi)] += 1;
-  const double elsewhere = samples - static_cast<double>(drawn.size());
+  for (const Imath::V3f& wi : drawn) counted[cells.cell_of(wi)] += 1;
+  const double remaining = samples - static_cast<double>(drawn.size());
   const std::vector<double> expected = cells.integrate(density, drawn);
   ChiSquare chi_square(samples);
   double integral = 0;
@@ -153,12 +158,12 @@ DensityCheck check_density(const LobeSampler& sampler, const SphereDensity& dens
     chi_square.add(counted[i], expected[i] * samples);
     integral += expected[i];
   }
-  chi_square.add(elsewhere, std::max(0.0, 1 - integral) * samples);
+  chi_square.add(remaining, std::max(0.0, 1 - integral) * samples);
   return {chi_square.p(), integral};
 }
 
 Estimate estimate(const Replicates& replicates) {
-  double mean = replicates[0];  // exact where all are the same
+  double mean = replicates[0];  // exact if all are equal
   for (const double r : replicates) mean += (r - replicates[0]) / kReplicates;
   double squares = 0;
   for (const double r : replicates) squares += (r - mean) * (r - mean);
@@ -170,7 +175,7 @@ AlbedoReplicates albedo_replicates(const LobeSampler& sampler, const Imath::V3f&
   AlbedoReplicates sums{};
   const int each = std::max(samples / static_cast<int>(kReplicates), 1);
   for (std::size_t replicate = 0; replicate < kReplicates; ++replicate) {
-    const Numbers numbers(seed * kReplicates + replicate, Stream::albedo);
+    const RandomNumbers numbers(seed * kReplicates + replicate, RandomStream::albedo);
     for (int i = 0; i < each; ++i)
       for (int hero = 0; hero < kLanes; ++hero) {
         const auto s = sampler(numbers.event(static_cast<std::uint32_t>(i)), hero);
@@ -211,10 +216,10 @@ std::vector<BsdfSample> delta_events(const Bsdf& bsdf, const Imath::V3f& wo, int
 }
 
 Asymmetry reciprocity_error(const Bsdf& bsdf, int pairs, std::uint64_t seed) {
-  const auto forth = [&](const Imath::V3f& a, const Imath::V3f& b) {
+  const auto forward = [&](const Imath::V3f& a, const Imath::V3f& b) {
     return eval(bsdf, a, b, TransportMode::power);
   };
-  const auto back = [&](const Imath::V3f& a, const Imath::V3f& b) {
+  const auto backward = [&](const Imath::V3f& a, const Imath::V3f& b) {
     SampledSpectrum f = eval(bsdf, b, a, TransportMode::power);
     if (a.z * b.z > 0) return f;
     SampledSpectrum::Values scale;
@@ -224,17 +229,17 @@ Asymmetry reciprocity_error(const Bsdf& bsdf, int pairs, std::uint64_t seed) {
     }
     return f * SampledSpectrum(scale);
   };
-  return asymmetry(bsdf, pairs, seed, forth, back);
+  return asymmetry(bsdf, pairs, seed, forward, backward);
 }
 
 Asymmetry adjoint_error(const Bsdf& bsdf, int pairs, std::uint64_t seed) {
-  const auto forth = [&](const Imath::V3f& a, const Imath::V3f& b) {
+  const auto forward = [&](const Imath::V3f& a, const Imath::V3f& b) {
     return eval(bsdf, a, b, TransportMode::radiance);
   };
-  const auto back = [&](const Imath::V3f& a, const Imath::V3f& b) {
+  const auto backward = [&](const Imath::V3f& a, const Imath::V3f& b) {
     return eval(bsdf, b, a, TransportMode::power);
   };
-  return asymmetry(bsdf, pairs, seed, forth, back);
+  return asymmetry(bsdf, pairs, seed, forward, backward);
 }
 
 }  // namespace abbe

@@ -13,33 +13,35 @@
 
 namespace abbe {
 
-/// Scattering seen from one direction, as sampling gives it.
+/// Samples a BSDF for a fixed outgoing direction; empty if the light is absorbed.
 using LobeSampler = std::function<std::optional<BsdfSample>(const BsdfRandom& u, int hero)>;
 
-/// The sampler of a scattering model, for light seen from `wo`.
+/// Sampler of a BSDF for the outgoing direction `wo`.
 [[nodiscard]] LobeSampler sampler_of(const Bsdf& bsdf, const Imath::V3f& wo, TransportMode mode);
 
-/// How well samples follow a density.
+/// Agreement of samples with a pdf.
 struct DensityCheck {
-  double p;         ///< Probability of samples at least as far from the density, were they drawn from it.
-  double integral;  ///< Of the density over the sphere: the probability of an event that is not delta.
+  double p;         ///< p-value: probability that samples of this pdf deviate at least as much.
+  double integral;  ///< Integral of the pdf over the sphere: the probability of an event that is not delta.
 };
-/// Chi-square of the events of `sampler` that are not delta against `density`, over cells refined by other
-/// samples; what expects fewer than 5 is pooled, and what sends nothing, or a delta event, counts as a cell.
-/// A pool that expects fewer than 5 itself is judged by Poisson's law, with a millionth of all samples to
-/// spare.
+/// Chi-square test of the non-delta events of `sampler` against `density`. A second set of samples refines
+/// the cells.
+/// Cells with fewer than 5 expected samples are pooled. Samples without an event and delta events count as
+/// one cell. If the pool itself expects fewer than 5, a Poisson test replaces its term; it allows a millionth
+/// of all samples in excess.
 [[nodiscard]] DensityCheck check_density(const LobeSampler& sampler, const SphereDensity& density, int hero,
                                          int samples = 200000, std::uint64_t seed = 0);
 
-/// Equally good means of one quantity, each by random numbers of its own.
+/// Means of one quantity over independent random numbers.
 inline constexpr std::size_t kReplicates = 16;
 using Replicates = std::array<double, kReplicates>;
-/// Their mean, and its standard error by how they differ: 0 where they do not.
+/// Mean of the replicates. The standard error follows from their scatter; it is 0 if they are equal.
 [[nodiscard]] Estimate estimate(const Replicates& replicates);
 
-/// What leaves of light that arrives along `wo`: the directional-hemispherical reflectance and transmittance,
-/// lane by lane, by the balanced estimator with a hero drawn evenly. Photons carry it (TransportMode::power),
-/// so that lossless matter sends 1 in all.
+/// Directional-hemispherical reflectance and transmittance of light that arrives along `wo`, for each
+/// wavelength sample.
+/// The estimator is balanced over the wavelengths, each of which is the hero equally often. It samples in
+/// `TransportMode::power`, so that a lossless material gives a sum of 1.
 struct Albedo {
   std::array<Estimate, kLanes> reflected;
   std::array<Estimate, kLanes> transmitted;
@@ -52,8 +54,8 @@ struct Albedo {
 [[nodiscard]] Albedo albedo(const LobeSampler& sampler, const Imath::V3f& wo, int samples = 4096,
                             std::uint64_t seed = 0);
 
-/// The replicates whose mean is an albedo, lane by lane. Those of one number and one seed have the same
-/// random numbers, whatever they sample.
+/// Replicates of an albedo for each wavelength sample. Equal `samples` and `seed` give equal random numbers
+/// for every sampler.
 struct AlbedoReplicates {
   std::array<Replicates, kLanes> reflected;
   std::array<Replicates, kLanes> transmitted;
@@ -61,21 +63,22 @@ struct AlbedoReplicates {
 [[nodiscard]] AlbedoReplicates albedo_replicates(const LobeSampler& sampler, const Imath::V3f& wo,
                                                  int samples, std::uint64_t seed = 0);
 
-/// The single directions light leaves in, each with its probability and weights, by trying choices of lobe:
-/// an event that fewer than one in 64 choices lead to may be missed in the midst of others.
+/// Delta events of a BSDF, each with its probability and weights. They are found by sampling 65 values of the
+/// lobe choice, so an event with a probability below 1/64 may be missed.
 [[nodiscard]] std::vector<BsdfSample> delta_events(const Bsdf& bsdf, const Imath::V3f& wo, int hero,
                                                    TransportMode mode);
 
-/// How far a model is from being symmetric, over pairs of directions it connects.
+/// Deviation of a BSDF from symmetry, over pairs of directions that it connects.
 struct Asymmetry {
-  double largest;  ///< Of |f(a, b) - f(b, a)| / max(f(a, b), f(b, a)), counting only pairs that matter.
-  double mean;     ///< Of |f(a, b) - f(b, a)| over that of f(a, b) + f(b, a) halved.
+  /// Maximum of |f(a, b) - f(b, a)| / max(f(a, b), f(b, a)), over pairs where either is positive.
+  double largest;
+  double mean;  ///< Mean of |f(a, b) - f(b, a)|, divided by the mean of (f(a, b) + f(b, a))/2.
 };
-/// How far a model is from Helmholtz's reciprocity: f(a, b) = f(b, a), and f/n^2 of the side light leaves to,
-/// across the surface.
+/// Deviation from Helmholtz reciprocity: f(a, b) = f(b, a) on one side of the surface. Across the surface,
+/// each f is divided by n^2 of the side that its light leaves to.
 [[nodiscard]] Asymmetry reciprocity_error(const Bsdf& bsdf, int pairs = 4096, std::uint64_t seed = 0);
-/// How far what camera paths see, f(a, b) of radiance, is from what photons do on the same way, f(b, a) of
-/// power: 0 for every model, reciprocal or not.
+/// Deviation between f(a, b) for radiance, which camera paths use, and f(b, a) for power, which photons use.
+/// It is 0 for every consistent model, reciprocal or not.
 [[nodiscard]] Asymmetry adjoint_error(const Bsdf& bsdf, int pairs = 4096, std::uint64_t seed = 0);
 
 }  // namespace abbe

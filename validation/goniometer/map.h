@@ -5,10 +5,10 @@
 
 namespace abbe {
 
-/// Where the light of each angle goes, as display code values: one column per angle, above the side the beam
-/// comes from and below the other, each hemisphere as a disc seen along the normal (equal areas for equal
-/// solid angles, the beam from the left). Colours are those of f cos under the illuminant, over the largest
-/// channel of the column; single directions do not show.
+/// Map of the scattered light as display code values, with one column per angle of incidence.
+/// The upper disc of a column is the hemisphere of the incident beam and the lower disc the other one. Each
+/// disc is an equal-area projection along the normal; the beam comes from the left. Colours are those of f
+/// cos under the illuminant, relative to the largest channel of the column. Delta directions are not drawn.
 [[nodiscard]] Image lobe_map(const Material& material, const GoniometerSettings& settings);
 
 }  // namespace abbe

@@ -9,7 +9,7 @@
 namespace abbe {
 namespace {
 
-// What matter without spread lobes sends on: nothing needs to be sampled.
+// Albedo of a material with delta events only, which needs no sampling.
 AlbedoReplicates exact_albedo(const Bsdf& bsdf, const Imath::V3f& wo) {
   AlbedoReplicates all{};
   for (int lane = 0; lane < kLanes; ++lane)
@@ -21,8 +21,8 @@ AlbedoReplicates exact_albedo(const Bsdf& bsdf, const Imath::V3f& wo) {
   return all;
 }
 
-// Reflectance and transmittance at many wavelengths, packet by packet, each by random numbers of its own:
-// errors average out over wavelengths.
+// Reflectance and transmittance at many wavelengths. Each packet uses its own random numbers, so that errors
+// average out over wavelengths.
 struct Spectra {
   std::vector<Replicates> reflected, transmitted;
 };
@@ -50,7 +50,7 @@ std::vector<Estimate> estimates(const std::vector<Replicates>& spectrum) {
   return all;
 }
 
-// By the Y of each replicate.
+// Standard error of Y from the Y of each replicate.
 double standard_error_of_Y(const std::vector<Replicates>& visible, const GoniometerSettings& settings) {
   const std::vector<XYZ> weights = tristimulus_weights(settings.illuminant, settings.observer);
   double white = 0;
@@ -69,22 +69,22 @@ ScatteredColor color_of(const std::vector<Replicates>& visible, const Goniometer
           standard_error_of_Y(visible, settings)};
 }
 
-// A colour is a mean over wavelengths, so that few samples of each are enough.
+// A colour is a mean over wavelengths, so few samples of each are enough.
 void add_colors(const Material& material, const Imath::V3f& wo, const GoniometerSettings& settings,
                 GoniometerAngle& at) {
-  constexpr int kShare = 32;
-  constexpr int kLeast = 64;
-  const Spectra found =
-      spectra(material, visible_wavelengths(), wo, std::max(settings.samples / kShare, kLeast));
-  at.reflected_color = color_of(found.reflected, settings);
-  at.transmitted_color = color_of(found.transmitted, settings);
+  constexpr int kSampleDivisor = 32;
+  constexpr int kMinSamples = 64;
+  const Spectra measured =
+      spectra(material, visible_wavelengths(), wo, std::max(settings.samples / kSampleDivisor, kMinSamples));
+  at.reflected_color = color_of(measured.reflected, settings);
+  at.transmitted_color = color_of(measured.transmitted, settings);
 }
 
 GoniometerAngle measure_angle(const Material& material, const GoniometerSettings& settings,
                               double angle_deg) {
   const Imath::V3f wo = incidence(settings, angle_deg);
-  const Spectra found = spectra(material, settings.wavelengths_nm, wo, settings.samples);
-  GoniometerAngle at{angle_deg, estimates(found.reflected), estimates(found.transmitted), {}, {}, 1, 0};
+  const Spectra measured = spectra(material, settings.wavelengths_nm, wo, settings.samples);
+  GoniometerAngle at{angle_deg, estimates(measured.reflected), estimates(measured.transmitted), {}, {}, 1, 0};
   add_colors(material, wo, settings, at);
   const SampledSpectrum packet = packet_of(settings.wavelengths_nm, 0);
   const Bsdf bsdf = make_bsdf(material, {packet});
@@ -93,7 +93,7 @@ GoniometerAngle measure_angle(const Material& material, const GoniometerSettings
       sampler_of(bsdf, wo, TransportMode::radiance),
       [&](const Imath::V3f& wi) { return static_cast<double>(pdf(bsdf, wo, wi)[0]); }, 0);
   at.sampling_p = check.p;
-  at.spread_integral = check.integral;
+  at.non_delta_probability = check.integral;
   return at;
 }
 
@@ -125,7 +125,7 @@ GoniometerReport measure(const Material& material, const GoniometerSettings& set
   report.reciprocity = reciprocity_error(make_bsdf(material, {packet}));
   for (const GoniometerAngle& at : report.angles)
     for (std::size_t i = 0; i < at.reflected.size(); ++i)
-      report.most_energy = std::max(report.most_energy, at.reflected[i].mean + at.transmitted[i].mean);
+      report.max_albedo = std::max(report.max_albedo, at.reflected[i].mean + at.transmitted[i].mean);
   return report;
 }
 

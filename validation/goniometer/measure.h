@@ -9,48 +9,49 @@
 
 namespace abbe {
 
-/// How the bench looks at a material.
+/// Settings of the BSDF bench.
 struct GoniometerSettings {
   std::vector<double> wavelengths_nm{450, 550, 650};
-  std::vector<double> angles_deg{0, 15, 30, 45, 60, 75, 85};  ///< Of incidence, in [0, 90).
-  bool from_inside = false;                                   ///< Against the normal.
-  Curve illuminant;                                           ///< Relative, of the colours.
+  std::vector<double> angles_deg{0, 15, 30, 45, 60, 75, 85};  ///< Angles of incidence in [0, 90).
+  bool from_inside = false;  ///< If true, the beam arrives from the side opposite to the normal.
+  Curve illuminant;          ///< Relative spectrum for the colours.
   Observer observer = Observer::cie1931;
-  int samples = 1 << 13;  ///< Per angle and eight of `wavelengths_nm`.
+  int samples = 1 << 13;  ///< Samples per angle and packet of eight wavelengths.
 };
 
-/// A colour in the light of the bench.
+/// Colour of scattered light under the bench's illuminant.
 struct ScatteredColor {
-  XYZ xyz;         ///< Y = 100 for what sends on all of the beam.
-  Lab lab;         ///< Relative to that.
-  double Y_error;  ///< Standard error of Y; 0 where nothing needs to be sampled.
+  XYZ xyz;         ///< Y = 100 for a material that scatters all of the beam.
+  Lab lab;         ///< L*a*b* relative to that white.
+  double Y_error;  ///< Standard error of Y; 0 for a material with delta events only.
 };
 
-/// What a beam at one angle turns into.
+/// Scattering of a beam at one angle of incidence.
 struct GoniometerAngle {
   double angle_deg;
-  std::vector<Estimate> reflected;    ///< Directional-hemispherical reflectance, by wavelength.
-  std::vector<Estimate> transmitted;  ///< Directional-hemispherical transmittance, by wavelength.
-  ScatteredColor reflected_color;     ///< Of the hemisphere's light.
+  std::vector<Estimate> reflected;    ///< Directional-hemispherical reflectance by wavelength.
+  std::vector<Estimate> transmitted;  ///< Directional-hemispherical transmittance by wavelength.
+  ScatteredColor reflected_color;     ///< Colour of the light in the hemisphere.
   ScatteredColor transmitted_color;
-  double sampling_p;       ///< Of chi-square, sampled against stated density; 1 where nothing spreads.
-  double spread_integral;  ///< Of that density: the probability of leaving in no single direction.
+  /// p-value of the chi-square test of the samples against the pdf; 1 for delta events only.
+  double sampling_p;
+  double non_delta_probability;  ///< Integral of the pdf: the probability of an event that is not delta.
 };
 
-/// What the bench found.
+/// Results of the BSDF bench.
 struct GoniometerReport {
   Lobes lobes;
   bool dispersive;
   std::vector<GoniometerAngle> angles;
-  Asymmetry reciprocity;  ///< Of f(a, b) and f(b, a), by `reciprocity_error`.
-  double most_energy;     ///< Largest R + T over angles and wavelengths.
+  Asymmetry reciprocity;  ///< Result of `reciprocity_error`.
+  double max_albedo;      ///< Largest reflectance plus transmittance over angles and wavelengths.
 };
 
-/// Where the beam of an angle comes from: the side of -x.
+/// Direction of the incident beam's source; its azimuth is that of -x.
 [[nodiscard]] Imath::V3f incidence(const GoniometerSettings& settings, double angle_deg);
-/// The wavelengths of a colorimetric sum.
+/// Wavelengths [nm] of a colorimetric sum, in steps of 1 nm.
 [[nodiscard]] std::vector<double> visible_wavelengths();
-/// The packet of up to eight of the wavelengths from the `first` on; the last one fills up.
+/// Up to eight of the wavelengths from index `first` on. The last wavelength fills an incomplete packet.
 [[nodiscard]] SampledSpectrum packet_of(const std::vector<double>& wavelengths_nm, std::size_t first);
 
 [[nodiscard]] GoniometerReport measure(const Material& material, const GoniometerSettings& settings);

@@ -12,24 +12,24 @@ namespace abbe {
 namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
-// A cell without directions may still hold density: none is larger than this [sr].
+// Largest solid angle of a cell [sr], since a cell without directions may still have density.
 constexpr double kLargestCell = 4 * std::numbers::pi / 128;
-// Narrower than directions in float can be told apart.
-constexpr double kLeastDepth = 1e-13;
+// Depth below which float directions cannot be distinguished.
+constexpr double kMinDepth = 1e-13;
 
 }  // namespace
 
-SphereCells::SphereCells(std::span<const Imath::V3f> directions, std::size_t most_per_cell) : nodes_(2) {
-  std::array<std::vector<Place>, 2> held;
+SphereCells::SphereCells(std::span<const Imath::V3f> directions, std::size_t max_per_cell) : nodes_(2) {
+  std::array<std::vector<PolarPoint>, 2> members;
   for (const Imath::V3f& w : directions) {
-    const Place p = place(w);
-    held[p.above ? 1 : 0].push_back(p);
+    const PolarPoint p = to_polar(w);
+    members[p.above ? 1 : 0].push_back(p);
   }
   for (std::size_t above : {0U, 1U})
-    build(above, {above == 1, 0, 1, 0, kTwoPi}, std::move(held[above]), most_per_cell);
+    build(above, {above == 1, 0, 1, 0, kTwoPi}, std::move(members[above]), max_per_cell);
 }
 
-SphereCells::Place SphereCells::place(const Imath::V3f& w) {
+SphereCells::PolarPoint SphereCells::to_polar(const Imath::V3f& w) {
   const Imath::V3d v(w);
   const double phi = std::atan2(v.y, v.x);
   return {w.z > 0, (v.x * v.x + v.y * v.y) / (1 + std::abs(v.z)), phi < 0 ? phi + kTwoPi : phi};
@@ -52,31 +52,32 @@ SphereCells::Halves SphereCells::halved(const Cell& cell) {
   return halves;
 }
 
-void SphereCells::build(std::size_t node, const Cell& cell, std::vector<Place> held, std::size_t most) {
+void SphereCells::build(std::size_t node, const Cell& cell, std::vector<PolarPoint> members,
+                        std::size_t max_per_cell) {
   const double height = cell.depth_high - cell.depth_low;
   const double width = cell.phi_high - cell.phi_low;
-  if ((held.size() <= most && height * width <= kLargestCell) || height < kLeastDepth) {
+  if ((members.size() <= max_per_cell && height * width <= kLargestCell) || height < kMinDepth) {
     nodes_[node].leaf = leaves_.size();
     leaves_.push_back(cell);
     return;
   }
   const Halves halves = halved(cell);
-  const auto middle =
-      std::partition(held.begin(), held.end(), [&](const Place& p) { return halves.in_low(p); });
-  std::vector<Place> second(middle, held.end());
-  held.erase(middle, held.end());
+  const auto split =
+      std::partition(members.begin(), members.end(), [&](const PolarPoint& p) { return halves.in_low(p); });
+  std::vector<PolarPoint> second(split, members.end());
+  members.erase(split, members.end());
   const std::size_t first_child = nodes_.size();
   nodes_[node] = {first_child, 0, halves.by_depth, halves.at};
   nodes_.resize(first_child + 2);
-  build(first_child, halves.low, std::move(held), most);
-  build(first_child + 1, halves.high, std::move(second), most);
+  build(first_child, halves.low, std::move(members), max_per_cell);
+  build(first_child + 1, halves.high, std::move(second), max_per_cell);
 }
 
-std::size_t SphereCells::of(const Imath::V3f& w) const {
-  return of(place(w));
+std::size_t SphereCells::cell_of(const Imath::V3f& w) const {
+  return cell_of(to_polar(w));
 }
 
-std::size_t SphereCells::of(const Place& p) const {
+std::size_t SphereCells::cell_of(const PolarPoint& p) const {
   std::size_t node = p.above ? 1 : 0;
   while (nodes_[node].first_child != 0) {
     const double value = nodes_[node].by_depth ? p.depth : p.phi;
@@ -85,41 +86,41 @@ std::size_t SphereCells::of(const Place& p) const {
   return nodes_[node].leaf;
 }
 
-// A lobe narrower than the distances between nodes, or what an edge leaves of a cell beside them, agrees with
-// a density of nothing however the cell is divided once: where a direction was found along which there is
-// much more than at any node, the cell is halved about it.
-double SphereCells::integral(const Cell& cell, const SphereDensity& density, std::span<Found> found) {
-  constexpr double kTolerance = 1e-6;  // of the whole
+// The quadrature sees zero density if a lobe is narrower than the distances between its nodes, or if an edge
+// leaves only a sliver of it in the cell. Further division would confirm that zero. Where a known direction
+// has a much larger density than all nodes, the cell is halved around it.
+double SphereCells::integral(const Cell& cell, const SphereDensity& density, std::span<KnownDensity> known) {
+  constexpr double kTolerance = 1e-6;  // of the integral over the sphere
   constexpr int kQuarterings = 10;
-  constexpr double kSeen = 0.5;
+  constexpr double kVisibleRatio = 0.5;
   const RuleSum whole = by_rule(cell, density);
-  const auto unseen = [&](const Found& f) { return kSeen * f.density > whole.most; };
-  if (cell.depth_high - cell.depth_low < kLeastDepth || std::none_of(found.begin(), found.end(), unseen))
+  const auto missed = [&](const KnownDensity& f) { return kVisibleRatio * f.density > whole.max_density; };
+  if (cell.depth_high - cell.depth_low < kMinDepth || std::none_of(known.begin(), known.end(), missed))
     return refined(cell, density, whole.integral, kTolerance, kQuarterings);
   const Halves halves = halved(cell);
-  const auto middle =
-      std::partition(found.begin(), found.end(), [&](const Found& f) { return halves.in_low(f.place); });
-  return integral(halves.low, density, {found.begin(), middle}) +
-         integral(halves.high, density, {middle, found.end()});
+  const auto split = std::partition(known.begin(), known.end(),
+                                    [&](const KnownDensity& f) { return halves.in_low(f.point); });
+  return integral(halves.low, density, {known.begin(), split}) +
+         integral(halves.high, density, {split, known.end()});
 }
 
 SphereCells::RuleSum SphereCells::by_rule(const Cell& cell, const SphereDensity& density) {
   using Rule = boost::math::quadrature::gauss<double, 5>;
-  double most = 0;
+  double max_density = 0;
   const auto along_phi = [&](double depth) {
     return Rule::integrate(
         [&](double phi) {
           const double value = density(at(cell.above, depth, phi));
-          most = std::max(most, value);
+          max_density = std::max(max_density, value);
           return value;
         },
         cell.phi_low, cell.phi_high);
   };
   const double integral = Rule::integrate(along_phi, cell.depth_low, cell.depth_high);
-  return {integral, most};
+  return {integral, max_density};
 }
 
-// Halved both ways until that makes no difference: a cell may hold the edge of a lobe.
+// Quarters the cell until the integral converges, since it may contain the edge of a lobe.
 double SphereCells::refined(const Cell& cell, const SphereDensity& density, double whole, double tolerance,
                             int quarterings) {
   const double depth = (cell.depth_low + cell.depth_high) / 2;
@@ -139,16 +140,16 @@ double SphereCells::refined(const Cell& cell, const SphereDensity& density, doub
 }
 
 std::vector<double> SphereCells::integrate(const SphereDensity& density,
-                                           std::span<const Imath::V3f> found) const {
-  std::vector<std::vector<Found>> held(leaves_.size());
-  for (const Imath::V3f& w : found) {
-    const Place p = place(w);
-    held[of(p)].push_back({p, density(w)});
+                                           std::span<const Imath::V3f> known) const {
+  std::vector<std::vector<KnownDensity>> members(leaves_.size());
+  for (const Imath::V3f& w : known) {
+    const PolarPoint p = to_polar(w);
+    members[cell_of(p)].push_back({p, density(w)});
   }
   std::vector<double> integrals;
   integrals.reserve(leaves_.size());
   for (std::size_t i = 0; i < leaves_.size(); ++i)
-    integrals.push_back(integral(leaves_[i], density, held[i]));
+    integrals.push_back(integral(leaves_[i], density, members[i]));
   return integrals;
 }
 

@@ -9,38 +9,39 @@
 
 namespace abbe {
 
-/// Something per solid angle.
+/// A density per solid angle [1/sr].
 using SphereDensity = std::function<double(const Imath::V3f& w)>;
 
-/// Cells that cover the sphere, fine where directions are many, so that a lobe as narrow as a needle still
-/// fills many of them. They are rectangles in azimuth and distance to the nearer pole, 1 - |z|, halved along
-/// their longer side; none crosses the horizon.
+/// Partition of the sphere that is fine where directions are dense, so that even a very narrow lobe covers
+/// many cells. A cell is a rectangle in azimuth and in 1 - |z|, the depth below the nearer pole. Cells are
+/// halved along their longer side; none crosses the horizon.
 class SphereCells {
  public:
-  /// Halved until none holds more than `most_per_cell` of `directions`.
-  SphereCells(std::span<const Imath::V3f> directions, std::size_t most_per_cell);
+  /// Halves cells until none contains more than `max_per_cell` of `directions`.
+  SphereCells(std::span<const Imath::V3f> directions, std::size_t max_per_cell);
 
   [[nodiscard]] std::size_t count() const { return leaves_.size(); }
-  [[nodiscard]] std::size_t of(const Imath::V3f& w) const;
-  /// Integral of `density` over each cell, by Gauss-Legendre quadrature of as small parts as it takes. It may
-  /// have lobes and edges that none of the nodes meets: what it is along the directions `found` tells of
-  /// them.
+  [[nodiscard]] std::size_t cell_of(const Imath::V3f& w) const;
+  /// Integral of `density` over each cell by adaptive Gauss-Legendre quadrature. The density may have lobes
+  /// and edges that no quadrature node hits. Cells that contain such features are refined around the given
+  /// `directions`.
   [[nodiscard]] std::vector<double> integrate(const SphereDensity& density,
-                                              std::span<const Imath::V3f> found = {}) const;
+                                              std::span<const Imath::V3f> directions = {}) const;
 
  private:
-  /// Where a direction is: `depth` = 1 - |z|, kept exact near the poles.
-  struct Place {
+  /// A direction in polar coordinates: `depth` = 1 - |z| without cancellation near the poles, and azimuth
+  /// `phi`.
+  struct PolarPoint {
     bool above;
     double depth, phi;
   };
-  struct Found {
-    Place place;
+  struct KnownDensity {
+    PolarPoint point;
     double density;
   };
-  /// What a rule makes of a cell, and the largest density that its nodes have met.
+  /// Result of a quadrature rule for a cell, and the largest density at its nodes.
   struct RuleSum {
-    double integral, most;
+    double integral, max_density;
   };
   struct Cell {
     bool above;
@@ -53,24 +54,24 @@ class SphereCells {
     double at;
     Cell low, high;
 
-    [[nodiscard]] bool in_low(const Place& p) const { return (by_depth ? p.depth : p.phi) < at; }
+    [[nodiscard]] bool in_low(const PolarPoint& p) const { return (by_depth ? p.depth : p.phi) < at; }
   };
   struct Node {
-    std::size_t first_child = 0;  // the second follows it; 0 for a leaf
+    std::size_t first_child = 0;  // The second child follows the first; 0 for a leaf.
     std::size_t leaf = 0;
     bool by_depth = false;
     double at = 0;
   };
 
-  static Place place(const Imath::V3f& w);
-  [[nodiscard]] std::size_t of(const Place& p) const;
+  static PolarPoint to_polar(const Imath::V3f& w);
+  [[nodiscard]] std::size_t cell_of(const PolarPoint& p) const;
   static Imath::V3f at(bool above, double depth, double phi);
   static Halves halved(const Cell& cell);
-  static double integral(const Cell& cell, const SphereDensity& density, std::span<Found> found);
+  static double integral(const Cell& cell, const SphereDensity& density, std::span<KnownDensity> known);
   static RuleSum by_rule(const Cell& cell, const SphereDensity& density);
   static double refined(const Cell& cell, const SphereDensity& density, double whole, double tolerance,
                         int quarterings);
-  void build(std::size_t node, const Cell& cell, std::vector<Place> held, std::size_t most);
+  void build(std::size_t node, const Cell& cell, std::vector<PolarPoint> members, std::size_t max_per_cell);
 
   std::vector<Node> nodes_;
   std::vector<Cell> leaves_;

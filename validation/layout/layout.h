@@ -8,26 +8,29 @@
 
 namespace abbe {
 
-/// A ray's way for a drawing, in the scene's own coordinates [m].
+/// Polyline of a ray for a drawing, in scene coordinates [m].
 struct DrawnRay {
   double wavelength_nm;
   std::vector<Imath::V3d> points;
-  double share = 1;  ///< Of the power, at its start: the less, the fainter it is drawn.
+  /// Fraction of the power at the start of the ray; weaker rays are drawn fainter.
+  double power_fraction = 1;
 };
 
-/// Branches of less power are not drawn.
-inline constexpr double kLeastDrawnShare = 1e-3;
+/// Smallest power fraction of a branch that is drawn.
+inline constexpr double kMinDrawnFraction = 1e-3;
 
-/// The ways of a ray that was followed, the main branch first; one that leaves the scene is drawn on as far
-/// again as the scene is large.
+/// Polylines of a traced ray, the main branch first. A branch that leaves the scene is extended by the
+/// diagonal of the drawn box.
 [[nodiscard]] std::vector<DrawnRay> drawn_rays(const Scene& scene, const RayTree& tree, double wavelength_nm);
 
-/// The colour of a wavelength as displays come nearest to it; grey where nobody sees it.
+/// Display colour nearest to the wavelength as "#rrggbb"; grey for invisible wavelengths.
 [[nodiscard]] std::string wavelength_color(double wavelength_nm);
 
-/// Plan (x, y) and elevation (x, z) of a scene as one SVG: outlines of what is near with their names, lamps,
-/// the camera with its field, rays in the colours of their wavelengths, and a bar of scale in the scene's
-/// units.
+/// SVG document with the plan (x, y) and elevation (x, z) of a scene. It shows:
+/// - outlines of the shapes that are not distant, with their names;
+/// - lights, and the camera with its field of view;
+/// - rays in the colours of their wavelengths;
+/// - a scale bar in the units of the scene.
 [[nodiscard]] std::string layout_drawing(const Scene& scene, const std::vector<DrawnRay>& rays,
                                          const std::string& title);
 

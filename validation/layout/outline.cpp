@@ -15,16 +15,16 @@ namespace {
 using V3d = Imath::V3d;
 using Lines = std::vector<std::vector<V3d>>;
 
-constexpr int kCorners = 64;  // of what is round
+constexpr int kCorners = 64;  // of a circle's polygon
 constexpr std::size_t kMaxTriangles = 4000;
-constexpr double kFlat = 0.9998;  // cosine between the normals of faces that bend by a degree
+constexpr double kFlat = 0.9998;  // cosine of one degree between the normals of two faces
 
 double angle_of(int corner) {
   return 2 * std::numbers::pi * corner / kCorners;
 }
 
-// Of round shapes the point that is furthest in each direction of the drawing: what the map `to_world` makes
-// of a sphere is furthest along u where the sphere is along to_world u.
+// The silhouette point in each direction u of the drawing: the image under `to_world` of the sphere's extreme
+// point along transpose(to_world) u.
 Lines outline_of(const Sphere& sphere, const Imath::M44d& to_world, const DrawingPlane& plane) {
   std::vector<V3d> points;
   for (int i = 0; i <= kCorners; ++i) {
@@ -57,23 +57,24 @@ Lines outline_of(const Quad& quad, const Imath::M44d& to_world, const DrawingPla
 }
 
 std::vector<V3d> box_outline(const Imath::Box3d& box, const DrawingPlane& plane) {
-  // Twice from the middle to the faces that the drawing shows.
+  // Half extents of the box along the axes of the drawing.
   const V3d half = box.size() / 2;
-  const auto reach = [&half](const V3d& along) {
+  const auto half_extent = [&half](const V3d& along) {
     return std::abs(half.x * along.x) + std::abs(half.y * along.y) + std::abs(half.z * along.z);
   };
   std::vector<V3d> points;
   for (const auto& [x, y] : {std::pair{-1, -1}, {1, -1}, {1, 1}, {-1, 1}, {-1, -1}})
-    points.push_back(box.center() + x * reach(plane.right) * plane.right + y * reach(plane.up) * plane.up);
+    points.push_back(box.center() + x * half_extent(plane.right) * plane.right +
+                     y * half_extent(plane.up) * plane.up);
   return points;
 }
 
-// Vertices at one place are one, whatever faces they belong to.
+// Vertices at equal positions are merged, so edges are found between faces that do not share an index.
 Lines outline_of(const Mesh& mesh, const Imath::M44d& to_world, const DrawingPlane& plane) {
   struct Edge {
     V3d from, to;
     V3d normal;
-    bool bends = true;  // until a face that goes on straight is found
+    bool is_crease = true;  // false if an adjacent face is nearly coplanar
   };
   if (mesh.triangles.size() > kMaxTriangles) {
     Imath::Box3d box;
@@ -90,12 +91,12 @@ Lines outline_of(const Mesh& mesh, const Imath::M44d& to_world, const DrawingPla
       V3d b = p.at((i + 1) % 3);
       if (std::tie(b.x, b.y, b.z) < std::tie(a.x, a.y, a.z)) std::swap(a, b);
       const auto [edge, added] = edges.try_emplace({a.x, a.y, a.z, b.x, b.y, b.z}, Edge{a, b, normal});
-      if (!added && edge->second.normal.dot(normal) > kFlat) edge->second.bends = false;
+      if (!added && edge->second.normal.dot(normal) > kFlat) edge->second.is_crease = false;
     }
   }
   Lines lines;
   for (const auto& [key, edge] : edges)
-    if (edge.bends) lines.push_back({edge.from, edge.to});
+    if (edge.is_crease) lines.push_back({edge.from, edge.to});
   return lines;
 }
 

@@ -8,15 +8,16 @@
 
 namespace abbe {
 
-/// A direction of sight, by what points right and what points up in its drawing: unit and across each other.
+/// Viewing direction of a drawing, given by the unit vectors that point right and up in it. They are
+/// perpendicular.
 struct DrawingPlane {
   Imath::V3d right;
   Imath::V3d up;
 };
 
-/// What a shape looks like from far away, as lines through points of space: the circumference of spheres and
-/// discs, the edges of quads and those of meshes at which their faces bend. Of a mesh of more faces than a
-/// drawing can show, the box around it.
+/// Outline of a shape viewed from far away, as polylines in space: the circumference of spheres and discs,
+/// the edges of quads, and the creases of meshes. A mesh with too many faces for a drawing is replaced by its
+/// bounding box.
 [[nodiscard]] std::vector<std::vector<Imath::V3d>> outline(const Shape& shape, const DrawingPlane& plane);
 
 }  // namespace abbe

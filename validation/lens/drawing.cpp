@@ -20,9 +20,9 @@ constexpr double kMaxHeight = 520;
 constexpr double kDrawingMargin = 30;
 constexpr double kDrawingTop = 50;
 constexpr int kArcPoints = 48;
-constexpr double kLess = 0.99;
-constexpr double kRoom = 1.05;       // of a surface beyond the rays on it
-constexpr double kLeadShare = 0.25;  // of the lens's length, drawn of rays before it
+constexpr double kShrinkFactor = 0.99;
+constexpr double kRimFactor = 1.05;     // height of a surface relative to the highest ray on it
+constexpr double kLeadFraction = 0.25;  // of the lens's length, for rays in front of it
 constexpr std::array<const char*, 6> kColors{"#2060c0", "#208040", "#c03030",
                                              "#a06000", "#8030a0", "#008080"};
 
@@ -31,7 +31,7 @@ struct LensRay {
   std::vector<V3d> points;
 };
 
-// From before the lens to where the ray ends.
+// Points of a ray from in front of the lens to its end.
 std::vector<V3d> points_of(const lens::Ray& ray, const RayPath& path, double lead_mm) {
   std::vector<V3d> points;
   if (path.hits.empty()) return points;
@@ -56,29 +56,29 @@ std::vector<LensRay> rays_of(const LensFigures& figures, const SystemAt& at, dou
   return rays;
 }
 
-// Draws two surfaces less far where they would cross at their rims.
-void part(const lens::Surface& first, const lens::Surface& second, double& first_height,
-          double& second_height) {
+// Reduces the drawn heights of two surfaces until they do not cross at their rims.
+void avoid_rim_crossing(const lens::Surface& first, const lens::Surface& second, double& first_height,
+                        double& second_height) {
   const auto gap = [&] {
     const double r2 = std::pow(std::min(first_height, second_height), 2);
     return first.thickness_mm + second.profile.sag(r2) - first.profile.sag(r2);
   };
   while (first.thickness_mm >= 0 && gap() < 0)
-    (first_height > second_height ? first_height : second_height) *= kLess;
+    (first_height > second_height ? first_height : second_height) *= kShrinkFactor;
 }
 
-// How far from its axis each surface is drawn.
+// Drawn height of each surface above its axis.
 std::vector<double> heights_of(const LensFigures& figures, const SystemAt& at,
                                const std::vector<LensRay>& rays) {
   std::vector<double> heights(at.size(), figures.stop_radius_mm * 0.2);
   heights[figures.system.stop] = figures.stop_radius_mm;
   for (const LensRay& ray : rays)
     for (std::size_t i = 0; i + 1 < ray.points.size() && i < at.size(); ++i)
-      heights[i] = std::max(heights[i], kRoom * std::abs(lens::local_point(at, i, ray.points[i + 1]).y));
+      heights[i] = std::max(heights[i], kRimFactor * std::abs(lens::local_point(at, i, ray.points[i + 1]).y));
   for (std::size_t i = 0; i < heights.size(); ++i) {
     heights[i] = at.surface(i).semi_aperture_mm.value_or(heights[i]);
-    while (!std::isfinite(at.surface(i).profile.sag(heights[i] * heights[i]))) heights[i] *= kLess;
-    if (i > 0) part(at.surface(i - 1), at.surface(i), heights[i - 1], heights[i]);
+    while (!std::isfinite(at.surface(i).profile.sag(heights[i] * heights[i]))) heights[i] *= kShrinkFactor;
+    if (i > 0) avoid_rim_crossing(at.surface(i - 1), at.surface(i), heights[i - 1], heights[i]);
   }
   return heights;
 }
@@ -93,9 +93,9 @@ std::vector<V3d> arc(const SystemAt& at, std::size_t i, double height) {
   return points;
 }
 
-class Picture {
+class SectionView {
  public:
-  Picture(const std::vector<std::vector<V3d>>& arcs, const std::vector<LensRay>& rays, double image_z) {
+  SectionView(const std::vector<std::vector<V3d>>& arcs, const std::vector<LensRay>& rays, double image_z) {
     for (const auto& points : arcs)
       for (const V3d& p : points) box_.extendBy(Imath::V2d(p.z, p.y));
     for (const LensRay& ray : rays)
@@ -121,7 +121,8 @@ class Picture {
   double scale_;
 };
 
-std::string glass_elements(const SystemAt& at, const std::vector<std::vector<V3d>>& arcs, const Picture& to) {
+std::string glass_elements(const SystemAt& at, const std::vector<std::vector<V3d>>& arcs,
+                           const SectionView& to) {
   std::string all;
   for (std::size_t i = 0; i + 1 < at.size(); ++i) {
     if (!at.surface(i).behind) continue;
@@ -132,9 +133,9 @@ std::string glass_elements(const SystemAt& at, const std::vector<std::vector<V3d
   return all;
 }
 
-// The stop's edges, and the image as far as its rays reach.
+// Edges of the stop, and the part of the image plane that rays reach.
 std::string plane_elements(const LensFigures& figures, const SystemAt& at, const std::vector<LensRay>& rays,
-                           const Picture& to) {
+                           const SectionView& to) {
   const std::string black = "stroke=\"black\" stroke-width=\"2\"";
   const V3d stop = at.frames[figures.system.stop].vertex;
   std::string all;
@@ -158,13 +159,13 @@ std::string plane_elements(const LensFigures& figures, const SystemAt& at, const
   return all + svg_line(x0, y0, x1, y1, "class=\"image\" " + black);
 }
 
-// The greatest of 1, 2 and 5 times a power of ten in a fifth of the picture's width.
-std::string scale_bar(const Picture& to) {
-  const double most = kDrawingWidth / 5 / to.scale();
-  const double decade = std::pow(10.0, std::floor(std::log10(most)));
+// Scale bar of 1, 2 or 5 times a power of ten, at most a fifth of the width.
+std::string scale_bar(const SectionView& to) {
+  const double max_length = kDrawingWidth / 5 / to.scale();
+  const double decade = std::pow(10.0, std::floor(std::log10(max_length)));
   double length = decade;
   for (const double round : {2.0, 5.0})
-    if (round * decade <= most) length = round * decade;
+    if (round * decade <= max_length) length = round * decade;
   const double y = to.bottom() + 25;
   return svg_line(kDrawingMargin, y, kDrawingMargin + length * to.scale(), y,
                   "stroke=\"black\" stroke-width=\"2\"") +
@@ -175,12 +176,12 @@ std::string scale_bar(const Picture& to) {
 
 std::string lens_drawing(const LensFigures& figures) {
   const SystemAt at(figures.system, figures.system.primary_nm());
-  const double lead = kLeadShare * std::max(at.vertex_z.back(), 4 * figures.stop_radius_mm);
+  const double lead = kLeadFraction * std::max(at.vertex_z.back(), 4 * figures.stop_radius_mm);
   const std::vector<LensRay> rays = rays_of(figures, at, lead);
   const std::vector<double> heights = heights_of(figures, at, rays);
   std::vector<std::vector<V3d>> arcs;
   for (std::size_t i = 0; i < at.size(); ++i) arcs.push_back(arc(at, i, heights[i]));
-  const Picture to(arcs, rays, at.vertex_z.back());
+  const SectionView to(arcs, rays, at.vertex_z.back());
   std::string elements = glass_elements(at, arcs, to);
   const auto [x0, axis_y] = to.at(V3d(0, 0, 0));
   elements += svg_line(kDrawingMargin, axis_y, kDrawingWidth - kDrawingMargin, axis_y,

@@ -15,7 +15,7 @@ using lens::Beam;
 using lens::Spot;
 using lens::SystemAt;
 
-// The wavelengths that a colour is the difference of.
+// Shortest and longest wavelength, between which colour errors are computed.
 std::pair<double, double> ends(const std::vector<double>& wavelengths_nm) {
   const auto [low, high] = std::minmax_element(wavelengths_nm.begin(), wavelengths_nm.end());
   return {*low, *high};
@@ -23,19 +23,20 @@ std::pair<double, double> ends(const std::vector<double>& wavelengths_nm) {
 
 lens::SeidelSums seidel_of(const lens::System& system, const LensFigures& figures) {
   const auto [blue, red] = ends(system.wavelengths_nm);
-  const double far = *std::max_element(system.fields.begin(), system.fields.end(),
-                                       [](double a, double b) { return std::abs(a) < std::abs(b); });
+  const double outermost = *std::max_element(system.fields.begin(), system.fields.end(),
+                                             [](double a, double b) { return std::abs(a) < std::abs(b); });
   const auto& speed = figures.speed[system.primary];
   const double radius = speed ? speed->launch_diameter_mm / 2 : std::numeric_limits<double>::quiet_NaN();
   return lens::seidel_sums(SystemAt(system, system.primary_nm()), SystemAt(system, blue),
-                           SystemAt(system, red), radius, far);
+                           SystemAt(system, red), radius, outermost);
 }
 
 std::vector<lens::RayFan> fans_of(const lens::System& system, double field, double stop_radius_mm, int rays) {
   const SystemAt primary(system, system.primary_nm());
-  const auto middle = Beam::of(primary, field, stop_radius_mm);
-  if (!middle) return {};
-  const auto chief = lens::trace(primary, middle->launch(middle->chief()), lens::Apertures::ignored);
+  const auto primary_beam = Beam::of(primary, field, stop_radius_mm);
+  if (!primary_beam) return {};
+  const auto chief =
+      lens::trace(primary, primary_beam->launch(primary_beam->chief()), lens::Apertures::ignored);
   if (!chief.reached()) return {};
   std::vector<lens::RayFan> fans;
   for (const double nm : system.wavelengths_nm) {
@@ -48,12 +49,12 @@ std::vector<lens::RayFan> fans_of(const lens::System& system, double field, doub
 }
 
 LensFieldFigures at_field(const lens::System& system, double field, std::vector<Spot> spots,
-                          double stop_radius_mm, const LensLook& look) {
+                          double stop_radius_mm, const LensAnalysisSettings& settings) {
   LensFieldFigures figures{field, std::move(spots), {}, {}, {}, {}, {}};
   for (const double nm : system.wavelengths_nm)
     figures.chiefs.push_back(lens::chief_ray(SystemAt(system, nm), field, stop_radius_mm));
-  figures.fans = fans_of(system, field, stop_radius_mm, look.fan_rays);
-  for (const double per_mm : look.frequencies_per_mm) {
+  figures.fans = fans_of(system, field, stop_radius_mm, settings.fan_rays);
+  for (const double per_mm : settings.frequencies_per_mm) {
     figures.tangential_mtf.push_back(lens::geometric_mtf(figures.spots, per_mm, {0, 1}));
     figures.sagittal_mtf.push_back(lens::geometric_mtf(figures.spots, per_mm, {1, 0}));
   }
@@ -100,29 +101,29 @@ std::string LensFigures::field_name(double field) const {
   return fmt::format("{:.4g} {}", field, system.object_distance_mm ? "mm" : "deg");
 }
 
-LensFigures lens_figures(const lens::System& system, const LensLook& look) {
+LensFigures lens_figures(const lens::System& system, const LensAnalysisSettings& settings) {
   LensFigures figures{.system = system,
                       .stop_radius_mm = lens::stop_radius(system),
                       .first_order = {},
                       .speed = {},
                       .seidel = {},
                       .best_focus_mm = {},
-                      .frequencies_per_mm = look.frequencies_per_mm,
+                      .frequencies_per_mm = settings.frequencies_per_mm,
                       .fields = {},
                       .ghosts = {}};
   for (const double nm : system.wavelengths_nm) {
     const SystemAt at(system, nm);
     figures.first_order.push_back(lens::first_order(at));
-    figures.speed.push_back(lens::speed(at, figures.stop_radius_mm, look.cells));
+    figures.speed.push_back(lens::speed(at, figures.stop_radius_mm, settings.cells));
   }
   figures.seidel = seidel_of(system, figures);
   figures.ghosts = ghosts_of(system, figures.stop_radius_mm);
-  auto spots = lens::all_spots(system, figures.stop_radius_mm, look.cells);
+  auto spots = lens::all_spots(system, figures.stop_radius_mm, settings.cells);
   figures.best_focus_mm = lens::best_focus(spots);
   for (std::size_t i = 0; i < spots.size(); ++i)
     figures.fields.push_back(
-        at_field(system, system.fields[i], std::move(spots[i]), figures.stop_radius_mm, look));
-  add_illumination(figures, look.cells);
+        at_field(system, system.fields[i], std::move(spots[i]), figures.stop_radius_mm, settings));
+  add_illumination(figures, settings.cells);
   return figures;
 }
 

@@ -22,26 +22,26 @@ constexpr int kShiftStepNm = 5;
 constexpr std::array<const char*, 6> kFieldColors{"#2060c0", "#208040", "#c03030",
                                                   "#a06000", "#8030a0", "#008080"};
 
-// The largest distance of any ray from the chief ray of its field.
-double spread(const LensFigures& figures) {
-  double most = 1e-6;
+// Largest distance of any ray from the chief ray of its field.
+double max_spot_distance(const LensFigures& figures) {
+  double max_distance = 1e-6;
   for (const LensFieldFigures& field : figures.fields)
     if (const auto& chief = field.chiefs[figures.system.primary])
       for (const lens::Spot& spot : field.spots)
         for (const lens::SpotRay& ray : spot.rays)
-          most = std::max(most, (ray.point - Imath::V2d(0, chief->height_mm)).length());
-  return most;
+          max_distance = std::max(max_distance, (ray.point - Imath::V2d(0, chief->height_mm)).length());
+  return max_distance;
 }
 
 std::string dots(const LensFieldFigures& field, const Imath::V2d& chief, double x, double y, double scale) {
   std::string all;
   for (const lens::Spot& spot : field.spots) {
-    const std::string look =
+    const std::string style =
         fmt::format("fill=\"{}\" fill-opacity=\"0.6\"", wavelength_color(spot.wavelength_nm));
     const std::size_t step = spot.rays.size() / kMaxDots + 1;
     for (std::size_t i = 0; i < spot.rays.size(); i += step) {
       const Imath::V2d p = spot.rays[i].point - chief;
-      all += svg_circle(x + scale * p.x, y - scale * p.y, 0.9, look);
+      all += svg_circle(x + scale * p.x, y - scale * p.y, 0.9, style);
     }
   }
   return all;
@@ -50,8 +50,8 @@ std::string dots(const LensFieldFigures& field, const Imath::V2d& chief, double 
 }  // namespace
 
 std::string spot_plot(const LensFigures& figures) {
-  const double most = spread(figures);
-  const double scale = 0.45 * kSpotSide / most;
+  const double max_distance = max_spot_distance(figures);
+  const double scale = 0.45 * kSpotSide / max_distance;
   std::string elements;
   double left = 10;
   for (const LensFieldFigures& field : figures.fields) {

@@ -4,21 +4,21 @@
 
 #include "validation/lens/figures.h"
 
-// Plots of a lens as SVG documents, curves of a wavelength in its colour.
+// Plots of a lens as SVG documents. Curves of a wavelength have its colour.
 namespace abbe {
 
-/// The spots of all fields side by side at one scale, about the chief ray of the primary wavelength, with a
-/// circle of the Airy disc's radius there.
+/// Spot diagrams of all fields at one scale, centred on the chief ray of the primary wavelength. A circle
+/// shows the Airy disc.
 [[nodiscard]] std::string spot_plot(const LensFigures& figures);
 
-/// The ray fans of a field: errors along y over the stop's y diameter, and along x over its x diameter,
-/// dashed.
+/// Ray fans of a field: the error along y over the height in the stop along y, and dashed the error along x
+/// over the height along x.
 [[nodiscard]] std::string fan_plot(const LensFigures& figures, const LensFieldFigures& field);
 
-/// Geometric modulation transfer of all fields over frequency, sagittal dashed.
+/// Geometric modulation transfer over frequency for all fields; sagittal curves are dashed.
 [[nodiscard]] std::string lens_mtf_plot(const LensFigures& figures);
 
-/// Back focus over wavelength, less that of the primary wavelength.
+/// Shift of the paraxial focus over wavelength, relative to the primary wavelength.
 [[nodiscard]] std::string focal_shift_plot(const LensFigures& figures);
 
 }  // namespace abbe

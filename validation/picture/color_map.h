@@ -7,17 +7,18 @@
 
 namespace abbe {
 
-/// A colour for a share in [0, 1] of a scale, clamped there: CIE 1976 lightness grows evenly from 12 to 92
-/// while hue turns from blue over red to yellow, at most of what chroma sRGB has there, so that order shows
-/// in print and to any eye.
-[[nodiscard]] DisplayColor map_color(double share);
+/// Colour for a position `t` on a scale, clamped to [0, 1]. CIE 1976 lightness increases linearly from 12 to
+/// 92, and hue changes from blue over red to yellow. Chroma stays inside the sRGB gamut. The order of colours
+/// is also visible in grey prints and to colour-blind readers.
+[[nodiscard]] DisplayColor map_color(double t);
 
-/// A colour for a place on a cycle, of which 1 is a turn, at CIE 1976 lightness 65: the hue goes round once,
-/// from red over yellow and green to blue, and chroma grows from grey to the most that an sRGB display has of
-/// all hues there with a strength in [0, 1], clamped there.
+/// Colour of a cyclic quantity, with period 1 in `turn`, at CIE 1976 lightness 65. Hue passes red, yellow,
+/// green and blue. Chroma grows with `strength`, clamped to [0, 1], from grey to the largest value that sRGB
+/// has at all hues.
 [[nodiscard]] DisplayColor cyclic_color(double turn, double strength);
 
-/// One plane of an image, row by row, from `low` (dark) to `high`; grey where a value is not finite.
+/// False-colour image of `values` in row order, from `low` (dark) to `high`. Values that are not finite are
+/// grey.
 [[nodiscard]] Image false_color(std::span<const double> values, int width, int height, double low,
                                 double high);
 

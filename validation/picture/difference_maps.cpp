@@ -44,13 +44,13 @@ class Canvas {
 
 constexpr DisplayColor kInk{0.12, 0.15, 0.2};
 constexpr int kStroke = 2;
-constexpr int kDigitWidth = 6 * kStroke;  // with the space behind it
+constexpr int kDigitWidth = 6 * kStroke;  // includes the space after it
 
-// A digit of seven segments, 4 strokes wide and 7 high, or a point.
+// Draws a digit of seven segments, 4 strokes wide and 7 high, or a decimal point.
 void draw_digit(Canvas& canvas, char digit, int x, int y) {
   struct Segment {
     int x0, y0, x1, y1;
-    const char* digits;  // that have it
+    const char* digits;  // digits that contain the segment
   };
   constexpr std::array<Segment, 8> kSegments{{{0, 0, 4, 1, "02356789"},
                                               {0, 3, 4, 4, "2345689"},
@@ -65,19 +65,19 @@ void draw_digit(Canvas& canvas, char digit, int x, int y) {
       canvas.fill(x + s.x0 * kStroke, y + s.y0 * kStroke, x + s.x1 * kStroke, y + s.y1 * kStroke, kInk);
 }
 
-void draw_number(Canvas& canvas, double value, int middle, int y) {
+void draw_number(Canvas& canvas, double value, int center_x, int y) {
   const std::string text = fmt::format("{:.6g}", value);
-  int x = middle - static_cast<int>(text.size()) * kDigitWidth / 2;
+  int x = center_x - static_cast<int>(text.size()) * kDigitWidth / 2;
   for (const char digit : text) {
     draw_digit(canvas, digit, x, y);
     x += kDigitWidth;
   }
 }
 
-// The end of a scale that nearly all values lie on.
+// End of a scale that covers 99 % of the values.
 double scale_end(const std::vector<double>& values) {
-  const double most = percentile(values, 0.99);
-  return most > 0 ? std::clamp(log_range({most}).second, 1e-3, 1e5) : 1.0;
+  const double max_value = percentile(values, 0.99);
+  return max_value > 0 ? std::clamp(log_range({max_value}).second, 1e-3, 1e5) : 1.0;
 }
 
 DifferenceMap map_of(const std::string& name, const std::vector<double>& values, int width, int height) {
@@ -91,15 +91,15 @@ Image histogram_picture(const std::vector<double>& values, double high) {
   std::array<std::size_t, kBars> counts{};
   for (const double value : values)
     ++counts.at(static_cast<std::size_t>(std::clamp(value / high * kBars, 0.0, kBars - 1.0)));
-  const auto most = static_cast<double>(*std::max_element(counts.begin(), counts.end()));
+  const auto max_value = static_cast<double>(*std::max_element(counts.begin(), counts.end()));
   Canvas canvas;
   const int base = kBarsTop + kBarsHeight;
   for (int i = 0; i < kBars; ++i) {
     const double count = static_cast<double>(counts.at(static_cast<std::size_t>(i)));
     const int x = kBarsMargin + i * kHueWidth;
     const DisplayColor color = map_color((i + 0.5) / kBars);
-    canvas.fill(x, base - static_cast<int>(std::lround(kBarsHeight * count / most)), x + kHueWidth - 1, base,
-                color);
+    canvas.fill(x, base - static_cast<int>(std::lround(kBarsHeight * count / max_value)), x + kHueWidth - 1,
+                base, color);
     canvas.fill(x, base + 4, x + kHueWidth, base + 12, color);
   }
   canvas.fill(kBarsMargin, base, kPictureWidth - kBarsMargin, base + 1, kInk);

@@ -25,9 +25,9 @@ Image angles(const std::vector<PolarisationFigures>& pixels, int width, int heig
 }  // namespace
 
 std::vector<PolarisationMap> polarisation_maps(const std::vector<PolarisationFigures>& pixels,
-                                               Measured measured, int width, int height) {
+                                               MeasuredStokes measured, int width, int height) {
   std::vector<PolarisationMap> maps;
-  if (measured == Measured::all)
+  if (measured == MeasuredStokes::all)
     maps.push_back({kDegreeMap, degrees(pixels, &PolarisationFigures::degree, width, height)});
   maps.push_back({kLinearDegreeMap, degrees(pixels, &PolarisationFigures::linear_degree, width, height)});
   maps.push_back({kAngleMap, angles(pixels, width, height)});

@@ -8,24 +8,24 @@
 
 namespace abbe {
 
-/// A picture of how light is polarised.
+/// False-colour picture of a property of polarisation.
 struct PolarisationMap {
   std::string name;
   Image map;
 };
 
-/// Names of the maps there are.
+/// Names of the available maps.
 inline constexpr const char* kDegreeMap = "degree";
 inline constexpr const char* kLinearDegreeMap = "linear_degree";
 inline constexpr const char* kAngleMap = "angle";
 
-/// Which part of the Stokes vector is known.
-enum class Measured { all, linear };
+/// Components of the Stokes vector that were measured.
+enum class MeasuredStokes { all, linear };
 
-/// The degree, if all of it is known, and the degree of linear polarisation, from 0 (dark) to 1, by
-/// `map_color`, and the angle by `cyclic_color`, half a turn being a cycle, which is grey where the light is
-/// not linearly polarised.
+/// Maps of the degree of polarisation (if `measured` is `all`), the degree of linear polarisation and the
+/// angle. Degrees use `map_color` from 0 (dark) to 1. Angles use `cyclic_color` with a period of half a turn,
+/// so that light without linear polarisation is grey.
 [[nodiscard]] std::vector<PolarisationMap> polarisation_maps(const std::vector<PolarisationFigures>& pixels,
-                                                             Measured measured, int width, int height);
+                                                             MeasuredStokes measured, int width, int height);
 
 }  // namespace abbe

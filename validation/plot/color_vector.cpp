@@ -14,24 +14,26 @@ constexpr double kSize = 460;
 constexpr double kGraphicTop = 40;  // below the title
 constexpr double kCenterX = kSize / 2;
 constexpr double kCenterY = kGraphicTop + kSize / 2;
-constexpr double kCircleRadius = 150;  // of the reference's circle
+constexpr double kCircleRadius = 150;  // radius of the reference's circle
 constexpr double kFullTurn = 2 * std::numbers::pi;
 constexpr std::size_t kBins = ColorFidelity::kBins;
 
 using Point = std::pair<double, double>;
 
-// Where a colour lies whose chroma is a share of the reference's.
-Point placed(double share, double hue) {
-  return {kCenterX + kCircleRadius * share * std::cos(hue), kCenterY - kCircleRadius * share * std::sin(hue)};
+// Position of a colour whose chroma is relative to the reference's.
+Point placed(double relative_chroma, double hue) {
+  return {kCenterX + kCircleRadius * relative_chroma * std::cos(hue),
+          kCenterY - kCircleRadius * relative_chroma * std::sin(hue)};
 }
 
-double middle_of(std::size_t bin) {
+double bin_center(std::size_t bin) {
   return (static_cast<double>(bin) + 0.5) * kFullTurn / kBins;
 }
 
-// The reference's mean stands on the circle in the middle of its bin; the light's is shifted from there.
+// The reference's mean is drawn on the circle at the center of its bin. The light's mean is shifted from
+// there.
 Point shifted(const HueBin& bin, std::size_t k) {
-  const double hue = middle_of(k);
+  const double hue = bin_center(k);
   const double a =
       std::cos(hue) + (bin.test[0] - bin.reference[0]) / std::hypot(bin.reference[0], bin.reference[1]);
   const double b =
@@ -40,7 +42,7 @@ Point shifted(const HueBin& bin, std::size_t k) {
 }
 
 std::string hue_color(std::size_t bin) {
-  return fmt::format("hsl({:.1f}, 65%, 45%)", middle_of(bin) * 360 / kFullTurn);
+  return fmt::format("hsl({:.1f}, 65%, 45%)", bin_center(bin) * 360 / kFullTurn);
 }
 
 std::string arrow(const Point& from, const Point& to, const std::string& color) {
@@ -71,7 +73,7 @@ std::string grid() {
     const auto [x0, y0] = placed(0.05, border);
     const auto [x1, y1] = placed(1.3, border);
     text += svg_line(x0, y0, x1, y1, "stroke=\"#ddd\" stroke-dasharray=\"4 3\"");
-    const auto [x, y] = placed(1.38, middle_of(k));
+    const auto [x, y] = placed(1.38, bin_center(k));
     text +=
         svg_text(x, y + 4, std::to_string(k + 1), "font-size=\"12\" fill=\"#666\" text-anchor=\"middle\"");
   }
@@ -86,7 +88,7 @@ std::string color_vector_graphic(const ColorFidelity& fidelity, const std::strin
   for (std::size_t k = 0; k < kBins; ++k) {
     if (!fidelity.bins[k].has_samples()) continue;
     outline.push_back(shifted(fidelity.bins[k], k));
-    arrows += arrow(placed(1, middle_of(k)), outline.back(), hue_color(k));
+    arrows += arrow(placed(1, bin_center(k)), outline.back(), hue_color(k));
   }
   std::string elements = grid() + svg_polygon(outline, "stroke=\"#c22\" stroke-width=\"2\"") + arrows;
   const auto corner = [](double x, const char* anchor, const std::string& text) {

@@ -16,9 +16,9 @@ constexpr double kLeft = 66;
 constexpr double kRight = 600;
 constexpr double kTop = 46;
 constexpr double kBottom = 326;
-constexpr int kMostSteps = 6;
+constexpr int kMaxIntervals = 6;
 
-// Round numbers that hold all values.
+// Axis with round limits that contain all values.
 struct Axis {
   double low, high, step;
   double pixel_low, pixel_high;
@@ -29,7 +29,7 @@ struct Axis {
 
 Axis axis_for(double low, double high, double pixel_low, double pixel_high) {
   if (!(high > low)) high = low + 1;
-  const double rough = (high - low) / kMostSteps;
+  const double rough = (high - low) / kMaxIntervals;
   const double decade = std::pow(10.0, std::floor(std::log10(rough)));
   double step = 10 * decade;
   for (const double round : {5.0, 2.0, 1.0})
@@ -47,11 +47,11 @@ std::string frame(const Axis& x, const Axis& y, const std::string& x_label, cons
     all += svg_line(kLeft, y.at(value), kRight, y.at(value), "stroke=\"#dddddd\"");
     all += svg_text(kLeft - 7, y.at(value) + 4, fmt::format("{:.6g}", value), "text-anchor=\"end\"");
   }
-  const double middle = (kTop + kBottom) / 2;
+  const double center_y = (kTop + kBottom) / 2;
   all += svg_rect(kLeft, kTop, kRight - kLeft, kBottom - kTop, "fill=\"none\" stroke=\"#444444\"");
   all += svg_text((kLeft + kRight) / 2, kBottom + 42, x_label, "text-anchor=\"middle\"");
-  return all + svg_text(18, middle, y_label,
-                        fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 18 {})\"", middle));
+  return all + svg_text(18, center_y, y_label,
+                        fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 18 {})\"", center_y));
 }
 
 }  // namespace

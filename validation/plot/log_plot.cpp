@@ -13,12 +13,12 @@ namespace {
 constexpr double kLogWidth = 860;
 constexpr double kLogHeight = 470;
 constexpr double kLogLeft = 70;
-constexpr double kLogRight = 570;  // the legend stands beyond
+constexpr double kLogRight = 570;  // the legend is to the right
 constexpr double kLogTop = 46;
 constexpr double kLogBottom = 410;
 constexpr double kLegendRow = 21;
 
-// 1, 2 and 5 times the powers of ten within the axis.
+// Multiples of 1, 2 and 5 of the powers of ten on the axis.
 std::vector<double> ticks(const LogAxis& axis) {
   std::vector<double> all;
   for (int decade = -20; decade <= 20; ++decade)
@@ -44,10 +44,10 @@ std::string axes(const LogAxis& x, const LogAxis& y, const LogPlot& plot) {
   }
   all += svg_rect(kLogLeft, kLogTop, kLogRight - kLogLeft, kLogBottom - kLogTop,
                   "fill=\"none\" stroke=\"#444444\"");
-  const double middle = (kLogTop + kLogBottom) / 2;
+  const double center_y = (kLogTop + kLogBottom) / 2;
   all += svg_text((kLogLeft + kLogRight) / 2, kLogBottom + 42, plot.x_label, "text-anchor=\"middle\"");
-  return all + svg_text(18, middle, plot.y_label,
-                        fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 18 {})\"", middle));
+  return all + svg_text(18, center_y, plot.y_label,
+                        fmt::format("text-anchor=\"middle\" transform=\"rotate(-90 18 {})\"", center_y));
 }
 
 std::string marker(double x, double y, const PlotSeries& series, const std::string& kind) {
@@ -91,12 +91,12 @@ double LogAxis::at(double value) const {
 
 std::pair<double, double> log_range(const std::vector<double>& values) {
   if (values.empty()) return {1, 10};
-  const auto [least, most] = std::minmax_element(values.begin(), values.end());
-  const LogAxis all{std::pow(10, std::floor(std::log10(*least)) - 1),
-                    std::pow(10, std::ceil(std::log10(*most)) + 1), 0, 1};
+  const auto [smallest, largest] = std::minmax_element(values.begin(), values.end());
+  const LogAxis all{std::pow(10, std::floor(std::log10(*smallest)) - 1),
+                    std::pow(10, std::ceil(std::log10(*largest)) + 1), 0, 1};
   const std::vector<double> steps = ticks(all);
-  const double low = *std::prev(std::upper_bound(steps.begin(), steps.end(), *least * (1 + 1e-9)));
-  const double high = *std::upper_bound(steps.begin(), steps.end(), *most * (1 + 1e-9));
+  const double low = *std::prev(std::upper_bound(steps.begin(), steps.end(), *smallest * (1 + 1e-9)));
+  const double high = *std::upper_bound(steps.begin(), steps.end(), *largest * (1 + 1e-9));
   return {low, high};
 }
 

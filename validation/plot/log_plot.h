@@ -15,19 +15,20 @@ struct LogAxis {
   [[nodiscard]] double at(double value) const;
 };
 
-/// The smallest range of steps 1, 2, 5 of decades that holds all of `values` (> 0); [1, 10] for none.
+/// Smallest range that contains all `values` (> 0) and whose limits are 1, 2 or 5 times a power of ten; [1,
+/// 10] without values.
 [[nodiscard]] std::pair<double, double> log_range(const std::vector<double>& values);
 
-/// Points of one name, with its line and marker.
+/// Named points with the style of their line and markers.
 struct PlotSeries {
   std::string name;
-  std::vector<std::pair<double, double>> points;  ///< x, y, both > 0.
-  std::string color;                              ///< As SVG names it.
+  std::vector<std::pair<double, double>> points;  ///< x, y; both > 0 in a `LogPlot`.
+  std::string color;                              ///< Colour in SVG syntax.
   bool dashed = false;
-  bool hollow = false;  ///< Markers: circles that are not filled.
+  bool hollow = false;  ///< Markers are drawn as unfilled circles.
 };
 
-/// A plot of y against x, both logarithmic.
+/// Plot of y against x on logarithmic axes.
 struct LogPlot {
   std::string title;
   std::string x_label;

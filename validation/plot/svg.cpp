@@ -9,13 +9,13 @@
 namespace abbe {
 namespace {
 
-std::string through(std::string_view tag, const SvgPoints& points, const std::string& attributes) {
+std::string point_list_element(std::string_view tag, const SvgPoints& points, const std::string& attributes) {
   std::string list;
   for (const auto& [x, y] : points) list += fmt::format("{}{:.2f},{:.2f}", list.empty() ? "" : " ", x, y);
   return fmt::format("<{} points=\"{}\" fill=\"none\" {}/>\n", tag, list, attributes);
 }
 
-std::string opening(double width, double height) {
+std::string size_attributes(double width, double height) {
   return fmt::format("width=\"{0}\" height=\"{1}\" viewBox=\"0 0 {0} {1}\"", width, height);
 }
 
@@ -51,15 +51,15 @@ std::string svg_circle(double x, double y, double radius, const std::string& att
 }
 
 std::string svg_polyline(const SvgPoints& points, const std::string& attributes) {
-  return through("polyline", points, attributes);
+  return point_list_element("polyline", points, attributes);
 }
 
 std::string svg_polygon(const SvgPoints& points, const std::string& attributes) {
-  return through("polygon", points, attributes);
+  return point_list_element("polygon", points, attributes);
 }
 
 std::string svg_picture(double width, double height, const std::string& elements) {
-  return fmt::format("<svg {} role=\"img\">\n{}</svg>", opening(width, height), elements);
+  return fmt::format("<svg {} role=\"img\">\n{}</svg>", size_attributes(width, height), elements);
 }
 
 std::string svg_document(double width, double height, const std::string& title, const std::string& elements) {
@@ -67,7 +67,7 @@ std::string svg_document(double width, double height, const std::string& title, 
              "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<svg xmlns=\"http://www.w3.org/2000/svg\" {} "
              "font-family=\"sans-serif\" font-size=\"12\">\n<rect width=\"{}\" height=\"{}\" "
              "fill=\"white\"/>\n",
-             opening(width, height), width, height) +
+             size_attributes(width, height), width, height) +
          svg_text(10, 20, title, "font-size=\"15\" font-weight=\"bold\"") + elements + "</svg>\n";
 }
 

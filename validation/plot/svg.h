@@ -6,11 +6,11 @@
 
 namespace abbe {
 
-/// Text as XML and HTML in UTF-8 hold it; what of it is no UTF-8 is U+FFFD.
+/// Text escaped for XML and HTML in UTF-8. Bytes that are not valid UTF-8 become U+FFFD.
 [[nodiscard]] std::string escaped(const std::string& text);
 
-// Elements of an SVG picture, each on a line of its own, in pixels from its upper left corner; `attributes`
-// as XML writes them.
+// Elements of an SVG picture, one per line, in pixels from the upper left corner. `attributes` are XML
+// attributes.
 
 [[nodiscard]] std::string svg_text(double x, double y, const std::string& text,
                                    const std::string& attributes);
@@ -18,14 +18,15 @@ namespace abbe {
 [[nodiscard]] std::string svg_rect(double x, double y, double width, double height,
                                    const std::string& attributes);
 [[nodiscard]] std::string svg_circle(double x, double y, double radius, const std::string& attributes);
-/// A line through points, or an area within a closed one; neither is filled unless `attributes` say so.
+/// Polyline through points, and closed polygon. Neither is filled unless `attributes` contain a style that
+/// fills it.
 using SvgPoints = std::vector<std::pair<double, double>>;
 [[nodiscard]] std::string svg_polyline(const SvgPoints& points, const std::string& attributes);
 [[nodiscard]] std::string svg_polygon(const SvgPoints& points, const std::string& attributes);
 
-/// A picture of these elements to stand within HTML.
+/// SVG element with the given elements, for embedding in HTML.
 [[nodiscard]] std::string svg_picture(double width, double height, const std::string& elements);
-/// A picture of these elements on white, with `title` above them, as a document of its own.
+/// Complete SVG document with the given elements on white and `title` above them.
 [[nodiscard]] std::string svg_document(double width, double height, const std::string& title,
                                        const std::string& elements);
 

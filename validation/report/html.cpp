@@ -1,4 +1,4 @@
-// The report as one HTML document: style, plots and pictures within.
+// Self-contained HTML report with style, plots and pictures.
 #include <algorithm>
 #include <cmath>
 
@@ -63,35 +63,35 @@ h2, h3 { break-after: avoid; }
 
 constexpr double kMarginBarWidth = 220;
 constexpr double kMarginBarHeight = 24;
-constexpr double kReach = 1.25;  // margins from the middle of a bar to its end
+constexpr double kBarRange = 1.25;  // half width of a bar in margins
 
 double bar_at(double margins) {
-  return kMarginBarWidth / 2 * (1 + std::clamp(margins, -kReach, kReach) / kReach);
+  return kMarginBarWidth / 2 * (1 + std::clamp(margins, -kBarRange, kBarRange) / kBarRange);
 }
 
-// Figure number `i` in a bar: a dot by its deviation, and the interval of what is sampled as a line. Many are
-// spread in height, so that one sees where they crowd.
+// Mark of figure number `i` in a bar: a dot at its deviation, and a line for the interval of a sampled
+// figure. Many dots are spread vertically to show their density.
 std::string bar_mark(const CaseResult& result, std::size_t i) {
   constexpr std::size_t kFew = 12;
   constexpr double kGolden = 0.6180339887;
   const Figure& figure = result.figures[i];
   const bool many = result.figures.size() > kFew;
   const double allowed = result.allowed(figure);
-  const double share = figure.deviation() / allowed;
+  const double margins = figure.deviation() / allowed;
   const double spread = kInterval * figure.measured.standard_error / allowed;
-  const bool outside = !(std::abs(share) <= 1);
-  const double aside = many ? std::fmod(static_cast<double>(i) * kGolden, 1.0) - 0.5 : 0;
-  const double y = kMarginBarHeight / 2 + aside * (kMarginBarHeight - 10);
-  const std::string line = spread > 0 ? svg_line(bar_at(share - spread), y, bar_at(share + spread), y,
+  const bool outside = !(std::abs(margins) <= 1);
+  const double jitter = many ? std::fmod(static_cast<double>(i) * kGolden, 1.0) - 0.5 : 0;
+  const double y = kMarginBarHeight / 2 + jitter * (kMarginBarHeight - 10);
+  const std::string line = spread > 0 ? svg_line(bar_at(margins - spread), y, bar_at(margins + spread), y,
                                                  "stroke=\"#1f4e8c\" stroke-width=\"1.6\"")
                                       : "";
   const double radius = outside ? 4 : many ? 1.6 : 3;
-  return line + svg_circle(bar_at(std::isfinite(share) ? share : kReach), y, radius,
+  return line + svg_circle(bar_at(std::isfinite(margins) ? margins : kBarRange), y, radius,
                            fmt::format("fill=\"{}\" fill-opacity=\"{}\"", outside ? "#b3261e" : "#1f4e8c",
                                        many && !outside ? 0.5 : 0.9));
 }
 
-// All figures of a case within the band of their margin.
+// All figures of a case relative to the band of their margin.
 std::string margin_bar(const CaseResult& result) {
   std::string all = svg_rect(bar_at(-1), 2, bar_at(1) - bar_at(-1), kMarginBarHeight - 4, "fill=\"#e3f2ea\"");
   for (const double edge : {-1.0, 0.0, 1.0})
@@ -105,23 +105,24 @@ std::string number(double value) {
   return fmt::format("{:.8g}", value);
 }
 
-// The figures themselves, those furthest from their references first.
+// Table of the figures, the largest deviations first.
 std::string figure_details(const Outcome& outcome) {
   const CaseResult& result = outcome.result;
-  constexpr std::size_t kMost = 24;
+  constexpr std::size_t kMaxFigures = 24;
   if (result.figures.size() < 2) return "";
   std::vector<const Figure*> figures;
   for (const Figure& figure : result.figures) figures.push_back(&figure);
   std::stable_sort(figures.begin(), figures.end(), [&](const Figure* a, const Figure* b) {
     return std::abs(a->deviation()) / result.allowed(*a) > std::abs(b->deviation()) / result.allowed(*b);
   });
-  const std::size_t shown = std::min(kMost, figures.size());
+  const std::size_t listed = std::min(kMaxFigures, figures.size());
   std::string all = fmt::format(
       "<details><summary>{}</summary><table><tr><th></th><th class=\"n\">value</th>"
       "<th class=\"n\">reference</th><th class=\"n\">deviation</th><th class=\"n\">margin</th></tr>",
-      shown == figures.size() ? fmt::format("all {} figures", shown)
-                              : fmt::format("the {} of {} figures furthest off", shown, figures.size()));
-  for (std::size_t i = 0; i < shown; ++i) {
+      listed == figures.size()
+          ? fmt::format("all {} figures", listed)
+          : fmt::format("the {} of {} figures with the largest deviations", listed, figures.size()));
+  for (std::size_t i = 0; i < listed; ++i) {
     const auto [deviation, margin] = deviation_text(outcome, *figures[i]);
     all += fmt::format(
         "<tr><td>{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td><td class=\"n\">{}</td>"
@@ -134,7 +135,7 @@ std::string figure_details(const Outcome& outcome) {
 
 std::string remark_details(const CaseResult& result) {
   if (result.remarks.empty()) return "";
-  std::string all = "<details open><summary>told, not judged</summary><table>";
+  std::string all = "<details open><summary>reported without a verdict</summary><table>";
   for (const Remark& remark : result.remarks)
     all += fmt::format("<tr><td>{}</td><td class=\"n\">{:.3f}</td></tr>", escaped(remark.what), remark.value);
   return all + "</table></details>";
@@ -193,7 +194,7 @@ std::string suite_pictures(const ValidationReport& report, Suite suite) {
   if (!charts.empty()) all += "<h3>Rendered charts</h3><div class=\"figures large\">" + charts + "</div>";
   if (!maps.empty())
     all +=
-        "<h3>Rendered films</h3><p class=\"soft\">From zero (dark) to twice the mean that is expected "
+        "<h3>Rendered films</h3><p class=\"soft\">From zero (dark) to twice the expected mean "
         "(bright).</p><div class=\"figures\">" +
         maps + "</div>";
   return all;
@@ -227,7 +228,7 @@ std::string summary_row(const ValidationReport& report, Suite suite) {
     ++cases;
     passed += outcome.result.passed() ? 1 : 0;
     figures += outcome.result.figures.size();
-    worst = std::max(worst, worst_share(outcome.result));
+    worst = std::max(worst, worst_margin_ratio(outcome.result));
     cpu_s += outcome.result.cpu_s;
   }
   if (cases == 0) return "";
@@ -250,7 +251,7 @@ std::string run_details(const ValidationReport& report) {
 
 std::string summary(const ValidationReport& report) {
   const std::size_t failed = report.failures();
-  const std::size_t cases = report.outcomes.size() - report.unreached();
+  const std::size_t cases = report.outcomes.size() - report.unsampled();
   std::string all = fmt::format("<h1>Abbe {}: validation</h1>\n<div class=\"verdict {}\">{}</div>\n",
                                 escaped(report.version), failed == 0 ? "pass" : "fail",
                                 failed == 0 ? fmt::format("All {} cases pass", cases)
@@ -266,7 +267,7 @@ std::string summary(const ValidationReport& report) {
 std::string specimens(const ValidationReport& report) {
   if (report.specimens.empty()) return "";
   std::string all =
-      "<h2>Specimens</h2><p class=\"soft\">Rendered by this run, and not judged.</p>"
+      "<h2>Specimens</h2><p class=\"soft\">Rendered by this run, without a verdict.</p>"
       "<div class=\"figures large\">";
   for (const Specimen& specimen : report.specimens) all += picture(specimen.picture, specimen.caption);
   return all + "</div>\n";

@@ -9,10 +9,10 @@
 namespace abbe {
 namespace {
 
-// From 1.
-std::size_t number_of(const TechniqueMatrix& matrix, const PathClass& lost) {
-  const auto found = std::find(matrix.unreached.begin(), matrix.unreached.end(), lost);
-  return static_cast<std::size_t>(found - matrix.unreached.begin()) + 1;
+// Number of a note, counted from 1.
+std::size_t number_of(const TechniqueMatrix& matrix, const PathClass& path_class) {
+  const auto found = std::find(matrix.unsampled.begin(), matrix.unsampled.end(), path_class);
+  return static_cast<std::size_t>(found - matrix.unsampled.begin()) + 1;
 }
 
 template <typename Visit>
@@ -29,11 +29,11 @@ TechniqueMatrix technique_matrix(const std::vector<Outcome>& outcomes) {
   for (const Outcome& outcome : outcomes) {
     const auto* cell = std::get_if<TechniqueMean>(&outcome.item->method);
     if (cell == nullptr) continue;
-    if (matrix.rows.empty() || matrix.rows.back().film != cell->of)
-      matrix.rows.push_back({cell->of, std::vector<const Outcome*>(kIntegratorNames.size())});
-    matrix.rows.back().cells.at(static_cast<std::size_t>(cell->by)) = &outcome;
-    for (const PathClass& lost : outcome.result.unreached)
-      if (number_of(matrix, lost) > matrix.unreached.size()) matrix.unreached.push_back(lost);
+    if (matrix.rows.empty() || matrix.rows.back().film != cell->case_id)
+      matrix.rows.push_back({cell->case_id, std::vector<const Outcome*>(kIntegratorNames.size())});
+    matrix.rows.back().cells.at(static_cast<std::size_t>(cell->integrator)) = &outcome;
+    for (const PathClass& path_class : outcome.result.unsampled)
+      if (number_of(matrix, path_class) > matrix.unsampled.size()) matrix.unsampled.push_back(path_class);
   }
   return matrix;
 }
@@ -41,8 +41,8 @@ TechniqueMatrix technique_matrix(const std::vector<Outcome>& outcomes) {
 std::string cell_text(const TechniqueMatrix& matrix, const Outcome* cell) {
   if (cell == nullptr) return "–";
   std::string numbers;
-  for (const PathClass& lost : cell->result.unreached)
-    numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", number_of(matrix, lost));
+  for (const PathClass& path_class : cell->result.unsampled)
+    numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", number_of(matrix, path_class));
   if (!numbers.empty()) return "lost " + numbers;
   const std::string verdict = cell->result.passed() ? "" : verdict_name(cell->result.verdict) + " ";
   if (cell->result.figures.empty()) return verdict + "no figures";
@@ -80,10 +80,10 @@ std::string matrix_text(const TechniqueMatrix& matrix) {
     for (const Outcome* cell : row.cells) all += fmt::format(" {} |", cell_text(matrix, cell));
     all += "\n";
   }
-  if (!matrix.unreached.empty()) all += "\n";
-  for (std::size_t i = 0; i < matrix.unreached.size(); ++i)
+  if (!matrix.unsampled.empty()) all += "\n";
+  for (std::size_t i = 0; i < matrix.unsampled.size(); ++i)
     all += fmt::format("{}. `{}\n", i + 1,
-                       std::string(matrix.unreached[i]).replace(matrix.unreached[i].find(':'), 1, "`:"));
+                       std::string(matrix.unsampled[i]).replace(matrix.unsampled[i].find(':'), 1, "`:"));
   for_each_failure(matrix, [&](const Outcome& cell) { all += failure_text(cell) + "\n"; });
   return all;
 }
@@ -91,8 +91,9 @@ std::string matrix_text(const TechniqueMatrix& matrix) {
 std::string matrix_html(const TechniqueMatrix& matrix) {
   if (matrix.rows.empty()) return "";
   std::string all =
-      "<p class=\"soft\">Each film by each technique: its deviation from the closed form in per cent, "
-      "“lost” with the number of the note where it does not reach the light, or a dash where nothing ran."
+      "<p class=\"soft\">Each film by each integrator: the deviation from the closed form in per cent, "
+      "“lost” with the number of the note if the integrator cannot sample the light, or a dash if nothing "
+      "ran."
       "</p>\n<table class=\"matrix\"><tr><th>film</th>";
   for (const char* name : kIntegratorNames) all += fmt::format("<th class=\"n\">{}</th>", name);
   all += "</tr>\n";
@@ -107,7 +108,7 @@ std::string matrix_html(const TechniqueMatrix& matrix) {
     all += "</tr>\n";
   }
   all += "</table>\n<ol class=\"soft\">";
-  for (const PathClass& lost : matrix.unreached) all += fmt::format("<li>{}</li>", escaped(lost));
+  for (const PathClass& path_class : matrix.unsampled) all += fmt::format("<li>{}</li>", escaped(path_class));
   all += "</ol>\n";
   for_each_failure(matrix, [&](const Outcome& cell) {
     all += fmt::format("<p class=\"failure\">{}</p>\n", escaped(failure_text(cell)));

@@ -7,29 +7,30 @@
 
 namespace abbe {
 
-/// The outcomes of the suite `techniques` as a table: a row for each film that any cell is of, a column for
-/// each of `kIntegratorNames`.
+/// Outcomes of the suite `techniques` as a table, with a row for each film and a column for each of
+/// `kIntegratorNames`.
 struct TechniqueMatrix {
   struct Row {
-    std::string film;                   ///< Its case's id.
-    std::vector<const Outcome*> cells;  ///< By column; null where nothing ran.
+    std::string film;                   ///< Id of the film's case.
+    std::vector<const Outcome*> cells;  ///< One cell per column; null if nothing was rendered.
   };
   std::vector<Row> rows;
-  std::vector<PathClass> unreached;  ///< All that cells lose, each once, as notes number them from 1.
+  /// Path classes that cells cannot sample, each once. Notes number them from 1.
+  std::vector<PathClass> unsampled;
 };
 [[nodiscard]] TechniqueMatrix technique_matrix(const std::vector<Outcome>& outcomes);
 
-/// The deviation in per cent, "FAIL" or "UNDECIDED" before it where it does not pass; "lost" with the numbers
-/// of the notes on what is not reached; or a dash for what did not run.
+/// Text of a cell: the deviation in per cent, preceded by "FAIL" or "UNDECIDED" if the cell does not pass. A
+/// cell that was not measured has "lost" with the numbers of its notes. A cell that did not run has a dash.
 [[nodiscard]] std::string cell_text(const TechniqueMatrix& matrix, const Outcome* cell);
 
-/// What a cell that failed is about: its id, its deviation and the classes of paths that its techniques own.
+/// Description of a failed cell: its id, its deviation and the path classes that its techniques sample.
 [[nodiscard]] std::string failure_text(const Outcome& cell);
 
-/// The matrix as a table of Markdown, with its notes and its failures; empty where no cell ran.
+/// The table in Markdown, with notes and failures; empty if no cell ran.
 [[nodiscard]] std::string matrix_text(const TechniqueMatrix& matrix);
 
-/// The same as a table of HTML.
+/// The table in HTML, with notes and failures; empty if no cell ran.
 [[nodiscard]] std::string matrix_html(const TechniqueMatrix& matrix);
 
 }  // namespace abbe

@@ -35,13 +35,13 @@ std::vector<Specimen> render_specimens(const ValidationSettings& settings) {
                           "A slit of illuminant A through a prism of N-SF11, on a CCD behind ideal filters.",
                           {samples, {"/sensor/resolution", "[480, 270]"}, {"/sensor/pixel_pitch_um", "18"}},
                           settings.threads),
-          render_specimen("prism.json", "The same before the eyes of the CIE 1931 observer.",
+          render_specimen("prism.json", "The same scene, recorded by the CIE 1931 observer.",
                           {samples, observer}, settings.threads),
           render_specimen("cornell.json", "The Cornell box, as measured.", {samples}, settings.threads)};
 }
 
-// Whether a case is asked for; of the cells of the matrix a quick run of all suites affords but few.
-bool runs(const Case& item, const ValidationSettings& settings) {
+// True if the settings select the case. A quick run of all suites includes only a few cells of the matrix.
+bool is_selected(const Case& item, const ValidationSettings& settings) {
   const std::vector<Suite>& suites = settings.suites;
   if (!suites.empty() && std::find(suites.begin(), suites.end(), item.suite) == suites.end()) return false;
   const auto* cell = std::get_if<TechniqueMean>(&item.method);
@@ -59,7 +59,7 @@ std::string verdict_name(Verdict verdict) {
   return verdict == Verdict::pass ? "pass" : verdict == Verdict::fail ? "FAIL" : "UNDECIDED";
 }
 
-double worst_share(const CaseResult& result) {
+double worst_margin_ratio(const CaseResult& result) {
   if (!result.measured()) return 0;
   if (result.figures.empty()) return INFINITY;
   const Figure& worst = result.figures[result.worst];
@@ -67,7 +67,7 @@ double worst_share(const CaseResult& result) {
 }
 
 DeviationText deviation_text(const Outcome& outcome, const Figure& figure) {
-  constexpr double kMinPercent = 1e-4;  // smaller margins are told as fractions
+  constexpr double kMinPercent = 1e-4;  // smaller margins are printed as fractions
   const Margin margin = figure.margin.value_or(outcome.result.margin);
   if (margin.kind == Margin::Kind::absolute)
     return {
@@ -75,11 +75,11 @@ DeviationText deviation_text(const Outcome& outcome, const Figure& figure) {
         fmt::format("{:.2g}{}{}", margin.value, outcome.item->unit.empty() ? "" : " ", outcome.item->unit)};
   const double relative = figure.deviation() / std::abs(figure.reference);
   if (margin.value < kMinPercent)
-    return {fmt::format("{:.2g}", relative), fmt::format("{:.2g} of it", margin.value)};
+    return {fmt::format("{:.2g}", relative), fmt::format("{:.2g} relative", margin.value)};
   return {fmt::format("{:.2g} %", 100 * relative), fmt::format("{:g} %", 100 * margin.value)};
 }
 
-// The first figure is the mean of those behind it.
+// The first figure is the mean of the others.
 ChartSummary chart_summary(const CaseResult& result) {
   ChartSummary summary{result.figures.at(0).measured.mean, 0};
   for (std::size_t i = 1; i < result.figures.size(); ++i)
@@ -111,7 +111,7 @@ std::size_t ValidationReport::failures() const {
       std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return !o.result.passed(); }));
 }
 
-std::size_t ValidationReport::unreached() const {
+std::size_t ValidationReport::unsampled() const {
   return static_cast<std::size_t>(
       std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return !o.result.measured(); }));
 }
@@ -120,7 +120,7 @@ ValidationReport validate(const ValidationSettings& settings) {
   const CostMeter meter;
   ValidationReport report{this_machine(), settings.version, data_sha256(), settings.quick, {}, {}, {}};
   for (const Case& item : all_cases()) {
-    if (!runs(item, settings)) continue;
+    if (!is_selected(item, settings)) continue;
     if (settings.say) settings.say(fmt::format("{} {}: {}", suite_name(item.suite), item.id, item.title));
     report.outcomes.push_back(
         {&item, run_case(item, {.thorough = !settings.quick, .threads = settings.threads})});

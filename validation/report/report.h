@@ -10,19 +10,19 @@
 
 namespace abbe {
 
-/// A case with what it measured.
+/// A case and its result.
 struct Outcome {
   const Case* item;
   CaseResult result;
 };
 
-/// A picture that shows something and judges nothing.
+/// A picture for illustration, without a verdict.
 struct Specimen {
   std::string caption;
-  Image picture;  ///< For display.
+  Image picture;  ///< Display code values.
 };
 
-/// Everything a validation found.
+/// All results of a validation.
 struct ValidationReport {
   Machine machine;
   std::string version;
@@ -30,58 +30,60 @@ struct ValidationReport {
   bool quick;
   std::vector<Outcome> outcomes;
   std::vector<Specimen> specimens;
-  Cost cost;  ///< Of the whole run, loading and specimens included.
+  Cost cost;  ///< Cost of the whole run, including loading scenes and rendering specimens.
 
   [[nodiscard]] std::size_t failures() const;
-  [[nodiscard]] std::size_t unreached() const;  ///< Outcomes of techniques that lose the film's light.
+  /// Number of outcomes whose integrator cannot sample the film's light.
+  [[nodiscard]] std::size_t unsampled() const;
 };
 
-/// What to validate.
+/// Settings of a validation.
 struct ValidationSettings {
-  std::vector<Suite> suites;  ///< Empty: all, but of the techniques' matrix a quick run takes a few cells.
-  bool quick = false;         ///< Films at the margins of the tests instead of the fine ones.
-  bool specimens = false;     ///< Also render some scenes for the report.
-  int threads = 0;            ///< 0: one per processor.
+  /// Suites to run. If empty, all run, but a quick run includes only a few cells of `techniques`.
+  std::vector<Suite> suites;
+  bool quick = false;      ///< Render films at the margins of the tests instead of the fine ones.
+  bool specimens = false;  ///< Also render some scenes as illustrations.
+  int threads = 0;         ///< Number of threads; 0 for one per processor.
   std::string version;
-  std::function<void(const std::string&)> say;  ///< Told each case before it runs, if set.
+  std::function<void(const std::string&)> say;  ///< Called with the name of each case before it runs, if set.
 };
 
-/// Runs the cases of the suites, in their order. Throws as `run_case`.
+/// Runs the cases of the selected suites in their order. Throws the errors of `run_case`.
 [[nodiscard]] ValidationReport validate(const ValidationSettings& settings);
 
-/// The report for reading: a line per case, its figure furthest from the reference, then what is not covered.
+/// Report in plain text: a line per case with its worst figure, then the topics that are not covered.
 [[nodiscard]] std::string readable_text(const ValidationReport& report);
 
-/// One JSON object with every figure, every digit kept.
+/// One JSON object with all figures and all digits.
 [[nodiscard]] std::string json_text(const ValidationReport& report);
 
-/// One HTML document that needs nothing else.
+/// Self-contained HTML document.
 [[nodiscard]] std::string html_text(const ValidationReport& report);
 
-/// "optics" and so on.
+/// Name of a suite, such as "optics".
 [[nodiscard]] std::string suite_name(Suite suite);
 /// "pass", "FAIL" or "UNDECIDED".
 [[nodiscard]] std::string verdict_name(Verdict verdict);
-/// How far the worst figure is from its reference, as a share of what is allowed; infinite without figures.
-[[nodiscard]] double worst_share(const CaseResult& result);
+/// Largest deviation of a case in units of its margin; infinite without figures, 0 if nothing was measured.
+[[nodiscard]] double worst_margin_ratio(const CaseResult& result);
 
-/// A figure's deviation and its margin in one unit: per cent or a fraction of the reference for a relative
-/// margin, the figure's own unit for an absolute one.
+/// Deviation and margin of a figure in the same unit. For a relative margin the unit is per cent or a
+/// fraction of the reference. For an absolute margin it is the unit of the figure.
 struct DeviationText {
-  std::string deviation;  ///< "0.31 %", "2.1e-12" or "0.016".
-  std::string margin;     ///< "1 %", "1e-09 of it" or "0.15 ΔE".
+  std::string deviation;  ///< For example "0.31 %", "2.1e-12" or "0.016".
+  std::string margin;     ///< For example "1 %", "1e-09 relative" or "0.15 ΔE".
 };
 [[nodiscard]] DeviationText deviation_text(const Outcome& outcome, const Figure& figure);
 
 /// Colour differences ΔE2000 of a rendered chart.
 struct ChartSummary {
-  double mean;   ///< Of its patches.
-  double worst;  ///< Of one patch.
+  double mean;   ///< Mean over the patches.
+  double worst;  ///< Largest value of a patch.
 };
 /// Summary of a case measured by `RenderedChart`.
 [[nodiscard]] ChartSummary chart_summary(const CaseResult& result);
-/// All rendered charts as the table of README.md in Markdown: a column for each illuminant. Empty without
-/// any.
+/// Table of all rendered charts in Markdown, as README.md contains it, with a column per illuminant. Empty
+/// without charts.
 [[nodiscard]] std::string chart_table(const std::vector<Outcome>& outcomes);
 
 }  // namespace abbe

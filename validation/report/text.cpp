@@ -1,4 +1,4 @@
-// The report as a table and as JSON.
+// The report in plain text and as JSON.
 #include <optional>
 
 #include <fmt/format.h>
@@ -19,7 +19,8 @@ std::string line_of(const Outcome& outcome) {
   const auto [deviation, margin] = deviation_text(outcome, worst);
   return fmt::format("{:<18} {:>5} {:>15.8g} {:>15.8g} {:>10} {:>17} {:>8.0f}% {:>7.2f}  {}\n",
                      outcome.item->id, result.figures.size(), worst.measured.mean, worst.reference, deviation,
-                     "± " + margin, 100 * worst_share(result), result.cpu_s, verdict_name(result.verdict));
+                     "± " + margin, 100 * worst_margin_ratio(result), result.cpu_s,
+                     verdict_name(result.verdict));
 }
 
 Json figure_json(const CaseResult& result, const Figure& figure) {
@@ -40,15 +41,15 @@ Json outcome_json(const Outcome& outcome) {
             {"unit", outcome.item->unit},
             {"passed", result.passed()},
             {"verdict", verdict_name(result.verdict)},
-            {"worst_share_of_margin", worst_share(result)},
+            {"worst_share_of_margin", worst_margin_ratio(result)},
             {"samples_per_pixel", result.samples},
             {"cpu_s", result.cpu_s},
             {"figures", Json::array()},
             {"remarks", Json::array()},
-            {"unreached", result.unreached}};
+            {"unreached", result.unsampled}};
   if (const auto* cell = std::get_if<TechniqueMean>(&outcome.item->method)) {
-    json["film"] = cell->of;
-    json["technique"] = kIntegratorNames.at(static_cast<std::size_t>(cell->by));
+    json["film"] = cell->case_id;
+    json["technique"] = kIntegratorNames.at(static_cast<std::size_t>(cell->integrator));
     json["paths"] = result.owned;
   }
   for (const Figure& figure : result.figures) json["figures"].push_back(figure_json(result, figure));
@@ -63,7 +64,7 @@ std::string readable_text(const ValidationReport& report) {
   std::string all;
   std::optional<Suite> suite;
   for (const Outcome& outcome : report.outcomes) {
-    if (outcome.item->suite == Suite::techniques) continue;  // as a table, below
+    if (outcome.item->suite == Suite::techniques) continue;  // a table below lists this suite
     if (suite != outcome.item->suite) {
       suite = outcome.item->suite;
       all += fmt::format("{}{:<18} {:>5} {:>15} {:>15} {:>10} {:>17} {:>9} {:>7}\n", all.empty() ? "" : "\n",
@@ -80,7 +81,7 @@ std::string readable_text(const ValidationReport& report) {
   all += "\nnot covered\n";
   for (const Uncovered& gap : uncovered())
     all += fmt::format("  {}: {} ({})\n", suite_name(gap.suite), gap.what, gap.reason);
-  const std::size_t measured = report.outcomes.size() - report.unreached();
+  const std::size_t measured = report.outcomes.size() - report.unsampled();
   return all + fmt::format("\n{} of {} cases pass; {:.1f} CPU s in all\n", measured - report.failures(),
                            measured, report.cost.cpu_s);
 }
@@ -96,7 +97,7 @@ std::string json_text(const ValidationReport& report) {
               {"flags", machine.flags},
               {"date", machine.date}}},
             {"quick", report.quick},
-            {"cases", report.outcomes.size() - report.unreached()},
+            {"cases", report.outcomes.size() - report.unsampled()},
             {"failures", report.failures()},
             {"cpu_s", report.cost.cpu_s},
             {"wall_s", report.cost.wall_s},

@@ -21,7 +21,8 @@ ChartFilm read_film(const Scene& scene, const Image& film, const Chromaticity& l
   ChartFilm read{read_patches(scene, scene.charts.front(), film, colors.channels), {}};
   if (!colors.to_xyz) return read;
   Matrix3 to_xyz = *colors.to_xyz;
-  // The patches are judged as they look in the scene's light; the film's matrix took its white to D65.
+  // Patches are compared under the scene's light, but the film's matrix adapts its white to D65. Undo that
+  // adaptation.
   if (colors.adapted) to_xyz = white_adaptation(colors.white.value_or(light)).inverse(true) * to_xyz;
   read.xyz.emplace();
   for (const PatchReading& patch : read.patches)
@@ -51,7 +52,7 @@ std::vector<PatchDifference> compare_chart(const Scene& scene, const Image& imag
   const Observer observer = recorded_film_observer(image).observer;
   if (reference != nullptr && recorded_film_observer(*reference).observer != observer)
     throw Error(ErrorCode::input, "",
-                "one of the films alone is of the CIE 1964 observer, so that their colours do not compare");
+                "the colours of the films cannot be compared: only one film records the CIE 1964 observer");
   const Curve light = main_light(scene).spectrum.value();
   const XYZ white = tristimulus(light, Curve(1), observer);
   const ChartFilm film = read_film(scene, image, chromaticity(light));

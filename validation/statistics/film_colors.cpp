@@ -11,7 +11,7 @@
 namespace abbe {
 namespace {
 
-// Of a film of a sensor's own channels of these names: by the matrix that it tells, in the sensor's order.
+// Colours of a film with sensor channels: the matrix that it records, in the order of the sensor's channels.
 FilmColors colors_by_matrix(const Image& image, const std::vector<std::string>& wanted) {
   const auto white = recorded_white(image);
   const auto matrix = image.metadata.find("to_xyz_d65");
@@ -32,7 +32,7 @@ FilmColors film_colors(const Image& image) {
   const auto white = recorded_white(image);
   if (std::all_of(observer.begin(), observer.end(),
                   [&](const std::string& name) { return image.find(name) != nullptr; })) {
-    if (!tells_tristimulus_values(image)) return colors_by_matrix(image, observer);
+    if (!may_hold_tristimulus_values(image)) return colors_by_matrix(image, observer);
     return {observer, Matrix3(), false, white};
   }
   if (image.metadata.contains("channel.R")) return colors_by_matrix(image, rgb);

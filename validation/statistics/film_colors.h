@@ -10,19 +10,21 @@
 
 namespace abbe {
 
-/// How the colours of an image are read.
+/// Interpretation of an image's colours.
 struct FilmColors {
-  std::vector<std::string> channels;  ///< Three of them; the image may lack some.
-  std::optional<Matrix3> to_xyz;      ///< From their values; nothing where nobody knows.
-  bool adapted = false;               ///< XYZ relative to D65 for the film's white.
-  std::optional<Chromaticity> white;  ///< What the film tells to be white.
+  std::vector<std::string> channels;  ///< Names of the three channels; the image may lack some.
+  std::optional<Matrix3> to_xyz;      ///< Matrix from the channels to XYZ; empty if unknown.
+  bool adapted = false;               ///< True if XYZ are adapted from the film's white to D65.
+  std::optional<Chromaticity> white;  ///< Reference white that the film records.
 };
 
-/// X, Y, Z are the observer's, unless `channel.X` tells that they count anything but photometric values.
-/// Those, and R, G, B of a sensor, which its film tells by `channel.R`, go by the film's own matrix
-/// `to_xyz_d65`, in the order of `sensor_channels`, or of `mosaic_channels` under a mosaic; without one that
-/// can be read, nothing is known of their colours. R, G, B of any other image are linear, of the primaries it
-/// tells (`recorded_primaries`) or of Rec.709.
+/// Determines how the channels of an image are converted to XYZ.
+/// - X, Y, Z are tristimulus values, unless `channel.X` records another quantity than a photometric one.
+/// - R, G, B with the attribute `channel.R`, and such other X, Y, Z, are sensor channels. The film's matrix
+///   `to_xyz_d65` applies, in the order of `sensor_channels`, or of `mosaic_channels` under a mosaic. Without
+///   a readable matrix the colours are unknown.
+/// - R, G, B of any other image are linear, with the primaries that it records (`recorded_primaries`) or
+///   those of Rec.709.
 [[nodiscard]] FilmColors film_colors(const Image& image);
 
 }  // namespace abbe

@@ -12,8 +12,8 @@
 #include <fmt/ranges.h>
 
 #include "calibration/chart/delta_e.h"
-#include "calibration/judge/appearance.h"
-#include "calibration/judge/itp.h"
+#include "calibration/metrics/appearance.h"
+#include "calibration/metrics/itp.h"
 #include "calibration/output/display.h"
 #include "io/spectral_exr.h"
 #include "sensor/film/film_planes.h"
@@ -21,7 +21,7 @@
 #include "sensor/film/variance_name.h"
 #include "sensor/response/stokes_channels.h"
 #include "spectral/colorimetry.h"
-#include "validation/statistics/common_part.h"
+#include "validation/statistics/common_areas.h"
 #include "validation/statistics/film_colors.h"
 
 namespace abbe {
@@ -31,19 +31,19 @@ struct Pair {
   std::string channel;
   const std::vector<float>& image;
   const std::vector<float>& reference;
-  const ImageChannel* variance;  // of the reference, if it has one
+  const ImageChannel* variance;  // variance of the reference, or null
 };
 
-// The unit of a channel as its image tells it: a film by an attribute, and of a spectral film what stands
-// beside its bands is the preview. Nothing where it is not told, and of bands, which all have one unit.
+// Recorded unit of a channel. A film records it as an attribute; channels of a spectral film other than its
+// bands are the preview. Empty if it is not recorded, and for bands, which all have one unit.
 std::optional<std::string> unit_of(const Image& image, const std::string& channel) {
   if (parse_spectral_channel(channel, "image")) return std::nullopt;
-  const auto told = image.metadata.find("channel." + channel);
-  if (told != image.metadata.end()) return told->second;
+  const auto recorded = image.metadata.find("channel." + channel);
+  if (recorded != image.metadata.end()) return recorded->second;
   return is_spectral(image) ? std::optional<std::string>("preview, cd per m^2") : std::nullopt;
 }
 
-// The channels that a plane has pixels of: itself, or those of a mosaic.
+// Channels of a plane: the plane itself, or the channels of a mosaic.
 std::vector<std::string> channels_in(const std::string& plane, const Image& image) {
   const auto mosaic = recorded_mosaic(image.metadata);
   return mosaic && plane == kRawPlane ? mosaic->channels : std::vector{plane};
@@ -57,7 +57,7 @@ std::vector<std::string> common_planes(const Image& image, const Image& referenc
   return planes;
 }
 
-// The planes that an image has and another has not, without the alpha of pictures.
+// Planes that only the first image has, without the alpha of pictures.
 std::vector<std::string> planes_without(const Image& image, const Image& other) {
   std::vector<std::string> planes = intensities(plane_names(image));
   std::erase_if(planes,
@@ -93,26 +93,27 @@ struct Means {
   double reference = 0;
 };
 
-// `sum` and the values of a channel, which a message calls one of `whose`.
-double added(double sum, const std::vector<float>& values, const char* whose, const std::string& channel) {
+// `sum` plus the values of a channel. Throws Error{input} with `image_name` if the result is not finite.
+double checked_sum(double sum, const std::vector<float>& values, const char* image_name,
+                   const std::string& channel) {
   sum = std::accumulate(values.begin(), values.end(), sum);
   if (!std::isfinite(sum))
     throw Error(ErrorCode::input, "",
-                fmt::format("{} has a value that is not finite (in channel {})", whose, channel));
+                fmt::format("{} has a value that is not finite (in channel {})", image_name, channel));
   return sum;
 }
 
 Means means(const std::vector<Pair>& pairs) {
   Means sum;
   for (const Pair& pair : pairs) {
-    sum.image = added(sum.image, pair.image, "the image", pair.channel);
-    sum.reference = added(sum.reference, pair.reference, "the reference", pair.channel);
+    sum.image = checked_sum(sum.image, pair.image, "the image", pair.channel);
+    sum.reference = checked_sum(sum.reference, pair.reference, "the reference", pair.channel);
   }
   const double count = static_cast<double>(pairs.size() * pairs.front().reference.size());
   return {sum.image / count, sum.reference / count};
 }
 
-// One value's share of an error: what it is trimmed by, and what it adds.
+// Contribution of a value to the error: `quotient` orders the values for trimming, `added` enters the mean.
 struct Term {
   double quotient;
   double added;
@@ -149,17 +150,17 @@ std::vector<XYZ> tristimuli(const Image& image, const FilmColors& colors) {
   return pixels;
 }
 
-// Takes colours to D65 for another white than their film's.
+// Adapts colours to D65 from `white` instead of the film's own white.
 void adapt(FilmColors& colors, const Chromaticity& white) {
   if (!colors.to_xyz) return;
   if (colors.adapted && !colors.white)
     throw Error(ErrorCode::input, "",
-                "a film of a camera does not tell the white its colours are adapted to");
+                "a camera film does not record the white from which its colours were adapted");
   if (colors.adapted) *colors.to_xyz = white_adaptation(*colors.white).inverse(true) * *colors.to_xyz;
   *colors.to_xyz = white_adaptation(white) * *colors.to_xyz;
 }
 
-// A colour relative to D65 as tristimulus values, those of the white having this Y.
+// Tristimulus values of a colour relative to D65, for a white with this Y.
 XYZ d65_xyz(const Lab& lab, double white) {
   XYZ xyz = lab_to_xyz(lab, unit_xyz(kD65));
   for (double& v : xyz) v *= white;
@@ -184,7 +185,7 @@ double percentile(std::vector<double> values, double quantile) {
   return *at;
 }
 
-std::optional<std::string> channel_of_untold_unit(const Image& image, const Image& reference) {
+std::optional<std::string> channel_with_undeclared_unit(const Image& image, const Image& reference) {
   for (const std::string& plane : common_planes(image, reference))
     for (const std::string& channel : channels_in(plane, reference))
       if (unit_of(image, channel).has_value() != unit_of(reference, channel).has_value()) return channel;
@@ -235,22 +236,23 @@ std::vector<double> relative_errors(const Image& image, const Image& reference) 
 double rel_mse(const Image& image, const Image& reference, const ErrorMeasure& measure) {
   const std::vector<Pair> pairs = common_channels(image, reference);
   std::vector<Term> all = terms(pairs, means(pairs).reference, measure);
-  const auto kept = all.end() - static_cast<std::ptrdiff_t>(measure.trim * static_cast<double>(all.size()));
-  if (kept != all.end())
-    std::nth_element(all.begin(), kept, all.end(),
+  const auto trimmed_begin =
+      all.end() - static_cast<std::ptrdiff_t>(measure.trim * static_cast<double>(all.size()));
+  if (trimmed_begin != all.end())
+    std::nth_element(all.begin(), trimmed_begin, all.end(),
                      [](const Term& a, const Term& b) { return a.quotient < b.quotient; });
-  const double sum =
-      std::accumulate(all.begin(), kept, 0.0, [](double total, const Term& t) { return total + t.added; });
-  return sum / static_cast<double>(kept - all.begin());
+  const double sum = std::accumulate(all.begin(), trimmed_begin, 0.0,
+                                     [](double total, const Term& t) { return total + t.added; });
+  return sum / static_cast<double>(trimmed_begin - all.begin());
 }
 
 std::optional<ColorDifference> color_difference(const Image& image, const Image& reference, DeltaE formula,
                                                 std::optional<Chromaticity> white) {
   FilmColors of_image = film_colors(image);
   FilmColors of_reference = film_colors(reference);
-  const std::optional<Chromaticity> told = of_reference.white ? of_reference.white : of_image.white;
+  const std::optional<Chromaticity> recorded = of_reference.white ? of_reference.white : of_image.white;
   for (FilmColors* colors : {&of_image, &of_reference})
-    if (white || colors->white) adapt(*colors, white ? *white : *told);
+    if (white || colors->white) adapt(*colors, white ? *white : *recorded);
   const std::vector<XYZ> x = tristimuli(image, of_image);
   const std::vector<XYZ> r = tristimuli(reference, of_reference);
   if (x.empty() || r.empty() || (image.find("X") == nullptr) != (reference.find("X") == nullptr))

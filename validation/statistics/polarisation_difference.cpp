@@ -8,8 +8,8 @@
 namespace abbe {
 namespace {
 
-// Mean and largest of some numbers, 0 of none.
-struct Spread {
+// Mean and maximum of some numbers; 0 without numbers.
+struct MeanAndMax {
   double sum = 0;
   double max = 0;
   double count = 0;
@@ -23,13 +23,13 @@ struct Spread {
 };
 
 double between_planes(double a_deg, double b_deg) {
-  const double apart = std::abs(a_deg - b_deg);
-  return std::min(apart, 180 - apart);
+  const double difference = std::abs(a_deg - b_deg);
+  return std::min(difference, 180 - difference);
 }
 
-struct Spreads {
-  Spread degree;
-  Spread angle_deg;
+struct DifferenceStatistics {
+  MeanAndMax degree;
+  MeanAndMax angle_deg;
 
   void add(const PolarisationFigures& image, const PolarisationFigures& reference) {
     if (reference.degree > kPolarised) degree.add(std::abs(image.degree - reference.degree));
@@ -42,7 +42,7 @@ struct Spreads {
 
 std::optional<PolarisationDifference> polarisation_difference(const Image& image, const Image& reference) {
   const std::vector<StokesPlanes> own = stokes_planes(image);
-  Spreads spreads;
+  DifferenceStatistics statistics;
   double compared = 0;
   for (const StokesPlanes& planes : stokes_planes(reference)) {
     const auto same = std::find_if(own.begin(), own.end(), [&planes](const StokesPlanes& other) {
@@ -50,12 +50,12 @@ std::optional<PolarisationDifference> polarisation_difference(const Image& image
     });
     if (same == own.end()) continue;
     for (std::size_t pixel = 0; pixel < reference.pixels(); ++pixel)
-      spreads.add(polarisation_of(same->at(pixel)), polarisation_of(planes.at(pixel)));
+      statistics.add(polarisation_of(same->at(pixel)), polarisation_of(planes.at(pixel)));
     compared += static_cast<double>(reference.pixels());
   }
   if (!(compared > 0)) return std::nullopt;
-  return PolarisationDifference{spreads.degree.count / compared, spreads.degree.mean(), spreads.degree.max,
-                                spreads.angle_deg.mean(), spreads.angle_deg.max};
+  return PolarisationDifference{statistics.degree.count / compared, statistics.degree.mean(),
+                                statistics.degree.max, statistics.angle_deg.mean(), statistics.angle_deg.max};
 }
 
 }  // namespace abbe

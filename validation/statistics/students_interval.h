@@ -2,8 +2,8 @@
 
 namespace abbe {
 
-/// Half the width of the interval around a mean that holds the truth with the probability `level`: Student's,
-/// of a standard error that is estimated with so many degrees of freedom [Student1908]. Infinite with none.
+/// Half width of the confidence interval of a mean at the given confidence level, by Student's t distribution
+/// [Student1908]. The standard error is estimated with `degrees` degrees of freedom. Infinite for 0 degrees.
 [[nodiscard]] double half_interval(double standard_error, double degrees, double level);
 
 }  // namespace abbe

@@ -7,14 +7,14 @@
 
 #include <ImathVec.h>
 
-#include "spectral/packet.h"
+#include "spectral/sampled_spectrum.h"
 
 namespace abbe::micro {
 
-/// Cheap numbers in [0, 1) that go round, so that what is timed is not the making of them.
-class Stream {
+/// Cyclic sequence of precomputed numbers in [0, 1), so that a benchmark does not time their generation.
+class NumberCycle {
  public:
-  Stream() {
+  NumberCycle() {
     for (std::size_t i = 0; i < kSize; ++i) {
       const double golden = static_cast<double>(i) * std::numbers::phi;
       numbers_[i] = static_cast<float>(golden - std::floor(golden)) * 0.999999F;
@@ -25,7 +25,7 @@ class Stream {
     const float first = next();
     return {first, next()};
   }
-  /// Eight wavelengths across the visible, 40 nm apart.
+  /// Eight visible wavelengths in steps of 40 nm.
   [[nodiscard]] SampledSpectrum packet() {
     SampledSpectrum::Values nm;
     const float first = 390 + 40 * next();

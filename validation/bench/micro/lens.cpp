@@ -15,17 +15,17 @@ lens::SpectralSystem double_gauss() {
   return {std::move(lens), stop_radius};
 }
 
-// Rays of the axial beam, parallel, in front of the first surface.
-lens::Ray next_ray(const lens::SpectralSystem& system, micro::Stream& u) {
-  const double reach = system.stop_radius_mm();
+// Rays parallel to the axis in front of the first surface.
+lens::Ray next_ray(const lens::SpectralSystem& system, micro::NumberCycle& u) {
+  const double width = system.stop_radius_mm();
   const Imath::V2f at = u.pair();
-  return {{(at.x - 0.5) * reach, (at.y - 0.5) * reach, -5}, {0, 0, 1}};
+  return {{(at.x - 0.5) * width, (at.y - 0.5) * width, -5}, {0, 0, 1}};
 }
 
-// Eleven surfaces.
+// The lens has eleven surfaces.
 void trace_lens_ray(benchmark::State& state) {
   const lens::SpectralSystem system = double_gauss();
-  micro::Stream u;
+  micro::NumberCycle u;
   for (auto _ : state) benchmark::DoNotOptimize(system.to_image(next_ray(system, u), 550));
   state.SetItemsProcessed(state.iterations());
 }
@@ -33,7 +33,7 @@ BENCHMARK(trace_lens_ray);
 
 void trace_lens_packets(benchmark::State& state) {
   const lens::SpectralSystem system = double_gauss();
-  micro::Stream u;
+  micro::NumberCycle u;
   const SampledSpectrum wavelengths_nm = u.packet();
   for (auto _ : state)
     benchmark::DoNotOptimize(system.to_image(
@@ -44,7 +44,7 @@ BENCHMARK(trace_lens_packets);
 
 void trace_lens_ray_out(benchmark::State& state) {
   const lens::SpectralSystem system = double_gauss();
-  micro::Stream u;
+  micro::NumberCycle u;
   for (auto _ : state) {
     lens::Ray ray = next_ray(system, u);
     ray.origin.z = system.image_z();

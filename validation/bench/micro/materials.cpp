@@ -17,19 +17,19 @@ namespace {
 
 RefractiveIndex index_of(const char* name) {
   Diagnostics diagnostics;
-  const auto found = load_index(name, {}, diagnostics);
-  if (!found) throw Error(ErrorCode::input, name, diagnostics.text());
-  return found->index;
+  const auto loaded = load_index(name, {}, diagnostics);
+  if (!loaded) throw Error(ErrorCode::input, name, diagnostics.text());
+  return loaded->index;
 }
 
 void fresnel_of_glass(benchmark::State& state) {
-  micro::Stream u;
+  micro::NumberCycle u;
   for (auto _ : state) benchmark::DoNotOptimize(fresnel_dielectric(u.next(), 1.78F));
 }
 BENCHMARK(fresnel_of_glass);
 
 void fresnel_of_metal(benchmark::State& state) {
-  micro::Stream u;
+  micro::NumberCycle u;
   for (auto _ : state) benchmark::DoNotOptimize(fresnel_conductor(u.next(), 0.96F, 6.69F));
 }
 BENCHMARK(fresnel_of_metal);
@@ -37,13 +37,13 @@ BENCHMARK(fresnel_of_metal);
 // Sellmeier's formula of N-SF11 for a packet.
 void index_of_glass(benchmark::State& state) {
   const RefractiveIndex glass = index_of("N-SF11");
-  micro::Stream u;
+  micro::NumberCycle u;
   for (auto _ : state) benchmark::DoNotOptimize(glass.n(u.packet()));
 }
 BENCHMARK(index_of_glass);
 
 void sample_bsdf(benchmark::State& state, const Bsdf& bsdf) {
-  micro::Stream u;
+  micro::NumberCycle u;
   for (auto _ : state) {
     const Imath::V3f wo = cosine_hemisphere(u.pair());
     benchmark::DoNotOptimize(sample(bsdf, wo, {u.next(), u.pair()}, 0, TransportMode::radiance));
@@ -53,7 +53,7 @@ BENCHMARK_CAPTURE(sample_bsdf, diffuse, DiffuseBsdf{SampledSpectrum(0.5F)});
 BENCHMARK_CAPTURE(sample_bsdf, dielectric, DielectricBsdf{SampledSpectrum(1.5F), false});
 BENCHMARK_CAPTURE(sample_bsdf, conductor, ConductorBsdf{SampledSpectrum(0.96F), SampledSpectrum(6.69F)});
 
-// Rough gold and flint; f and pdf as light sampling asks for them.
+// Rough gold and flint; f and pdf as next-event estimation evaluates them.
 constexpr Microfacets<float> kGround{FacetShape::ggx, 0.2F, 0.2F};
 const RoughConductorMaterial& rough_gold() {
   static const RoughConductorMaterial gold("gold", index_of("Au_Johnson"), kGround);
@@ -65,7 +65,7 @@ const RoughDielectricMaterial& rough_flint() {
 }
 template <typename Rough>
 void sample_rough(benchmark::State& state, const Rough& (*material)()) {
-  micro::Stream u;
+  micro::NumberCycle u;
   for (auto _ : state) {
     const Imath::V3f wo = cosine_hemisphere(u.pair());
     benchmark::DoNotOptimize(
@@ -76,7 +76,7 @@ BENCHMARK_CAPTURE(sample_rough, rough_metal, rough_gold);
 BENCHMARK_CAPTURE(sample_rough, rough_glass, rough_flint);
 template <typename Rough>
 void evaluate_rough(benchmark::State& state, const Rough& (*material)(), float side) {
-  micro::Stream u;
+  micro::NumberCycle u;
   for (auto _ : state) {
     const Bsdf bsdf = material().bsdf({u.packet()});
     const Imath::V3f wo = cosine_hemisphere(u.pair());
@@ -90,7 +90,8 @@ BENCHMARK_CAPTURE(evaluate_rough, rough_metal, rough_gold, 1);
 BENCHMARK_CAPTURE(evaluate_rough, rough_glass_reflecting, rough_flint, 1);
 BENCHMARK_CAPTURE(evaluate_rough, rough_glass_transmitting, rough_flint, -1);
 
-// One film, and the 21 layers of a mirror, on glass and on metal; from a packet of its own each time.
+// A thin film of one layer, and the 21 layers of a mirror, on glass and on metal. Each iteration uses a new
+// packet.
 struct CoatedSurface {
   RefractiveIndex index;
   Coating coating;
@@ -102,10 +103,10 @@ Coating films(int pairs) {
   return coating;
 }
 template <typename Model>
-void sample_coated(benchmark::State& state, std::type_identity<Model> /*model*/, const char* matter,
+void sample_coated(benchmark::State& state, std::type_identity<Model> /*model*/, const char* index_name,
                    int pairs) {
-  const CoatedSurface coated{index_of(matter), films(pairs)};
-  micro::Stream u;
+  const CoatedSurface coated{index_of(index_name), films(pairs)};
+  micro::NumberCycle u;
   for (auto _ : state) {
     const Bsdf bsdf = Model{u.packet(), &coated.index, &coated.coating};
     const Imath::V3f wo = cosine_hemisphere(u.pair());
@@ -116,9 +117,9 @@ BENCHMARK_CAPTURE(sample_coated, coated_glass, std::type_identity<CoatedDielectr
 BENCHMARK_CAPTURE(sample_coated, mirror_on_glass, std::type_identity<CoatedDielectricBsdf>(), "N-BK7", 10);
 BENCHMARK_CAPTURE(sample_coated, coated_metal, std::type_identity<CoatedConductorBsdf>(), "Al_Rakic", 0);
 
-// f and pdf together, as light sampling asks for them.
+// f and pdf together, as next-event estimation evaluates them.
 void evaluate_bsdf(benchmark::State& state, const Bsdf& bsdf) {
-  micro::Stream u;
+  micro::NumberCycle u;
   for (auto _ : state) {
     const Imath::V3f wo = cosine_hemisphere(u.pair());
     const Imath::V3f wi = cosine_hemisphere(u.pair());
@@ -128,15 +129,15 @@ void evaluate_bsdf(benchmark::State& state, const Bsdf& bsdf) {
 }
 BENCHMARK_CAPTURE(evaluate_bsdf, diffuse, DiffuseBsdf{SampledSpectrum(0.5F)});
 
-// Models that refer to their material, or that it makes.
+// BSDFs that refer to their material or are made by it.
 void sample_material(benchmark::State& state, MaterialModel (*model)()) {
   const Material material{"material", model()};
-  const SampledSpectrum wavelengths = micro::Stream().packet();
+  const SampledSpectrum wavelengths = micro::NumberCycle().packet();
   sample_bsdf(state, make_bsdf(material, {wavelengths}));
 }
 void evaluate_material(benchmark::State& state, MaterialModel (*model)()) {
   const Material material{"material", model()};
-  const SampledSpectrum wavelengths = micro::Stream().packet();
+  const SampledSpectrum wavelengths = micro::NumberCycle().packet();
   evaluate_bsdf(state, make_bsdf(material, {wavelengths}));
 }
 MaterialModel coated_diffuse() {
@@ -159,7 +160,7 @@ MaterialModel oren_nayar() {
   return OrenNayarMaterial{Curve(0.5), 30};
 }
 MaterialModel principled() {
-  return PrincipledMaterial{Curve(0.5), Principled(PrincipledLook{.clearcoat = 1})};
+  return PrincipledMaterial{Curve(0.5), Principled(PrincipledParameters{.clearcoat = 1})};
 }
 MaterialModel schlick_mirror() {
   return SchlickMaterial{Curve(0.9)};

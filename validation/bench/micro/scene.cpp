@@ -17,7 +17,7 @@ Camera pinhole() {
 
 void sample_camera_ray(benchmark::State& state) {
   const Camera camera = pinhole();
-  micro::Stream u;
+  micro::NumberCycle u;
   for (auto _ : state)
     benchmark::DoNotOptimize(sample_ray(camera, u.pair() * 256.0F, {0, 0}, SampledSpectrum(550), 0, 0));
 }
@@ -26,7 +26,7 @@ BENCHMARK(sample_camera_ray);
 void sample_area_light(benchmark::State& state, const Shape& shape) {
   const std::vector<ShapeInstance> shapes{{"lamp", shape, 0, 0}};
   const Light light{"lamp", AreaLight{0, false, area(shape), {}}, Curve(1.0)};
-  micro::Stream u;
+  micro::NumberCycle u;
   for (auto _ : state) {
     const Imath::V2f at = u.pair();
     benchmark::DoNotOptimize(sample_light(light, shapes, {{at.x, at.y, 0}}, u.pair(), 0));
@@ -35,8 +35,8 @@ void sample_area_light(benchmark::State& state, const Shape& shape) {
 BENCHMARK_CAPTURE(sample_area_light, sphere, Sphere{{0, 0, 3}, 0.5});
 BENCHMARK_CAPTURE(sample_area_light, quad, Quad{{-0.5, -0.5, 3}, {0, 1, 0}, {1, 0, 0}});
 
-// Terrain of as many triangles, and rays that leave it from everywhere into everywhere above: half of them
-// meet it again.
+// Terrain with a given number of triangles. Rays start above it in cosine-distributed directions; about half
+// of them hit it.
 struct Rays {
   Scene scene;
   std::vector<Ray> rays;
@@ -48,7 +48,7 @@ Rays rays_over_terrain(std::int64_t triangles) {
   const auto cells = static_cast<std::uint32_t>(std::lround(std::sqrt(static_cast<double>(triangles) / 2)));
   all.scene.shapes.push_back({"terrain", make_terrain(cells), 0, -1});
   all.scene.commit();
-  micro::Stream u;
+  micro::NumberCycle u;
   for (int i = 0; i < (1 << 14); ++i) {
     const Imath::V2f at = (u.pair() - Imath::V2f(0.5F, 0.5F)) * 36.0F;
     const Imath::V3f w = cosine_hemisphere(u.pair());
@@ -71,7 +71,7 @@ void occlusion_over_terrain(benchmark::State& state) {
 }
 BENCHMARK(occlusion_over_terrain)->Arg(32)->Arg(131072)->Arg(1048352);
 
-// The same rays through Embree alone.
+// The rays of `intersect_terrain` through Embree alone.
 void embree_over_terrain(benchmark::State& state) {
   const Rays all = rays_over_terrain(state.range(0));
   std::vector<LoggedRay> log;

@@ -10,7 +10,7 @@ namespace {
 // X, Y and Z of one packet.
 void weigh_channels(benchmark::State& state) {
   const std::vector<Channel> channels = observer_channels(Observer::cie1931);
-  micro::Stream u;
+  micro::NumberCycle u;
   for (auto _ : state) {
     const SampledSpectrum nm = u.packet();
     for (const Channel& channel : channels) benchmark::DoNotOptimize(channel.weight(nm));
@@ -18,11 +18,11 @@ void weigh_channels(benchmark::State& state) {
 }
 BENCHMARK(weigh_channels);
 
-// One sample of three channels, pixel after pixel as a tile goes.
+// One sample of three channels, in the pixel order of a tile.
 void add_to_film(benchmark::State& state) {
   constexpr int kEdge = 256;
   Film film(kEdge, kEdge, 3, 4, 1);
-  micro::Stream u;
+  micro::NumberCycle u;
   std::size_t pixel = 0;
   for (auto _ : state) {
     const std::array<double, 3> values{u.next(), u.next(), u.next()};

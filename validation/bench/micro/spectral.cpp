@@ -15,17 +15,17 @@ WavelengthDistribution observer_under(const Curve& light) {
 
 void sample_wavelengths(benchmark::State& state) {
   const WavelengthDistribution wavelengths = observer_under(Curve(1.0));
-  micro::Stream u;
+  micro::NumberCycle u;
   for (auto _ : state) benchmark::DoNotOptimize(wavelengths.sample(u.next()));
 }
 BENCHMARK(sample_wavelengths);
 
-// A packet through a curve that has a knot every 4 nm.
+// Evaluates a curve with a knot every 4 nm for a packet.
 void look_up_curve(benchmark::State& state) {
   std::vector<Knot> knots;
   for (int nm = 400; nm <= 700; nm += 4) knots.push_back({static_cast<double>(nm), nm / 700.0});
   const Curve curve(std::move(knots));
-  micro::Stream u;
+  micro::NumberCycle u;
   for (auto _ : state) benchmark::DoNotOptimize(curve(u.packet()));
 }
 BENCHMARK(look_up_curve);

@@ -15,7 +15,7 @@ void sampler_group(benchmark::State& state) {
 }
 BENCHMARK(sampler_group);
 
-// Whole camera paths through the Cornell box, 256 at a time.
+// Complete camera paths in the Cornell box, in batches of 256.
 void camera_paths(benchmark::State& state) {
   const Scene scene = load_suite(choose_suites({"cornell"}).front(), "", false);
   const Plan plan = make_plan(scene);

@@ -16,7 +16,7 @@ Json cross(const Json& a, const Json& b) {
 
 Json probe(Drawing& drawing) {
   Random& random = drawing.random;
-  const Json at = draw_place(drawing, 0.6);
+  const Json at = draw_position(drawing, 0.6);
   const double radius = drawing.size * decades(random, 1e-4, 0.2);
   switch (integer(random, 0, 4)) {
     case 0:
@@ -37,9 +37,9 @@ Json probe(Drawing& drawing) {
   return {{"quad", {{"corner", at}, {"edge_u", edge_u}, {"edge_v", edge_v}}}};
 }
 
-// Lenses are of the size they are, and look at what is about that far away; their rims, up to 5 cm from the
-// axis, keep within the walls, as a camera is 0.3 of the size or more from them. No spectral sensor is behind
-// one.
+// True if the scene suits a lens system. Lenses have their real size and focus at 1 m to 100 m. Their rims,
+// up to 5 cm from the axis, must stay inside the walls; a camera is at least 0.3 of the box size away from
+// these. Spectral sensors do not support lens systems.
 bool holds_a_lens(const Drawing& drawing) {
   const double size_m = drawing.size * drawing.unit_m;
   return size_m > 0.2 && size_m < 1e3 && !drawing.scene["sensor"].contains("spectral");
@@ -58,14 +58,14 @@ Json lens_system(Drawing& drawing) {
   if (chance(random, 0.6))
     lens["focus_distance"] =
         chance(random, 0.3) ? Json("infinity") : Json(decades(random, 1, 100) / drawing.unit_m);
-  if (chance(random, 0.5)) lens["f_number"] = decades(random, 10, 64);  // all of them open as far
+  if (chance(random, 0.5)) lens["f_number"] = decades(random, 10, 64);  // all of them can be opened to f/10
   if (chance(random, 0.3)) lens["focus"] = "paraxial";
   if (chance(random, 0.2)) lens["ghosts"] = true;
   add_blades(random, lens);
   return lens;
 }
 
-// A lens no larger than a tenth of the box.
+// A thin lens no larger than a tenth of the box.
 Json thin_lens(Drawing& drawing) {
   Random& random = drawing.random;
   const double focal_length = drawing.size * decades(random, 1e-4, 0.1);
@@ -76,7 +76,7 @@ Json thin_lens(Drawing& drawing) {
   return lens;
 }
 
-// Of a film as large as that, along its longer side.
+// Sets the pixel pitch for a film of the given length along its longer side.
 void set_pitch(Drawing& drawing, double film_um) {
   Json& sensor = drawing.scene["sensor"];
   sensor["pixel_pitch_um"] = std::min(
@@ -88,23 +88,23 @@ void set_pitch(Drawing& drawing, double film_um) {
 void draw_camera(Drawing& drawing) {
   Random& random = drawing.random;
   Json& camera = drawing.scene["camera"];
-  if (drawing.metered) {
+  if (drawing.uses_probe) {
     camera["irradiance_probe"] = probe(drawing);
     if (chance(random, 0.3)) camera["irradiance_probe"]["acceptance_deg"] = decades(random, 0.01, 90);
     return;
   }
-  camera["from"] = draw_place(drawing, 0.7);
+  camera["from"] = draw_position(drawing, 0.7);
   camera["to"] = chance(random, 0.8) && !drawing.targets.empty() ? one_of(random, drawing.targets)
-                                                                 : draw_place(drawing, 0.5);
+                                                                 : draw_position(drawing, 0.5);
   camera["up"] = {uniform(random, -1, 1), uniform(random, -1, 1), decades(random, 0.1, 10)};
   if (chance(random, 0.2)) camera["roll_deg"] = uniform(random, -360, 360);
-  let_move(drawing, camera);
+  maybe_animate(drawing, camera);
   const double fov_deg = chance(random, 0.8) ? decades(random, 5, 120) : decades(random, 0.05, 170);
   if (chance(random, 0.6)) {
     camera["pinhole"] = {{"fov_deg", fov_deg}, {"f_number", decades(random, 0.5, 1e3)}};
   } else if (holds_a_lens(drawing) && chance(random, 0.5)) {
     camera["lens_system"] = lens_system(drawing);
-    set_pitch(drawing, decades(random, 1e3, 2e4));  // within what the fisheye sees
+    set_pitch(drawing, decades(random, 1e3, 2e4));  // inside the image circle of the fisheye
   } else {
     camera["thin_lens"] = thin_lens(drawing);
     const double focal_um = 1e6 * drawing.unit_m * camera["thin_lens"]["focal_length"].get<double>();

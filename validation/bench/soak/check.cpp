@@ -15,44 +15,45 @@
 #include "transport/render/choose_integrator.h"
 #include "transport/render/render.h"
 #include "validation/bench/soak/drawing.h"
-#include "validation/bench/soak/traps.h"
+#include "validation/bench/soak/fp_exceptions.h"
 
 namespace abbe::soak {
 namespace {
 
-// A scene rendered by two threads, and what its pilots have taught.
-struct Whole {
+// A scene rendered by two threads, and the guiding data that its pilot rays trained.
+struct ReferenceRender {
   RenderResult result;
-  std::shared_ptr<const Guides> guides;
+  std::shared_ptr<const GuidingData> guides;
 };
 
-// A component of the Stokes vector but the intensity, which may be negative.
-bool has_sign(const std::string& plane) {
+// True for a component of the Stokes vector other than the intensity.
+bool may_be_negative(const std::string& plane) {
   return plane.starts_with("S1.") || plane.starts_with("S2.") || plane.starts_with("S3.");
 }
 
-// The first value that may not be, in words.
-std::string faulty_value(const Film& film, const std::vector<std::string>& planes, const DrawnScene& drawn) {
+// Description of the first invalid value; empty if there is none.
+std::string invalid_value(const Film& film, const std::vector<std::string>& planes, const DrawnScene& drawn) {
   const auto width = static_cast<std::size_t>(film.width());
   for (std::size_t pixel = 0; pixel < width * static_cast<std::size_t>(film.height()); ++pixel)
     for (int plane = 0; plane < film.channels(); ++plane) {
       const double value = film.mean(pixel, plane);
       const std::string& name = planes[static_cast<std::size_t>(plane)];
-      const char* fault =
-          !std::isfinite(value) || !std::isfinite(film.variance(pixel, plane)) ? "is not finite"
-          : value < 0 && !drawn.signed_response && !has_sign(name)             ? "is negative"
-          : value != 0 && drawn.closed && name.ends_with(kOutsideChannel)      ? "came out of a closed box"
-                                                                               : nullptr;
+      const char* fault = !std::isfinite(value) || !std::isfinite(film.variance(pixel, plane))
+                              ? "is not finite"
+                          : value < 0 && !drawn.signed_response && !may_be_negative(name) ? "is negative"
+                          : value != 0 && drawn.closed && name.ends_with(kOutsideChannel)
+                              ? "shows light from outside a closed box"
+                              : nullptr;
       if (fault != nullptr)
         return fmt::format("{} of pixel ({}, {}) {}: {}", name, pixel % width, pixel / width, fault, value);
     }
   return "";
 }
 
-constexpr int kBounces = 2;  // and all beyond in one layer
+constexpr int kBounces = 2;  // longer paths go to one further layer
 
-// What single contributions may lose of a film value: floats hold no energy [J/nm] below the least of them,
-// and a channel makes values of energies by its weight, here as of lanes drawn evenly over all wavelengths.
+// Bound on the value that single contributions may lose by underflow of float energies [J/nm]. A channel
+// multiplies energies by its weight, here for wavelengths sampled uniformly over the whole range.
 double faintest_value(const Scene& scene) {
   constexpr double kContributions = 64.0;
   double weight = 0;
@@ -62,9 +63,9 @@ double faintest_value(const Scene& scene) {
          (1 + weight * (kMaxWavelengthNm - kMinWavelengthNm));
 }
 
-// The layers add up to the film, but for what floats round of the light of single paths, of the faintest all,
-// and for the units of the film to which each path rounds in it and in every layer.
-std::string fault_of_layers(const Film& film, const Film& layers, double faintest) {
+// The layers must sum to the film within three tolerances: float rounding of single paths, underflow of the
+// faintest ones, and the fixed-point units to which each path is rounded in the film and in every layer.
+std::string layer_sum_failure(const Film& film, const Film& layers, double faintest) {
   constexpr double kRounding = 1e-5;
   const int films = 1 + layers.channels() / film.channels();
   const double rounded = std::ldexp(0.5, film.shape().unit_exponent) * films;
@@ -79,17 +80,17 @@ std::string fault_of_layers(const Film& film, const Film& layers, double faintes
     }
     for (int plane = 0; plane < film.channels(); ++plane) {
       const double sum = sums[static_cast<std::size_t>(plane)];
-      const double whole = film.mean(pixel, plane);
-      if (!(std::abs(sum - whole) <= kRounding * all + faintest + rounded))
-        return fmt::format("plane {} of pixel {} is {}, its layers {}, in units of 2^{}", plane, pixel, whole,
-                           sum, film.shape().unit_exponent);
+      const double film_value = film.mean(pixel, plane);
+      if (!(std::abs(sum - film_value) <= kRounding * all + faintest + rounded))
+        return fmt::format("plane {} of pixel {} is {}, but its layers sum to {}, in units of 2^{}", plane,
+                           pixel, film_value, sum, film.shape().unit_exponent);
     }
   }
   return "";
 }
 
-// The first part learns by itself, on one thread, what the others are told.
-std::string difference_of_parts(const Scene& scene, const Whole& whole) {
+// The first range trains its own guiding data on one thread; the second uses those of the reference.
+std::string partition_failure(const Scene& scene, const ReferenceRender& reference) {
   const auto samples = static_cast<std::uint64_t>(scene.render.samples);
   RenderOptions options;
   options.threads = 1;
@@ -97,7 +98,7 @@ std::string difference_of_parts(const Scene& scene, const Whole& whole) {
   options.samples = SampleRange{0, samples / 3};
   std::optional<RenderResult> first;
   if (samples / 3 > 0) first = render(scene, options);
-  options.guides = whole.guides;
+  options.guides = reference.guides;
   options.samples = SampleRange{samples / 3, samples};
   RenderResult sum = render(scene, options);
   const std::uint64_t rays = sum.stats.rays + (first ? first->stats.rays : 0);
@@ -105,47 +106,50 @@ std::string difference_of_parts(const Scene& scene, const Whole& whole) {
     sum.film.add(first->film);
     sum.layers->add(*first->layers);
   }
-  const RenderResult& together = whole.result;
+  const RenderResult& together = reference.result;
   if (sum.film.bytes() == together.film.bytes() && rays == together.stats.rays)
-    return fault_of_layers(sum.film, *sum.layers, faintest_value(scene));
-  return fmt::format("other bits in parts of {} and {} samples, by one thread: {} rays instead of {}",
-                     samples / 3, samples - samples / 3, rays, together.stats.rays);
+    return layer_sum_failure(sum.film, *sum.layers, faintest_value(scene));
+  return fmt::format(
+      "different bits if rendered in ranges of {} and {} samples by one thread: {} rays instead of {}",
+      samples / 3, samples - samples / 3, rays, together.stats.rays);
 }
 
-// Of the values that a crop to the first quarter has.
-std::string difference_of_crop(const Scene& scene, const Whole& whole) {
+// A crop to the first quarter of the film must give the same values.
+std::string crop_failure(const Scene& scene, const ReferenceRender& reference) {
   RenderOptions options;
   options.threads = 1;
-  options.guides = whole.guides;
+  options.guides = reference.guides;
   const int width = (scene.camera.width + 1) / 2;
   const int height = (scene.camera.height + 1) / 2;
   options.crop = Crop{0, 0, width, height};
   const Film film = render(scene, options).film;
-  const Film& all = whole.result.film;
+  const Film& all = reference.result.film;
   for (int y = 0; y < height; ++y)
     for (int x = 0; x < width; ++x) {
       const auto pixel = static_cast<std::size_t>(y) * static_cast<std::size_t>(scene.camera.width) +
                          static_cast<std::size_t>(x);
       for (int plane = 0; plane < film.channels(); ++plane)
         if (film.mean(pixel, plane) != all.mean(pixel, plane))
-          return fmt::format("plane {} of pixel ({}, {}) is {}, in a crop {}", plane, x, y,
+          return fmt::format("plane {} of pixel ({}, {}) is {}, but {} in a crop", plane, x, y,
                              all.mean(pixel, plane), film.mean(pixel, plane));
     }
   return "";
 }
 
-std::string failure_of(const Scene& scene, const Whole& whole, const DrawnScene& drawn) {
-  const RenderResult& result = whole.result;
+std::string failure_of(const Scene& scene, const ReferenceRender& reference, const DrawnScene& drawn) {
+  const RenderResult& result = reference.result;
   if (result.stats.nonfinite_samples > 0)
-    return fmt::format("{} samples were left out", result.stats.nonfinite_samples);
-  if (std::string fault = faulty_value(result.film, scene.film_planes(), drawn); !fault.empty()) return fault;
-  if (std::string fault = difference_of_parts(scene, whole); !fault.empty()) return fault;
-  if (std::string fault = difference_of_crop(scene, whole); !fault.empty()) return fault;
-  return traps_seen();
+    return fmt::format("{} samples were discarded: not finite, or too large for the film",
+                       result.stats.nonfinite_samples);
+  if (std::string fault = invalid_value(result.film, scene.film_planes(), drawn); !fault.empty())
+    return fault;
+  if (std::string fault = partition_failure(scene, reference); !fault.empty()) return fault;
+  if (std::string fault = crop_failure(scene, reference); !fault.empty()) return fault;
+  return raised_fp_exceptions();
 }
 
-// Photons refuse some lamps, with an error that says so: such scenes are for path tracing.
-Whole rendered(Scene& scene) {
+// Photon integrators reject some lights with an error. Such scenes are rendered by path tracing.
+ReferenceRender render_reference(Scene& scene) {
   RenderOptions options;
   options.threads = 2;
   try {
@@ -166,10 +170,10 @@ Whole rendered(Scene& scene) {
 Outcome check(const DrawnScene& drawn) {
   Diagnostics diagnostics;
   std::optional<Scene> scene = load_scene(drawn.path, {}, diagnostics);
-  if (!scene) return {0, 0, "refused: " + diagnostics.text()};
-  watch_traps();
-  const Whole whole = rendered(*scene);
-  return {whole.result.stats.paths, whole.result.stats.rays, failure_of(*scene, whole, drawn)};
+  if (!scene) return {0, 0, "the scene does not load: " + diagnostics.text()};
+  watch_fp_exceptions();
+  const ReferenceRender reference = render_reference(*scene);
+  return {reference.result.stats.paths, reference.result.stats.rays, failure_of(*scene, reference, drawn)};
 }
 
 }  // namespace abbe::soak

@@ -7,18 +7,22 @@
 
 namespace abbe::soak {
 
-/// What came of a scene.
+/// Result of checking a scene.
 struct Outcome {
   std::uint64_t paths = 0;
   std::uint64_t rays = 0;
-  std::string failure;  ///< What is wrong, or empty.
+  std::string failure;  ///< Description of the first failure; empty if there is none.
 };
 
-/// Loads and renders the scene, twice, and looks whether anything is wrong: a refusal, a sample that is not
-/// finite, a negative value where no response is negative, light from beyond a closed box, other bits when
-/// the samples are rendered in two ranges by another number of threads, other values in a crop, or a
-/// floating-point exception in the code that renders. Exceptions are watched from then on, so the process
-/// should end soon after.
+/// Loads and renders the scene several times and looks for failures:
+/// - the loader rejects the scene;
+/// - a sample is not finite or too large for the film;
+/// - a value is negative although no response is;
+/// - light enters a closed box from outside;
+/// - two sample ranges on another number of threads give different bits;
+/// - a crop gives different values, or the layers do not sum to the film;
+/// - the rendering code raises a floating-point exception.
+/// Exceptions are counted for the rest of the process, so the process should end soon after.
 [[nodiscard]] Outcome check(const DrawnScene& drawn);
 
 }  // namespace abbe::soak

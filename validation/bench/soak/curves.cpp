@@ -5,13 +5,13 @@
 namespace abbe::soak {
 namespace {
 
-Json table(Random& random, double most) {
+Json table(Random& random, double max_value) {
   Json wavelengths = Json::array();
   Json values = Json::array();
   double nm = uniform(random, 300, 500);
   for (int i = integer(random, 2, 12); i > 0; --i) {
     wavelengths.push_back(nm);
-    values.push_back(chance(random, 0.2) ? 0.0 : uniform(random, 0, most));
+    values.push_back(chance(random, 0.2) ? 0.0 : uniform(random, 0, max_value));
     nm += decades(random, 1e-3, 100);
   }
   return {
@@ -19,36 +19,36 @@ Json table(Random& random, double most) {
        {{"wavelength_nm", wavelengths}, {"values", values}, {"outside", one_of(random, {"clamp", "zero"})}}}};
 }
 
-Json band(Random& random, double most) {
+Json band(Random& random, double max_value) {
   const double low = uniform(random, 300, 900);
   return {{"band", {low, std::min(1100.0, low + decades(random, 1e-3, 300))}},
-          {"value", uniform(random, 0.1, 1) * most}};
+          {"value", uniform(random, 0.1, 1) * max_value}};
 }
 
-Json gaussian(Random& random, double most) {
+Json gaussian(Random& random, double max_value) {
   return {{"gaussian",
            {{"center_nm", uniform(random, 380, 800)},
             {"fwhm_nm", decades(random, 1e-2, 300)},
-            {"peak", uniform(random, 0.1, 1) * most}}}};
+            {"peak", uniform(random, 0.1, 1) * max_value}}}};
 }
 
 }  // namespace
 
-Json draw_curve(Drawing& drawing, double most) {
+Json draw_curve(Drawing& drawing, double max_value) {
   Random& random = drawing.random;
   switch (integer(random, 0, 6)) {
     case 0:
-      return table(random, most);
+      return table(random, max_value);
     case 1:
-      return band(random, most);
+      return band(random, max_value);
     case 2:
-      return gaussian(random, most);
+      return gaussian(random, max_value);
     case 3:
-      return {{"product", {band(random, 1), gaussian(random, most)}}};
+      return {{"product", {band(random, 1), gaussian(random, max_value)}}};
     case 4:
-      return {{"sum", {table(random, most / 2), {{"scale", 0.5}, {"of", band(random, most)}}}}};
+      return {{"sum", {table(random, max_value / 2), {{"scale", 0.5}, {"of", band(random, max_value)}}}}};
     default:
-      return uniform(random, 0, most);
+      return uniform(random, 0, max_value);
   }
 }
 
@@ -76,17 +76,17 @@ Json draw_direction(Drawing& drawing) {
   Json direction = Json::array();
   const double length = decades(random, 1e-3, 1e3);
   for (int axis = 0; axis < 3; ++axis) direction.push_back(length * uniform(random, -1, 1));
-  // Along an axis, where frames and slabs change their case.
+  // Directions along an axis exercise special cases of frames and slabs.
   if (chance(random, 0.2)) direction[static_cast<std::size_t>(integer(random, 0, 1))] = 0;
   if (chance(random, 0.1)) direction = {0, 0, -length};
   return direction;
 }
 
-Json draw_place(Drawing& drawing, double share) {
-  Json place = Json::array();
-  for (const double middle : drawing.middle)
-    place.push_back(middle + drawing.size * share * uniform(drawing.random, -1, 1));
-  return place;
+Json draw_position(Drawing& drawing, double extent) {
+  Json position = Json::array();
+  for (const double center : drawing.center)
+    position.push_back(center + drawing.size * extent * uniform(drawing.random, -1, 1));
+  return position;
 }
 
 }  // namespace abbe::soak

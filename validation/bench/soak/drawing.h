@@ -14,64 +14,65 @@ namespace abbe::soak {
 
 using Json = nlohmann::ordered_json;
 
-/// A closed box keeps the light beyond it out: what is inside emits and is seen below this wavelength [nm]
-/// only, what is outside shines above it, where one channel of this name looks.
-inline constexpr double kInsideBelow = 1000;
+/// Wavelength [nm] that separates the inside of a closed box from the outside. Lights and channels inside use
+/// shorter wavelengths. Lights outside use longer ones, which only the channel `kOutsideChannel` records.
+inline constexpr double kMaxInside_nm = 1000;
 inline constexpr const char* kOutsideChannel = "outside";
 
-/// Longest exposure, that floats hold what sensors count of the brightest light, also where a channel's own
-/// multiplies the scene's.
-inline constexpr double kLongest_s = 10;
+/// Longest exposure [s] with which float can represent the sensor's counts of the brightest light, even if a
+/// channel's own exposure multiplies the scene's.
+inline constexpr double kMaxExposure_s = 10;
 
-/// A material by name, and which shapes may be made of it.
+/// A drawn material and the conditions on shapes made of it.
 struct DrawnMaterial {
   std::string name;
-  bool mixes = false;             ///< It may be part of a mixture.
-  bool entered = false;           ///< Light enters it, so its shapes must be closed.
-  bool needs_surface_uv = false;  ///< It varies over the surface: not for meshes without coordinates.
+  bool can_be_mixed = false;  ///< Allowed as a component of a mixture.
+  bool has_interior = false;  ///< Light enters the material, so its shapes must be closed.
+  /// Varies over the surface, so it does not suit meshes without texture coordinates.
+  bool needs_surface_uv = false;
 };
 
-/// A scene that is being drawn, all lengths in its own unit.
+/// A scene under construction; all lengths are in the scene's unit.
 struct Drawing {
   Random random;
-  std::filesystem::path folder;  ///< Of the files beside it.
+  std::filesystem::path folder;  ///< Folder of the scene's files.
   bool closed = false;           ///< The camera is in a closed opaque box.
-  bool signed_response = false;  ///< A channel may count negatively.
+  bool signed_response = false;  ///< A channel may have a negative response.
   double unit_m = 1;
-  double size = 1;  ///< The box reaches from -size to size on each axis, around `middle`.
-  std::array<double, 3> middle{0, 0, 0};
-  double brightness = 1;  ///< Order of magnitude of radiances.
-  bool metered = false;   ///< A meter in place of a camera.
-  bool moves = false;     ///< Shapes, lamps and the camera may move while the shutter is open:
-  double opens_s = 0;     ///< from then on,
-  double exposure_s = 1;  ///< for so long.
-  std::vector<DrawnMaterial> matter;
-  std::vector<Json> targets;  ///< Where shapes stand, for the camera to look at.
+  double size = 1;  ///< The box extends from -size to size on each axis, around `center`.
+  std::array<double, 3> center{0, 0, 0};
+  double brightness = 1;    ///< Order of magnitude of radiances.
+  bool uses_probe = false;  ///< A probe replaces the camera.
+  bool moves = false;       ///< Shapes, lights and the camera may move during the exposure.
+  double open_s = 0;        ///< Time at which the shutter opens.
+  double exposure_s = 1;    ///< Duration of the exposure.
+  std::vector<DrawnMaterial> materials;
+  std::vector<Json> targets;  ///< Positions of shapes, for the camera to look at.
   Json scene;
 };
 
-/// A curve of the scene language with values in [0, most].
-[[nodiscard]] Json draw_curve(Drawing& drawing, double most);
-/// A reflectance in [0, 1], as a curve or an image. Sets `varies` for an image.
+/// A curve of the scene language with values in [0, max_value].
+[[nodiscard]] Json draw_curve(Drawing& drawing, double max_value);
+/// A reflectance in [0, 1], as a curve or an image. Sets `varies` to true for an image.
 [[nodiscard]] Json draw_reflectance(Drawing& drawing, bool& varies);
-/// A direction of any length, often along an axis or in a plane of axes.
+/// A direction of any length, often along an axis or in a plane of two axes.
 [[nodiscard]] Json draw_direction(Drawing& drawing);
-/// A place at most `share` of the box's half width from its middle, on each axis.
-[[nodiscard]] Json draw_place(Drawing& drawing, double share);
+/// A position in the box, at most `extent` times its half width from the center on each axis.
+[[nodiscard]] Json draw_position(Drawing& drawing, double extent);
 
-/// Lets a shape, lamp or camera that is described so far move, now and then where things do.
-void let_move(Drawing& drawing, Json& what);
+/// Adds a motion to the description of a shape, light or camera, with some probability if the scene moves.
+void maybe_animate(Drawing& drawing, Json& object);
 
-/// Each writes a file of drawn content to the folder and returns its name. Throws Error{output}.
-/// An image of a few pixels, whose channels have values in [low, high).
+/// Image file of a few pixels, whose channels have values in [low, high). This function and the next two
+/// write a file to the folder and return its name. They throw Error{output}.
 [[nodiscard]] std::string draw_image(Drawing& drawing, const std::vector<std::string>& channels, double low,
                                      double high);
-/// A grid of densities in [0, 1), many of them 0.
+/// Grid file of densities in [0, 1), many of them 0.
 [[nodiscard]] std::string draw_densities(Drawing& drawing);
-/// A closed mesh of radius 1 around the origin, as PLY or OBJ.
+/// Closed mesh of radius 1 around the origin, as PLY or OBJ.
 [[nodiscard]] std::string draw_mesh_file(Drawing& drawing);
 
-/// Draw one part of the scene each; they build on each other in this order.
+/// Each function draws one part of the scene. They depend on each other in this order.
 void draw_materials(Drawing& drawing);
 void draw_shapes(Drawing& drawing);
 void draw_sensor(Drawing& drawing);
@@ -79,9 +80,9 @@ void draw_camera(Drawing& drawing);
 void draw_lights(Drawing& drawing);
 void draw_render(Drawing& drawing);
 
-/// One shape of a material without emission, between 1e-4 and once the size of the box large.
-[[nodiscard]] Json draw_shape(Drawing& drawing, const DrawnMaterial& matter);
-/// An emission for something of that kind: "area", "place" (point and spot), "sun", "directional" or
+/// A shape of the given material without emission. Its size is 1e-4 to 1 times that of the box.
+[[nodiscard]] Json draw_shape(Drawing& drawing, const DrawnMaterial& drawn);
+/// Emission of a light of the given kind: "area", "point" (also for spots), "sun", "directional" or
 /// "environment".
 [[nodiscard]] Json draw_emission(Drawing& drawing, const std::string& kind);
 

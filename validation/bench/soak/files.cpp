@@ -20,8 +20,7 @@ std::filesystem::path name_of(const Drawing& drawing, const char* extension) {
   }
 }
 
-// A ball as Wavefront OBJ: with texture coordinates, and normals that stand for another surface than the
-// triangles.
+// A ball as Wavefront OBJ, with texture coordinates and with shading normals that deviate from the triangles.
 std::string obj_ball(Random& random) {
   constexpr double kPi = std::numbers::pi;
   const int rows = integer(random, 2, 12);
@@ -74,7 +73,7 @@ std::string draw_densities(Drawing& drawing) {
   const std::array<int, 3> nodes{integer(random, 2, 9), integer(random, 2, 9), integer(random, 2, 9)};
   std::string header = fmt::format("{{'descr': '<f4', 'fortran_order': False, 'shape': ({}, {}, {}), }}",
                                    nodes[0], nodes[1], nodes[2]);
-  header.resize(118 - 1, ' ');  // so that the numbers start at a multiple of 64
+  header.resize(118 - 1, ' ');  // aligns the numbers to a multiple of 64 bytes
   header += '\n';
   std::string bytes("\x93NUMPY\x01\x00", 8);
   bytes += static_cast<char>(header.size() & 0xffU);

@@ -5,21 +5,22 @@
 namespace abbe::soak {
 namespace {
 
-// A spectrum that a sensor and an eye see something of.
-Json spectrum(Drawing& drawing, double most) {
+// A spectrum with some power in the visible range.
+Json spectrum(Drawing& drawing, double max_value) {
   Random& random = drawing.random;
-  Json curve{{"sum", {draw_curve(drawing, most), {{"band", {520, 580}}, {"value", 0.01 * most}}}}};
-  if (chance(random, 0.2)) curve = most;
+  Json curve{{"sum", {draw_curve(drawing, max_value), {{"band", {520, 580}}, {"value", 0.01 * max_value}}}}};
+  if (chance(random, 0.2)) curve = max_value;
   if (chance(random, 0.2))
-    curve = {
-        {"lines",
-         {{{"nm", 546.1}, {"width_nm", decades(random, 1e-3, 1)}, {"power", most}},
-          {{"nm", uniform(random, 400, 700)}, {"width_nm", decades(random, 1e-3, 10)}, {"power", most}}}}};
-  if (drawing.closed) curve = {{"product", {curve, {{"band", {300, kInsideBelow}}}}}};
+    curve = {{"lines",
+              {{{"nm", 546.1}, {"width_nm", decades(random, 1e-3, 1)}, {"power", max_value}},
+               {{"nm", uniform(random, 400, 700)},
+                {"width_nm", decades(random, 1e-3, 10)},
+                {"power", max_value}}}}};
+  if (drawing.closed) curve = {{"product", {curve, {{"band", {300, kMaxInside_nm}}}}}};
   return curve;
 }
 
-Json relative(Drawing& drawing) {
+Json relative_emission(Drawing& drawing) {
   Random& random = drawing.random;
   if (drawing.closed) return {{"spectrum", spectrum(drawing, 1)}};
   switch (integer(random, 0, 3)) {
@@ -36,18 +37,18 @@ Json relative(Drawing& drawing) {
 
 Json unpolarised_emission(Drawing& drawing, const std::string& kind) {
   Random& random = drawing.random;
-  // A lamp at a point lights what is a scene's size away as the others do.
-  const double away = kind == "place" ? drawing.size * drawing.unit_m : 1;
-  const double much = drawing.brightness * decades(random, 1e-3, 1e3) * away * away;
-  if (chance(random, 0.4)) return {{"spectrum", chance(random, 0.05) ? Json(0) : spectrum(drawing, much)}};
-  Json emission = relative(drawing);
-  const bool seen = chance(random, 0.5);
+  // A point or spot light produces the same irradiance at the distance of a scene's size as the others do.
+  const double distance = kind == "point" ? drawing.size * drawing.unit_m : 1;
+  const double amount = drawing.brightness * decades(random, 1e-3, 1e3) * distance * distance;
+  if (chance(random, 0.4)) return {{"spectrum", chance(random, 0.05) ? Json(0) : spectrum(drawing, amount)}};
+  Json emission = relative_emission(drawing);
+  const bool photometric = chance(random, 0.5);
   if (kind == "area" || kind == "environment")
-    emission[seen ? "luminance" : "radiance"] = much;
-  else if (kind == "place")
-    emission[seen ? "luminous_intensity" : "intensity"] = much;
+    emission[photometric ? "luminance" : "radiance"] = amount;
+  else if (kind == "point")
+    emission[photometric ? "luminous_intensity" : "intensity"] = amount;
   else
-    emission[seen ? "illuminance" : "irradiance"] = much;
+    emission[photometric ? "illuminance" : "irradiance"] = amount;
   return emission;
 }
 
@@ -73,40 +74,40 @@ Json area_light(Drawing& drawing) {
   Json light;
   switch (integer(random, 0, 2)) {
     case 0:
-      light["sphere"] = {{"center", draw_place(drawing, 0.7)}, {"radius", r}};
+      light["sphere"] = {{"center", draw_position(drawing, 0.7)}, {"radius", r}};
       break;
     case 1:
       light["disc"] = {
-          {"center", draw_place(drawing, 0.7)}, {"normal", draw_direction(drawing)}, {"radius", r}};
+          {"center", draw_position(drawing, 0.7)}, {"normal", draw_direction(drawing)}, {"radius", r}};
       break;
     default:
-      light["quad"] = {{"corner", draw_place(drawing, 0.7)},
+      light["quad"] = {{"corner", draw_position(drawing, 0.7)},
                        {"edge_u", {0, r, 0}},
                        {"edge_v", {r * decades(random, 1e-3, 1), r * uniform(random, -1, 1), 0}}};
   }
   light["emission"] = draw_emission(drawing, "area");
-  let_move(drawing, light);
+  maybe_animate(drawing, light);
   if (!light.contains("sphere") && chance(random, 0.5)) light["two_sided"] = true;
-  const DrawnMaterial& matter = one_of(random, drawing.matter);
-  if (!matter.entered && chance(random, 0.4)) light["material"] = matter.name;
+  const DrawnMaterial& drawn = one_of(random, drawing.materials);
+  if (!drawn.has_interior && chance(random, 0.4)) light["material"] = drawn.name;
   return light;
 }
 
-Json small_light(Drawing& drawing) {
+Json point_or_spot_light(Drawing& drawing) {
   Random& random = drawing.random;
   Json light;
   if (chance(random, 0.5))
-    light["point"] = {{"at", draw_place(drawing, 0.7)}};
+    light["point"] = {{"at", draw_position(drawing, 0.7)}};
   else
-    light["spot"] = {{"at", draw_place(drawing, 0.7)},
+    light["spot"] = {{"at", draw_position(drawing, 0.7)},
                      {"direction", draw_direction(drawing)},
                      {"half_angle_deg", decades(random, 0.1, 180)}};
-  light["emission"] = draw_emission(drawing, "place");
-  let_move(drawing, light);
+  light["emission"] = draw_emission(drawing, "point");
+  maybe_animate(drawing, light);
   return light;
 }
 
-Json far_light(Drawing& drawing) {
+Json distant_light(Drawing& drawing) {
   Random& random = drawing.random;
   Json light;
   if (chance(random, 0.5)) {
@@ -129,10 +130,10 @@ Json environment(Drawing& drawing) {
   return light;
 }
 
-// What would be seen if a ray came out of the box.
+// Light that must not enter the box.
 Json outside_light(Drawing& drawing) {
   const Json emission{
-      {"spectrum", {{"band", {kInsideBelow + 50, 1100}}, {"value", 1e3 * drawing.brightness}}}};
+      {"spectrum", {{"band", {kMaxInside_nm + 50, 1100}}, {"value", 1e3 * drawing.brightness}}}};
   if (chance(drawing.random, 0.7)) return {{"environment", Json::object()}, {"emission", emission}};
   return {{"sun", {{"towards", draw_direction(drawing)}, {"angular_diameter_deg", 60}}},
           {"emission", emission}};
@@ -147,8 +148,8 @@ void draw_lights(Drawing& drawing) {
   for (int i = integer(random, 1, 3); i > 0; --i) {
     const double kind = uniform(random, 0, 1);
     lights.push_back(kind < 0.5                      ? area_light(drawing)
-                     : drawing.closed || kind < 0.75 ? small_light(drawing)
-                                                     : far_light(drawing));
+                     : drawing.closed || kind < 0.75 ? point_or_spot_light(drawing)
+                                                     : distant_light(drawing));
   }
   if (drawing.closed)
     lights.push_back(outside_light(drawing));

@@ -8,19 +8,19 @@
 namespace abbe::soak {
 namespace {
 
-// The largest k of layers, and of dielectrics and panes: those must be clear, and along the normal k changes
-// their reflectance by k^2/(n + 1)^2 at most.
-constexpr double kMostOfLayers = 10;
-constexpr double kMostOfClear = 1e-2;
+// Largest k of coating layers, and of dielectrics and panes. The latter must be clear: at normal incidence, k
+// changes their reflectance by at most k^2/(n + 1)^2.
+constexpr double kMaxLayerK = 10;
+constexpr double kMaxClearK = 1e-2;
 
-Json dielectric_index(Random& random, double most_k) {
+Json dielectric_index(Random& random, double max_k) {
   switch (integer(random, 0, 7)) {
     case 0:
       return one_of(random, {1.0, 1.0000001, 1.000001, 1.001, 1.5, 2.417, 4.0});
     case 1:
       return decades(random, 0.05, 20);
     case 2:
-      return {{"n", decades(random, 0.3, 4)}, {"k", decades(random, 1e-12, most_k)}};
+      return {{"n", decades(random, 0.3, 4)}, {"k", decades(random, 1e-12, max_k)}};
     default:
       return one_of(random, {"N-BK7", "N-SF11", "N-SF66", "F2", "water", "ice_warren2008", "hikari/F2"});
   }
@@ -36,7 +36,7 @@ Json metal_index(Random& random) {
 Json layers(Random& random) {
   Json all = Json::array();
   for (int i = integer(random, 1, 3); i > 0; --i) {
-    Json layer{{"ior", chance(random, 0.8) ? dielectric_index(random, kMostOfLayers) : Json("Ti_Palm")},
+    Json layer{{"ior", chance(random, 0.8) ? dielectric_index(random, kMaxLayerK) : Json("Ti_Palm")},
                {"thickness_nm", decades(random, 1e-2, 1e5)}};
     if (chance(random, 0.3))
       all.push_back(
@@ -51,7 +51,7 @@ double alpha(Random& random) {
   return chance(random, 0.1) ? one_of(random, {0.0, 1e-3, 1.0}) : decades(random, 1e-4, 1);
 }
 
-// A width of slopes, for both directions or each.
+// Roughness, isotropic or one value per direction.
 Json roughness(Random& random, bool& varies) {
   if (chance(random, 0.6))
     return {{"alpha", alpha(random)}, {"distribution", one_of(random, {"ggx", "beckmann"})}};
@@ -60,10 +60,10 @@ Json roughness(Random& random, bool& varies) {
   return {along, std::clamp(along * decades(random, 0.06, 16), 2e-3, 1.0)};
 }
 
-// Per metre: optical depths across the box from next to nothing to opaque, grey or coloured.
-Json coefficient(Drawing& drawing, double most_depth) {
+// Coefficient per metre, grey or coloured. Optical depths across the box range from negligible to opaque.
+Json coefficient(Drawing& drawing, double max_depth) {
   Random& random = drawing.random;
-  const double one = decades(random, 1e-8, most_depth) / (2 * drawing.size * drawing.unit_m);
+  const double one = decades(random, 1e-8, max_depth) / (2 * drawing.size * drawing.unit_m);
   if (chance(random, 0.2)) return 0;
   return chance(random, 0.5) ? Json(one) : draw_curve(drawing, one);
 }
@@ -74,37 +74,37 @@ Json phase(Random& random) {
                                                     : uniform(random, -0.95, 0.95)}};
 }
 
-constexpr double kMostScattering = 30;  // optical depths: paths within deeper matter take for ever
-constexpr double kMostAbsorption = 1e6;
+constexpr double kMaxScatteringDepth = 30;  // optical depth; paths in deeper media take too long
+constexpr double kMaxAbsorptionDepth = 1e6;
 
-// That of clear matter is 4 pi k over the wavelength, of which the longest is 1.1 um.
+// The absorption coefficient of a clear medium is 4 pi k/wavelength; the longest wavelength is 1.1 um.
 Json clear_absorption(Drawing& drawing) {
-  constexpr double kMost_per_m = 4 * std::numbers::pi * kMostOfClear / 1.1e-6;
-  return coefficient(drawing, std::min(kMostAbsorption, kMost_per_m * 2 * drawing.size * drawing.unit_m));
+  constexpr double kMax_per_m = 4 * std::numbers::pi * kMaxClearK / 1.1e-6;
+  return coefficient(drawing, std::min(kMaxAbsorptionDepth, kMax_per_m * 2 * drawing.size * drawing.unit_m));
 }
 
-Json dielectric(Drawing& drawing, DrawnMaterial& matter) {
+Json dielectric(Drawing& drawing, DrawnMaterial& drawn) {
   Random& random = drawing.random;
-  Json glass{{"ior", dielectric_index(random, kMostOfClear)}};
+  Json glass{{"ior", dielectric_index(random, kMaxClearK)}};
   if (glass["ior"].is_number() && chance(random, 0.4)) glass["absorption_per_m"] = clear_absorption(drawing);
   if (chance(random, 0.3)) {
-    glass["scattering_per_m"] = coefficient(drawing, kMostScattering);
+    glass["scattering_per_m"] = coefficient(drawing, kMaxScatteringDepth);
     glass["phase"] = phase(random);
   }
   if (chance(random, 0.2))
     glass["coating"] = layers(random);
   else if (chance(random, 0.4))
-    glass["roughness"] = roughness(random, matter.needs_surface_uv);
+    glass["roughness"] = roughness(random, drawn.needs_surface_uv);
   return glass;
 }
 
 Json medium(Drawing& drawing) {
   Random& random = drawing.random;
-  Json fog{{"absorption_per_m", coefficient(drawing, kMostAbsorption)},
-           {"scattering_per_m", coefficient(drawing, kMostScattering)},
+  Json fog{{"absorption_per_m", coefficient(drawing, kMaxAbsorptionDepth)},
+           {"scattering_per_m", coefficient(drawing, kMaxScatteringDepth)},
            {"phase", phase(random)}};
   if (chance(random, 0.3)) {
-    Json to = draw_place(drawing, 0.2);
+    Json to = draw_position(drawing, 0.2);
     Json from = to;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       from[axis] = from[axis].get<double>() - drawing.size * decades(random, 0.01, 1);
@@ -115,12 +115,12 @@ Json medium(Drawing& drawing) {
   return fog;
 }
 
-Json conductor(Random& random, DrawnMaterial& matter) {
+Json conductor(Random& random, DrawnMaterial& drawn) {
   Json metal{{"ior", metal_index(random)}};
   if (chance(random, 0.2))
     metal["coating"] = layers(random);
   else if (chance(random, 0.6))
-    metal["roughness"] = roughness(random, matter.needs_surface_uv);
+    metal["roughness"] = roughness(random, drawn.needs_surface_uv);
   return metal;
 }
 
@@ -131,8 +131,8 @@ Json thin_glass(Drawing& drawing) {
   return pane;
 }
 
-Json principled(Drawing& drawing, DrawnMaterial& matter) {
-  Json paint{{"base_color", draw_reflectance(drawing, matter.needs_surface_uv)}};
+Json principled(Drawing& drawing, DrawnMaterial& drawn) {
+  Json paint{{"base_color", draw_reflectance(drawing, drawn.needs_surface_uv)}};
   for (const char* key : {"metallic", "roughness", "specular", "sheen", "clearcoat", "clearcoat_gloss"})
     if (chance(drawing.random, 0.6))
       paint[key] =
@@ -140,7 +140,7 @@ Json principled(Drawing& drawing, DrawnMaterial& matter) {
   return paint;
 }
 
-// What light crosses straight on and comes out of polarised otherwise.
+// Thin elements transmit light without deflection and change its polarisation.
 Json thin_element(Drawing& drawing, const std::string& name) {
   Random& random = drawing.random;
   Json element = Json::object();
@@ -158,10 +158,10 @@ Json thin_element(Drawing& drawing, const std::string& name) {
   return element;
 }
 
-// Models that are a reflectance and perhaps one number more.
-Json reflecting(Drawing& drawing, DrawnMaterial& matter, const std::string& model) {
+// Models with a reflectance and at most one more parameter.
+Json reflectance_model(Drawing& drawing, DrawnMaterial& drawn, const std::string& model) {
   Random& random = drawing.random;
-  Json surface{{"reflectance", draw_reflectance(drawing, matter.needs_surface_uv)}};
+  Json surface{{"reflectance", draw_reflectance(drawing, drawn.needs_surface_uv)}};
   if (model == "oren_nayar") surface["sigma_deg"] = uniform(random, 0, 90);
   if (model == "coated_diffuse") surface["ior"] = decades(random, 1, 3);
   if (model == "cosine_power" || model == "phong" || model == "retroreflector")
@@ -170,35 +170,35 @@ Json reflecting(Drawing& drawing, DrawnMaterial& matter, const std::string& mode
   return surface;
 }
 
-// Parts side by side, of what there is and light does not enter.
-Json mixture(Drawing& drawing, DrawnMaterial& matter) {
+// Components are the materials drawn before that have no interior.
+Json mixture(Drawing& drawing, DrawnMaterial& drawn) {
   Json parts = Json::array();
-  for (const DrawnMaterial& other : drawing.matter) {
-    if (!other.mixes || parts.size() >= 3) continue;
+  for (const DrawnMaterial& other : drawing.materials) {
+    if (!other.can_be_mixed || parts.size() >= 3) continue;
     parts.push_back({{"material", other.name}, {"weight", draw_curve(drawing, 1.0 / 3)}});
-    matter.needs_surface_uv |= other.needs_surface_uv;
+    drawn.needs_surface_uv |= other.needs_surface_uv;
   }
   return parts;
 }
 
-Json model(Drawing& drawing, DrawnMaterial& matter, const std::string& name) {
-  if (name == "dielectric") return dielectric(drawing, matter);
+Json model(Drawing& drawing, DrawnMaterial& drawn, const std::string& name) {
+  if (name == "dielectric") return dielectric(drawing, drawn);
   if (name == "medium") return medium(drawing);
-  if (name == "conductor") return conductor(drawing.random, matter);
+  if (name == "conductor") return conductor(drawing.random, drawn);
   if (name == "film") return {{"layers", layers(drawing.random)}};
   if (name == "thin_glass") return thin_glass(drawing);
   if (name == "polariser" || name == "wave_plate" || name == "depolariser") {
-    matter.needs_surface_uv = name != "depolariser";
+    drawn.needs_surface_uv = name != "depolariser";
     return thin_element(drawing, name);
   }
-  if (name == "principled") return principled(drawing, matter);
-  if (name == "mixture") return mixture(drawing, matter);
+  if (name == "principled") return principled(drawing, drawn);
+  if (name == "mixture") return mixture(drawing, drawn);
   if (name == "schlick" && chance(drawing.random, 0.5)) return {{"ior", metal_index(drawing.random)}};
-  return reflecting(drawing, matter, name);
+  return reflectance_model(drawing, drawn, name);
 }
 
-void add_relief(Drawing& drawing, Json& material, DrawnMaterial& matter) {
-  matter.needs_surface_uv = true;
+void add_relief(Drawing& drawing, Json& material, DrawnMaterial& drawn) {
+  drawn.needs_surface_uv = true;
   if (chance(drawing.random, 0.5))
     material["normal_map"] = {{"image", draw_image(drawing, {"R", "G", "B"}, 0.51, 1)}};
   else
@@ -207,25 +207,26 @@ void add_relief(Drawing& drawing, Json& material, DrawnMaterial& matter) {
 }
 
 void add(Drawing& drawing, const std::string& name) {
-  DrawnMaterial matter{fmt::format("{}{}", name, drawing.matter.size())};
-  matter.entered = name == "dielectric" || name == "medium";
+  DrawnMaterial drawn{fmt::format("{}{}", name, drawing.materials.size())};
+  drawn.has_interior = name == "dielectric" || name == "medium";
   const bool has_axis = name == "polariser" || name == "wave_plate";
-  matter.mixes = !matter.entered && !has_axis && name != "film" && name != "mixture";
+  drawn.can_be_mixed = !drawn.has_interior && !has_axis && name != "film" && name != "mixture";
   Json material;
-  material[name] = model(drawing, matter, name);
-  if (matter.entered && chance(drawing.random, 0.5)) material["priority"] = integer(drawing.random, -2, 2);
-  if (name != "medium" && drawing.matter.size() > 0 && chance(drawing.random, 0.15)) {
-    add_relief(drawing, material, matter);
-    matter.mixes = false;
+  material[name] = model(drawing, drawn, name);
+  if (drawn.has_interior && chance(drawing.random, 0.5))
+    material["priority"] = integer(drawing.random, -2, 2);
+  if (name != "medium" && drawing.materials.size() > 0 && chance(drawing.random, 0.15)) {
+    add_relief(drawing, material, drawn);
+    drawn.can_be_mixed = false;
   }
-  drawing.scene["materials"][matter.name] = material;
-  drawing.matter.push_back(matter);
+  drawing.scene["materials"][drawn.name] = material;
+  drawing.materials.push_back(drawn);
 }
 
 }  // namespace
 
 void draw_materials(Drawing& drawing) {
-  add(drawing, "diffuse");  // which a mixture may be made of
+  add(drawing, "diffuse");  // available as a component of mixtures
   for (int i = integer(drawing.random, 1, 6); i > 0; --i)
     add(drawing,
         one_of(drawing.random,

@@ -9,9 +9,9 @@
 
 namespace abbe::soak {
 
-/// The draws of a scene. The distributions of the standard library differ from one implementation to the
-/// next, so those below are written out, and no expression draws twice but lists in braces, which have an
-/// order: a seed means the same scene everywhere.
+/// Random generator of a scene. A seed gives the same scene on every platform. The distributions below are
+/// written out, since those of the standard library differ between implementations. Only braced lists, whose
+/// order is defined, draw twice in one expression.
 using Random = std::mt19937_64;
 
 /// Uniform in [low, high).
@@ -19,7 +19,7 @@ inline double uniform(Random& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11U) * 0x1p-53;
 }
 
-/// Uniform in the logarithm, in [low, high) with 0 < low.
+/// Log-uniform in [low, high), with 0 < low.
 inline double decades(Random& random, double low, double high) {
   return std::exp(uniform(random, std::log(low), std::log(high)));
 }
@@ -28,18 +28,18 @@ inline bool chance(Random& random, double probability) {
   return uniform(random, 0, 1) < probability;
 }
 
-/// As `decades`, of either sign.
+/// Log-uniform absolute value with a random sign.
 inline double signed_decades(Random& random, double low, double high) {
   const double size = decades(random, low, high);
   return chance(random, 0.5) ? -size : size;
 }
 
-/// Uniform in [low, high], both included.
+/// Uniform integer in [low, high].
 inline int integer(Random& random, int low, int high) {
   return low + static_cast<int>(uniform(random, 0, high - low + 1));
 }
 
-/// One of some values, each as likely as another.
+/// One of the values with equal probabilities.
 template <typename T>
 const T& one_of(Random& random, const std::vector<T>& values) {
   return values[static_cast<std::size_t>(integer(random, 0, static_cast<int>(values.size()) - 1))];

@@ -5,12 +5,13 @@
 namespace abbe::soak {
 namespace {
 
-constexpr int kMostPaths = 2'400'000;
-constexpr int kMostSamples = 40'000;
-constexpr double kMostVertices = 6e8;
-constexpr double kMostPairs = 3e7;  // of vertices, or of a vertex and a photon: minutes of CPU time at most
+constexpr int kMaxPaths = 2'400'000;
+constexpr int kMaxSceneSamples = 40'000;
+constexpr double kMaxVertices = 6e8;
+// Pairs of vertices, or of a vertex and a photon; they take minutes of CPU time at most.
+constexpr double kMaxVertexPairs = 3e7;
 
-// How many photons are traced, and how they are gathered. Returns how many each sample has at least.
+// Draws the photon settings. Returns a lower bound of the photons per sample.
 int draw_photons(Drawing& drawing, Json& render) {
   Random& random = drawing.random;
   const int per_sample = static_cast<int>(decades(random, 1, 2e4));
@@ -28,8 +29,8 @@ double depth_of(const Json& render) {
   return render.value("max_depth", kUsualDepth);
 }
 
-// Each of two paths of n events may be joined at each event, and what gathers photons may find each event of
-// all of them.
+// Connections of two paths of n events may join any two events. Photon gathering may find each event of all
+// photons from every event of a camera path.
 double pairs_of_sample(const Json& render, int pixels, int photons) {
   const double depth = depth_of(render);
   return pixels * depth * (photons > 0 ? photons : depth);
@@ -56,21 +57,22 @@ void draw_render(Drawing& drawing) {
   if (integrator == "path" && chance(random, 0.2)) draw_strategies(random, render);
   const bool gathers = integrator == "sppm" || integrator == "ppm" || integrator == "photon-map";
   const int photons = gathers || integrator == "photon-brute" ? draw_photons(drawing, render) : 0;
-  // What is merged is blurred, over the edges of walls too.
+  // Photon merging blurs the film, also across the edges of walls.
   if (gathers || integrator == "vcm" || render.contains("consistent")) drawing.closed = false;
-  const double part_of_most = decades(random, 0.001, 1);
+  const double sample_fraction = decades(random, 0.001, 1);
   if (chance(random, 0.1)) render["polarisation"] = "off";
   render["seed"] = integer(random, 0, 1 << 30);
-  const bool plays = chance(random, 0.8);
-  const bool joins = integrator == "bdpt" || integrator == "vcm";
-  if (joins || !plays || chance(random, 0.5))
-    render["max_depth"] = static_cast<int>(decades(random, 1, plays && !joins ? 1000 : 60));
-  render["roulette_depth"] = plays ? integer(random, 0, 12) : -1;
+  const bool uses_roulette = chance(random, 0.8);
+  const bool connects = integrator == "bdpt" || integrator == "vcm";
+  if (connects || !uses_roulette || chance(random, 0.5))
+    render["max_depth"] = static_cast<int>(decades(random, 1, uses_roulette && !connects ? 1000 : 60));
+  render["roulette_depth"] = uses_roulette ? integer(random, 0, 12) : -1;
   const int paths = std::max(pixels, photons);
-  double most = std::min(kMostSamples, kMostPaths / paths);
-  most = std::min(most, kMostVertices / (paths * depth_of(render)));
-  if (joins || gathers) most = std::min(most, kMostPairs / pairs_of_sample(render, pixels, photons));
-  render["samples"] = static_cast<int>(most * part_of_most + 1);
+  double max_samples = std::min(kMaxSceneSamples, kMaxPaths / paths);
+  max_samples = std::min(max_samples, kMaxVertices / (paths * depth_of(render)));
+  if (connects || gathers)
+    max_samples = std::min(max_samples, kMaxVertexPairs / pairs_of_sample(render, pixels, photons));
+  render["samples"] = static_cast<int>(max_samples * sample_fraction + 1);
 }
 
 }  // namespace abbe::soak

@@ -8,8 +8,8 @@
 namespace abbe::soak {
 namespace {
 
-// How large the scene is and where it stands.
-void draw_place_of_all(Drawing& drawing) {
+// Draws the unit, the size and the center of the scene.
+void draw_scale_and_position(Drawing& drawing) {
   Random& random = drawing.random;
   struct Unit {
     const char* name;
@@ -20,7 +20,7 @@ void draw_place_of_all(Drawing& drawing) {
   drawing.unit_m = unit.metres;
   drawing.size = decades(random, 1e-2, 1e5);
   if (chance(random, 0.5))
-    for (double& x : drawing.middle) x = drawing.size * signed_decades(random, 1e-3, 1e3);
+    for (double& x : drawing.center) x = drawing.size * signed_decades(random, 1e-3, 1e3);
 }
 
 }  // namespace
@@ -32,12 +32,12 @@ DrawnScene draw_scene(std::uint64_t seed, const std::filesystem::path& folder) {
   drawing.closed = chance(drawing.random, 0.3);
   drawing.signed_response = chance(drawing.random, 0.1);
   drawing.brightness = decades(drawing.random, 1e-15, 1e8);
-  drawing.metered = chance(drawing.random, 0.1);
+  drawing.uses_probe = chance(drawing.random, 0.1);
   drawing.moves = chance(drawing.random, 0.3);
-  drawing.opens_s = drawing.moves ? uniform(drawing.random, -5, 5) : 0;
-  drawing.exposure_s = decades(drawing.random, 1e-6, kLongest_s);
+  drawing.open_s = drawing.moves ? uniform(drawing.random, -5, 5) : 0;
+  drawing.exposure_s = decades(drawing.random, 1e-6, kMaxExposure_s);
   drawing.scene["abbe"] = 1;
-  draw_place_of_all(drawing);
+  draw_scale_and_position(drawing);
   draw_materials(drawing);
   draw_shapes(drawing);
   draw_sensor(drawing);

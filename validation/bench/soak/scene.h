@@ -5,15 +5,16 @@
 
 namespace abbe::soak {
 
-/// What a drawn scene promises beside being legal.
+/// A drawn scene and what a render of it must satisfy.
 struct DrawnScene {
   std::filesystem::path path;
-  bool closed;  ///< The camera is in a closed opaque box, and `kOutsideChannel` sees only what is beyond it.
-  bool signed_response;  ///< A channel may count negatively.
+  /// The camera is in a closed opaque box, and `kOutsideChannel` records only light from outside.
+  bool closed;
+  bool signed_response;  ///< A channel may have a negative response.
 };
 
-/// Draws a scene from the whole language and writes it to `folder`, with the files it names: the seed alone
-/// decides what they hold. Throws Error{output}.
+/// Draws a scene from the whole scene language and writes it with its files to `folder`. Their contents
+/// depend on the seed only. Throws Error{output}.
 [[nodiscard]] DrawnScene draw_scene(std::uint64_t seed, const std::filesystem::path& folder);
 
 }  // namespace abbe::soak

@@ -5,11 +5,11 @@
 namespace abbe::soak {
 namespace {
 
-// What a channel of a closed box counts lies below the wavelengths of the light beyond it.
+// Channels of a closed box have no response at the wavelengths of the light outside.
 Json channel_curve(Drawing& drawing) {
   Json curve = draw_curve(drawing, 1);
-  if (drawing.closed) curve = {{"product", {curve, {{"band", {300, kInsideBelow}}}}}};
-  // Some response somewhere, however the curve was drawn.
+  if (drawing.closed) curve = {{"product", {curve, {{"band", {300, kMaxInside_nm}}}}}};
+  // Ensures some response whatever the drawn curve is.
   curve = {{"sum", {curve, {{"band", {500, 560}}, {"value", 0.01}}}}};
   if (!drawing.signed_response) return curve;
   return {{"sum", {curve, {{"scale", -1}, {"of", {{"band", {550, 700}}}}}}}};
@@ -20,7 +20,7 @@ Json filters(Drawing& drawing) {
   Json stack = Json::array();
   for (int i = integer(random, 1, 2); i > 0; --i) {
     Json glass{{"sum", {draw_curve(drawing, 0.5), {{"band", {480, 600}}, {"value", 0.1}}}}};
-    if (drawing.closed) glass = {{"product", {glass, {{"band", {300, kInsideBelow}}}}}};
+    if (drawing.closed) glass = {{"product", {glass, {{"band", {300, kMaxInside_nm}}}}}};
     if (chance(random, 0.5))
       stack.push_back({{"transmittance", glass}, {"effective_index", decades(random, 1, 10)}});
     else
@@ -37,7 +37,7 @@ Json polariser(Drawing& drawing) {
   return sheet;
 }
 
-// Where something moves all channels have one exposure, and what a meter counts has no polarisation.
+// Channels of a moving scene have one common exposure. Probes do not measure polarisation.
 Json channels(Drawing& drawing) {
   Random& random = drawing.random;
   Json all;
@@ -48,28 +48,28 @@ Json channels(Drawing& drawing) {
       continue;
     }
     channel = {{"filters", filters(drawing)}};
-    if (!drawing.moves) channel["exposure_s"] = decades(random, 1e-6, kLongest_s);
-    if (!drawing.metered && chance(random, 0.3)) channel["polariser"] = polariser(drawing);
+    if (!drawing.moves) channel["exposure_s"] = decades(random, 1e-6, kMaxExposure_s);
+    if (!drawing.uses_probe && chance(random, 0.3)) channel["polariser"] = polariser(drawing);
   }
-  if (drawing.closed) all[kOutsideChannel] = {{"band", {kInsideBelow + 50, 1100}}};
+  if (drawing.closed) all[kOutsideChannel] = {{"band", {kMaxInside_nm + 50, 1100}}};
   return all;
 }
 
-// Each channel has a place, in a pattern of two columns.
-void lay_mosaic(Random& random, Json& sensor) {
+// Each channel appears in the pattern, which has two columns.
+void add_mosaic(Random& random, Json& sensor) {
   std::vector<std::string> names;
   for (const auto& [name, unused] : sensor["channels"].items()) names.push_back(name);
   for (std::size_t i = 0; i < names.size(); ++i)
     sensor["mosaic"].push_back({names[i], one_of(random, names)});
 }
 
-void count(Drawing& drawing, Json& sensor) {
+void draw_response(Drawing& drawing, Json& sensor) {
   Random& random = drawing.random;
   const int kind = drawing.closed || drawing.signed_response ? 0 : integer(random, 0, 6);
   if (kind <= 2) {
     sensor["channels"] = channels(drawing);
     sensor["response"] = one_of(random, {"energy", "quantum"});
-    if (!drawing.closed && chance(random, 0.3)) lay_mosaic(random, sensor);
+    if (!drawing.closed && chance(random, 0.3)) add_mosaic(random, sensor);
   } else if (kind == 3) {
     sensor["camera"] = one_of(random, {"Canon_EOS_5D_Mark_II", "Nikon_D5100", "Sony_ILCE-9"});
   } else if (kind == 4) {
@@ -84,7 +84,7 @@ void count(Drawing& drawing, Json& sensor) {
 
 Json shutter(Drawing& drawing) {
   Random& random = drawing.random;
-  Json shutter{{"open_s", drawing.opens_s}};
+  Json shutter{{"open_s", drawing.open_s}};
   if (chance(random, 0.3)) {
     shutter["transmission"] = {{0, uniform(random, 0, 1)}, {uniform(random, 0.1, 0.9), 1}, {1, 0}};
   } else if (chance(random, 0.5)) {
@@ -95,7 +95,7 @@ Json shutter(Drawing& drawing) {
   return shutter;
 }
 
-// The whole Stokes vector of each channel, or all of them behind one polariser.
+// The sensor measures the Stokes vector of each channel, or all channels share a polariser.
 void measure_polarisation(Drawing& drawing, Json& sensor) {
   const bool behind_polarisers =
       sensor.contains("channels") && sensor["channels"].dump().find("polariser") != std::string::npos;
@@ -112,7 +112,7 @@ void draw_sensor(Drawing& drawing) {
   Random& random = drawing.random;
   Json sensor;
   sensor["resolution"] = {static_cast<int>(decades(random, 1, 40)), static_cast<int>(decades(random, 1, 40))};
-  count(drawing, sensor);
+  draw_response(drawing, sensor);
   sensor["exposure_s"] = drawing.exposure_s;
   if (drawing.moves || chance(random, 0.1)) sensor["shutter"] = shutter(drawing);
   sensor["fill_factor"] = uniform(random, 0.01, 1);
@@ -120,7 +120,7 @@ void draw_sensor(Drawing& drawing) {
     sensor["lens_transmission"] = uniform(random, 0.1, 1);
     sensor["filters"] = filters(drawing);
   }
-  if (!drawing.metered && chance(random, 0.2)) measure_polarisation(drawing, sensor);
+  if (!drawing.uses_probe && chance(random, 0.2)) measure_polarisation(drawing, sensor);
   drawing.scene["sensor"] = sensor;
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 using Point = std::array<double, 3>;
 
-// The corners of [-x, x] x [-y, y] x [-z, z], and the triangles of its faces, counter-clockwise from outside.
+// Corners and faces of [-x, x] x [-y, y] x [-z, z]. The triangles are counter-clockwise viewed from outside.
 Json box_mesh(const Point& half) {
   Json vertices = Json::array();
   for (const double x : {-half[0], half[0]})
@@ -21,7 +21,7 @@ Json box_mesh(const Point& half) {
   return {{"vertices", vertices}, {"triangles", triangles}};
 }
 
-// Corners on the three axes.
+// Octahedron with its corners on the three axes.
 Json octahedron(const Point& half) {
   Json vertices = Json::array();
   for (std::size_t axis = 0; axis < 3; ++axis)
@@ -40,7 +40,7 @@ Json octahedron(const Point& half) {
   return {{"vertices", vertices}, {"triangles", triangles}};
 }
 
-// Triangles anywhere, thin ones and ones that share an edge or all of their places.
+// Random triangles. Some are thin; some share an edge or coincide.
 Json rubble(Random& random, double half) {
   Json vertices = Json::array();
   const int count = integer(random, 3, 30);
@@ -62,11 +62,11 @@ Json rotation(Drawing& drawing) {
 }
 
 Json draw_target(Drawing& drawing) {
-  drawing.targets.push_back(draw_place(drawing, 0.8));
+  drawing.targets.push_back(draw_position(drawing, 0.8));
   return drawing.targets.back();
 }
 
-// A shape around its own origin, about `half` large, put at its place.
+// Transforms a shape of half size `half` around its own origin to a random position in the box.
 Json placed(Drawing& drawing, Json shape) {
   Json transform;
   if (chance(drawing.random, 0.6)) transform["rotate"] = rotation(drawing);
@@ -87,11 +87,11 @@ Json mesh_file(Drawing& drawing, double half) {
   return shape;
 }
 
-Json curved(Drawing& drawing, double half) {
+Json sphere_shape(Drawing& drawing, double half) {
   return {{"sphere", {{"center", draw_target(drawing)}, {"radius", half}}}};
 }
 
-Json flat(Drawing& drawing, double half) {
+Json flat_shape(Drawing& drawing, double half) {
   Random& random = drawing.random;
   if (chance(random, 0.5))
     return {
@@ -112,32 +112,34 @@ Json prism(Drawing& drawing, double half) {
 
 }  // namespace
 
-Json draw_shape(Drawing& drawing, const DrawnMaterial& matter) {
+Json draw_shape(Drawing& drawing, const DrawnMaterial& drawn) {
   Random& random = drawing.random;
   const bool large = chance(random, 0.7);
-  const double half = drawing.size * decades(random, large ? 0.05 : matter.entered ? 1e-3 : 1e-4, 1);
+  const double half = drawing.size * decades(random, large ? 0.05 : drawn.has_interior ? 1e-3 : 1e-4, 1);
   Json shape;
   switch (integer(random, 0, 6)) {
     case 0:
       shape = prism(drawing, half);
       break;
     case 1:
-      shape = matter.needs_surface_uv ? curved(drawing, half) : placed(drawing, solid_mesh(drawing, half));
+      shape =
+          drawn.needs_surface_uv ? sphere_shape(drawing, half) : placed(drawing, solid_mesh(drawing, half));
       break;
     case 2:
-      shape = matter.needs_surface_uv ? prism(drawing, half) : mesh_file(drawing, half);
+      shape = drawn.needs_surface_uv ? prism(drawing, half) : mesh_file(drawing, half);
       break;
     case 3:
-      shape = matter.entered ? curved(drawing, half) : flat(drawing, half);
+      shape = drawn.has_interior ? sphere_shape(drawing, half) : flat_shape(drawing, half);
       break;
     case 4:
-      shape = matter.entered || matter.needs_surface_uv ? curved(drawing, half)
-                                                        : placed(drawing, {{"mesh", rubble(random, half)}});
+      shape = drawn.has_interior || drawn.needs_surface_uv
+                  ? sphere_shape(drawing, half)
+                  : placed(drawing, {{"mesh", rubble(random, half)}});
       break;
     default:
-      shape = curved(drawing, half);
+      shape = sphere_shape(drawing, half);
   }
-  shape["material"] = matter.name;
+  shape["material"] = drawn.name;
   return shape;
 }
 
@@ -150,13 +152,13 @@ Json wall_material(Drawing& drawing) {
   return {{"diffuse", {{"reflectance", one_of(random, {0.0, 0.5, 0.95, 1.0})}}}};
 }
 
-// Six quads that reach beyond their common edges, one mesh, or a ball.
+// Walls of a closed box: six quads that overlap at their common edges, one mesh, or a sphere.
 void add_walls(Drawing& drawing) {
   Random& random = drawing.random;
   drawing.scene["materials"]["wall"] = wall_material(drawing);
   Json& shapes = drawing.scene["shapes"];
   const double s = drawing.size;
-  const Point& m = drawing.middle;
+  const Point& m = drawing.center;
   const int kind = integer(random, 0, 2);
   if (kind == 0) {
     shapes.push_back({{"sphere", {{"center", m}, {"radius", s * std::sqrt(3)}}}, {"material", "wall"}});
@@ -164,14 +166,14 @@ void add_walls(Drawing& drawing) {
     shapes.push_back(
         {{"mesh", box_mesh({s, s, s})}, {"material", "wall"}, {"transform", {{"translate", m}}}});
   } else {
-    const double beyond = s * (1 + decades(random, 1e-4, 1));
+    const double half_edge = s * (1 + decades(random, 1e-4, 1));
     for (std::size_t axis = 0; axis < 3; ++axis)
       for (const double sign : {-1, 1}) {
-        Point corner{m[0] - beyond, m[1] - beyond, m[2] - beyond};
+        Point corner{m[0] - half_edge, m[1] - half_edge, m[2] - half_edge};
         corner[axis] = m[axis] + sign * s;
         Point u{0, 0, 0};
         Point v{0, 0, 0};
-        u[(axis + 1) % 3] = v[(axis + 2) % 3] = 2 * beyond;
+        u[(axis + 1) % 3] = v[(axis + 2) % 3] = 2 * half_edge;
         shapes.push_back(
             {{"quad", {{"corner", corner}, {"edge_u", u}, {"edge_v", v}}}, {"material", "wall"}});
       }
@@ -180,23 +182,23 @@ void add_walls(Drawing& drawing) {
 
 void add_ground(Drawing& drawing) {
   const double s = drawing.size * decades(drawing.random, 1, 100);
-  const Point& m = drawing.middle;
+  const Point& m = drawing.center;
   drawing.scene["shapes"].push_back({{"quad",
                                       {{"corner", {m[0] - s, m[1] - s, m[2] - drawing.size}},
                                        {"edge_u", {2 * s, 0, 0}},
                                        {"edge_v", {0, 2 * s, 0}}}},
-                                     {"material", drawing.matter.front().name}});
+                                     {"material", drawing.materials.front().name}});
 }
 
-// Matter in matter: balls within each other, or boxes that touch, some of them at the very same places.
-void add_nest(Drawing& drawing) {
+// Nested media: concentric spheres, or adjacent boxes of which some coincide.
+void add_nested_media(Drawing& drawing) {
   Random& random = drawing.random;
-  std::vector<DrawnMaterial> entered;
-  for (const DrawnMaterial& matter : drawing.matter)
-    if (matter.entered && !matter.needs_surface_uv) entered.push_back(matter);
-  if (entered.empty()) return;
+  std::vector<DrawnMaterial> solids;
+  for (const DrawnMaterial& drawn : drawing.materials)
+    if (drawn.has_interior && !drawn.needs_surface_uv) solids.push_back(drawn);
+  if (solids.empty()) return;
   Json& shapes = drawing.scene["shapes"];
-  const Json center = draw_place(drawing, 0.5);
+  const Json center = draw_position(drawing, 0.5);
   double half = drawing.size * decades(random, 1e-2, 0.7);
   const bool boxes = chance(random, 0.5);
   Point shift{0, 0, 0};
@@ -205,7 +207,7 @@ void add_nest(Drawing& drawing) {
     for (std::size_t axis = 0; axis < 3; ++axis) at[axis] = center[axis].get<double>() + shift[axis];
     Json shape = boxes ? Json{{"mesh", box_mesh({half, half, half})}, {"transform", {{"translate", at}}}}
                        : Json{{"sphere", {{"center", at}, {"radius", half}}}};
-    shape["material"] = one_of(random, entered).name;
+    shape["material"] = one_of(random, solids).name;
     shapes.push_back(shape);
     if (boxes && chance(random, 0.4))
       shift[static_cast<std::size_t>(integer(random, 0, 2))] += 2 * half * one_of(random, {-1, 1});
@@ -222,22 +224,22 @@ Json affine(Drawing& drawing) {
   else
     step["scale"] = decades(random, 0.1, 3);
   step["rotate"] = rotation(drawing);
-  Json away = Json::array();
-  for (int axis = 0; axis < 3; ++axis) away.push_back(0.3 * drawing.size * uniform(random, -1, 1));
-  step["translate"] = away;
-  // About the middle of the scene, from which nothing is far.
+  Json offset = Json::array();
+  for (int axis = 0; axis < 3; ++axis) offset.push_back(0.3 * drawing.size * uniform(random, -1, 1));
+  step["translate"] = offset;
+  // Transforms about the center of the scene leave the shapes inside it.
   Json to_origin = Json::array();
-  for (const double x : drawing.middle) to_origin.push_back(-x);
-  return {{{"translate", to_origin}}, step, {{"translate", drawing.middle}}};
+  for (const double x : drawing.center) to_origin.push_back(-x);
+  return {{{"translate", to_origin}}, step, {{"translate", drawing.center}}};
 }
 
 void add_instances(Drawing& drawing) {
   Json& object = drawing.scene["objects"]["thing"]["shapes"];
   for (int i = integer(drawing.random, 1, 2); i > 0; --i)
-    object.push_back(draw_shape(drawing, one_of(drawing.random, drawing.matter)));
+    object.push_back(draw_shape(drawing, one_of(drawing.random, drawing.materials)));
   for (int i = integer(drawing.random, 1, 4); i > 0; --i) {
     Json instance{{"instance", {{"of", "thing"}, {"transform", affine(drawing)}}}};
-    let_move(drawing, instance);
+    maybe_animate(drawing, instance);
     drawing.scene["shapes"].push_back(instance);
   }
 }
@@ -247,18 +249,18 @@ void add_chart(Drawing& drawing) {
   drawing.scene["shapes"].push_back({{"name", "chart"},
                                      {"chart",
                                       {{"reflectances", "colorchecker24_ohta1997"},
-                                       {"corner", draw_place(drawing, 0.3)},
+                                       {"corner", draw_position(drawing, 0.3)},
                                        {"edge_u", {0.3 * s, 0.1 * s, 0}},
                                        {"edge_v", {-0.05 * s, 0.15 * s, 0.2 * s}}}}});
 }
 
-// A ball of matter around camera and all, as fog is; within the walls of a closed box.
+// A ball of a scattering medium around the whole scene, inside the walls of a closed box.
 void add_fog(Drawing& drawing) {
-  for (const DrawnMaterial& matter : drawing.matter) {
-    if (!matter.name.starts_with("medium")) continue;
+  for (const DrawnMaterial& drawn : drawing.materials) {
+    if (!drawn.name.starts_with("medium")) continue;
     drawing.scene["shapes"].push_back(
-        {{"sphere", {{"center", drawing.middle}, {"radius", (drawing.closed ? 1.7 : 4) * drawing.size}}},
-         {"material", matter.name}});
+        {{"sphere", {{"center", drawing.center}, {"radius", (drawing.closed ? 1.7 : 4) * drawing.size}}},
+         {"material", drawn.name}});
     return;
   }
 }
@@ -273,17 +275,17 @@ void draw_shapes(Drawing& drawing) {
   else if (chance(random, 0.6))
     add_ground(drawing);
   for (int i = integer(random, 1, 7); i > 0; --i) {
-    const DrawnMaterial& matter = one_of(random, drawing.matter);
-    Json shape = draw_shape(drawing, matter);
-    if (!matter.entered && chance(random, 0.15)) {
+    const DrawnMaterial& drawn = one_of(random, drawing.materials);
+    Json shape = draw_shape(drawing, drawn);
+    if (!drawn.has_interior && chance(random, 0.15)) {
       shape["emission"] = draw_emission(drawing, "area");
       if (!shape.contains("sphere") && !shape.contains("prism") && chance(random, 0.5))
         shape["two_sided"] = true;
     }
-    let_move(drawing, shape);
+    maybe_animate(drawing, shape);
     drawing.scene["shapes"].push_back(shape);
   }
-  if (chance(random, 0.4)) add_nest(drawing);
+  if (chance(random, 0.4)) add_nested_media(drawing);
   if (chance(random, 0.3)) add_instances(drawing);
   if (chance(random, 0.1)) add_chart(drawing);
   if (chance(random, 0.3)) add_fog(drawing);

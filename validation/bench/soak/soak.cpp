@@ -19,17 +19,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Of CPU time. As a soft limit alone, so that what ends a scene says that it is that.
-constexpr rlim_t kMostSeconds = 600;
-constexpr std::uint64_t kMostFailures =
-    100;  // scenes that fail may trace no path, and one would soak for ever
+// A soft limit on CPU time, so that the signal that ends a scene identifies the limit.
+constexpr rlim_t kMaxCpuSeconds = 600;
+// Failed scenes may trace no path, so the number of paths alone may never end a soak.
+constexpr std::uint64_t kMaxFailures = 100;
 constexpr std::uint64_t kScenesBetweenReports = 100;
 
 void require(bool good, const char* what) {
   if (!good) throw Error(ErrorCode::resource, "soak", fmt::format("{}: {}", what, std::strerror(errno)));
 }
 
-soak::Outcome checked(std::uint64_t seed, const fs::path& folder) {
+soak::Outcome check_scene(std::uint64_t seed, const fs::path& folder) {
   try {
     return soak::check(soak::draw_scene(seed, folder));
   } catch (const std::exception& error) {
@@ -37,7 +37,7 @@ soak::Outcome checked(std::uint64_t seed, const fs::path& folder) {
   }
 }
 
-// Two numbers and a text, through a pipe.
+// Sends the path count, the ray count and the failure text through a pipe.
 void write_outcome(int pipe, const soak::Outcome& outcome) {
   const std::string text = fmt::format("{} {} {}", outcome.paths, outcome.rays, outcome.failure);
   if (::write(pipe, text.data(), text.size()) < 0) ::_exit(1);
@@ -57,30 +57,30 @@ soak::Outcome outcome_of(const std::string& text, int status) {
   soak::Outcome outcome;
   std::size_t first = 0;
   std::size_t second = 0;
-  if (WEXITSTATUS(status) != 0 || text.empty()) return {0, 0, "ended without an answer"};
+  if (WEXITSTATUS(status) != 0 || text.empty()) return {0, 0, "ended without a result"};
   outcome.paths = std::stoull(text, &first);
   outcome.rays = std::stoull(text.substr(first), &second);
   outcome.failure = text.substr(first + second + 1);
   return outcome;
 }
 
-// In a process of its own, so that a crash is told as any failure.
-soak::Outcome checked_apart(std::uint64_t seed, const fs::path& folder) {
+// Checks a scene in a child process, so that a crash counts as a failure.
+soak::Outcome check_in_child_process(std::uint64_t seed, const fs::path& folder) {
   std::array<int, 2> ends;
-  require(::pipe(ends.data()) == 0, "no pipe");
+  require(::pipe(ends.data()) == 0, "cannot create a pipe");
   const pid_t child = ::fork();
-  require(child >= 0, "no process");
+  require(child >= 0, "cannot create a process");
   if (child == 0) {
-    const rlimit limit{kMostSeconds, RLIM_INFINITY};
+    const rlimit limit{kMaxCpuSeconds, RLIM_INFINITY};
     ::setrlimit(RLIMIT_CPU, &limit);
-    write_outcome(ends[1], checked(seed, folder));
+    write_outcome(ends[1], check_scene(seed, folder));
     ::_exit(0);
   }
   ::close(ends[1]);
   const std::string text = read_all(ends[0]);
   ::close(ends[0]);
   int status = 0;
-  require(::waitpid(child, &status, 0) == child, "a process is lost");
+  require(::waitpid(child, &status, 0) == child, "cannot wait for a process");
   return outcome_of(text, status);
 }
 
@@ -88,11 +88,11 @@ soak::Outcome checked_apart(std::uint64_t seed, const fs::path& folder) {
 
 SoakResult run_soak(const SoakSettings& settings) {
   SoakResult result;
-  for (std::uint64_t seed = settings.seed; result.paths < settings.paths && result.failures < kMostFailures;
+  for (std::uint64_t seed = settings.seed; result.paths < settings.paths && result.failures < kMaxFailures;
        ++seed) {
     const fs::path folder = settings.folder / fmt::format("soak_{}", seed);
     fs::create_directories(folder);
-    const soak::Outcome outcome = checked_apart(seed, folder);
+    const soak::Outcome outcome = check_in_child_process(seed, folder);
     ++result.scenes;
     result.paths += outcome.paths;
     result.rays += outcome.rays;

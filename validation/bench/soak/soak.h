@@ -8,15 +8,15 @@
 
 namespace abbe {
 
-/// How long to soak, and in what.
+/// Settings of a soak test.
 struct SoakSettings {
-  std::uint64_t paths;                          ///< Scenes are drawn until so many have been traced.
-  std::uint64_t seed;                           ///< Of the first scene; the next ones count on from it.
-  std::filesystem::path folder;                 ///< Where scenes that fail are kept, with their files.
-  std::function<void(const std::string&)> say;  ///< Told of each failure, and now and then how far it is.
+  std::uint64_t paths;           ///< Scenes are drawn until this number of paths has been traced.
+  std::uint64_t seed;            ///< Seed of the first scene; each further scene adds 1.
+  std::filesystem::path folder;  ///< Folder for failed scenes and their files.
+  std::function<void(const std::string&)> say;  ///< Called with each failure and regularly with the progress.
 };
 
-/// What a soak found.
+/// Totals of a soak test.
 struct SoakResult {
   std::uint64_t scenes = 0;
   std::uint64_t paths = 0;
@@ -24,9 +24,9 @@ struct SoakResult {
   std::uint64_t failures = 0;
 };
 
-/// Draws scenes from the whole language and looks whether anything goes wrong with them, each in a process of
-/// its own: a crash, or a scene that takes more than ten minutes of CPU time, is a failure like others. Must
-/// be called before anything has started threads. Throws Error{output}.
+/// Draws scenes from the whole scene language and checks each in a process of its own. Crashes and scenes
+/// that take more than ten minutes of CPU time count as failures. Must be called before any thread starts.
+/// Throws Error{output}.
 [[nodiscard]] SoakResult run_soak(const SoakSettings& settings);
 
 }  // namespace abbe

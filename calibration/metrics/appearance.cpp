@@ -1,0 +1,102 @@
+#include "calibration/metrics/appearance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "calibration/output/color_spaces.h"
+
+namespace abbe {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kSurround = 0.69;         // c
+constexpr double kChromaticInduction = 1;  // N_c
+constexpr double kFullAdaptation = 1;      // F
+constexpr double kColorfulness = 0.0228;   // c_2 of the uniform space
+constexpr double kLightness = 0.007;       // c_1
+
+// Matrix from XYZ to the cones of Hunt, Pointer and Estevez, on which the compression of CIECAM02 acts.
+const Matrix3& hunt_cones() {
+  static const Matrix3 cones(0.38971, 0.68898, -0.07868, -0.22981, 1.18340, 0.04641, 0, 0, 1);
+  return cones;
+}
+
+Matrix3 adapting_cones(AppearanceModel model) {
+  return cone_responses(model == AppearanceModel::cam16 ? Adaptation::cat16 : Adaptation::cat02);
+}
+
+double degree_of_adaptation(const ViewingConditions& conditions) {
+  if (conditions.complete) return 1;
+  const double d = kFullAdaptation * (1 - std::exp(-(conditions.adapting_luminance + 42) / 92) / 3.6);
+  return std::clamp(d, 0.0, 1.0);
+}
+
+double luminance_adaptation(double adapting_luminance) {
+  const double k = 1 / (5 * adapting_luminance + 1);
+  const double k4 = k * k * k * k;
+  return 0.2 * k4 * 5 * adapting_luminance + 0.1 * (1 - k4) * (1 - k4) * std::cbrt(5 * adapting_luminance);
+}
+
+// Achromatic response of compressed cones, 2 R' + G' + B'/20 - 0.305.
+double achromatic(const std::array<double, 3>& cones) {
+  return 2 * cones[0] + cones[1] + cones[2] / 20 - 0.305;
+}
+
+}  // namespace
+
+Appearance::Appearance(AppearanceModel model, const ViewingConditions& conditions)
+    : adaptation_(luminance_adaptation(conditions.adapting_luminance)),
+      background_(conditions.background / conditions.white[1]),
+      induction_(0.725 * std::pow(1 / background_, 0.2)),
+      exponent_(1.48 + std::sqrt(background_)) {
+  const Matrix3 cones = adapting_cones(model);
+  const std::array<double, 3> white = multiply(cones, conditions.white);
+  const double d = degree_of_adaptation(conditions);
+  std::array<double, 3> gain{};
+  for (std::size_t i = 0; i < 3; ++i) gain[i] = d * conditions.white[1] / white[i] + 1 - d;
+  to_adapted_ = diagonal(gain) * cones;
+  if (model == AppearanceModel::ciecam02) to_adapted_ = hunt_cones() * cones.inverse(true) * to_adapted_;
+  white_response_ = achromatic(compressed(conditions.white)) * induction_;
+}
+
+std::array<double, 3> Appearance::compressed(const XYZ& xyz) const {
+  std::array<double, 3> cones = multiply(to_adapted_, xyz);
+  for (double& cone : cones) {
+    const double x = std::pow(adaptation_ * std::abs(cone) / 100, 0.42);
+    cone = std::copysign(400 * x / (x + 27.13), cone) + 0.1;
+  }
+  return cones;
+}
+
+ColorAppearance Appearance::operator()(const XYZ& xyz) const {
+  const std::array<double, 3> cones = compressed(xyz);
+  const auto& [r, g, b] = cones;
+  const double red_green = r - 12 * g / 11 + b / 11;
+  const double yellow_blue = (r + g - 2 * b) / 9;
+  const double hue = std::atan2(yellow_blue, red_green);
+  const double eccentricity = (std::cos(hue + 2) + 3.8) / 4;
+  const double response = std::max(0.0, achromatic(cones) * induction_ / white_response_);
+  const double lightness = 100 * std::pow(response, kSurround * exponent_);
+  const double t = 50000.0 / 13 * kChromaticInduction * induction_ * eccentricity *
+                   std::hypot(red_green, yellow_blue) / (r + g + 21 * b / 20);
+  const double chroma = std::pow(std::max(t, 0.0), 0.9) * std::sqrt(lightness / 100) *
+                        std::pow(1.64 - std::pow(0.29, background_), 0.73);
+  const double degrees = hue / kDegree;
+  return {lightness, chroma, chroma * std::pow(adaptation_, 0.25), degrees < 0 ? degrees + 360 : degrees};
+}
+
+std::array<double, 3> Appearance::uniform(const XYZ& xyz) const {
+  const ColorAppearance correlates = (*this)(xyz);
+  const double lightness =
+      (1 + 100 * kLightness) * correlates.lightness / (1 + kLightness * correlates.lightness);
+  const double colorfulness = std::log1p(kColorfulness * correlates.colorfulness) / kColorfulness;
+  return {lightness, colorfulness * std::cos(correlates.hue_deg * kDegree),
+          colorfulness * std::sin(correlates.hue_deg * kDegree)};
+}
+
+double distance_between(const std::array<double, 3>& a, const std::array<double, 3>& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+}  // namespace abbe

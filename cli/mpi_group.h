@@ -1,0 +1,37 @@
+#pragma once
+
+#include <functional>
+
+#include "transport/render/mpi_group.h"
+
+namespace abbe::cli {
+
+/// Functions of the MPI module, which is loaded under mpirun only.
+struct MpiModule {
+  MpiGroup mpi_group;
+  void (*abort)(int code);  ///< Ends all processes.
+};
+/// Name of the module's function that returns a `const MpiModule*`.
+inline constexpr const char* kMpiModuleSymbol = "abbe_mpi";
+
+/// The processes that mpirun started together with this one; this process alone without mpirun. The first
+/// call loads the module and joins the others. Throws Error{input} if the module is missing.
+[[nodiscard]] const MpiGroup& mpi_group();
+
+/// Ends all processes of the group. A process that fails must call it, since the others would wait for it
+/// indefinitely.
+void abort_mpi_group(int code);
+
+/// Silences standard error while it lives, in every process but the root.
+class RootOnlyOutput {
+ public:
+  explicit RootOnlyOutput(const MpiGroup& mpi_group);
+  ~RootOnlyOutput();
+  RootOnlyOutput(const RootOnlyOutput&) = delete;
+  RootOnlyOutput& operator=(const RootOnlyOutput&) = delete;
+
+ private:
+  int stream_ = -1;  // duplicate of standard error, to restore it
+};
+
+}  // namespace abbe::cli

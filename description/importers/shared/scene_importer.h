@@ -1,0 +1,98 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "description/scene.h"
+#include "io/diagnostics.h"
+#include "io/inputs.h"
+
+// Common state and functions of the importers.
+namespace abbe::importers {
+
+/// A property of the source scene that is approximated or dropped.
+struct Note {
+  SourcePosition where;  ///< Position of the first occurrence.
+  std::string text;
+  std::size_t count = 1;  ///< Number of occurrences.
+};
+
+/// State of an import: the scene to be written and its notes.
+struct SceneImporter {
+  Diagnostics& diagnostics;
+  Inputs* inputs;  ///< Account of the command's files and memory, or nullptr.
+  std::filesystem::path
+      folder;        ///< Folder of the scene to be written; file names in it are relative to this folder.
+  std::string file;  ///< Name of the source scene, for errors about memory.
+  spec::Scene scene{};
+  std::vector<Note> notes{};
+  std::size_t included = 0;          ///< Number of files included so far.
+  std::string surface_integrator{};  ///< Name of the source scene's integrator if it ignores media.
+  std::size_t values = 0;      ///< Upper bound for the number of JSON values in the scene to be written.
+  std::size_t text_bytes = 0;  ///< Size of names and other texts in it [bytes].
+
+  /// Notes an approximated or dropped property. Equal texts are stored once and counted.
+  void note(const SourcePosition& where, const std::string& text);
+  /// Reports an error at `where` and returns false.
+  bool refuse(const SourcePosition& where, std::string what);
+  /// Sets the maximum depth of paths, at least 1. Smaller values are noted.
+  void limit_depth(int depth, const SourcePosition& where);
+  /// Notes a medium at `where` if the source scene's integrator ignores media: Abbe does not.
+  void note_medium(const SourcePosition& where);
+  /// Reserves memory. Throws Error{resource} if it exceeds the limit.
+  void reserve_memory(std::size_t bytes) const;
+  /// Reads a text file; its memory is reserved first. Reports an unreadable file and returns nullptr.
+  [[nodiscard]] std::shared_ptr<const SourceText> read(const std::filesystem::path& file) const;
+  /// Reserves memory for JSON values and texts of the scene to be written.
+  void reserve_values(std::size_t count, std::size_t bytes_of_texts = 0);
+  /// Memory for writing the scene [bytes]: its JSON tree and its text.
+  [[nodiscard]] std::size_t bytes_to_write() const;
+  /// File name relative to the folder of the scene to be written. An absolute name is kept if the file is
+  /// outside that folder.
+  [[nodiscard]] std::string name_of(const std::filesystem::path& file) const;
+  /// Adds an input file to the account. False, after an error at `where`, if it is not a regular file.
+  bool check_file(const std::filesystem::path& file, const SourcePosition& where);
+  /// Counts a file that is included at `where`. False, after an error, if there are too many: small files
+  /// that include each other twice would never end.
+  bool count_include(const SourcePosition& where);
+  /// `name`, or `name` with a number if a material has that name.
+  [[nodiscard]] std::string unused_material_name(const std::string& name) const;
+  /// Adds a material under an unused name and returns that name.
+  std::string add_material(const std::string& name, spec::Material material);
+};
+
+/// Upper bound for the JSON values of a shape, instance, light or material without vertices and spectra.
+inline constexpr std::size_t kValuesPerItem = 40;
+
+/// Reserved memory of a value that owns it. A copy reserves the same amount.
+class OwnedReservation {
+ public:
+  OwnedReservation() = default;
+  OwnedReservation(const SceneImporter& account, std::size_t bytes) : account_(&account) { grow_by(bytes); }
+  OwnedReservation(const OwnedReservation& other) : account_(other.account_) { grow_by(other.bytes_); }
+  OwnedReservation(OwnedReservation&& other) noexcept
+      : account_(other.account_), bytes_(std::exchange(other.bytes_, 0)) {}
+  OwnedReservation& operator=(OwnedReservation other) noexcept {
+    std::swap(account_, other.account_);
+    std::swap(bytes_, other.bytes_);
+    return *this;
+  }
+  ~OwnedReservation() {
+    if (bytes_ > 0 && account_->inputs != nullptr) account_->inputs->release_memory(bytes_);
+  }
+  /// Reserves more. Throws like `SceneImporter::reserve_memory`.
+  void grow_by(std::size_t bytes) {
+    if (bytes > 0) account_->reserve_memory(bytes);
+    bytes_ += bytes;
+  }
+
+ private:
+  const SceneImporter* account_ = nullptr;
+  std::size_t bytes_ = 0;
+};
+
+}  // namespace abbe::importers

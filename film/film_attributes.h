@@ -1,0 +1,25 @@
+#pragma once
+
+#include "calibration/output/display.h"
+#include "io/image.h"
+#include "scene/scene.h"
+#include "transport/render/part.h"
+
+namespace abbe {
+
+/// Attributes that describe a scene's sensor in the metadata of its films.
+[[nodiscard]] FilmIdentity film_attributes(const Scene& scene);
+
+/// Transforms the result of `film_for_display` to pictures, by the channels at the centre of the field.
+/// Throws as `make_display`.
+[[nodiscard]] DisplayTransform display_of(const Scene& scene, const ViewOptions& view = {});
+
+/// The planes of a film in the form that its file has. For a spectral sensor, which the metadata declare,
+/// these are radiances in the spectral layout and a preview R, G, B [cd/m^2]. Other planes are unchanged.
+[[nodiscard]] Image film_image(Image planes);
+/// The film of a part in the form that its file has, with variance, layers and features.
+[[nodiscard]] Image film_image(const RenderPart& part);
+/// The planes of a film file to display: a mosaic is demosaicked to a plane for each channel.
+[[nodiscard]] Image film_for_display(const Scene& scene, Image film);
+
+}  // namespace abbe

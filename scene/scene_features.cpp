@@ -1,0 +1,233 @@
+#include "scene/scene_features.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <set>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "scene/coincidence.h"
+#include "scene/coincident_shapes.h"
+#include "scene/polarisation_cause.h"
+#include "scene/scene.h"
+#include "scene/shapes/placed.h"
+#include "scene/small_light.h"
+#include "scene/working_range.h"
+
+namespace abbe {
+namespace {
+
+// Solid angle [sr] below which photons sample a light's caustics. Path tracing hits such a light by chance in
+// fewer than one in 250 directions.
+constexpr double kSmallLight_sr = 0.05;
+
+constexpr std::array<FeatureName, 15> kFeatures{{
+    {"dispersion", &SceneFeatures::dispersion, "a refractive index varies with wavelength"},
+    {"media", &SceneFeatures::media, "a medium absorbs light"},
+    {"scattering", &SceneFeatures::scattering, "a medium scatters light"},
+    {"boundaries", &SceneFeatures::boundaries, "a medium begins and ends without an interface"},
+    {"nesting", &SceneFeatures::nesting,
+     "media may be nested, or a medium may coincide with another one, a sheet or a wall"},
+    {"caustics", &SceneFeatures::caustics,
+     "a specular surface can focus light onto a surface that is not specular"},
+    {"light_tracing", &SceneFeatures::light_tracing,
+     "a camera sees caustics of a light too small to be hit by chance, or such a light illuminates a probe "
+     "with an area through specular media"},
+    {"environment", &SceneFeatures::environment, "light arrives from infinity in all directions"},
+    {"textures", &SceneFeatures::textures,
+     "a material, its relief or vertex normals vary over the surface, or the material is anisotropic"},
+    {"delta_lights", &SceneFeatures::delta_lights, "point, spot or directional lights"},
+    {"narrow_bands", &SceneFeatures::narrow_bands,
+     "an emission or a response has features narrower than 10 nm"},
+    {"polarisation_matters", &SceneFeatures::polarisation_relevant,
+     "light polarised by one event may meet another that depends on polarisation"},
+    {"depth_of_field", &SceneFeatures::depth_of_field, "a lens of finite aperture"},
+    {"angular_response", &SceneFeatures::angular_response,
+     "a filter shifts with the angle of incidence on the film"},
+    {"motion", &SceneFeatures::motion, "a shape, a light or the camera moves while the film is exposed"},
+}};
+
+// Sets a feature and records the first object that causes it.
+void require(SceneFeatures& features, bool SceneFeatures::*member, bool condition, const char* kind,
+             const std::string& name) {
+  if (!condition || features.*member) return;
+  features.*member = true;
+  const auto* known = std::find_if(kFeatures.begin(), kFeatures.end(),
+                                   [member](const FeatureName& n) { return n.member == member; });
+  features.reasons[known->key] = name.empty() ? kind : fmt::format("{} \"{}\"", kind, name);
+}
+
+// Bounds of an object that matters for nested media:
+// - a shape that light enters through an interface, or whose appearance depends on the surrounding medium;
+// - a boundary of a medium without an interface;
+// - all faces with one material that bounds a medium, which together may form a body.
+struct MediumBounds {
+  Imath::Box3d box;
+  const ShapeInstance* shape;  // first face of a body
+  bool has_interface;          // the medium has an interface
+  bool face;                   // bounds a medium, but encloses no volume by itself
+  bool body = false;           // made of faces
+};
+
+std::vector<MediumBounds> medium_bounds(const Scene& scene) {
+  std::vector<MediumBounds> all;
+  std::map<std::uint32_t, MediumBounds> bodies;  // by material
+  for (const ShapeInstance& instance : scene.shapes) {
+    const Material& material = scene.materials[instance.material];
+    if (!depends_on_outside(material) && !is_boundary(material)) continue;
+    const bool face = encloses_medium(material) && !(instance.volume > 0);
+    all.push_back({bounds(instance.shape), &instance, interior_index(material) != nullptr, face});
+    if (!face) continue;
+    MediumBounds& body = bodies.try_emplace(instance.material, all.back()).first->second;
+    body.box.extendBy(all.back().box);
+    body.body = true;
+  }
+  for (const auto& [material, body] : bodies) all.push_back(body);
+  return all;
+}
+
+// True if one is a body and the other one of its faces.
+bool is_face_of(const MediumBounds& a, const MediumBounds& b) {
+  return (a.body || b.body) && a.face && b.face && a.shape->material == b.shape->material;
+}
+
+// Finds a shape whose box intersects that of another shape or body, where one of them has an interface. Boxes
+// are swept in order of x.
+const ShapeInstance* nested_shape(const Scene& scene) {
+  std::vector<MediumBounds> all = medium_bounds(scene);
+  std::sort(all.begin(), all.end(),
+            [](const MediumBounds& a, const MediumBounds& b) { return a.box.min.x < b.box.min.x; });
+  const double tolerance = scene.coincidence_tolerance();
+  // If there are too many pairs, the media are assumed to be nested.
+  std::size_t pairs = 0;
+  for (auto a = all.begin(); a != all.end(); ++a) {
+    const Imath::Box3d near = grown(a->box, tolerance);
+    for (auto b = a + 1; b != all.end() && b->box.min.x <= near.max.x; ++b)
+      if (++pairs > kMaxPairs ||
+          ((a->has_interface || b->has_interface) && near.intersects(b->box) && !is_face_of(*a, *b)))
+        return b->shape;
+  }
+  return nullptr;
+}
+
+// True if the BSDF depends on the position on the surface.
+bool varies(const ShapeInstance& instance, const Material& material) {
+  const auto* mesh = plain<Mesh>(instance.shape);
+  return needs_coordinates(material) || (mesh != nullptr && !mesh->normals.empty());
+}
+
+void analyse_media(const Scene& scene, SceneFeatures& features) {
+  const ShapeInstance* specular = nullptr;
+  bool scattering = false;
+  for (const ShapeInstance& instance : scene.shapes) {
+    const Material& material = scene.materials[instance.material];
+    const RefractiveIndex* index = interior_index(material);
+    require(features, &SceneFeatures::dispersion, is_dispersive(material), "shape", instance.name);
+    const Medium* contents = medium(material);
+    features.encloses_media = features.encloses_media || encloses_medium(material);
+    const bool absorbing = (index != nullptr && index->absorbing()) || (contents && contents->absorbs());
+    const bool turbid = contents != nullptr && contents->scatters();
+    require(features, &SceneFeatures::media, absorbing, "shape", instance.name);
+    require(features, &SceneFeatures::scattering, turbid, "shape", instance.name);
+    require(features, &SceneFeatures::boundaries, is_boundary(material), "shape", instance.name);
+    require(features, &SceneFeatures::textures, varies(instance, material), "shape", instance.name);
+    const Lobes material_lobes = lobes(material);
+    scattering = scattering || material_lobes.spread || turbid;
+    if (material_lobes.delta && specular == nullptr) specular = &instance;
+  }
+  const bool has_local_light = std::any_of(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+    return !light.is_environment() && emits(light);
+  });
+  if (specular != nullptr)
+    require(features, &SceneFeatures::caustics, scattering && has_local_light, "shape", specular->name);
+  const ShapeInstance* nested = nested_shape(scene);
+  if (nested == nullptr)
+    if (const auto contact = find_coincident_pair(scene)) nested = &scene.shapes[contact->shape];
+  if (nested != nullptr) require(features, &SceneFeatures::nesting, true, "shape", nested->name);
+  if (const auto polarising = polarisation_cause(scene))
+    require(features, &SceneFeatures::polarisation_relevant, true, polarising->kind, polarising->name);
+}
+
+void analyse_lights(const Scene& scene, SceneFeatures& features) {
+  const bool probe = is_probe(scene.camera);
+  const Viewpoints centers = specular_centers(scene);
+  const Viewpoints viewpoints = probe ? probe_viewpoints(scene) : centers;
+  const bool photons_arrive =
+      probe ? traits(scene.camera).opening && !centers.points.empty() : features.caustics;
+  std::set<const Curve*> examined;  // lights may share spectra
+  for (const Light& light : scene.lights) {
+    require(features, &SceneFeatures::environment, light.is_environment(), "light", light.name);
+    require(features, &SceneFeatures::delta_lights, light.is_delta(), "light", light.name);
+    const Curve& emission = light.emission.base();
+    if (emits(light) && examined.insert(&emission).second)
+      require(features, &SceneFeatures::narrow_bands, has_narrow_feature(emission), "light", light.name);
+    features.light_is_traced.push_back(photons_arrive && !light.is_environment() && emits(light) &&
+                                       subtends_less(scene, light, viewpoints, kSmallLight_sr));
+    require(features, &SceneFeatures::light_tracing, features.light_is_traced.back(), "light", light.name);
+  }
+}
+
+void analyse_motion(const Scene& scene, SceneFeatures& features) {
+  for (const ShapeInstance& instance : scene.shapes)
+    require(features, &SceneFeatures::motion, motion_of(instance.shape) != nullptr, "shape", instance.name);
+  for (const Light& light : scene.lights)
+    require(features, &SceneFeatures::motion, motion_of(light, scene.shapes) != nullptr, "light", light.name);
+  require(features, &SceneFeatures::motion, scene.camera.motion != nullptr, "camera", "");
+}
+
+// Distance from the peak at knot `i` to the first fall to `level`, in steps of `step`; infinite if it exceeds
+// `max_distance`.
+double fall_distance(std::span<const Knot> knots, std::size_t i, std::ptrdiff_t step, double level,
+                     double max_distance) {
+  const auto count = static_cast<std::ptrdiff_t>(knots.size());
+  for (auto j = static_cast<std::ptrdiff_t>(i) + step; j >= 0 && j < count; j += step) {
+    const Knot& knot = knots[static_cast<std::size_t>(j)];
+    const Knot& before = knots[static_cast<std::size_t>(j - step)];
+    const double value = std::abs(knot.value);
+    if (std::abs(before.wavelength_nm - knots[i].wavelength_nm) > max_distance) break;
+    if (value >= level) continue;
+    const double fraction = (std::abs(before.value) - level) / (std::abs(before.value) - value);
+    return std::abs(before.wavelength_nm + fraction * (knot.wavelength_nm - before.wavelength_nm) -
+                    knots[i].wavelength_nm);
+  }
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+bool has_narrow_feature(const Curve& curve, double width_nm) {
+  const std::span<const Knot> knots = curve.knots();
+  const double significant = 0.1 * std::max(std::abs(curve.max()), std::abs(curve.min()));
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    const double peak = std::abs(knots[i].value);
+    if (!(peak > 0 && peak >= significant)) continue;
+    if (fall_distance(knots, i, -1, peak / 2, width_nm) + fall_distance(knots, i, 1, peak / 2, width_nm) <
+        width_nm)
+      return true;
+  }
+  return false;
+}
+
+std::span<const FeatureName> feature_names() {
+  return kFeatures;
+}
+
+SceneFeatures analyse(const Scene& scene) {
+  SceneFeatures features;
+  analyse_media(scene, features);
+  analyse_lights(scene, features);
+  for (const Channel& channel : scene.channels) {
+    require(features, &SceneFeatures::narrow_bands, has_narrow_feature(channel.weight), "channel",
+            channel.name);
+    require(features, &SceneFeatures::angular_response, channel.angular.has_value(), "channel", channel.name);
+  }
+  analyse_motion(scene, features);
+  require(features, &SceneFeatures::depth_of_field, traits(scene.camera).depth_of_field, "camera", "");
+  return features;
+}
+
+}  // namespace abbe

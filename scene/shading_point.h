@@ -1,0 +1,23 @@
+#pragma once
+
+#include <ImathVec.h>
+
+#include "scene/scene.h"
+#include "scene/shapes/basis.h"
+
+namespace abbe {
+
+/// Shading frame of a hit and its texture coordinates. The frame's z axis is the outward normal, as modified
+/// by vertex normals and by a relief.
+struct ShadingPoint {
+  Basis<float> frame;
+  Imath::V2f uv{0, 0};
+  bool relief = false;  ///< True if z may differ from the geometric normal.
+};
+
+/// Shading point of a hit at that time, for scenes with `features.textures`; elsewhere the geometric normal
+/// suffices. Vertex normals apply first, then a relief. If the material needs texture coordinates, they are
+/// computed and the x axis runs along dp/du; otherwise they are (0, 0).
+[[nodiscard]] ShadingPoint textured_shading_point(const Scene& scene, const SurfaceHit& hit, float time);
+
+}  // namespace abbe

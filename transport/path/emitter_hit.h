@@ -1,0 +1,35 @@
+#pragma once
+
+#include <limits>
+#include <optional>
+
+#include "transport/path/path_state.h"
+#include "transport/path/path_vertex.h"
+
+namespace abbe {
+
+/// Attenuates a path that leaves the scene and calls `visit` with a `LightVertex` for every light at infinity
+/// visible along its ray.
+template <typename Visit>
+void visit_escaped_lights(const Scene& scene, PathState& path, Visit visit) {
+  if (scene.background().empty()) return;
+  path.media.medium.attenuate(path.packet.throughput, std::numeric_limits<float>::infinity());
+  for (const std::uint32_t light : scene.background()) {
+    const auto* sun = std::get_if<SunLight>(&scene.lights[light].kind);
+    if (sun == nullptr || sun->contains(path.ray.direction))
+      visit(LightVertex{light, path.ray.direction, Imath::V3f(0), true});
+  }
+}
+
+/// Light vertex of an emitting surface that a ray with the unit direction `direction` hits; nothing if it
+/// does not emit towards the ray.
+[[nodiscard]] inline std::optional<LightVertex> emitter_hit(const Scene& scene, const SurfaceHit& hit,
+                                                            const Imath::V3f& direction) {
+  const std::int32_t light = scene.shapes[hit.shape].light;
+  if (light < 0) return std::nullopt;
+  const auto index = static_cast<std::uint32_t>(light);
+  if (!emits_towards(scene.lights[index], hit.normal, -direction)) return std::nullopt;
+  return LightVertex{index, hit.point, hit.normal};
+}
+
+}  // namespace abbe

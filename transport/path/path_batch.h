@@ -1,0 +1,376 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "materials/medium/phase.h"
+#include "transport/path/dimensions.h"
+#include "transport/path/free_path.h"
+#include "transport/path/interface.h"
+#include "transport/path/path_state.h"
+#include "transport/path/polarised_draw.h"
+#include "transport/path/ray_caster.h"
+#include "transport/path/roulette.h"
+#include "transport/path/vertex.h"
+
+namespace abbe {
+
+/// Callbacks of a technique that traces paths. Its `Path` is a `PathState`; `kMode` is the quantity that
+/// paths carry, radiance or power. `u` are random numbers in [0, 1). The order of the calls is:
+/// - At the end of each ray `on_escape` or `on_hit`.
+/// - If the path may scatter once more and the surface is not black: `prepare_scatter`, `connect` unless the
+///   surface is specular, `scatter`, `continues_after`. After packet, ray and media are updated,
+///   `survival_weight`.
+/// - At an event in a medium: `continues_in_medium`, `connect_in_medium`, and `survival_weight_in_medium`
+///   once the ray is updated.
+///
+/// Work along the new ray of a path belongs in the two functions for the survival weight.
+///
+/// Optional members:
+/// - `log2_splits(path)`: base-2 logarithm of the number of paths that continue from a scattering surface.
+///   `on_split(child, log2_count)` receives each of them.
+/// - `reuses_spare_dimensions(path)`: true if the random numbers that a matt surface does not use may draw
+///   the next direction.
+/// - `splits_wavelengths()`: true if paths split into their wavelengths at smooth dispersive glass.
+/// - `connects_equiangular()` and `connect_equiangular(path, segment, u)`: a connection from a point along a
+///   homogeneous scattering segment, before the event that ends it.
+/// - `adds_path(path)`: a random number in [0, 1) for roulette if a second path leaves the current vertex.
+///   `scatter_added(path, vertex)` turns a copy of the path into the second one and returns its event.
+///
+/// A technique that computes the pdf of every event itself sets `kSamplesPolarised` to false.
+template <typename T>
+concept PathTechnique = std::derived_from<typename T::Path, PathState> &&
+    std::constructible_from<typename T::Path, const Sampler&, std::uint32_t> &&
+    requires(T technique, typename T::Path& path, const SurfaceHit& hit, const SurfaceVertex& vertex,
+             const PhaseFunction& phase, const BsdfSample& event, const BsdfRandom& random,
+             const std::array<float, 4>& u) {
+  { T::kMode } -> std::convertible_to<TransportMode>;
+  // The path leaves the scene, or hits a surface.
+  technique.on_escape(path);
+  technique.on_hit(path, hit);
+  // The path is at a surface at which it may scatter.
+  technique.prepare_scatter(path, vertex);
+  // The vertex may be connected to another path or light, on a surface or in a medium.
+  technique.connect(path, vertex, u);
+  technique.connect_in_medium(path, phase, u);
+  // Samples an event with the given random numbers.
+  { technique.scatter(path, vertex, random) } -> std::same_as<std::optional<BsdfSample>>;
+  // True if the path may continue after an event.
+  { technique.continues_after(path, event) } -> std::same_as<bool>;
+  { technique.continues_in_medium(path) } -> std::same_as<bool>;
+  // Estimate with which roulette decides, after an event.
+  { technique.survival_weight(path, vertex, event) } -> std::same_as<float>;
+  { technique.survival_weight_in_medium(path) } -> std::same_as<float>;
+  // Throughput relative to that at the start.
+  { technique.throughput_estimate(path) } -> std::same_as<float>;
+  // Adds the queued connections of all paths, after each step.
+  technique.resolve_connections();
+};
+
+/// True if a technique balances wavelengths only, so that its paths may sample events with polarised pdfs.
+/// Other techniques compute the pdf of each event themselves.
+template <typename Technique>
+inline constexpr bool kSamplesPolarised = true;
+
+/// Exponent `a` of `survival` for long paths of a technique at surfaces; in media all use
+/// `kPathRouletteExponent`.
+template <typename Technique>
+inline constexpr float kRouletteExponent = kPathRouletteExponent;
+
+/// True if a smooth dispersive model refracts each wavelength separately. With the random number `kRefracted`
+/// such a model reflects only at total reflection.
+[[nodiscard]] inline bool refracts_each_lane(const Bsdf& bsdf) {
+  return is_any_of<DielectricBsdf, CoatedDielectricBsdf>(bsdf);
+}
+inline constexpr BsdfRandom kRefracted{0x1.fffffep-1F, {0, 0}};
+
+/// Batch of paths that take each step together: their rays are traced as a stream, then each path is updated
+/// independently of the others.
+template <typename Technique>
+class PathBatch {
+ public:
+  using Path = typename Technique::Path;
+
+  PathBatch(const Scene& scene, RayCaster& caster)
+      : scene_(scene),
+        caster_(caster),
+        has_free_paths_(abbe::has_free_paths(scene)),
+        max_depth_(depth_limit(scene.render)) {}
+
+  /// Paths of the batch; `active()` has the indices of those that have not ended.
+  [[nodiscard]] std::vector<Path>& paths() { return paths_; }
+  [[nodiscard]] std::vector<std::uint32_t>& active() { return active_; }
+  [[nodiscard]] bool has_free_paths() const { return has_free_paths_; }
+
+  /// Traces all active paths to their ends.
+  void run(Technique& technique) {
+    static_assert(PathTechnique<Technique>);
+    append_children();
+    while (!active_.empty()) step(technique);
+  }
+
+  /// Scatters a path at a vertex, after connecting it if the surface is not specular. Returns true if the
+  /// path continues.
+  bool scatter_at(Technique& technique, Path& path, const SurfaceVertex& vertex) {
+    technique.prepare_scatter(path, vertex);
+    const auto [u, v] = path.sampler.two_groups(scattering_group(path.depth));
+    if (scatters(vertex.bsdf)) {
+      technique.connect(path, vertex, v);
+      if constexpr (requires { technique.log2_splits(path); })
+        if (const int log2_count = technique.log2_splits(path); log2_count > 0) {
+          split(technique, path, vertex, log2_count);
+          return false;
+        }
+    }
+    return scatter(technique, path, vertex, u);
+  }
+
+ private:
+  // Scatters a path at a vertex. Returns true if the path continues.
+  bool scatter(Technique& technique, Path& path, const SurfaceVertex& vertex, std::array<float, 4> u) {
+    add_second_path(technique, path, vertex);
+    if constexpr (requires { technique.reuses_spare_dimensions(path); })
+      reuse_spare_dimensions(technique, path, vertex, u);
+    const bool drawn =
+        path.packet.polarisation && kSamplesPolarised<Technique> && samples_polarised(vertex.bsdf);
+    const float choice =
+        drawn ? polarised_choice(path.packet, vertex, path.ray.direction, Technique::kMode, u[2]) : u[2];
+    const auto event = technique.scatter(path, vertex, BsdfRandom{choice, {u[0], u[1]}});
+    if (!event || !technique.continues_after(path, *event)) return false;
+    if constexpr (requires { technique.splits_wavelengths(); })
+      if (event->dispersive && technique.splits_wavelengths() && refracts_each_lane(vertex.bsdf) &&
+          !path.packet.lone_lane()) {
+        split_wavelengths(technique, path, vertex, drawn, u[3]);
+        return false;
+      }
+    return apply_event(technique, path, vertex, *event, drawn, u[3]);
+  }
+
+  // Adds a second path at a vertex if the technique requests one.
+  void add_second_path(Technique& technique, const Path& path, const SurfaceVertex& vertex) {
+    if constexpr (requires { technique.adds_path(path); }) {
+      const std::optional<float> u = technique.adds_path(path);
+      if (!u) return;
+      Path added = path;
+      const std::optional<BsdfSample> event = technique.scatter_added(added, vertex);
+      if (event && apply_event(technique, added, vertex, *event, false, *u))
+        children_.push_back(std::move(added));
+    }
+  }
+
+  // Two consecutive directions are an integrand of four dimensions, which the points of one group cover more
+  // evenly than those of two groups. A matt surface chooses no lobe, and early events play no roulette. Their
+  // other two numbers draw the next direction if that is at a matt surface too. At other surfaces the choice
+  // of a lobe and its direction would come from different groups.
+  void reuse_spare_dimensions(const Technique& technique, Path& path, const SurfaceVertex& vertex,
+                              std::array<float, 4>& u) const {
+    const std::optional<Imath::V2f> left = std::exchange(path.spare_u, std::nullopt);
+    if (!std::holds_alternative<DiffuseBsdf>(vertex.bsdf)) return;
+    if (left) {
+      u[0] = left->x;
+      u[1] = left->y;
+    } else if (technique.reuses_spare_dimensions(path) && !plays_roulette(scene_.render, path.depth + 1)) {
+      path.spare_u.emplace(u[2], u[3]);
+    }
+  }
+
+  // Continues a path as 2^log2_count children, each with an equal fraction of its throughput.
+  void split(Technique& technique, const Path& path, const SurfaceVertex& vertex, int log2_count) {
+    for (std::uint32_t number = 0; number < 1U << log2_count; ++number) {
+      Path child = path;
+      child.sampler = path.sampler.split_child(number, log2_count);
+      child.packet.throughput *= std::ldexp(1.0F, -log2_count);
+      technique.on_split(child, log2_count);
+      if (scatter(technique, child, vertex, child.sampler.group(scattering_group(path.depth))))
+        children_.push_back(std::move(child));
+    }
+  }
+
+  // Updates a path after an event. Returns true if the path continues.
+  bool apply_event(Technique& technique, Path& path, const SurfaceVertex& vertex, const BsdfSample& event,
+                   bool drawn, float u) {
+    path.nee_path_pdf = event.delta ? 0.0F : path.packet.lane_pdf.sum() / event.pdf;
+    path.prev_context = vertex.light_context();
+    advance(path.packet, event);
+    if (path.packet.polarisation)
+      polarise(path, vertex.mueller(event.wi, event.delta, path.packet.lone_lane()), drawn);
+    if (event.transmitted)
+      path.media.enter(scene_, vertex.media_behind(scene_, path.media.stack), path.lambda_nm());
+    path.ray = vertex.spawn_ray(vertex.frame.to_world(event.wi), path.ray.time);
+    const float rr_exponent = event.delta ? std::max(kRouletteExponent<Technique>, kSpecularRouletteExponent)
+                                          : kRouletteExponent<Technique>;
+    return survives_roulette(path, technique.survival_weight(path, vertex, event), rr_exponent, u);
+  }
+
+  // Splits a path that dispersive glass refracts into its wavelengths, each with its own refraction and
+  // random numbers. With the probability t_k that wavelength k is refracted, the pdf of the path is in
+  // proportion to sum_k P_k t_k, whichever wavelength is the hero. Wavelength j carries f_j over that.
+  void split_wavelengths(Technique& technique, const Path& path, const SurfaceVertex& vertex, bool drawn,
+                         float u) {
+    std::array<std::optional<BsdfSample>, kLanes> events;
+    float density = 0;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      if (!(path.packet.lane_pdf[lane] > 0)) continue;
+      const auto event = vertex.scatter(kRefracted, lane, Technique::kMode);
+      if (!event || !event->transmitted) continue;
+      density +=
+          path.packet.lane_pdf[lane] *
+          (drawn ? 1 - polarised_reflectance(path.packet, vertex, path.ray.direction, Technique::kMode, lane)
+                 : event->pdf);
+      events[static_cast<std::size_t>(lane)] = event;
+    }
+    if (!(density > 0)) return;
+    for (int lane = 0; lane < kLanes; ++lane) {
+      const auto& event = events[static_cast<std::size_t>(lane)];
+      const float throughput = path.packet.throughput[lane];
+      if (!event || !(throughput > 0)) continue;
+      Path& child = children_.emplace_back(path);
+      child.sampler = path.sampler.branch(static_cast<std::uint32_t>(lane));
+      child.packet.hero = lane;
+      child.packet.throughput = SampledSpectrum::only(lane, throughput * event->pdf / density);
+      child.packet.lane_pdf = SampledSpectrum::only(lane, 1);
+      if (!apply_event(technique, child, vertex, *event, false, u)) children_.pop_back();
+    }
+  }
+
+  void step(Technique& technique) {
+    rays_.clear();
+    for (const std::uint32_t i : active_) rays_.push_back(paths_[i].ray);
+    hits_.resize(rays_.size());
+    caster_.intersect(rays_, hits_);
+    std::size_t count = 0;
+    for (std::size_t k = 0; k < active_.size(); ++k)
+      if (step_path(technique, paths_[active_[k]], hits_[k])) active_[count++] = active_[k];
+    active_.resize(count);
+    append_children();
+    technique.resolve_connections();
+  }
+
+  // Appends the children to the active paths.
+  void append_children() {
+    for (Path& path : children_) {
+      active_.push_back(static_cast<std::uint32_t>(paths_.size()));
+      paths_.push_back(std::move(path));
+    }
+    children_.clear();
+  }
+
+  // Advances a path along its ray, whose nearest hit is `hit`.
+  SegmentEnd find_segment_end(Technique& technique, Path& path, std::optional<SurfaceHit>& hit) {
+    if (has_free_paths_)
+      return propagate(scene_, caster_, free_path_numbers(path), path, hit, visitor(technique, path));
+    if (!hit) return SegmentEnd::escape;
+    path.media.medium.attenuate(path.packet.throughput, hit->t);
+    return SegmentEnd::surface;
+  }
+
+  // Random numbers of the free path. Direction and free path in a medium are an integrand of three
+  // dimensions, which one group covers.
+  [[nodiscard]] static Imath::V2f free_path_numbers(Path& path) {
+    if (const auto left = std::exchange(path.free_path_u, std::nullopt)) return *left;
+    const std::array<float, 4> u = path.sampler.group(free_path_group(path.depth));
+    return {u[0], u[1]};
+  }
+
+  // Advances a path from its last vertex to the next one, `hit` being the nearest hit of its ray, and
+  // scatters it there. Returns true if the path continues.
+  bool step_path(Technique& technique, Path& path, std::optional<SurfaceHit>& hit) {
+    const SegmentEnd end = find_segment_end(technique, path, hit);
+    if (end == SegmentEnd::medium) return scatter_in_medium(technique, path);
+    if (end == SegmentEnd::escape) technique.on_escape(path);
+    if (end != SegmentEnd::surface) return false;
+    std::optional<Interface> interface;
+    if (scene_.features.nesting) {
+      interface = interface_at(scene_, path.ray, *hit, path.media.stack);
+      hit = interface->hit;
+    }
+    if (scene_.transmission_may_leak(*hit, path.ray.direction, path.ray.time)) return false;
+    technique.on_hit(path, *hit);
+    const SurfaceVertex vertex(scene_, *hit, interface, path);
+    return !is_black(vertex.bsdf) && !is_truncated(technique, path) && scatter_at(technique, path, vertex);
+  }
+
+  // Callback of the technique for scattering segments, if it has one.
+  SegmentVisitor visitor(Technique& technique, Path& path) const {
+    if constexpr (requires { technique.connects_equiangular(); })
+      if (technique.connects_equiangular() && path.depth < max_depth_)
+        return [&technique, &path](const MediumSegment& segment) {
+          const std::array<float, 4> u = path.sampler.group(free_path_group(path.depth));
+          technique.connect_equiangular(path, segment, {u[2], u[3]});
+        };
+    return {};
+  }
+
+  bool scatter_in_medium(Technique& technique, Path& path) {
+    if (!technique.continues_in_medium(path) || is_truncated(technique, path)) return false;
+    const PhaseFunction& phase = path.media.medium.scattering->phase;
+    const auto [u, v] = path.sampler.two_groups(scattering_group(path.depth));
+    technique.connect_in_medium(path, phase, v);
+    path.free_path_u.emplace(u[2], v[3]);  // of v[3] only the digits that extend u[2] matter
+    path.prev_context = {path.ray.origin, std::nullopt};
+    path.ray.direction = sample_phase_direction(path, phase, {u[0], u[1]});
+    return survives_roulette(path, technique.survival_weight_in_medium(path), kPathRouletteExponent, u[3]);
+  }
+
+  // Samples a direction in a medium and updates the path's NEE pdf and polarisation for it.
+  Imath::V3f sample_phase_direction(Path& path, const PhaseFunction& phase, const Imath::V2f& u) {
+    const Imath::V3f& along = path.ray.direction;
+    const float lanes = path.packet.lane_pdf.sum();
+    if (!path.packet.polarisation) {
+      const PhaseSample turned = sample(phase, u);
+      path.nee_path_pdf = lanes / turned.pdf;
+      return Basis<float>(along).to_world(turned.direction);
+    }
+    const bool drawn = kSamplesPolarised<Technique> && std::holds_alternative<RayleighPhase>(phase);
+    const PhaseSample plain = sample(phase, u);
+    const PolarisedDirection turned =
+        drawn ? sample_polarised_phase(path.packet, phase, along, Technique::kMode, u)
+              : PolarisedDirection{Basis<float>(along).to_world(plain.direction), plain.pdf};
+    path.nee_path_pdf = lanes / (turned.pdf * polarise(path, mueller(phase, along, turned.direction), drawn));
+    return turned.direction;
+  }
+
+  // Applies an event to the path's polarisation. Returns the factor between the pdf with which the event was
+  // sampled and the unpolarised one.
+  float polarise(Path& path, const std::optional<MuellerMatrix>& matrix, bool drawn) {
+    const Imath::V3f travels = light_travels(path.ray.direction, Technique::kMode);
+    if (drawn) return polarise_sampled(path.packet, matrix, travels, Technique::kMode);
+    abbe::polarise(path.packet, matrix, travels, Technique::kMode);
+    return 1;
+  }
+
+  // True if the path has the maximum depth; counts it as truncated.
+  bool is_truncated(const Technique& technique, const Path& path) {
+    if (path.depth < max_depth_) return false;
+    caster_.count_truncated(technique.throughput_estimate(path));
+    return true;
+  }
+
+  bool survives_roulette(Path& path, float weight, float rr_exponent, float u) const {
+    ++path.depth;
+    if (path.packet.throughput.is_zero()) return false;
+    if (!plays_roulette(scene_.render, path.depth)) return true;
+    const float q = survival(weight, path.depth, rr_exponent);
+    if (u >= q) return false;
+    survive(path.packet, q);
+    return true;
+  }
+
+  const Scene& scene_;
+  RayCaster& caster_;
+  bool has_free_paths_;
+  int max_depth_;
+  std::vector<Path> paths_;
+  std::vector<Path> children_;  // paths split off in this step, or before the first one
+  std::vector<std::uint32_t> active_;
+  std::vector<Ray> rays_;  // of the active paths
+  std::vector<std::optional<SurfaceHit>> hits_;
+};
+
+}  // namespace abbe

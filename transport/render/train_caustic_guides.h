@@ -1,0 +1,11 @@
+#pragma once
+
+#include "transport/plan/plan.h"
+
+namespace abbe {
+
+/// Trains the caustic guides of a plan that traces camera paths. The pilot photons come from lights that
+/// camera paths may hit through specular surfaces. Does nothing for a scene without caustics.
+void train_caustic_guides(Plan& plan, int threads);
+
+}  // namespace abbe
