@@ -8,33 +8,39 @@
 
 namespace abbe {
 
-/// The file that a write to `path` replaces: `path` with its symbolic links resolved.
+/// File that a write to `path` replaces: `path` with its symbolic links followed. A relative link starts at
+/// its own folder.
+/// The file need not exist. A cycle of links returns one of them. Never throws.
 [[nodiscard]] std::filesystem::path destination(const std::filesystem::path& path);
 
-/// Stem for companion files (temporary files, locks) of a file called `name`. It is `name`, or its SHA-256 if
-/// a companion's name would exceed the length limit of file systems.
+/// Stem for companion files (temporary files, locks) of a file called `name`, a name without folders. It is
+/// `name`, or its SHA-256 if `name` is longer than 200 bytes: file systems limit the length of names.
 [[nodiscard]] std::string companion_stem(const std::string& name);
 
-/// Creates or replaces `path` as a whole or not at all:
+/// Creates or replaces the `destination` of `path` as a whole or not at all:
 /// - `write` fills a temporary file in the same folder, which is flushed to disk;
 /// - `verify` returns true if the temporary file reads back as intended;
-/// - the temporary file is renamed to `path`, and the folder is flushed.
-/// Throws Error{output} and leaves an older file unchanged if a step fails.
+/// - the temporary file is renamed, and the folder is flushed.
+/// A failure before the renaming leaves an older file unchanged and no temporary file. Throws Error{output}
+/// if a step fails, if `verify` returns false, and instead of Error{input} or a foreign exception from the
+/// callbacks. Their other Errors pass through.
 void write_atomically(const std::filesystem::path& path,
                       const std::function<void(const std::filesystem::path& temporary)>& write,
                       const std::function<bool(const std::filesystem::path& temporary)>& verify);
 
 /// Writes `pieces` one after the other to `path`, atomically. The file appears after it has been read back
-/// and compared. Throws Error{output}.
+/// and compared. Throws Error{output} as above.
 void write_atomically(const std::filesystem::path& path, std::span<const std::string_view> pieces);
 void write_atomically(const std::filesystem::path& path, std::string_view bytes);
 
-/// Removes temporary files of `path` whose processes no longer run. The caller holds the lock of `path`
-/// (`FileLock`).
+/// Removes temporary files of `path` whose processes no longer run; files that cannot be removed stay. The
+/// caller holds the lock of `path` (`FileLock`).
 void remove_leftovers(const std::filesystem::path& path);
 
-/// Throws Error{output} if `path` cannot be created or replaced: its folder is missing or read-only, or
-/// `path` is a folder, a device or read-only. It creates and removes a file in the folder to find out.
+/// Creates and removes a file next to `path` to find out if `path` can be created or replaced. Throws
+/// Error{output} if not:
+/// - its folder is missing or read-only;
+/// - `path` is a folder, a device, read-only, a cycle of links, too long, or has no file name.
 void require_writable(const std::filesystem::path& path);
 
 }  // namespace abbe

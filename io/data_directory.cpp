@@ -36,7 +36,7 @@ fs::path locate() {
   throw Error(ErrorCode::input, installed.string(), "the tables are missing; set ABBE_DATA to their folder");
 }
 
-// Paths of the tables relative to the folder, sorted.
+// Paths of all tables (.csv) relative to the folder, sorted, without files of the example scenes.
 std::vector<std::string> tables_of(const fs::path& folder) {
   std::vector<std::string> names;
   for (const auto& entry : fs::recursive_directory_iterator(folder)) {

@@ -12,27 +12,27 @@
 
 namespace abbe {
 
-/// A text and the file name under which it was read. Source positions share ownership of it.
+/// A text in UTF-8 and the file name under which it was read. Source positions share ownership of it.
 struct SourceText {
   std::string file;
   std::string text;
 };
 
-/// A position in a text. `offset` is in bytes, or kWholeFile for the file as a whole. `pointer` is the JSON
-/// pointer of the value there, or "" for the root and for tables.
+/// A position in a text.
 struct SourcePosition {
   static constexpr std::size_t kWholeFile = static_cast<std::size_t>(-1);
 
+  /// nullptr for an input without a text, such as a command-line option.
   std::shared_ptr<const SourceText> source;
-  std::size_t offset = 0;
-  std::string pointer;
+  std::size_t offset = 0;  ///< Bytes from the start of the text, or kWholeFile for the file as a whole.
+  std::string pointer;     ///< JSON pointer of the value there; "" for the root and for tables.
 };
 
 /// One error or warning about an input.
 struct Diagnostic {
   enum class Severity { warning, error };
   Severity severity = Severity::error;
-  ErrorCode code = ErrorCode::scene;
+  ErrorCode code = ErrorCode::scene;  ///< Class of an error; unused for a warning.
   SourcePosition where;
   std::string message;
 };
@@ -41,12 +41,15 @@ struct Diagnostic {
 /// intended.
 enum class Strictness { lenient, strict };
 
-/// Collects all errors and warnings about the inputs of one command, so that a user sees them at once.
+/// Collects all errors and warnings about the inputs of one command, so that a user sees them at once. Not
+/// thread-safe.
 class Diagnostics {
  public:
   Diagnostics() = default;
   explicit Diagnostics(Strictness strictness) : strictness_(strictness) {}
 
+  /// Adds an error or a warning. Nothing is thrown: callers continue with the rest of the input, then check
+  /// `has_errors`.
   void error(const SourcePosition& where, std::string message, ErrorCode code = ErrorCode::scene);
   void warning(const SourcePosition& where, std::string message);
   /// Reports an input that can be used but probably gives a wrong result: an error if strict, otherwise a
@@ -54,13 +57,14 @@ class Diagnostics {
   void error_if_strict(const SourcePosition& where, std::string message);
 
   [[nodiscard]] bool has_errors() const { return errors_ > 0; }
+  /// Errors and warnings in the order in which they were reported. The next report invalidates the span.
   [[nodiscard]] std::span<const Diagnostic> all() const { return diagnostics_; }
 
-  /// Code of the first error, or `ErrorCode::internal` if there is none.
+  /// Code of the error reported first, or `ErrorCode::internal` if there is none.
   [[nodiscard]] ErrorCode code() const;
 
-  /// All diagnostics as text, each formatted by `format` and ended by a newline. Errors beyond the first
-  /// `limit` are counted in a final line.
+  /// All warnings and the first `limit` errors, in order, each formatted by `format` and ended by a newline.
+  /// A final line counts the further errors. Empty without diagnostics.
   [[nodiscard]] std::string text(std::size_t limit = 20) const;
 
  private:
@@ -69,17 +73,22 @@ class Diagnostics {
   Strictness strictness_ = Strictness::lenient;
 };
 
-/// `file:line:col: /pointer: error: message`, followed by the source line and a caret below the column. Lines
-/// and columns start at 1; a column is a code point. Control characters are replaced by "?", and long lines
-/// are cut around the column. Without a source it is the message alone. It has no trailing newline.
+/// `file:line:col: /pointer: error: message`, followed by the source line and a caret below the column.
+/// Without a trailing newline.
+/// - Lines and columns start at 1; a column is a code point.
+/// - An empty pointer is omitted.
+/// - Control characters and invalid UTF-8 are replaced by "?", and long lines are cut around the column.
+/// - The whole file as position omits line, column and excerpt. No source omits the file as well.
 [[nodiscard]] std::string format(const Diagnostic& diagnostic);
 
-/// The candidate with the smallest edit distance to `name`; nothing if all differ by more than a few letters.
+/// The candidate with the smallest edit distance to `name`, the first of equals; ASCII case is ignored.
+/// Nothing if all differ by more than one letter plus one for every four letters of `name`, or in every
+/// letter.
 [[nodiscard]] std::optional<std::string> nearest_name(std::string_view name,
                                                       std::span<const std::string> candidates);
 
-/// `unknown <kind> "<name>"`, followed by the nearest candidate or, if none is near and the list is short, by
-/// all candidates.
+/// `unknown <kind> "<name>"`, followed by the nearest candidate (`nearest_name`). If none is near and there
+/// are at most 12 candidates, all of them follow instead.
 [[nodiscard]] std::string unknown_name(std::string_view kind, std::string_view name,
                                        std::span<const std::string> candidates);
 

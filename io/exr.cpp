@@ -43,6 +43,7 @@ std::string stored_text(const std::string& key, const std::string& value) {
   return number ? number_text(static_cast<float>(*number)) : value;
 }
 
+// Header of a part. Throws Error{internal} for a channel of a wrong size or a repeated name.
 Imf::Header header_of(const ExrPart& part) {
   const Image& image = part.image;
   Imf::Header header(image.width, image.height);
@@ -141,6 +142,7 @@ Image displayed(const Image& stored, const Imath::Box2i& data, Image picture, co
   return picture;
 }
 
+// Pixels of part `number` in its display window.
 Image pixels_of(Imf::MultiPartInputFile& file, int number, const std::string& name) {
   const Imf::Header& header = file.header(number);
   const Imath::Box2i& window = header.dataWindow();
@@ -153,6 +155,7 @@ Image pixels_of(Imf::MultiPartInputFile& file, int number, const std::string& na
   return displayed(image, window, announced(header, header.displayWindow(), name), header.displayWindow());
 }
 
+// Reads all parts. Sizes are checked and memory is reserved before pixels are allocated.
 std::vector<ExrPart> read(const std::filesystem::path& path, Inputs* inputs) {
   const std::string name = path.string();
   require_file(path);

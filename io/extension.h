@@ -10,7 +10,8 @@ namespace abbe {
 /// in either case, since cameras write upper-case extensions.
 [[nodiscard]] std::string extension_of(const std::filesystem::path& path);
 
-/// Throws Error{usage} unless the extension, in either case, is one of `allowed`, such as ".exr".
+/// Throws Error{usage} unless the extension is one of `allowed`, which are in lower case with a dot, such as
+/// ".exr". The path may have it in either case.
 void require_extension(const std::filesystem::path& path, std::initializer_list<const char*> allowed);
 
 }  // namespace abbe

@@ -4,12 +4,13 @@
 
 namespace abbe {
 
-/// Prevents other processes from writing the same output during its lifetime. The lock is a hidden file next
-/// to `path`, which the operating system releases when the process ends, however it ends. The constructor
-/// removes temporary files of processes that were killed.
+/// Excludes other `FileLock` objects for the same output, in this process or another, during its lifetime.
+/// The lock is a hidden file next to the `destination` of `path`. The destructor removes it; the operating
+/// system releases it when the process ends, however it ends. The constructor removes temporary files of
+/// `path` whose processes no longer run.
 class FileLock {
  public:
-  /// Throws Error{output} when another process holds the lock or the folder cannot be written.
+  /// Does not wait: throws Error{output} if another lock exists or the lock file cannot be created.
   explicit FileLock(const std::filesystem::path& path);
   ~FileLock();
   FileLock(const FileLock&) = delete;

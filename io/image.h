@@ -17,13 +17,14 @@ struct ImageChannel {
   std::vector<float> values;  ///< `width * height` values, row by row from the top left.
 };
 
-/// Named float channels and metadata. Channel names are unique.
+/// Named float channels and metadata. Channel names are unique. Each channel has `pixels()` values.
 struct Image {
   int width = 0;
   int height = 0;
   std::vector<ImageChannel> channels;
   std::map<std::string, std::string> metadata;
 
+  /// The channel of that name, case-sensitive; nullptr if there is none.
   [[nodiscard]] const ImageChannel* find(std::string_view name) const {
     for (const ImageChannel& channel : channels)
       if (channel.name == name) return &channel;
@@ -39,11 +40,11 @@ struct Image {
 /// Largest image edge and pixel count accepted from any file or scene; checked before allocation.
 inline constexpr int kMaxImageEdge = 65536;
 inline constexpr std::size_t kMaxImagePixels = std::size_t{1} << 28;
-/// Largest memory of all float channels of an image file [bytes].
+/// Largest memory of all float channels of an image [bytes].
 inline constexpr std::size_t kMaxImageBytes = std::size_t{8} << 30;
 
-/// Throws Error{resource} with `where` if an image exceeds these limits. Callers check before they allocate
-/// pixels.
+/// Throws Error{resource}, which names the file or option `where`, if an image of that size exceeds these
+/// limits. Callers check before they allocate pixels. Sizes below 1 are accepted.
 inline void require_image_size(const std::string& where, std::int64_t width, std::int64_t height,
                                std::size_t channels) {
   if (width > kMaxImageEdge || height > kMaxImageEdge ||

@@ -16,7 +16,7 @@ namespace abbe {
 [[nodiscard]] std::size_t default_memory_limit();
 
 /// Accounts for the files that a command reads and for the memory of files and films, which is reserved
-/// before it is allocated. Not included are:
+/// before it is allocated. Not thread-safe. Not included are:
 /// - memory that libraries use while they read;
 /// - the edge table of a mesh while it is checked;
 /// - Embree's acceleration structures;
@@ -29,10 +29,10 @@ class Inputs {
   /// Every file read so far; a file may occur more than once.
   [[nodiscard]] const std::vector<std::filesystem::path>& files() const { return files_; }
 
-  /// Adds memory that `what` (a file, the film) is about to allocate. Throws Error{resource} if it exceeds
-  /// the rest of the limit.
+  /// Adds memory [bytes] that `what` (a file, the film) is about to allocate. Throws Error{resource}, which
+  /// names `what`, if it exceeds the rest of the limit; nothing is reserved then.
   void reserve_memory(const std::string& what, std::size_t bytes);
-  /// Subtracts memory that was reserved.
+  /// Subtracts memory [bytes] that was reserved, at most as much as is reserved.
   void release_memory(std::size_t bytes) { reserved_ -= bytes; }
 
  private:
@@ -41,9 +41,10 @@ class Inputs {
   std::vector<std::filesystem::path> files_;
 };
 
-/// Owns reserved memory and releases it when destroyed.
+/// Owns reserved memory and releases it when destroyed. Its `Inputs` must outlive it.
 class MemoryReservation {
  public:
+  /// Takes over `bytes` that the caller has already reserved in `inputs`; it reserves nothing itself.
   /// `inputs` may be nullptr; then nothing is counted.
   MemoryReservation(Inputs* inputs, std::size_t bytes) : inputs_(inputs), bytes_(bytes) {}
   MemoryReservation(MemoryReservation&& other) noexcept
@@ -51,7 +52,7 @@ class MemoryReservation {
   MemoryReservation(const MemoryReservation&) = delete;
   MemoryReservation& operator=(const MemoryReservation&) = delete;
   MemoryReservation& operator=(MemoryReservation&&) = delete;
-  /// Reserves more memory for `what`. Throws like `Inputs::reserve_memory`.
+  /// Reserves more memory [bytes] for `what`. Throws like `Inputs::reserve_memory`.
   void reserve(const std::string& what, std::size_t bytes) {
     if (inputs_ == nullptr) return;
     inputs_->reserve_memory(what, bytes);

@@ -123,6 +123,7 @@ bool names_not_finite(std::string_view word) {
   return boost::iequals(word, "nan") || boost::iequals(word, "inf") || boost::iequals(word, "infinity");
 }
 
+// Reports the position and the reason at which the parser stopped, with the word found there.
 void report(const rapidjson::ParseResult& result, SourcePosition where, Diagnostics& diagnostics) {
   const std::string_view text = where.source->text;
   where.offset = std::min(result.Offset(), text.size());
@@ -211,6 +212,7 @@ void put(TextWriter& writer, std::string_view text) {
   writer.String(text.data(), static_cast<rapidjson::SizeType>(text.size()));
 }
 
+// Writes the value and all values inside it.
 void write(TextWriter& writer, const JsonValue& json) {
   if (const auto* array = std::get_if<JsonValue::Array>(&json.value)) {
     writer.StartArray();

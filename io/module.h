@@ -4,18 +4,22 @@
 
 namespace abbe {
 
-/// `shared`: other modules may use the symbols of the libraries that the module links (RTLD_GLOBAL); `own`:
-/// they may not (RTLD_LOCAL).
-enum class ModuleScope { own, shared };
+/// Visibility of the symbols of a module and of the libraries that it links.
+enum class ModuleScope {
+  own,    ///< Other modules may not use them (RTLD_LOCAL).
+  shared  ///< Other modules may use them (RTLD_GLOBAL).
+};
 
-/// Address of the function `name` that a module exports. Modules are shared libraries that few commands need
-/// or few machines have. A module is opened when its first function is requested. It is found along the
-/// program's run path (RUNPATH or LD_LIBRARY_PATH). Throws Error{input}, calling the module `description`, if
-/// it is missing or does not load.
+/// Address of the function `name` that the module `module` exports, a file name such as "libx.so". Never
+/// nullptr. Modules are shared libraries that few commands need or few machines have.
+/// A module is opened when its first function is requested and stays open. It is found along the program's
+/// run path (RUNPATH or LD_LIBRARY_PATH). Thread-safe. Throws Error{input}, calling the module `description`,
+/// if it is missing, does not load or lacks the function.
 [[nodiscard]] void* module_function(const char* module, const char* name, ModuleScope scope,
                                     const std::string& description);
 
-/// The function table of a module. `name` is the exported function that returns a `const Functions*`.
+/// The function table of a module, valid until the program ends. `name` is the exported function that returns
+/// a `const Functions*`. Throws as `module_function`.
 template <typename Functions>
 [[nodiscard]] const Functions& module_functions(const char* module, const char* name, ModuleScope scope,
                                                 const std::string& description) {

@@ -64,6 +64,7 @@ std::string_view value_of(std::string_view text, std::string_view key, const fs:
   return text;
 }
 
+// Lengths of the axes in a Python tuple, such as "(3, 4)" or "(3,)".
 std::vector<std::size_t> shape_of(std::string_view text, const fs::path& path) {
   std::vector<std::size_t> shape;
   if (!text.starts_with('(')) refuse_array(path, "damaged header");
@@ -80,6 +81,7 @@ std::vector<std::size_t> shape_of(std::string_view text, const fs::path& path) {
   return shape;
 }
 
+// Product of the lengths. Throws Error{resource} above kMaxArrayValues.
 std::size_t count_of(const std::vector<std::size_t>& shape, const fs::path& path) {
   std::size_t count = 1;
   for (const std::size_t length : shape) {

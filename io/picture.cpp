@@ -44,6 +44,7 @@ bool is_exr(const std::filesystem::path& path) {
   return extension_of(path) == ".exr";
 }
 
+// Header of a picture with the first `channels` channels. Throws Error{internal} for an image without pixels.
 PictureHeader described(const std::filesystem::path& path, const Image& image, std::size_t channels) {
   if (image.channels.empty() || image.pixels() == 0)
     throw Error(ErrorCode::internal, path.string(), "a picture without pixels");

@@ -8,17 +8,26 @@
 
 namespace abbe {
 
-/// Writes an 8-bit picture of the first three channels, or of the only one as grey. Values are display code
-/// values in [0, 1]; they are clamped and rounded. `kColorSpace` declares their encoding; without it they are
-/// sRGB. The extension chooses the format (.png, .jpg, .tif). Only a PNG file records encodings and primaries
-/// other than those of sRGB. Atomic; throws Error{output}.
+/// Writes an 8-bit picture of the first three channels, or of the first as grey if there are fewer. Values
+/// are display code values in [0, 1]; they are clamped and rounded, and NaN is 0. `kColorSpace` declares
+/// their encoding; without it they are sRGB.
+/// The extension chooses the format (.png, .jpg, .tif). Only a PNG file records encodings and primaries other
+/// than those of sRGB. Atomic.
+/// Throws Error{output} if the format is unknown or the file cannot be written. Throws Error{input} if the
+/// picture module, which formats other than PNG need, does not load. Throws Error{internal} for an image
+/// without pixels.
 void write_picture(const std::filesystem::path& path, const Image& image);
 
-/// The bytes that `write_picture` writes to a file with that extension, such as ".png". Throws Error{output}.
+/// The bytes that `write_picture` writes to a file with that extension, such as ".png". Throws as
+/// `write_picture`.
 [[nodiscard]] std::string encoded_picture(const std::string& extension, const Image& image);
 
 /// Writes integers from 0 to 65535, such as the codes of a sensor, as a linear 16-bit picture: one or three
-/// channels as .png, any number as .tif. Throws Error{output}, and Error{internal} for other values.
+/// channels as .png, any number as .tif. Atomic.
+/// Throws Error{output} for other channel counts, for an unknown format, or if the file cannot be written.
+/// Throws Error{input} if the picture module, which formats other than PNG need, does not load. Throws
+/// Error{internal} for other values and an image without pixels. The picture module
+/// also encodes any other extension that it knows, with one or three channels.
 void write_raw_picture(const std::filesystem::path& path, const Image& image);
 
 /// Reads a picture in any format of OpenImageIO.
@@ -26,12 +35,16 @@ void write_raw_picture(const std::filesystem::path& path, const Image& image);
 /// - Pixels are in the order of the file; `kOrientation` is not applied.
 /// - An alpha channel is called "A"; the other channels are as stored, not multiplied or divided by alpha.
 /// - The values of a Radiance file are divided by the exposure and colour factors of its header.
-/// Throws Error{input}. Throws Error{resource}, judging from the header, if the image exceeds the limits of
+/// - `inputs`, if not nullptr, reserves the memory of the channels, which stays reserved. The file is not
+///   added to its list.
+/// Throws Error{input} if the file is missing or damaged, is not a two-dimensional image, or the picture
+/// module does not load. Throws Error{resource}, judging from the header, if the image exceeds the limits of
 /// `io/image.h` or the memory left in `inputs`.
 [[nodiscard]] Image read_picture(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
-/// Reads an image file: .exr by `read_exr`, other formats by `read_picture`. `kColorSpace` is "Linear" if the
-/// file declares it, or if it stores floats and no ICC profile declares otherwise.
+/// Reads an image file: .exr by `read_exr`, other formats by `read_picture`, with their errors. `kColorSpace`
+/// is "Linear" for an .exr, for a file that declares it, and for floats unless an ICC profile declares
+/// otherwise.
 [[nodiscard]] Image read_image(const std::filesystem::path& path, Inputs* inputs = nullptr);
 
 }  // namespace abbe

@@ -16,13 +16,14 @@ struct PictureHeader {
   std::int64_t width = 0;
   std::int64_t height = 0;
   std::vector<std::string> channels;  ///< Names, in the order of the values of a pixel.
-  /// Text attributes under OpenImageIO's names, and `kOrientation`, `kPrimariesKey` and `kProfileKey`.
+  /// Text attributes under OpenImageIO's names, and `kOrientation`, `kPrimariesKey`, `kColorSpace` and
+  /// `kProfileKey`. A key is absent if the file declares nothing.
   std::map<std::string, std::string> metadata;
 };
 
 /// Metadata key for the encoding of a picture's codes: "sRGB", "Linear", or "Gamma" followed by the exponent
-/// p with linear value = code^p for codes in [0, 1]. Any other text names an encoding that Abbe does not
-/// decode.
+/// p, such as "Gamma2.2". Then the linear value is code^p for codes in [0, 1]. Any other text names an
+/// encoding that Abbe does not decode.
 inline constexpr const char* kColorSpace = "oiio:ColorSpace";
 inline constexpr const char* kLinear = "Linear";
 inline constexpr const char* kGamma = "Gamma";
@@ -31,7 +32,8 @@ inline constexpr const char* kGamma = "Gamma";
 /// come from that profile.
 inline constexpr const char* kProfileKey = "icc_profile";
 
-/// Values of a picture to be written, pixel by pixel, as 8-bit or 16-bit codes.
+/// Values of a picture to be written as 8-bit or 16-bit codes, row by row from the top left, with the
+/// channels of a pixel together. There are width * height * channels of them.
 using PictureCodes = std::variant<std::vector<std::uint8_t>, std::vector<std::uint16_t>>;
 
 /// Function table of the picture module, which uses OpenImageIO, libtiff and cfitsio. OpenImageIO loads some
@@ -39,20 +41,23 @@ using PictureCodes = std::variant<std::vector<std::uint8_t>, std::vector<std::ui
 /// first read, or written in a format other than PNG. It shares no state with the program: it works on its
 /// arguments and throws `Error`.
 struct PictureCodec {
-  /// The bytes of a file in the format that the extension of `path` names, checked by reading them back.
-  /// Throws Error{output}.
+  /// The bytes of a file in the format that the extension of `path` names, checked by reading their size
+  /// back. `path` also names the file in errors; it is not written. Throws Error{output}, also for an unknown
+  /// extension.
   std::string (*encode)(const std::string& path, const PictureHeader& header, const PictureCodes& codes);
 
-  /// Reads a file. `allocate` returns the destination for its header: width * height * channels floats, pixel
-  /// by pixel, scaled to [0, 1] for integer files. It may throw. Channels next to alpha are as stored; values
-  /// of a Radiance file are divided by the factors of its header. Throws Error{input}.
+  /// Reads the file `path`. `allocate` is called once with its header and returns the destination: width *
+  /// height * channels floats, pixel by pixel, scaled to [0, 1] for integer files. It may throw. Channels
+  /// next to alpha are as stored; values of a Radiance file are divided by the factors of its header. Throws
+  /// Error{input} if the file is damaged or not a two-dimensional image.
   void (*read)(const std::string& path, const std::function<float*(const PictureHeader&)>& allocate);
 
   /// The bytes of a DNG file (libtiff) and of a FITS file (cfitsio), checked by reading them back. They throw
-  /// Error{output}.
+  /// Error{output}, which names the file `path`. No encoder writes that file.
   std::string (*encode_dng)(const std::string& path, const RawPicture& raw);
   std::string (*encode_fits)(const std::string& path, const RawPicture& raw);
-  /// Read a DNG or FITS file. They throw Error{input} and Error{resource}.
+  /// Read the DNG or FITS file `path`, as `read_raw_picture` describes. They throw Error{input}, and
+  /// Error{resource} above the limits of `io/image.h`.
   RawPicture (*read_dng)(const std::string& path);
   RawPicture (*read_fits)(const std::string& path);
 };

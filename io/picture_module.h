@@ -12,22 +12,25 @@
 
 namespace abbe::picture_module {
 
-/// The bytes of a DNG file, written by libtiff and checked by reading them back. Throws Error{output}.
+/// The bytes of a DNG file, written by libtiff and checked by reading them back. Throws Error{output}, which
+/// names the file `path`; it is not written.
 std::string encode_dng(const std::string& path, const RawPicture& raw);
 
-/// The bytes of a FITS file, written by cfitsio and checked by reading them back. Throws Error{output}.
+/// The bytes of a FITS file, written by cfitsio and checked by reading them back. Throws as `encode_dng`.
 std::string encode_fits(const std::string& path, const RawPicture& raw);
 
-/// True if the file has a PNG signature, but is truncated or has a chunk with a wrong checksum [PNG].
-/// OpenImageIO must not read such a file: libpng would print to stderr.
+/// True if the file has a PNG signature, but is truncated or has a chunk with a wrong checksum [PNG]. False
+/// for a file that is not a PNG. OpenImageIO must not read a damaged file: libpng would print to stderr.
 bool is_damaged_png(const std::string& path);
 
-/// The data of the first chunk of that type before the pixels of a PNG file; nothing if there is none.
+/// The data of the first chunk of that type, such as "gAMA", before the pixels of a PNG file. Nothing if
+/// there is none, and for a file that is not a PNG.
 std::optional<std::vector<std::uint8_t>> png_chunk(const std::string& path, std::string_view type);
 
 /// Colour properties that a picture file declares; "" if it declares none.
 struct DeclaredColors {
-  std::string encoding;  ///< A value of `kColorSpace`; an explanation instead if the encoding is unsupported.
+  /// A value of `kColorSpace`. If Abbe does not support the encoding, a text that names it or says why.
+  std::string encoding;
   std::string primaries;  ///< A value of `kPrimariesKey`.
   std::string profile;    ///< A value of `kProfileKey`.
 };
@@ -44,11 +47,11 @@ struct LibraryColors {
 };
 
 /// Colour properties of the file at `path`, from `library` and from parts of the file that the library does
-/// not report.
+/// not report. An unreadable file declares nothing.
 DeclaredColors declared_colors(const std::string& path, const LibraryColors& library);
 
-/// Colour properties of an ICC profile [ICC], without its name. A grey picture may have a grey profile, which
-/// has no primaries. The encoding is an explanation instead if the profile:
+/// Colour properties of an ICC profile [ICC], without its name. The tone curve of a grey profile suffices if
+/// `is_grey`; such a profile has no primaries. The encoding is unsupported if the profile:
 /// - has colour lookup tables, or lacks tone curves or primaries;
 /// - has different tone curves for its channels;
 /// - has tone curves that are neither powers nor the sRGB curve.
@@ -57,25 +60,28 @@ DeclaredColors icc_colors(std::span<const std::uint8_t> profile, bool is_grey);
 /// The big-endian 32-bit integer at offset `at`; 0 if `bytes` is too short.
 std::uint32_t big_endian(std::span<const std::uint8_t> bytes, std::size_t at);
 
-/// Numbers separated by blanks, as in `kPrimariesKey`.
+/// The numbers with six significant digits, separated by blanks, as in `kPrimariesKey`.
 std::string numbers_text(const std::vector<double>& numbers);
 
 /// Properties in the header of a Radiance picture.
 struct RadianceHeader {
-  std::array<double, 3> factors{1, 1, 1};  ///< Factors by which red, green and blue were multiplied.
-  std::string primaries;                   ///< A value of `kPrimariesKey`; "" if the header has none.
-  int orientation = 1;                     ///< 1, or a value of `kOrientation`.
+  /// Positive factors by which red, green and blue of the stored values were multiplied.
+  std::array<double, 3> factors{1, 1, 1};
+  std::string primaries;  ///< A value of `kPrimariesKey`; "" if the header has none.
+  int orientation = 1;    ///< 1, or a value of `kOrientation`.
 };
 
 /// Reads the header of a Radiance picture. OpenImageIO reads its pixels, but does not report all of this, and
-/// exchanges two of the orientations [Radiance]. Throws Error{input} if a line lacks its numbers, or if GAMMA
-/// is not 1.
+/// exchanges two of the orientations [Radiance]. Throws Error{input} if a line lacks its numbers, a factor is
+/// not positive, or GAMMA is not 1.
 RadianceHeader radiance_header(const std::string& path);
 
-/// Interleaves `planes` planes that a file stores one after the other: the result is pixel by pixel.
+/// Interleaves `planes` planes of equal size that a file stores one after the other: the result is pixel by
+/// pixel.
 std::vector<std::uint16_t> pixel_by_pixel(const std::vector<std::uint16_t>& codes, std::size_t planes);
 
-/// Read raw pictures. They throw Error{input} and Error{resource}.
+/// Read the raw picture `path`, as `read_raw_picture` describes. They throw Error{input}, and Error{resource}
+/// above the limits of `io/image.h`.
 RawPicture read_dng(const std::string& path);
 RawPicture read_fits(const std::string& path);
 

@@ -163,6 +163,7 @@ RawPicture ordered(RawPicture raw) {
   return raw;
 }
 
+// Sets size, storage and mosaic of the picture: one strip without compression.
 void set_layout(Tags& tags, const RawPicture& raw) {
   const std::size_t samples = raw.planes.size();
   tags.set(TIFFTAG_SUBFILETYPE, 0);
@@ -215,6 +216,7 @@ void set_colors(Tags& tags, const RawPicture& raw) {
   if (raw.neutral) tags.set_all(TIFFTAG_ASSHOTNEUTRAL, floats(*raw.neutral));
 }
 
+// Sets the names of camera and program, and the metadata as lines of the description.
 void set_names(Tags& tags, const RawPicture& raw) {
   std::string lines;
   for (const auto& [key, value] : raw.metadata) lines += key + ": " + value + "\n";

@@ -17,10 +17,11 @@ using TiffOptions = std::unique_ptr<TIFFOpenOptions, decltype(&TIFFOpenOptionsFr
 /// Options that silence libtiff: its messages on stderr would duplicate the program's errors.
 TiffOptions quiet_tiff();
 
-/// Tags of the opcode lists of a raw picture [DNG, ch. 7].
+/// Tags of the opcode lists 1, 2 and 3 of a raw picture [DNG, ch. 7].
 constexpr std::array<std::uint32_t, 3> kOpcodeLists{51008, 51009, 51022};
 
-/// Registers DNG tags that libtiff does not know and would warn about.
+/// Registers DNG tags that libtiff does not know and would warn about, once for the process. Call it before a
+/// file is opened. Thread-safe.
 void register_dng_tags();
 
 }  // namespace abbe::picture_module

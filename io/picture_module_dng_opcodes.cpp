@@ -74,6 +74,7 @@ OpcodeArea read_area(Cursor& cursor) {
   return area;
 }
 
+// Reads the parameters of a GainMap and checks that its gains fill the rest of the opcode.
 GainMap read_gain_map(Cursor& cursor) {
   GainMap map{};
   map.rows = cursor.integer();
@@ -139,6 +140,7 @@ std::size_t plane_of(const OpcodeImage& image, std::int64_t x, std::int64_t y, s
   return image.mosaic[static_cast<std::size_t>(y % rows * image.mosaic_width + x % image.mosaic_width)];
 }
 
+// Multiplies pixels by the gain of the map, or replaces value v by unit * p(v / unit) with the polynomial p.
 void apply_opcode(const PixelOpcode& opcode, const OpcodeImage& image) {
   const auto& [area, map, polynomial] = opcode;
   const std::int64_t bottom = std::min<std::int64_t>(area.bottom, image.height);

@@ -10,20 +10,23 @@
 
 namespace abbe::picture_module {
 
-/// Pixels that an opcode changes: every `row_pitch`-th row and `column_pitch`-th column from the top left
-/// corner, in `planes` planes from `plane` on.
+/// Pixels that an opcode changes: every `row_pitch`-th row and `column_pitch`-th column from (`left`, `top`)
+/// on, in `planes` planes from `plane` on. Rows and columns [px] are numbered from 0 at the top left. The
+/// part outside the image is ignored.
 struct OpcodeArea {
   std::uint32_t top, left, bottom, right;  ///< `bottom` and `right` are exclusive.
   std::uint32_t plane, planes;
-  std::uint32_t row_pitch, column_pitch;
+  std::uint32_t row_pitch, column_pitch;  ///< At least 1.
 };
 
-/// A grid of gain factors. Positions are fractions of the image from its top left corner.
+/// A grid of gain factors for multiplication. Spacings and origins are fractions of the height and width of
+/// the image from its top left corner. Gains are interpolated bilinearly at pixel centers and constant
+/// outside the grid.
 struct GainMap {
   std::uint32_t rows, columns;
   double row_spacing, column_spacing;
   double row_origin, column_origin;
-  std::uint32_t planes;
+  std::uint32_t planes;      ///< If fewer than those of the area, the last one serves for the rest.
   std::vector<float> gains;  ///< By row, by column, by plane.
 };
 
@@ -31,7 +34,7 @@ struct GainMap {
 struct PixelOpcode {
   OpcodeArea area;
   GainMap map = {};
-  std::vector<double> polynomial{};  ///< Coefficients of 1, x, x^2 and so on.
+  std::vector<double> polynomial{};  ///< Coefficients of 1, x, x^2 and so on; at most degree 8.
 };
 
 /// An opcode list of a DNG [DNG, ch. 7].
@@ -40,8 +43,8 @@ struct OpcodeList {
   std::vector<DngOpcode> names;      ///< All opcodes of the list.
 };
 
-/// Parses opcode list number `list`, 1 to 3. Throws Error{input} with `path` if the bytes are damaged, or if
-/// a mandatory opcode is not supported.
+/// Parses opcode list number `list`, 1 to 3. Throws Error{input}, which names the file `path`, if the bytes
+/// are damaged, or if a mandatory opcode is not supported.
 OpcodeList parse_opcodes(std::span<const std::uint8_t> bytes, int list, const std::string& path);
 
 /// Pixels to which opcodes are applied: values pixel by pixel, interleaved by plane.
@@ -49,13 +52,14 @@ struct OpcodeImage {
   std::int64_t width, height;
   std::size_t planes;
   std::span<float> values;
-  double unit;  ///< The value that a MapPolynomial treats as 1.
+  double unit;  ///< A MapPolynomial p changes a value v to unit * p(v / unit).
   /// The mosaic pattern and its width if opcodes address the channels of the mosaic as planes; 0 otherwise.
   std::span<const std::uint8_t> mosaic = {};
   std::int64_t mosaic_width = 0;
 };
 
-/// Applies opcodes in order. Values are not clipped: saturation is decided by the stored code.
+/// Applies opcodes in order to `image.values`. Values are not clipped: saturation is decided by the stored
+/// code.
 void apply_opcodes(const std::vector<PixelOpcode>& opcodes, const OpcodeImage& image);
 
 }  // namespace abbe::picture_module

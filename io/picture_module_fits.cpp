@@ -69,6 +69,7 @@ std::string joined(const std::vector<std::string>& names) {
   return all;
 }
 
+// Writes the keywords that astronomy programs read, and the metadata as history.
 void write_header(Header header, const RawPicture& raw) {
   fits_write_key_longwarn(header.fits, &header.status);
   header.text("CREATOR", "Abbe", "program that made this file");
@@ -102,6 +103,7 @@ std::vector<std::uint16_t> plane_by_plane(const RawPicture& raw) {
   return codes;
 }
 
+// True if the codes, plane by plane, read back from the encoded file.
 bool reads_back(std::string& bytes, const std::vector<std::uint16_t>& codes) {
   int status = 0;
   // It does not own the bytes.

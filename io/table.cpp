@@ -217,7 +217,7 @@ class TableReader {
   bool wrongly_separated_ = false;  ///< Cells are not separated by commas; reading stops.
 };
 
-/// The information above the rows of a table, read without the rows.
+/// The information above the rows of a table.
 struct Heading {
   std::string aliases;
   std::vector<std::string>
@@ -225,6 +225,7 @@ struct Heading {
   bool wrongly_separated = false;  ///< Cells are not separated by commas; the column names are unknown.
 };
 
+// Reads the lines up to the column names, without reports: `read_table` reports their errors.
 Heading heading_of(const fs::path& path) {
   Heading heading;
   std::ifstream file(path);

@@ -13,9 +13,13 @@
 namespace abbe {
 
 /// Extrapolation rule of a table, outside its first and last row.
-enum class Outside { clamp, zero, error };
+enum class Outside {
+  clamp,  ///< The value of the first or last row.
+  zero,   ///< The value 0.
+  error   ///< The caller reports an error.
+};
 
-/// Origin of a table's numbers. Shipped tables must declare all fields.
+/// Origin of a table's numbers, as texts. Shipped tables must declare all fields.
 struct Provenance {
   std::string title;
   std::string unit;
@@ -25,26 +29,30 @@ struct Provenance {
 };
 
 /// A table of numbers or words. The CSV file has `# key: value` lines (title, unit, source, status,
-/// processing, outside, and others), then the column names, then the rows.
+/// processing, outside, and others), then the column names, then the rows. Cells have no surrounding blanks
+/// and may be empty.
 struct Table {
   Provenance provenance;
-  std::map<std::string, std::string> keys;  ///< All `# key: value` lines, including those of `provenance`.
+  /// All `# key: value` lines above the column names, including those of `provenance`.
+  std::map<std::string, std::string> keys;
   Outside outside = Outside::error;
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;  ///< `rows[i][j]` is the cell of `columns[j]`.
-  SourcePosition where;
-  std::vector<std::size_t> row_offsets;  ///< Byte offset of each row in its text.
+  SourcePosition where;                        ///< Start of the table's text.
+  std::vector<std::size_t> row_offsets;        ///< Byte offset of each row in its text.
 
   /// Index of the column called `name`, if there is one.
   [[nodiscard]] std::optional<std::size_t> column(std::string_view name) const;
-  /// The values of a column as numbers. Reports empty and malformed cells and returns nothing.
+  /// The values of column number `column`, by row. Reports each empty or malformed cell with the code `input`
+  /// and returns nothing then.
   [[nodiscard]] std::optional<std::vector<double>> numbers(std::size_t column,
                                                            Diagnostics& diagnostics) const;
-  /// Source position of a row, for diagnostics.
+  /// Source position of row number `row`, from 0 on, for diagnostics.
   [[nodiscard]] SourcePosition position(std::size_t row) const;
 };
 
-/// Keys of the `# key: value` lines that decide how a table is read. They must precede the column names.
+/// Keys of the `# key: value` lines that decide how a table is read. They must precede the column names;
+/// `read_table` reports those that follow them.
 [[nodiscard]] const std::vector<std::string>& governing_keys();
 
 /// Provenance that a table must declare.
@@ -53,34 +61,44 @@ enum class TableOrigin {
   user,     ///< A user's own file: its unit; `outside` defaults to error; its source is its path and hash.
 };
 
-/// Reads a table. Cells may be quoted ("a, b"). Reports missing provenance keys, rows of a wrong length and
-/// duplicate columns, and returns nothing.
+/// Reads a table of UTF-8 text with cells separated by commas. Cells may be quoted ("a, b"). Reports with the
+/// code `input` and returns nothing for:
+/// - a missing or unreadable file, a byte order mark;
+/// - missing provenance keys, repeated keys, an unknown rule `outside`;
+/// - cells separated by semicolons or tabs, rows of a wrong length, no rows;
+/// - empty or duplicate column names, a quoted cell without its closing quote;
+/// - a governing key below the column names, or followed by "=" instead of ":".
+/// An oversized file is reported with the code `resource`.
 [[nodiscard]] std::optional<Table> read_table(const std::filesystem::path& path, TableOrigin origin,
                                               Diagnostics& diagnostics);
 
 /// A column of a table, found by name.
 struct TableColumn {
   std::filesystem::path path;
-  std::string column;
+  std::string column;  ///< Name of the column; "" if the table has several value columns and none is named.
 };
 
-/// Length of the path of a user's table at the start of `name`, which ends with `.csv` in either case and may
-/// be followed by `:column`. `npos` if `name` is a name in the data directory.
+/// Length [bytes] of the path of a user's table at the start of `name`. The path ends with `.csv` in either
+/// case and may be followed by `:column`. `npos` if `name` is a name in the data directory.
 [[nodiscard]] std::size_t user_table_end(std::string_view name);
 
 /// Finds a table column by name in a folder of the data directory ("illuminant", "reflectance", "camera",
-/// ...). `name` is one of:
-/// - the stem of a file: its only value column (not a wavelength column), or "" if it has several;
+/// ...). A value column is not a `wavelength_...` column or, in a table without one, not the first. `name` is
+/// one of, in order of precedence:
+/// - a user's file, recognised by `user_table_end`;
+/// - the stem of a file: its only value column, or "" if it has several;
+/// - an alias from a line `# aliases: a=b, c=d` of a file: `a` for its column `b`;
 /// - a column name that occurs once in the folder;
-/// - `stem:column`, also of another spectral folder, such as a camera's channel used as a filter;
-/// - an alias from a line `# aliases: a=b, c=d` of a file;
-/// - a user's file, recognised by `user_table_end`.
-/// Reports an unknown name at `where` with the nearest name and returns nothing.
+/// - `stem:column`, also of another spectral folder, such as a camera's channel used as a filter.
+/// Reports at `where` and returns nothing for an unknown name, with the nearest name, and for a user's
+/// missing file or column. Folders are indexed once. Thread-safe. Throws Error{input} if the data directory
+/// is missing.
 [[nodiscard]] std::optional<TableColumn> find_table(std::string_view folder, const std::string& name,
                                                     const SourcePosition& where, Diagnostics& diagnostics);
 
-/// The names that `find_table` accepts in a folder, sorted. `stem:column` is listed only if the column name
-/// alone is not accepted.
+/// The names that `find_table` accepts in a folder, in byte order; none for an unknown folder. `stem:column`
+/// is listed only if the column name alone is not accepted. Throws Error{input} if the data directory is
+/// missing.
 [[nodiscard]] std::vector<std::string> table_names(std::string_view folder);
 
 }  // namespace abbe

@@ -169,10 +169,10 @@ struct PageServer::Listener {
   class HttpServer : public httplib::Server {
    public:
     // The library's backlog of five connections is too short: further clients retry only after a second.
-    void let_more_wait() { (void)::listen(svr_sock_, kBacklog); }
+    void lengthen_backlog() { (void)::listen(svr_sock_, kBacklog); }
 
-    // A queue that hands over accepted connections. The library owns it.
-    httplib::TaskQueue* hand_over() {
+    // A queue that gives accepted connections to the `RequestReader` at once. The library owns it.
+    httplib::TaskQueue* make_immediate_queue() {
       return new HandOver([this] { end(); });
     }
     ~HttpServer() override { end(); }
@@ -245,7 +245,7 @@ PageServer::PageServer(const ServerAddress& address, std::function<PageAnswer(co
   listener_->host = address.host;
   listener_->answer = std::move(answer);
   Listener::HttpServer& server = listener_->server;
-  server.new_task_queue = [&server] { return server.hand_over(); };
+  server.new_task_queue = [&server] { return server.make_immediate_queue(); };
   server.set_socket_options(set_options);
   server.set_default_headers(
       {{"Cache-Control", "no-store"},
@@ -263,7 +263,7 @@ PageServer::PageServer(const ServerAddress& address, std::function<PageAnswer(co
   if (listener_->port < 0)
     throw Error(ErrorCode::output, to_text(address),
                 "cannot be listened on: another program uses it, or there is no such address");
-  server.let_more_wait();
+  server.lengthen_backlog();
   listener_->thread = std::jthread([&server] { (void)server.listen_after_bind(); });
   while (!server.is_running()) std::this_thread::sleep_for(std::chrono::milliseconds(1));
 }

@@ -9,8 +9,8 @@ namespace abbe {
 
 /// Address at which a server listens; by default only for programs of this machine.
 struct ServerAddress {
-  std::string host = "127.0.0.1";
-  int port = 0;  ///< 0 selects any free port.
+  std::string host = "127.0.0.1";  ///< Name or address; an IPv6 address without brackets.
+  int port = 0;                    ///< 0 to 65535; 0 selects any free port.
 };
 
 /// "host:port", with an IPv6 address in brackets.
@@ -18,16 +18,16 @@ struct ServerAddress {
 
 /// An HTTP request to a `PageServer`.
 struct PageRequest {
-  std::string path;
+  std::string path;  ///< Decoded path, from "/" on, without the parameters.
+  /// Decoded parameters of the query; the first value of a repeated name.
   std::map<std::string, std::string> parameters;
 };
 
-/// The answer to a request: the content of a page with its type, or the HTTP status of an error with a
-/// message.
+/// The answer to a request: the content of a page, or the HTTP status of an error with a message.
 struct PageAnswer {
-  int status = 200;
-  std::string type = "text/plain";
-  std::shared_ptr<const std::string> body = {};
+  int status = 200;                              ///< HTTP status.
+  std::string type = "text/plain";               ///< MIME type of the body.
+  std::shared_ptr<const std::string> body = {};  ///< nullptr for no content.
 };
 
 /// The answer 404 for a page that does not exist.
@@ -46,14 +46,18 @@ struct PageAnswer {
 /// accepts all addresses, "localhost", this machine's name and the name at which it listens.
 class PageServer {
  public:
-  /// Starts the server. Several threads call `answer` at once; an exception from it becomes the answer 500.
-  /// Throws Error{output} if the address cannot be listened on.
+  /// Starts the server and returns when it listens. Up to 16 threads call `answer` at once, until the
+  /// destructor returns; an exception from it becomes the answer 500. Methods other than GET and HEAD become
+  /// 405.
+  /// Throws Error{output} if the address cannot be listened on, and Error{resource} if too many files are
+  /// open.
   PageServer(const ServerAddress& address, std::function<PageAnswer(const PageRequest&)> answer);
+  /// Stops listening, closes connections with incomplete requests and waits for answers in progress.
   ~PageServer();
   PageServer(const PageServer&) = delete;
   PageServer& operator=(const PageServer&) = delete;
 
-  /// The URL to open in a browser, such as "http://127.0.0.1:8080/".
+  /// The URL to open in a browser, with the port in use, such as "http://127.0.0.1:8080/".
   [[nodiscard]] std::string url() const;
 
  private:

@@ -23,17 +23,21 @@ class RequestReader {
   static constexpr std::chrono::seconds kRequestTimeout{2};
   static constexpr std::size_t kMaxConnections = 256;
 
-  /// `serve` takes over a socket with its request. It must not wait for the client.
+  /// Starts the thread. `serve` takes over a socket with its complete request, and closes it. It is called by
+  /// the reader's thread or within `add`, under the reader's lock: it must neither wait for the client nor
+  /// call this object. Throws Error{resource} if too many files are open.
   explicit RequestReader(std::function<void(int socket, std::string request)> serve);
   ~RequestReader();
   RequestReader(const RequestReader&) = delete;
   RequestReader& operator=(const RequestReader&) = delete;
 
-  /// Takes over a connected socket. Thread-safe.
+  /// Takes over a connected socket, whose request must arrive within kRequestTimeout. Thread-safe.
   void add(int socket);
-  /// Counts a connection that `serve` took over as closed. Thread-safe.
+  /// Counts a connection that `serve` took over as closed; called once for each, from another thread.
+  /// Thread-safe.
   void served();
-  /// Ends the thread and closes the connections with incomplete requests.
+  /// Ends the thread and closes the connections with incomplete requests. `serve` is not called afterwards.
+  /// Called from one thread; a second call does nothing.
   void stop();
 
  private:

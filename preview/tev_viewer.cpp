@@ -24,6 +24,7 @@ constexpr double kMinPause_s = 0.2;
 constexpr std::size_t kPacketFloats = std::size_t{1} << 18;
 constexpr timeval kPatience{3, 0};
 
+// A socket connected to the address, whose calls to send wait for at most `kPatience`.
 int connected_socket(const ServerAddress& address) {
   addrinfo hints{};
   hints.ai_socktype = SOCK_STREAM;

@@ -20,38 +20,41 @@ namespace abbe {
 /// The film that viewers see: the latest snapshot and its cached pictures. Thread-safe.
 class ViewerFilm {
  public:
-  /// `scene` must outlive it; `options` select the display.
+  /// `scene` must outlive it; `options` select the display. Throws Error{usage} for an unknown display or
+  /// view, and Error{input} for an unreadable colour configuration. A sensor that no display can show is no
+  /// error.
   ViewerFilm(const Scene& scene, ViewOptions options);
 
-  /// Names that `picture` accepts: the views of the display, or the channels of a sensor that no display can
-  /// show.
+  /// Names that `picture` accepts, never empty: the views of the display, the selected one first, or the
+  /// channels of a sensor that no display can show.
   [[nodiscard]] const std::vector<std::string>& views() const { return views_; }
 
-  /// Replaces the latest snapshot.
+  /// Replaces the latest snapshot; it does not wait for a picture in progress.
   void replace(Snapshot snapshot);
-  /// Number of snapshots so far.
+  /// Number of snapshots so far; it identifies the latest one.
   [[nodiscard]] std::uint64_t number() const;
-  /// Samples per pixel of the latest snapshot.
+  /// Samples per pixel of the latest snapshot; 0 before the first.
   [[nodiscard]] std::uint64_t samples() const;
 
-  /// The snapshot as a PNG in a view. `stops` is relative to the exposure that the scene requests, or to the
-  /// automatic one. Empty before the first snapshot and for an unknown view.
+  /// The latest snapshot as the bytes of a PNG in a view. `stops` multiplies the exposure that the scene
+  /// requests, or the automatic one, by 2^stops. nullptr before the first snapshot and for an unknown view.
   [[nodiscard]] std::shared_ptr<const std::string> picture(const std::string& view, double stops);
 
-  /// The values of a pixel as in the film's file, after `samples` samples.
+  /// The values of a pixel, after `samples` samples.
   struct Pixel {
     struct Value {
       std::string channel;
-      float value;
+      float value;                          ///< As in the film's file, in its unit.
       std::optional<double> wavelength_nm;  ///< Center of the band of a spectral channel.
     };
     std::uint64_t samples;
     std::vector<Value> values;
   };
-  /// The pixel's values; empty before the first snapshot and for a pixel that is not rendered.
+  /// The values of the pixel in column `x` and row `y` of the latest snapshot, from 0 at the top left. Empty
+  /// before the first snapshot and for a pixel that is not rendered.
   [[nodiscard]] std::optional<Pixel> pixel(int x, int y);
 
-  /// Time spent in `picture` and `pixel` [s] since the last call.
+  /// Time spent in `picture` and `pixel` since the last call, summed over threads [s].
   [[nodiscard]] double take_time_spent() { return spent_s_.exchange(0); }
 
  private:

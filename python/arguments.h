@@ -5,8 +5,8 @@
 
 namespace abbe::python {
 
-/// Converts an argument to a T. Throws Python's TypeError for other objects: "`name`: expected `what` (got a
-/// set)".
+/// Converts an argument to a T, with pybind11's implicit conversions. Throws Python's TypeError for other
+/// objects: "`name`: expected `what` (got a set)". Requires the GIL.
 template <typename T>
 [[nodiscard]] T argument(const pybind11::handle& object, const char* name, const char* what) {
   pybind11::detail::make_caster<T> caster;

@@ -14,6 +14,7 @@
 
 namespace abbe::python {
 
+/// The elements of an array, the last axis fastest. The array must outlive the span.
 [[nodiscard]] inline std::span<const double> span_of(const Numbers& numbers) {
   return {numbers.data(), static_cast<std::size_t>(numbers.size())};
 }
@@ -29,7 +30,8 @@ namespace abbe::python {
   return Numbers(std::vector<pybind11::ssize_t>(numbers.shape(), numbers.shape() + numbers.ndim()));
 }
 
-/// Array of `f` of each number, computed without the GIL; a number for a number.
+/// Array of `f` of each number; a number for a number. `f` is called without the GIL, so it must not use
+/// Python objects. Requires the GIL.
 template <typename F>
 [[nodiscard]] pybind11::object map(const Numbers& numbers, F f) {
   Numbers results = empty_like(numbers);
@@ -42,8 +44,8 @@ template <typename F>
   return results[pybind11::tuple()];  // an array without axes gives its number
 }
 
-/// Broadcasts the arguments `a_name` and `b_name` to a common shape by numpy's rules. Throws Error{usage} if
-/// there is none.
+/// Broadcasts the arguments called `a_name` and `b_name` to a common shape by numpy's rules. Throws
+/// Error{usage}, which names `a_name`, if there is none.
 [[nodiscard]] inline std::pair<Numbers, Numbers> broadcast(const Numbers& a, const Numbers& b,
                                                            const char* a_name, const char* b_name) {
   try {

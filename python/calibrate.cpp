@@ -48,6 +48,7 @@ py::dict curves_of(const std::vector<ChannelResponse>& responses) {
   return curves;
 }
 
+// The results by the names that the docstring of `calibrate` describes.
 py::dict dict_of(const CameraCalibration& made) {
   py::dict result;
   result["patches"] = made.patches;

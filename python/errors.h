@@ -11,13 +11,15 @@
 
 namespace abbe::python {
 
-/// Throws if there are errors; issues each warning by Python's `warnings.warn`.
+/// Throws InvalidInput (`require_no_errors`) if there are errors. Otherwise issues each warning by `warn`.
 void check(const Diagnostics& diagnostics);
 
-/// Issues a Python warning of the class SceneWarning. Throws if the user made it an exception.
+/// Issues a Python warning of the class SceneWarning. Throws pybind11::error_already_set if the user made it
+/// an exception. Callers may hold the GIL or have released it by `GilReleased`.
 void warn(const std::string& text);
 
-/// The value of a loader, after `check` of its diagnostics.
+/// The value of a loader, after `check` of its diagnostics. Throws Error{internal} for no value without an
+/// error.
 template <typename T>
 [[nodiscard]] T accepted(std::optional<T> value, const Diagnostics& diagnostics) {
   check(diagnostics);
@@ -25,7 +27,8 @@ template <typename T>
   return *std::move(value);
 }
 
-/// Adds the class of diagnostics, and translates this program's exceptions to Python's.
+/// Adds the class of diagnostics. Registers a translator of exceptions: Error{usage} becomes abbe.UsageError,
+/// and so on for each code, with the diagnostics of an InvalidInput.
 void add_errors(pybind11::module_& module);
 
 }  // namespace abbe::python

@@ -69,6 +69,7 @@ FilmHandle film_of_file(const fs::path& path) {
   return FilmHandle(read_film(path));
 }
 
+// Writes the format of the extension: the sums, the image or the display picture.
 void write_film(const FilmHandle& film, const fs::path& path) {
   require_extension(path, {".exr", kPartExtension, ".png", ".jpg", ".tif"});
   const bool is_part = extension_of(path) == kPartExtension;

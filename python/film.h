@@ -12,25 +12,27 @@
 
 namespace abbe::python {
 
-/// A film in Python. It has the exact sums if it was rendered or read from a part, and the image that its
-/// file contains.
+/// A film in Python. It has the exact sums if it was rendered, merged or read from a part, and the image that
+/// its file contains. All functions except the constructors require the GIL.
 class FilmHandle {
  public:
   explicit FilmHandle(RenderPart part);
   explicit FilmHandle(Image image);
 
-  /// Content of the film's file. It is computed once from the exact sums; callers hold the GIL.
+  /// Content of the film's file, computed once from the exact sums. The reference is valid as long as the
+  /// film.
   [[nodiscard]] const Image& image() const;
   /// Exact sums; nothing for a film read from an image.
   [[nodiscard]] const std::optional<RenderPart>& part() const { return part_; }
+  /// Attributes of the film's file.
   [[nodiscard]] const std::map<std::string, std::string>& metadata() const { return image().metadata; }
 
   /// Names of the channels in the order of the sensor, or of the bands by ascending wavelength.
   [[nodiscard]] std::vector<std::string> channels() const;
-  /// Read-only array of rows, columns and channels, made once.
+  /// Read-only float32 array of rows, columns and `channels`, made once. None for an image without channels.
   [[nodiscard]] pybind11::object array() const;
-  /// Variances of the pixel means in the same layout; None if the film does not record them or they are
-  /// unknown.
+  /// Variances of the pixel means in the same layout and the squared unit. None if the film does not record
+  /// them or they are unknown.
   [[nodiscard]] pybind11::object variance() const;
 
  private:
@@ -40,8 +42,8 @@ class FilmHandle {
   mutable pybind11::object variance_;
 };
 
-/// Array of rows, columns and the named planes, which have the same size. None if the image lacks one of
-/// them.
+/// Read-only float32 array of rows from the top, columns and the planes called `names`, in their order. None
+/// if the image lacks one of them or `names` is empty. Requires the GIL.
 [[nodiscard]] pybind11::object planes_of(const Image& image, const std::vector<std::string>& names);
 
 /// Adds the class of films and `merge`.

@@ -12,7 +12,8 @@
 namespace abbe::python {
 
 /// Numeric argument: a number, or anything that numpy converts to an array of real numbers, without masked
-/// elements. Other arguments throw Error{usage}.
+/// elements. Masked elements, complex numbers, dates and time spans throw Error{usage}; objects that numpy
+/// cannot convert are a TypeError.
 using Numbers = pybind11::array_t<double, pybind11::array::c_style | pybind11::array::forcecast>;
 
 /// Throws Error{usage} for masked elements of an array, or of arrays in a list, because numpy would convert
@@ -33,7 +34,8 @@ inline void require_unmasked(const pybind11::handle& object) {
                             object.attr("size").cast<std::int64_t>()));
 }
 
-/// Argument for one real number. Other arguments throw Error{usage}, as for Numbers.
+/// Argument for one real number, which may be infinite or NaN. Complex numbers, dates and time spans throw
+/// Error{usage}; other objects without a number are a TypeError.
 struct Real {
   double value = 0;
 
@@ -41,7 +43,8 @@ struct Real {
 };
 
 /// Argument for a whole number of type T: anything that Python accepts as an index, such as numpy's integers.
-/// Other arguments are a TypeError; pybind11 would truncate fractions of objects other than Python floats.
+/// Other arguments, and numbers outside the range of T, are a TypeError. pybind11 alone would truncate
+/// fractions of objects other than Python floats.
 template <typename T>
 struct Whole {
   T value = 0;
@@ -63,7 +66,7 @@ struct Whole {
   return kind == 'm' || kind == 'M';
 }
 
-/// Throws Error{usage} for numpy data of one of the `kinds`.
+/// Throws Error{usage} for numpy data of one of the `kinds`, a string of numpy's codes (`numpy_kind`).
 inline void refuse_kinds(const pybind11::handle& object, std::string_view kinds) {
   const char kind = numpy_kind(object);
   if (kind != '\0' && kinds.find(kind) != std::string_view::npos)

@@ -9,8 +9,8 @@
 
 namespace abbe::python {
 
-/// The quantity that a camera's curves multiply, from the text of an argument: "energy", "quantum" or empty.
-/// Nothing if it is empty. Throws Error{usage} for other texts.
+/// The quantity that a camera's curves multiply, from the text of an argument: "energy" or "quantum". Nothing
+/// for the empty text. Throws Error{usage}, which names the argument `argument`, for other texts.
 [[nodiscard]] std::optional<ResponseKind> response_of(const char* argument, const std::string& text);
 
 /// Adds the functions for materials over arrays of wavelengths.

@@ -24,6 +24,7 @@ namespace {
 
 namespace py = pybind11;
 
+// Options of a render whose samples per pixel are `stated`. Throws Error{usage} for a range outside them.
 RenderOptions render_options(const Request& request, int stated) {
   RenderOptions how = render_limits(request);
   how.measure_error = false;
@@ -46,6 +47,7 @@ std::optional<abbe::Scene> with_settings_of(const abbe::Scene& scene, const Requ
   return copy;
 }
 
+// Renders with the GIL released. Warnings are issued before and after the render.
 FilmHandle render_scene(SceneHandle& handle, const Request& request, const py::object& progress) {
   require_valid(request);
   const GilReleased released;

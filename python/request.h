@@ -9,17 +9,19 @@
 
 namespace abbe::python {
 
-/// Sampling parameters of a call; absent ones are those of the scene.
+/// Sampling parameters of a call; absent ones are those of the scene, or no limit.
 struct Request {
-  std::optional<std::int64_t> spp;
+  std::optional<std::int64_t> spp;  ///< Samples per pixel.
   std::optional<std::int64_t> seed;
-  std::int64_t threads = 0;
+  std::int64_t threads = 0;  ///< 0 for one per processor.
+  /// Relative error that ends the render, in (0, 1): of a film the median, of a meter the largest.
   std::optional<double> error;
-  std::optional<double> time;
-  std::optional<SampleRange> samples = {};
+  std::optional<double> time;               ///< Time limit [s], above 0.
+  std::optional<SampleRange> samples = {};  ///< Samples to render of those of the whole render.
 };
 
-/// Throws Error{usage} with the name of an argument that is out of range, or of two that exclude each other.
+/// Throws Error{usage} with the name of an argument that is out of range, or of two that exclude each other:
+/// `spp` or `sample_range` with `error` or `time`. It does not check the range `samples`.
 void require_valid(const Request& request);
 
 /// Throws Error{usage} with the argument `seed` unless it is absent or a valid seed of a scene.
@@ -28,7 +30,8 @@ void require_seed(const std::optional<std::int64_t>& seed);
 /// Throws Error{usage} unless `holds`: "`argument`: got `got`, allowed `allowed`".
 void require(bool holds, const char* argument, const std::string& got, const char* allowed);
 
-/// Render options with the threads and the stopping criteria of a request.
+/// Render options with the threads, the target error and the time limit of a request; `samples`, `spp` and
+/// `seed` are not applied.
 [[nodiscard]] RenderOptions render_limits(const Request& request);
 
 }  // namespace abbe::python

@@ -12,8 +12,8 @@
 
 namespace pybind11::detail {
 
-/// Converts (first, last), or a Python range of step 1, to a range of samples. Its ends are first and last,
-/// not its elements. Throws Python's TypeError for other objects.
+/// Converts (first, last), or a Python range of step 1, to the samples first <= s < last. The ends may be any
+/// whole numbers from 0 on. Throws Python's TypeError for other objects.
 template <>
 struct type_caster<abbe::SampleRange> {
   bool load(const handle& object, bool convert) {

@@ -15,38 +15,51 @@
 
 namespace abbe::python {
 
-/// Where a scene is read from.
+/// The file or dict that a scene is read from.
 struct SceneSource {
-  std::filesystem::path name;                   ///< The file, or "dict"; recorded in films.
-  std::shared_ptr<const SourceText> text = {};  ///< Text of a dict.
+  /// The file, or "dict"; recorded in films.
+  std::filesystem::path name;
+  std::shared_ptr<const SourceText> text = {};  ///< JSON of a dict and its keywords; nullptr for a file.
   std::filesystem::path folder = {};            ///< Folder of the files that a dict names.
-  std::vector<Override> overrides = {};         ///< Keywords over a file.
+  std::vector<Override> overrides = {};         ///< Keywords that replace keys of a file.
 };
-/// The source for a path, a dict or None. Keywords replace keys at the top level.
+/// The source for `source`: a path, a dict, or None for the empty dict. `keywords` are keys at the top level
+/// of the scene, which replace those of the file or dict. `folder` is the folder of files that a dict names;
+/// None is the current one.
+/// Throws Error{usage} for a folder with a path, InvalidInput for values that JSON cannot represent
+/// (`to_json`), and TypeError for other objects. Requires the GIL.
 [[nodiscard]] SceneSource source_of(const pybind11::object& source, const pybind11::object& folder,
                                     const pybind11::dict& keywords);
 
-/// A scene in Python: built, and as described. It does not change once its white is resolved, so that threads
-/// may render it at once.
+/// A scene in Python: built, and as described. It does not change once `with_white` has resolved its white
+/// and integrator, so that threads may render it at once.
 class SceneHandle {
  public:
-  /// Arguments of the class in Python: a path, a dict or nothing, and keywords that replace keys at the top
-  /// level.
+  /// Loads the scene of `source_of`, whose arguments these are, and issues warnings. Throws as `source_of`,
+  /// `load_scene` and `accepted`. Requires the GIL, which it releases while it loads.
   SceneHandle(const pybind11::object& source, const pybind11::object& folder, const pybind11::dict& keywords);
 
-  /// `scene` lacks the data for pictures; callers hold the GIL. `with_white` returns the scene after a call
-  /// has resolved the white and the integrator, on that many threads; callers need not hold the GIL.
+  /// The scene. Its white and its integrator may be unresolved until `with_white` returns for the first time.
+  /// Requires the GIL.
   [[nodiscard]] const abbe::Scene& scene() const { return scene_; }
+  /// The scene with its white and its integrator. The first call resolves them by pilot rays on `threads`
+  /// threads, or one per processor for 0; other threads wait meanwhile. Throws as `resolve_white`.
+  /// The caller must have released the GIL by `GilReleased`: the function waits for other threads, and
+  /// acquires the GIL itself to change the scene.
   [[nodiscard]] const abbe::Scene& with_white(int threads);
-  /// Guiding data that pilots have trained by then.
+  /// Guiding data that the pilots of `with_white` trained; nullptr before its first call returns, or if it
+  /// trained none.
   [[nodiscard]] const std::shared_ptr<const GuidingData>& guiding_data() const { return guiding_data_; }
 
+  /// The scene as described, with defaults; later resolutions do not change it.
   [[nodiscard]] const spec::Scene& scene_spec() const { return scene_spec_; }
-  /// Name recorded in films and used in messages.
+  /// Name recorded in films and used in messages: the path as the user gave it, or "dict".
   [[nodiscard]] const std::filesystem::path& name() const { return name_; }
-  /// Source from which the scene can be read again after a change of the current directory.
+  /// Source from which the scene can be read again after a change of the current directory: its path or
+  /// folder is absolute.
   [[nodiscard]] const SceneSource& source() const { return source_; }
-  /// The files that were read, and the memory that the scene takes.
+  /// The files that were read, and the memory that is reserved for the scene. A render copies it to reserve
+  /// its own.
   [[nodiscard]] const Inputs& inputs() const { return inputs_; }
 
  private:

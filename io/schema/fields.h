@@ -23,6 +23,9 @@
 // `read`, `write`, `json_schema`, the guide and help use these tables. The value type is omitted if the
 // member's type implies it: a bool, a string, a struct, or a type V with a function `ValueType
 // value_type(Tag<V>)`.
+//
+// Keys and texts are string literals: tables refer to them. The builders throw Error{internal} if a declared
+// type differs from that of its member; such an error is a bug of the table.
 namespace abbe::schema {
 
 /// Selects the table of a type: `fields(Tag<Disc>{})`.
@@ -36,14 +39,16 @@ using FieldContent = std::variant<ValueType, OneOf, Inlined>;
 struct Field {
   std::string_view key;  ///< Empty for groups and inlined structs.
   std::shared_ptr<const FieldContent> content;
-  std::string_view
-      text;  ///< Meaning, as a sentence; empty if the text of the struct that is its value suffices.
+  /// Meaning, as a sentence; empty if the text of the struct that is its value suffices.
+  std::string_view text;
   Presence presence;
-  std::ptrdiff_t offset;  ///< Offset of the member in its struct [bytes].
-  MemberFunctions access;
-  const std::type_info* owner;
+  std::ptrdiff_t offset;        ///< Offset of the member in its struct [bytes].
+  MemberFunctions access;       ///< Access to the value in the member.
+  const std::type_info* owner;  ///< Type of the struct that has the member.
 
+  /// Address of the member in the struct at `instance`.
   [[nodiscard]] void* member(void* instance) const { return static_cast<char*>(instance) + offset; }
+  /// Address of the value in that member; nullptr if it is empty.
   [[nodiscard]] const void* get(const void* instance) const {
     return access.get(static_cast<const char*>(instance) + offset);
   }
@@ -52,7 +57,7 @@ struct Field {
 };
 
 /// An array that may replace the object of a struct. It has `min_size` to `max_size` values, which belong to
-/// the first keys of the table; null omits a key.
+/// the first keys of the table in its order; null omits a key.
 struct ArrayForm {
   std::size_t min_size;
   std::size_t max_size;
@@ -60,21 +65,25 @@ struct ArrayForm {
 
 /// The field table of a struct.
 struct Fields {
-  std::string_view name;  ///< Name of the definition in the JSON schema.
+  /// Name of the definition in the JSON schema, also for the guide; unique among the structs of a file.
+  std::string_view name;
   std::string_view text;  ///< Meaning of the struct, as a sentence.
+  /// Fields, in the order of reading, writing and description.
   std::vector<Field> fields;
-  /// Keys, or paths of keys ("sun/irradiance"), one of which must be present. Errors name the first.
+  /// Keys, or paths of keys ("sun/irradiance"), at least one of which must be present; no such rule if empty.
   std::vector<std::string_view> any_of = {};
-  bool exclusive = false;                    ///< True if at most one of `any_of` may be present.
+  /// True if at most one of `any_of` may be present.
+  bool exclusive = false;
   std::optional<ArrayForm> array_form = {};  ///< Allowed for tables of optional single keys only.
-  // Set from the type of the struct.
-  const void* defaults = nullptr;  ///< A default-constructed struct.
-  SourcePosition* (*where)(void* instance) =
-      nullptr;  ///< Its member for the source position; nullptr if it has none.
+  /// Address of a default-constructed struct; set by `fields_of`.
+  const void* defaults = nullptr;
+  /// Address of the member `where` of the struct at `instance`, which stores its source position; nullptr if
+  /// it has none. Set by `fields_of`.
+  SourcePosition* (*where)(void* instance) = nullptr;
 
-  /// This table for a struct that may be written as an array.
+  /// This table for a struct that may be written as an array (`ArrayForm`).
   [[nodiscard]] Fields or_array(std::size_t min_size, std::size_t max_size) const;
-  /// The keys that the values of the array belong to.
+  /// The keys that the values of the array belong to, in order; empty without an array form.
   [[nodiscard]] std::vector<std::string_view> array_keys() const;
 };
 
@@ -154,13 +163,19 @@ Field group(V T::*member, bool required, std::string_view conflict, LooseChoice<
 
 }  // namespace detail
 
-/// The field table of T.
+/// The field table of T, built at the first call and valid until the program ends. Thread-safe. Throws
+/// Error{internal} if the table contains a field of another struct.
 template <typename T>
 [[nodiscard]] const Fields& fields_of() {
   static const Fields kFields = detail::completed<T>(fields(Tag<T>{}));
   return kFields;
 }
 
+// The argument `what` of the functions below names the value in errors: an enumeration's, such as "filter",
+// or the elements of a container, such as "layers". A `Range` applies to each number.
+
+/// An enum E whose values 0, 1, 2 … are written as `names`. If `accepts_numbers`, the number 4 may replace
+/// the name "4".
 template <typename E>
 [[nodiscard]] ValueType enumeration(std::string_view what, std::vector<const char*> names,
                                     bool accepts_numbers = false) {
@@ -170,7 +185,8 @@ template <typename E>
                   [](const void* value) { return static_cast<std::size_t>(*static_cast<const E*>(value)); }},
       &typeid(E)};
 }
-/// A fixed-size array or vector of numbers. `nonzero` excludes the zero vector.
+/// A fixed-size array or vector V of numbers, each within `range`, written as an array of that length.
+/// `nonzero` excludes the zero vector.
 template <typename V>
 [[nodiscard]] ValueType vector(Range range, bool nonzero = false) {
   using Number = std::remove_cvref_t<decltype(std::declval<V&>()[0])>;
@@ -183,10 +199,13 @@ template <typename V>
                  }},
           &typeid(V)};
 }
+/// An object with the field table of T.
 template <typename T>
 [[nodiscard]] ValueType structure() {
   return {Struct{fields_of<T>}, &typeid(T)};
 }
+/// A std::vector<T> of at least `min_size` elements of the type `element`. If `allows_single`, one element
+/// may be written without brackets.
 template <typename T>
 [[nodiscard]] ValueType list(ValueType element, std::string_view what, std::size_t min_size,
                              bool allows_single = false) {
@@ -203,7 +222,8 @@ template <typename T>
                }},
           &typeid(L)};
 }
-/// A std::vector of `Named<T>`: an object with names that the user chooses.
+/// A std::vector of `Named<T>`, written as an object with at least `min_size` names that the user chooses, in
+/// its order. `element` is the type of its values.
 template <typename T>
 [[nodiscard]] ValueType by_name(ValueType element, std::string_view what, std::size_t min_size) {
   using L = std::vector<Named<T>>;
@@ -254,6 +274,7 @@ template <typename V>
     return structure<V>();
 }
 
+// Overloads for elements of the type that T implies (`value_type_of`).
 template <typename T>
 [[nodiscard]] ValueType list(std::string_view what, std::size_t min_size, bool allows_single = false) {
   return list<T>(value_type_of<detail::ValueOf<T>>(), what, min_size, allows_single);
@@ -269,7 +290,7 @@ concept Numeric = std::is_arithmetic_v<V> || requires(V v) {
   requires std::is_arithmetic_v<std::remove_cvref_t<decltype(v[0])>>;
 };
 
-/// A value type or a range, as an argument of table entries.
+/// A value type or a range, as an argument of table entries. A range is for numeric members only.
 struct TypeOrRange {
   std::variant<Range, ValueType> value;
 
@@ -278,6 +299,8 @@ struct TypeOrRange {
       : value(Range{low, high, open_low, open_high}) {}
   TypeOrRange(ValueType type) : value(std::move(type)) {}
 
+  /// The value type for a V: the given one, or `within` the range. Throws std::bad_variant_access for a range
+  /// and a V that is not numeric.
   template <typename V>
   [[nodiscard]] ValueType as() const {
     if constexpr (Numeric<V>)
@@ -286,8 +309,8 @@ struct TypeOrRange {
   }
 };
 
-/// The alternative A of a variant, written as that JSON type. If `keys` are given, an object must have one of
-/// them.
+/// The alternative A of a variant, written as a value of the JSON type `json`. `value` is the type or range
+/// of A; without it A implies the type. If `keys` are given, an object must have one of them to select A.
 template <typename A>
 [[nodiscard]] detail::LooseForm<A> form(Json json, const TypeOrRange& value) {
   return {json, {}, value.as<detail::ValueOf<A>>()};
@@ -296,8 +319,8 @@ template <typename A>
 [[nodiscard]] detail::LooseForm<A> form(Json json, std::vector<std::string_view> keys = {}) {
   return {json, std::move(keys), value_type_of<detail::ValueOf<A>>()};
 }
-/// A variant V whose alternative follows from the JSON form. `name` is its definition in the JSON schema, or
-/// empty. Errors call it `expected`.
+/// A variant V whose alternative is the first one in `form` that the JSON value fits. `name` is its
+/// definition in the JSON schema, or empty. Errors call it `expected`, such as "a curve: a number or a name".
 template <typename V, typename... A>
 [[nodiscard]] ValueType forms(std::string_view name, std::string_view expected,
                               detail::LooseForm<A>... form) {
@@ -307,7 +330,8 @@ template <typename V, typename... A>
           &typeid(V)};
 }
 
-/// The alternative A of a variant as the value of its own key.
+/// The alternative A of a variant as the value of its own `key`. `value` is the type or range of A; without
+/// it A implies the type. `text` is the meaning; if empty, that of the struct A.
 template <typename A>
 [[nodiscard]] detail::LooseChoice<A> under(std::string_view key, const TypeOrRange& value,
                                            std::string_view text) {
@@ -317,14 +341,15 @@ template <typename A>
 [[nodiscard]] detail::LooseChoice<A> under(std::string_view key, std::string_view text = {}) {
   return {key, value_type_of<detail::ValueOf<A>>(), text, true};
 }
-/// The alternative A of a variant, with its fields in the same object. The presence of `key`, one of them,
-/// selects it.
+/// The alternative A of a variant, a struct with its fields in the surrounding object. The presence of `key`,
+/// which is one of them, selects it.
 template <typename A>
 [[nodiscard]] detail::LooseChoice<A> inlined_by(std::string_view key) {
   return {key, structure<A>(), {}, false};
 }
 
-/// A member with a key. The key is required unless the type of the member is optional.
+/// A member with a key. The key is required unless the member is a std::optional. `value` is the type or
+/// range of the member; without it the member implies the type.
 template <typename T, typename M>
 [[nodiscard]] Field field(std::string_view key, M T::*member, const TypeOrRange& value,
                           std::string_view text) {
@@ -336,7 +361,8 @@ template <typename T, typename M>
 [[nodiscard]] Field field(std::string_view key, M T::*member, std::string_view text = {}) {
   return field(key, member, value_type_of<detail::ValueOf<M>>(), text);
 }
-/// A member with an optional key. Without it the member keeps its initialiser.
+/// A member with an optional key; the other arguments are those of `field`. Without the key the member is
+/// unchanged.
 template <typename T, typename M>
 [[nodiscard]] Field defaulted(std::string_view key, M T::*member, const TypeOrRange& value,
                               std::string_view text) {
@@ -351,19 +377,20 @@ template <typename T, typename M>
 [[nodiscard]] Field inlined(M T::*member) {
   return detail::make_field("", detail::content(Inlined{fields_of<M>}), "", member);
 }
-/// A group of keys, exactly one of which is present. The member is a variant of std::monostate and the
-/// alternatives.
+/// A group of keys, exactly one of which is present. The member is a variant of std::monostate, which is
+/// first, and the alternatives. `choice` are results of `under` and `inlined_by`.
 template <typename T, typename V, typename... A>
 [[nodiscard]] Field one_of(V T::*member, detail::LooseChoice<A>... choice) {
   return detail::group(member, true, "", std::move(choice)...);
 }
-/// A group of keys, at most one of which is present. `conflict` is the error for two.
+/// A group of keys, at most one of which is present. `conflict` is the error for two; if it is empty, the
+/// error lists the allowed keys. The member is a variant as for `one_of`; without a key it is std::monostate.
 template <typename T, typename V, typename... A>
 [[nodiscard]] Field at_most_one(V T::*member, std::string_view conflict, detail::LooseChoice<A>... choice) {
   return detail::group(member, false, conflict, std::move(choice)...);
 }
 
-/// Builds a field table. `name` is its definition in the JSON schema.
+/// Builds a field table; the arguments are the members of `Fields` of these names.
 [[nodiscard]] Fields describe(std::string_view name, std::string_view text, std::vector<Field> fields,
                               std::vector<std::string_view> any_of = {}, bool exclusive = false);
 

@@ -38,6 +38,7 @@ std::string anchor_of(std::string_view heading) {
   return anchor;
 }
 
+// The structs of a comma-separated list of names. Throws Error{internal} for an unknown name.
 Section named_section(std::string_view names, const std::vector<StructPath>& paths) {
   Section section;
   for (const std::string& name : split(names, ',')) {
@@ -67,6 +68,7 @@ struct Plan {
   Links links;
 };
 
+// Finds the tables of the guide, and decides in which table each struct is described.
 Plan plan_of(const std::string& guide, const Fields& root) {
   const std::vector<StructPath> paths = structs_below(root);
   Plan plan;
@@ -94,6 +96,7 @@ std::string cell(std::string_view text) {
   return safe;
 }
 
+// Adds a row for each key of a section, and a row above each group of keys.
 void add_rows(const Section& section, const Links& links, std::string& page) {
   int group = 0;
   const std::string under = section.path.empty() ? "" : fmt::format("`{}`: ", section.path);

@@ -13,6 +13,7 @@
 namespace abbe::schema {
 namespace {
 
+// The keys of these structs as indented lines, with a label above each group.
 std::string keys_text(const std::vector<const Fields*>& structs) {
   std::string text;
   int group = 0;

@@ -122,6 +122,8 @@ void require_owner_keys(const OneOf& group, const std::vector<ObjectSchema>& bra
       add(dependent, key, object_of("anyOf", json(std::move(choices))));
 }
 
+// Adds a group: exactly one of its keys is present, or none if it is not required. The keys of a choice are
+// allowed with its key only.
 void add_group(const OneOf& group, ObjectSchema& content, Definitions& definitions) {
   std::vector<ObjectSchema> branches = branches_of(group, definitions);
   Object dependent;
@@ -147,6 +149,7 @@ void add_group(const OneOf& group, ObjectSchema& content, Definitions& definitio
   content.clauses.push_back(json(std::move(clause)));
 }
 
+// Adds the keys of all fields, and the rule that one of `any_of` is present.
 void add_fields(const Fields& fields, ObjectSchema& content, Definitions& definitions) {
   for (const Field& field : fields.fields) {
     if (const auto* group = std::get_if<OneOf>(field.content.get())) {

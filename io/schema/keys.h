@@ -11,21 +11,22 @@
 // Field tables as lists of keys, for the guide and for help.
 namespace abbe::schema {
 
-/// Anchors of a Markdown page at which structs are described.
+/// Anchors of a Markdown page at which structs are described, without "#".
 using Links = std::map<const Fields*, std::string>;
 
-/// A key of an object.
+/// A key of an object, with its role. Pointers and views refer to field tables.
 struct Key {
   std::string_view name;
   std::string text;  ///< Meaning: the field's text, or the text of the struct that is its value.
   std::vector<const ValueType*> types;  ///< Types of the value; several if they depend on other keys.
-  std::string presence;                 ///< "required", "default 4", or empty.
-  const OneOf* group = nullptr;         ///< Group of which the key is a choice, or nullptr.
-  int group_number = 0;                 ///< Number of the group in its object, from 1 on; 0 without a group.
-  std::vector<std::string_view> sibling_keys =
-      {};  ///< Keys one of which must be present with this one; empty if none is needed.
-  std::vector<std::string_view> owners =
-      {};  ///< Names of the structs that have the key; empty if all requested structs have it.
+  /// "required", "required without a, b", "in place of a, b", "default 4", or empty for an optional key.
+  std::string presence;
+  const OneOf* group = nullptr;  ///< Group of which the key is a choice, or nullptr.
+  int group_number = 0;          ///< Number of the group in its object, from 1 on; 0 without a group.
+  /// Keys one of which must be present with this one; empty if none is needed.
+  std::vector<std::string_view> sibling_keys = {};
+  /// Names of the structs that have the key; empty if all structs given to `keys_of` have it.
+  std::vector<std::string_view> owners = {};
 
   /// `text`, preceded by the sibling keys and owners.
   [[nodiscard]] std::string meaning() const;
@@ -34,10 +35,12 @@ struct Key {
   [[nodiscard]] std::string allowed(const Links& links = {}) const;
 };
 
-/// All keys that an object of one of these structs may have, in the order of their field tables.
+/// All keys that an object of one of these structs may have, in the order of their field tables. Keys of
+/// equal name, meaning, type and group are merged into one.
 [[nodiscard]] std::vector<Key> keys_of(std::span<const Fields* const> structs);
 
-/// The structs that are values of these types, or elements or alternatives of them.
+/// The structs that are values of these types, or elements or alternatives of them, each once. Structs inside
+/// structs are not included.
 [[nodiscard]] std::vector<const Fields*> structs_in(std::span<const ValueType* const> types);
 
 /// A struct and the first of the shortest key paths to it.
@@ -45,10 +48,10 @@ struct StructPath {
   std::string path;  ///< Such as "sensor/readout"; empty for the root.
   const Fields* fields;
 };
-/// The root and all structs inside it, each once.
+/// The root and all structs inside it, each once, by ascending length of their paths.
 [[nodiscard]] std::vector<StructPath> structs_below(const Fields& root);
 
-/// `path` and `key`, joined by '/'.
+/// `path` and `key`, joined by '/'; `key` alone if `path` is empty.
 [[nodiscard]] std::string joined(std::string_view path, std::string_view key);
 
 /// Label above the keys of a group: "one of" or "at most one of".

@@ -18,7 +18,8 @@ struct Value {
   using Wrapped = T;
   T value{};
 };
-/// A value with its source position, for later diagnostics. A struct may have a member `where` instead.
+/// A value with its source position, for later diagnostics. A struct needs no such wrapper: `read` also sets
+/// its own member called `where`, if it has one.
 template <typename T>
 struct Located : Value<T> {
   SourcePosition where{};
@@ -28,19 +29,20 @@ template <typename T>
 struct Named {
   std::string name;
   T value{};
-  SourcePosition where{};
+  SourcePosition where{};  ///< Position of the value.
 };
 
-/// Type-erased access to the value of a member. `open` creates a value, `get` returns nullptr if there is
-/// none, `close` removes it after an error.
+/// Type-erased access to the value of a member, whose address is the argument. The value may be in a wrapper,
+/// an optional or a shared pointer.
 struct MemberFunctions {
-  void* (*open)(void* member);
-  const void* (*get)(const void* member);
-  void (*close)(void* member);
-  SourcePosition* (*where)(
-      void* member);  ///< Where to store the source position; nullptr if the member has none.
+  void* (*open)(void* member);             ///< Creates a value if the member may be empty; its address.
+  const void* (*get)(const void* member);  ///< Address of the value; nullptr if the member is empty.
+  void (*close)(void* member);             ///< Empties the member after an error, if it may be empty.
+  /// Address at which to store the source position; nullptr if the member has none.
+  SourcePosition* (*where)(void* member);
 };
 
+/// Presence of a key in its object.
 enum class Presence { required, optional };
 
 namespace detail {

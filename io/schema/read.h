@@ -6,12 +6,15 @@
 
 namespace abbe::schema {
 
-/// Reads the struct at `instance` from an object. Members that have no key keep their value. Reports missing,
-/// unknown and misspelt keys, and values of a wrong type or range. Returns false if there is an error; valid
-/// keys are read all the same.
+/// Reads the struct at `instance` from an object, or from an array if the table has an array form. `instance`
+/// is a default-constructed struct of the table's type. Members whose keys are absent are unchanged.
+/// Reports with the code `scene` missing, unknown and misspelt keys, and values of a wrong type or range.
+/// Returns false if there is an error. Valid keys are read all the same; members with errors are emptied if
+/// they may be empty.
 bool read(const JsonValue& json, const Fields& fields, void* instance, Diagnostics& diagnostics);
 
-/// Reads a value of that type from JSON. Errors and result are those of the overload for structs.
+/// Reads a value of that type from JSON. `value` is the address of an object of the C++ type `type.cpp_type`.
+/// Errors and result are those of the overload for structs.
 bool read(const JsonValue& json, const ValueType& type, void* value, Diagnostics& diagnostics);
 
 /// Reads a new T. Returns nothing after an error.
@@ -22,7 +25,8 @@ template <typename T>
   return instance;
 }
 
-/// Reads a value of that type into a new member M. Returns nothing after an error.
+/// Reads a value of that type into a new member M: the C++ type, or an optional or wrapper of it. Returns
+/// nothing after an error.
 template <typename M>
 [[nodiscard]] std::optional<M> read(const JsonValue& json, const ValueType& type, Diagnostics& diagnostics) {
   std::optional<M> value(std::in_place);

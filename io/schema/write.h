@@ -6,22 +6,23 @@
 
 namespace abbe::schema {
 
-/// A JSON value without a source position.
+/// A JSON value without a source position. Numbers must be finite.
 [[nodiscard]] inline JsonValue json(decltype(JsonValue::value) value) {
   return {std::move(value), {}};
 }
-/// The object that `read` reads as this struct. Members with their default are omitted. It has no source
-/// positions.
+/// The JSON object from which `read` makes the struct at `instance`, in the order of its table. Empty members
+/// and optional members with their default are omitted. The object has no source positions.
 [[nodiscard]] JsonValue write(const Fields& fields, const void* instance);
 template <typename T>
 [[nodiscard]] JsonValue write(const T& instance) {
   return write(fields_of<T>(), &instance);
 }
-/// The value of that type at address `value`.
+/// JSON of the value at address `value`, an object of the C++ type `type.cpp_type`.
 [[nodiscard]] JsonValue write(const ValueType& type, const void* value);
 
-/// The default of an optional field, for documentation. Nothing if the default is infinite or an empty list
-/// or object. `defaults` comes from the field table.
+/// The default of an optional field, for documentation. `defaults` is `Fields::defaults`, the address of a
+/// default-constructed struct. Nothing for other fields, for a member that is absent by default, and for a
+/// default that is infinite or an empty list or object.
 [[nodiscard]] std::optional<JsonValue> default_of(const Field& field, const void* defaults);
 
 }  // namespace abbe::schema

@@ -11,7 +11,7 @@ def _band_widths(centers):
 def plot_spectrum(film, *pixels, axes=None):
     """Plots the radiance of a spectral film over wavelength at pixels (x, y), and returns the axes.
 
-    Radiance is per nm of each band, with edges halfway between the centers of adjacent bands. Raises UsageError for a film whose sensor
+    `axes` are those of matplotlib, by default the current ones. Radiance is per nm of each band, with edges halfway between the centers of adjacent bands. Raises UsageError for a film whose sensor
     is not spectral, and InputError as `film.wavelengths` does.
     """
     import matplotlib.pyplot

@@ -100,6 +100,7 @@ def file_name(name):
     return re.sub(r"[^\w.-]", "_", name)
 
 
+# The name with its extension, or with the first number from 2 on that makes it unlike those in `taken`.
 def free_name(name, taken, extension=""):
     candidate, number = name + extension, 2
     while candidate in taken:
@@ -157,6 +158,7 @@ class Shading:
         except ValueError as error:
             raise ExportError(f"{self.where}: the property abbe is not JSON ({error}; expected a material or the name of a glass).")
 
+    # The material of a surface: its only part, a mixture of its parts, or black without any.
     def joined(self, parts, name):
         if not parts or parts[0][0] == 1:
             return parts[0][1] if parts else {"diffuse": {"reflectance": 0}}
@@ -167,6 +169,7 @@ class Shading:
         self.materials.update({part_name: part for part_name, (_, part) in zip(names, parts)})
         return {"mixture": [{"material": part_name, "weight": tidy(weight)} for part_name, (weight, _) in zip(names, parts)]}
 
+    # The parts of a material's surface, None without one, and its emitted radiance.
     def surface_of(self, material):
         if material is None:
             return [(1, {"diffuse": {"reflectance": 0.8}})], BLACK
@@ -188,6 +191,7 @@ class Shading:
         self.note("displacement by a material is not supported: dropped", output.inputs["Displacement"].is_linked)
         return parts, emission
 
+    # The parts and the emitted radiance of a shader node; the methods for each kind of node return the same.
     def shader(self, node):
         make = {"BSDF_PRINCIPLED": self.principled, "BSDF_GLASS": self.glass, "BSDF_DIFFUSE": self.diffuse, "BSDF_GLOSSY": self.glossy,
                 "EMISSION": self.emitter, "MIX_SHADER": self.mix}.get(node.type)
@@ -285,6 +289,7 @@ class Shading:
         self.note("image colours are sRGB in integer files, otherwise linear", settings != ("Linear" if image.node.image.is_float else "sRGB"))
         return {**self.texture(image.node), "rgb": True}
 
+    # The curve of a colour with its components limited to [0, maximum].
     def curve(self, rgb, maximum=math.inf):
         rgb = [min(max(component, 0), maximum) for component in rgb]
         if not is_grey(rgb):
@@ -494,6 +499,7 @@ class Exporter:
                 rows = [number for row in matrix[:3] for number in row]
                 self.spec["shapes"].append({"name": name, "instance": {"of": of, "transform": {"matrix": tidy(rows)}}})
 
+    # Adds the file of a mesh and returns its path relative to the scene.
     def add_mesh(self, name, extension, surface):
         name = free_name(file_name(name), self.files, extension)
         self.files[name] = surface
@@ -595,7 +601,7 @@ class ExportEngine(bpy.types.RenderEngine):
 
 
 def exported(context, folder):
-    """Exports the context's scene in memory."""
+    """Exports the context's scene in memory; `folder` is the name of its folder of files. Returns the Exporter. Raises ExportError."""
     if bpy.app.version >= (4, 0, 0):  # its Principled BSDF has other inputs
         raise ExportError(f"this exporter is for Blender 3 (got {bpy.app.version_string}, expected 3.4 to 3.6).")
     if context.scene.camera is None:  # Blender evaluates nothing without one
