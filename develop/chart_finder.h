@@ -9,7 +9,7 @@
 
 namespace abbe {
 
-/// An 8-bit picture: red, green and blue of each pixel, row by row from the top.
+/// A display-encoded 8-bit picture: red, green and blue of each pixel, row by row from the top.
 struct ByteImage {
   int width = 0;
   int height = 0;
@@ -18,15 +18,18 @@ struct ByteImage {
 
 /// A ColorChecker of 24 patches in a picture.
 struct FoundChart {
-  /// Outer corners [pixels] of the cells of the top left, top right, bottom right and bottom left patch.
+  /// Outer corners of the cells of the top left, top right, bottom right and bottom left patch, as the chart
+  /// is read. Positions are in pixels from the top left corner of the picture, with y downwards.
   std::array<Imath::V2d, 4> corners;
-  double misfit = 0;  ///< Dissimilarity of its colours from those of a ColorChecker.
+  /// Dissimilarity of its colours from those of a ColorChecker, on the detector's own scale; smaller is
+  /// better.
+  double misfit = 0;
 };
 
 /// Functions of the chart detector module. OpenCV is linked to the module alone, because it depends on some
 /// seventy packages.
 struct ChartFinder {
-  /// Finds the most similar chart; empty if there is none.
+  /// Finds the most similar chart; empty if there is none. It uses a single thread.
   std::optional<FoundChart> (*find)(const ByteImage& picture);
 };
 

@@ -72,6 +72,7 @@ std::vector<double> pixel_exposures(const FilmSensor& sensor, const Image& film)
   return seconds;
 }
 
+// Reads out one plane and appends its electrons, codes, saturated pixels and calibrated values.
 void read_plane(const ExposedFilm& exposed, std::size_t plane, std::uint64_t seed, std::uint32_t frame,
                 DevelopedFilm& developed) {
   const FilmSensor& sensor = exposed.sensor;
@@ -126,7 +127,7 @@ std::optional<std::vector<double>> picture_saturation(const FilmSensor& sensor) 
   return saturation;
 }
 
-// True if a pixel reaches these values in all channels.
+// True if a pixel has at least these values in all channels.
 bool has_pixel_at(const Image& planes, const std::vector<std::string>& channels,
                   const std::array<double, 3>& values) {
   std::array<const ImageChannel*, 3> found{};
@@ -139,6 +140,7 @@ bool has_pixel_at(const Image& planes, const std::vector<std::string>& channels,
   });
 }
 
+// Mean of a plane's values over disjoint areas of the film.
 template <typename Value>
 double mean(const Image& film, const std::vector<Crop>& areas, const std::vector<Value>& values) {
   double sum = 0;

@@ -8,24 +8,29 @@
 
 namespace abbe {
 
-/// Attributes of raw files. They are the meaning of the numbers, the code expected without light
-/// (`black_level`), the code of saturated pixels, and the gain.
+/// Attribute of raw files: the meaning of the numbers, in words.
 inline constexpr const char* kCodesKey = "codes";
+/// Attribute of raw files: the code expected without light (`black_level`) [DN].
 inline constexpr const char* kBlackLevelKey = "black_level_dn";
+/// Attribute of raw files: the lowest code of saturated pixels (`white_level`) [DN].
 inline constexpr const char* kWhiteLevelKey = "white_level_dn";
+/// Attribute of raw files: the gain [electrons per DN].
 inline constexpr const char* kGainKey = "gain_e_per_dn";
 
-/// The planes of a film at each step from exposure to digital numbers.
+/// The planes of a film at each step from exposure to digital numbers, in the order of `FilmSensor::planes`.
+/// Film values are exposures, in the unit that the attribute `channel.<name>` states.
 struct DevelopedFilm {
-  Image exposure;
+  Image exposure;  ///< Film values.
+  /// `Variance.` planes of the film: that of `exposure` due to the render; no planes if the film has none.
   Image variance;
-  Image electrons;   ///< Expected photoelectrons; empty without a readout, like `codes`.
-  Image codes;       ///< Digital numbers, and `Saturated.` planes of 0 and 1.
-  Image calibrated;  ///< Exposure estimated from the codes; the exposure itself without a readout.
+  Image electrons;   ///< Expected photoelectrons per pixel; no planes without a readout, like `codes`.
+  Image codes;       ///< Digital numbers, and a `Saturated.` plane of 0 and 1 for each plane.
+  Image calibrated;  ///< Film values estimated from the codes; without a readout, those of `exposure`.
 };
 
-/// Reads the film out once. The noise is a function of `seed`, `frame`, plane and pixel. Throws Error{input}
-/// if a pixel expects more electrons than can be counted.
+/// Reads the film out once; without a readout in the sensor, only copies its planes. The noise is a function
+/// of `seed`, `frame` (the number of the exposure), plane and pixel. The film must have every plane of the
+/// sensor (`require_planes`). Throws Error{input} if a pixel expects more electrons than can be counted.
 [[nodiscard]] DevelopedFilm develop(const ExposedFilm& exposed, std::uint64_t seed, std::uint32_t frame = 0);
 
 /// The code [DN] that every pixel expects without light, after a response curve is inverted: offset plus dark
@@ -33,29 +38,32 @@ struct DevelopedFilm {
 /// alone. The sensor must have a readout.
 [[nodiscard]] double black_level(const FilmSensor& sensor);
 /// A warning if channels have different dark signals, which `black_level` then does not include; empty
-/// otherwise.
+/// otherwise. The sensor must have a readout.
 [[nodiscard]] std::optional<std::string> unequal_dark_signals_warning(const FilmSensor& sensor);
 
 /// The seed of the render that made the film; 0 if the film does not record it.
 [[nodiscard]] std::uint64_t render_seed(const Image& film);
 
-/// The image for the display transform: every channel in every pixel, divided by the `WhiteField` if the
-/// sensor has one, with saturated pixels set to white.
+/// The image for the display transform: every channel in every pixel, with a mosaic demosaicked. Channels are
+/// divided by the `WhiteField` if `sensor.flattens_field`. `calibrated` is that of a `DevelopedFilm`. If the
+/// sensor has a readout and three channels, saturated pixels are set to white.
 [[nodiscard]] Image display_planes(const FilmSensor& sensor, const Image& calibrated);
 
-/// The film value that pictures of `display_planes` show as white: the sensor's own if it has one, else an
-/// automatic value. If pixels are saturated in all three channels, the automatic value is at most theirs, so
-/// that they are white. Throws as `require_display`.
+/// The luminance, in the unit of film values of `DisplayTransform`, that pictures of `display_planes` show as
+/// white: the sensor's own if it has one, else an automatic value. If pixels are saturated in all three
+/// channels, the automatic value is at most theirs, so that they are white. Throws Error{usage} as
+/// `require_display`.
 [[nodiscard]] double display_white(const FilmSensor& sensor, const Image& planes);
 
-/// Mean and root mean square errors of a plane over the rendered pixels, in electrons with a readout, else in
-/// film values.
+/// Mean, root mean square errors and saturation of a plane over the rendered pixels, in electrons with a
+/// readout, else in film values.
 struct PlaneFigures {
   double mean = 0;
-  /// Error of the render; empty if the film does not record it or a variance is infinite.
+  /// Root mean square error due to the render; empty if the film does not record it or a variance is
+  /// infinite.
   std::optional<double> render_error;
-  TemporalNoise noise{};  ///< Sensor noise at the mean; zero without a readout.
-  double saturated_fraction = 0;
+  TemporalNoise noise{};          ///< Sensor noise at the mean; zero without a readout.
+  double saturated_fraction = 0;  ///< Fraction of the pixels that are saturated; 0 without a readout.
 };
 /// Figures of a developed film, in the order of `sensor.planes`.
 [[nodiscard]] std::vector<PlaneFigures> plane_figures(const FilmSensor& sensor,

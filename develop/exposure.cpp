@@ -28,6 +28,7 @@ std::optional<JsonValue> spec_of(const FilmSensor& sensor) {
   return parse_json(std::make_shared<const SourceText>(SourceText{"", sensor.description}), none);
 }
 
+// The number under a key of an object; nullptr if there is none.
 double* number_in(JsonValue* spec, const char* key) {
   JsonValue* member = spec != nullptr ? spec->find(key) : nullptr;
   return member != nullptr ? std::get_if<double>(&member->value) : nullptr;
@@ -64,6 +65,7 @@ void record_exposure(ExposedFilm& exposed, double factor) {
       seconds->second = fmt::format("{}", static_cast<float>(*before * factor));
 }
 
+// Multiplies all exposure times, also in description and metadata.
 void set_exposure(ExposedFilm& exposed, double factor) {
   exposed.sensor.shared_exposure_s *= factor;
   for (double& seconds : exposed.sensor.exposure_s) seconds *= factor;

@@ -18,11 +18,13 @@
 namespace abbe {
 namespace {
 
+// A plane behind a polariser, with its row of the measurement matrix.
 struct Measurement {
   PolariserRow row;
   const ImageChannel* plane;
 };
 
+// The planes behind polarisers, by the name of their group.
 std::map<std::string, std::vector<Measurement>> groups_of(const Image& planes,
                                                           const std::vector<std::string>& names) {
   std::map<std::string, std::vector<Measurement>> groups;
@@ -35,13 +37,14 @@ std::map<std::string, std::vector<Measurement>> groups_of(const Image& planes,
   return groups;
 }
 
+// The row r = (1, q, u): a plane's value is weight (I + q Q + u U).
 std::array<double, 3> row_of(const Measurement& one) {
   return {1, one.row.q, one.row.u};
 }
 
 // Inverse of the sum of r r^T over the rows r; empty if they do not determine a Stokes vector.
 std::optional<Matrix3> inverse_normal(const std::vector<Measurement>& group) {
-  constexpr double kDetermined = 1e-3;  // three ideal polarisers 60 degrees apart give 27/4
+  constexpr double kDetermined = 1e-3;  // three ideal polarisers at 0, 60 and 120 degrees give 27/4
   Matrix3 normal(0.0);
   for (const Measurement& one : group) {
     const auto row = row_of(one);

@@ -15,40 +15,43 @@
 
 namespace abbe {
 
-/// Attribute of spectral films alone: their bins.
+/// Attribute of spectral films alone: their bins as "FROM_NM STEP_NM COUNT".
 inline constexpr const char* kSpectralBinsKey = "spectral_bins";
-/// Attributes of the camera of a spectral film: irradiance on the axis per unit of radiance [sr]; distance
-/// from lens to film [pixels], absent for a probe; `opening_tangent` of a thin lens focused at a finite
-/// distance.
+/// Attribute of spectral films: irradiance at the centre of the film per unit of radiance [sr].
 inline constexpr const char* kAxisKey = "irradiance_per_radiance_sr";
+/// Attribute of spectral films: distance from lens to film [pixels]; absent for a probe.
 inline constexpr const char* kDistanceKey = "image_distance_px";
+/// Attribute of spectral films: radius of the lens opening divided by the distance of focus. Absent unless a
+/// thin lens is focused at a finite distance.
 inline constexpr const char* kOpeningKey = "opening_tangent";
 /// Attribute with the mean transmission of the shutter over the exposure, if it is not 1.
 inline constexpr const char* kShutterKey = "shutter_transmission";
 
-/// Warns if a channel responds outside the bands of the image read from `path`, because that light is
-/// missing. Throws Error{input} if it does not respond inside them.
+/// Warns if a channel has more than 0.1 % of its response outside the bands of the image read from `path`,
+/// because that light is missing. Throws Error{input} if it has more than 99.9 % there.
 void check_coverage(const SpectralImage& image, const Channel& channel, const std::filesystem::path& path,
                     Diagnostics& diagnostics);
 
 /// Linear Rec.709, channels R, G, B, of the first three planes, which `to_xyz` transforms to XYZ at the same
-/// scale. A single plane has the colour of the first column of `to_xyz`.
+/// scale. A single plane has the colour of the first column of `to_xyz`. Values are neither clamped nor
+/// encoded.
 [[nodiscard]] Image rec709_image(const Image& planes, const Matrix3& to_xyz);
 
 /// Radiances as the CIE 1931 observer sees them, in linear Rec.709 [cd/m^2], channels R, G, B.
 [[nodiscard]] Image observed(const SpectralImage& image);
 
-/// Transforms the result of `observed` to pictures. Without `white` colours appear as next to daylight.
+/// Transform of the result of `observed` to pictures by the options `view`. Colours are adapted from `white`
+/// to D65; without `white` they are not adapted, so that D65 appears white.
 [[nodiscard]] DisplayTransform display_of_radiance(const ViewOptions& view,
                                                    std::optional<Chromaticity> white);
 
-/// A sensor that shows the result of `observed`, with the display exposure of the spectral film read from
-/// `path`. The white is `white` if given, else that of the film. Throws Error{input} if an attribute is
-/// invalid.
+/// A sensor that shows the result of `observed`, with the display exposure of the spectral film `film`, read
+/// from `path`. It has no readout. The white is `white` if given, else that of the film. Throws Error{input}
+/// if an attribute is invalid.
 [[nodiscard]] FilmSensor observer_of(const Image& film, const std::filesystem::path& path,
                                      const ViewOptions& view, std::optional<Chromaticity> white);
 
-/// The result of `observed` with the sensor `observer_of`.
+/// The result of `observed` with the sensor `observer_of`. Throws as that function.
 [[nodiscard]] ExposedFilm observed_film(const SpectralImage& image, const std::filesystem::path& path,
                                         const ViewOptions& view, std::optional<Chromaticity> white);
 
@@ -56,7 +59,8 @@ void check_coverage(const SpectralImage& image, const Channel& channel, const st
 struct RadianceSensor {
   std::vector<Channel> channels;
   std::optional<Mosaic> mosaic;
-  std::vector<double> exposure_per_radiance;    ///< Of each pixel [s sr].
+  /// Radiant exposure per radiance of each pixel [s sr], row by row from the top.
+  std::vector<double> exposure_per_radiance;
   std::map<std::string, std::string> metadata;  ///< Attributes of its films.
 };
 
@@ -74,8 +78,9 @@ void erase_layer_and_feature_attributes(std::map<std::string, std::string>& meta
 void erase_layout_attributes(std::map<std::string, std::string>& metadata);
 
 /// Exposes a sensor to the radiances read from `path`. The film has the metadata of both; attributes of
-/// sensor and camera are those of the new sensor. With a mosaic it has one plane. Warns if a channel responds
-/// outside the image's bands, throws Error{input} if it does not respond inside them.
+/// sensor and camera are those of the new sensor. With a mosaic it has one plane. Warns and throws as
+/// `check_coverage` for each channel. Throws as `expose`, such as Error{usage} for a channel that depends on
+/// the angle of incidence.
 [[nodiscard]] Image exposed_film(const SpectralImage& image, const RadianceSensor& sensor,
                                  const std::filesystem::path& path, Diagnostics& diagnostics);
 

@@ -9,6 +9,7 @@
 namespace abbe {
 namespace {
 
+// Codes pixel by pixel, with the planes of a pixel together.
 std::vector<std::uint16_t> interleaved(const Image& codes, const std::vector<std::string>& planes) {
   std::vector<const ImageChannel*> found;
   for (const std::string& plane : planes) found.push_back(codes.find(plane));

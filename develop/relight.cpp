@@ -131,6 +131,7 @@ void relight_plane(Image& film, const std::string& plane, const std::vector<std:
   }
 }
 
+// Removes the layers of lights, and the error that holds for the film before.
 void drop_layers(Image& film) {
   std::erase_if(film.channels, [](const ImageChannel& channel) {
     return channel.name.starts_with(kLightLayer) || channel.name.starts_with(variance_of(kLightLayer));

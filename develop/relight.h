@@ -10,23 +10,23 @@ namespace abbe {
 
 /// Factors that multiply the layer of a light: one for all planes, or one for each.
 struct LightFactor {
-  std::string light;  ///< Name of the layer, without the prefix `light.`.
-  std::vector<double> factors;
+  std::string light;            ///< Name of the layer, without the prefix `light.`.
+  std::vector<double> factors;  ///< One for all planes, or one for each in the order of `relight`.
 };
 
-/// Contribution of a light's layer to the film, before and after its factors, in the same unit for all
-/// lights. The unit is luminance for an observer and for spectral films, else the sum of film values over all
-/// channels, as in `main_light`.
+/// Contribution of a light's layer to the film, averaged over all pixels, before and after its factors. The
+/// unit is the same for all lights. It is luminance for an observer and for spectral films, else the sum of
+/// film values over all channels, as in `main_light`.
 struct LightContribution {
   std::string light;
   double before;
   double after;
 };
-/// Contributions of all lights that have a layer in the film. Throws as `relight`.
+/// Contributions of all lights that have a layer in the film. Throws Error{usage} as `relight`.
 [[nodiscard]] std::vector<LightContribution> light_contributions(const Image& film,
                                                                  std::span<const LightFactor> factors);
 
-/// True if the film records tristimulus values, whose colours are correct under any light.
+/// True if the film records tristimulus values X, Y, Z, whose colours are correct under any light.
 [[nodiscard]] bool is_of_observer(const Image& film);
 
 /// Recomputes a film as the sum of its light layers. Layers of lights that are not named keep the factor 1.

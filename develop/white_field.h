@@ -24,16 +24,18 @@ struct WhiteField {
 
 /// The text that `parse_white_field` reads.
 [[nodiscard]] std::string to_text(const WhiteField& field);
-/// Parses a field with that many channels; empty if the text is malformed.
+/// Parses a field with `channels` channels; empty if the text is malformed or does not have two rows.
 [[nodiscard]] std::optional<WhiteField> parse_white_field(const std::string& text, std::size_t channels);
 
 /// Largest CIEDE2000 difference between the perfect diffuser at the centre and elsewhere in the field, at
-/// equal luminance. Colours are balanced at the centre by `to_xyz_d65`.
+/// equal luminance. Colours are balanced at the centre by `to_xyz_d65`, an invertible matrix from three
+/// channels to XYZ.
 [[nodiscard]] double neutral_shift(const WhiteField& field, const Matrix3& to_xyz_d65);
-/// A warning that ends with `remedy` if `neutral_shift` exceeds 1; empty otherwise.
+/// A warning that ends with `remedy` if the result of `neutral_shift` exceeds 1; empty otherwise.
 [[nodiscard]] std::optional<std::string> field_tint_warning(double neutral_shift, const std::string& remedy);
 
-/// Divides the named channels of a picture by the field, so that they respond to white as at the centre.
+/// Divides the channels `channels` of a picture, which are those of the field in order, by the field. They
+/// then respond to white as at the centre. Other channels are unchanged.
 void flatten(Image& planes, std::span<const std::string> channels, const WhiteField& field);
 /// The largest response of each channel over the field, relative to the centre.
 [[nodiscard]] std::vector<double> largest_response(const WhiteField& field);

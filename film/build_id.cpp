@@ -44,12 +44,14 @@ bool is_ours(const dl_phdr_info& object) {
   return false;
 }
 
+// True if the object's code computes film values.
 bool decides_bits(const dl_phdr_info& object) {
   const std::string_view path = object.dlpi_name;
   const std::string_view name = path.substr(path.rfind('/') + 1);
   return is_ours(object) || name.starts_with("libembree") || name.starts_with("libm.so");
 }
 
+// Callback of dl_iterate_phdr: appends the object's build id to the string `ids`.
 int add_build_id(dl_phdr_info* object, std::size_t, void* ids) {
   if (!decides_bits(*object)) return 0;
   for (int i = 0; i < object->dlpi_phnum; ++i) {

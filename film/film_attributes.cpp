@@ -44,6 +44,7 @@ std::optional<double> standard_exposure(const Scene& scene) {
   return std::nullopt;
 }
 
+// Records the sensitivity in daylight and, with a readout, the ISO speed.
 void add_speed(const Scene& scene, double area_m2, FilmIdentity& identity) {
   const auto sensitivity = daylight_sensitivity(scene.channels, area_m2);
   if (!sensitivity) return;

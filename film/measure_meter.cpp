@@ -17,10 +17,12 @@
 namespace abbe {
 namespace {
 
+// Reports a sentence about a meter as a warning.
 void warn_of_meter(const MeterCallbacks& caller, const Meter& meter, const std::string& sentence) {
   caller.warn(fmt::format("meter {}: {}", meter.name, sentence));
 }
 
+// Reports a sentence, if any, as a warning, or throws it if it is an error.
 void report_warning(const MeterCallbacks& caller, const Meter& meter,
                     const std::optional<std::string>& sentence, bool is_error) {
   if (sentence && is_error) throw Error(ErrorCode::scene, meter.name, *sentence);

@@ -19,17 +19,18 @@ namespace abbe {
 [[nodiscard]] std::optional<std::string> dark_camera_warning(const Scene& scene);
 
 /// A warning if a thin sheet, or the whole surface of a medium, coincides with a shape that rays hit instead.
-/// Empty otherwise.
+/// It names the first pair of shapes. Empty otherwise.
 [[nodiscard]] std::optional<std::string> hidden_sheet_warning(const Scene& scene);
 
-/// A warning if a light coincides with an opaque shape and its emission is lost. Empty otherwise.
+/// A warning if a light coincides with a shape that rays may hit instead, so that its emission is lost. It
+/// names the first such light. Empty otherwise.
 [[nodiscard]] std::optional<std::string> hidden_light_warning(const Scene& scene);
 
 /// A warning if the sensor measures polarisation but the scene disables it. Empty otherwise.
 [[nodiscard]] std::optional<std::string> ignored_polarisation_warning(const Scene& scene);
 
 /// A warning if too few pilot photons contributed to train the photon guides: for all light, or for more than
-/// 1 % of it. Empty otherwise, also without pilots.
+/// 1 % of it. Empty otherwise, and for nullptr, which means that no pilot was traced.
 [[nodiscard]] std::optional<std::string> undertrained_warning(const GuidingData* guides);
 
 /// A warning that explains why the error of a film is not yet known, and what to do. Empty if it is known.

@@ -19,6 +19,7 @@ namespace {
 // Unit of a bin as recorded in the film, in addition to the layout's `emissiveUnits`.
 constexpr const char* kRadiance = "radiance, W per m^2 and sr of the band";
 
+// Irradiance at the centre of the film per unit of radiance [sr].
 double axis_weight(const Camera& camera) {
   const Imath::V2f center(static_cast<float>(camera.width) / 2, static_cast<float>(camera.height) / 2);
   return mean_weight(camera, opening_tangent(camera), center);
@@ -30,6 +31,7 @@ std::optional<double> image_distance(const Camera& camera) {
   return distance ? std::optional(*distance / camera.pixel_pitch) : std::nullopt;
 }
 
+// The recorded `opening_tangent`; 0 if absent.
 double opening_of(const Image& film) {
   const auto opening = film.metadata.find(kOpeningKey);
   return opening == film.metadata.end() ? 0 : parse_number(opening->second).value();
@@ -59,6 +61,7 @@ std::vector<double> exposure_per_radiance(const Camera& camera, double opening, 
   return factors;
 }
 
+// The recorded bins of a spectral film.
 SpectralBins bins_of(const Image& film) {
   const std::vector<std::string> words = split(film.metadata.at(kSpectralBinsKey), ' ');
   return {parse_number(words.at(0)).value(), parse_number(words.at(1)).value(),

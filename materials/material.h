@@ -21,13 +21,14 @@
 namespace abbe {
 
 /// Interface of the models in `MaterialModel`.
-/// - `bsdf`: the scattering at a lookup; `lobes`: its kinds of lobes.
+/// - `bsdf`: the scattering at a lookup, which may refer to the model; `lobes`: its kinds of lobes.
 /// - `needs_coordinates`: true if the scattering depends on surface coordinates; `depends_on_outside`: true
 ///   if it depends on the index outside.
 /// - `opaque`: true if no light passes through the surface.
 /// - `interior_index`: the index inside a closed surface, or nullptr if light does not enter.
-/// - `medium`: the scattering medium inside, or nullptr.
-/// - `indices`: all refractive indices that the model uses; `texture_bytes`: the size of its images.
+/// - `medium`: the medium inside that absorbs or scatters in addition to `interior_index`, or nullptr.
+/// - `indices`: all refractive indices that the model uses, except those of a mixture's components;
+///   `texture_bytes`: the size of its images in bytes.
 template <typename Model>
 concept SurfaceModel = requires(const Model& model, const SurfaceLookup& at) {
   { model.bsdf(at) } -> std::same_as<Bsdf>;
@@ -49,6 +50,7 @@ using MaterialModel =
                  PrincipledMaterial, CosinePowerMaterial, PhongMaterial, RetroreflectorMaterial,
                  PolariserMaterial, WavePlateMaterial, DepolariserMaterial>;
 
+/// True if `List` is a variant whose types all satisfy `SurfaceModel`.
 template <typename List>
 inline constexpr bool kAllSurfaceModels = false;
 template <typename... Models>
@@ -59,14 +61,14 @@ static_assert(kAllSurfaceModels<MaterialModel>);
 struct Material {
   std::string name;
   MaterialModel model;
-  std::shared_ptr<const Relief> relief = nullptr;  ///< Perturbs the shading normal.
-  /// Rank of the medium inside. The medium of highest priority prevails in an overlap; among equals, that of
-  /// the smallest shape.
+  std::shared_ptr<const Relief> relief = nullptr;  ///< Perturbs the shading normal; nullptr for none.
+  /// Rank of the medium inside. Where media overlap, that of the largest number prevails; among equals, that
+  /// of the smallest shape.
   int priority = 0;
 };
 
-/// The BSDF of `material` at the wavelengths of a lookup, relative to the medium outside. It may refer to the
-/// material, which must outlive it.
+/// The BSDF of `material` at the wavelengths of a lookup, relative to the medium outside. Relief is not
+/// included. It may refer to the material, which must outlive it.
 [[nodiscard]] Bsdf make_bsdf(const Material& material, const SurfaceLookup& at);
 
 /// True if the scattering depends on surface coordinates: through a texture, a relief or a direction along
@@ -92,7 +94,7 @@ struct Material {
 /// the scene lists its components as materials of their own. The result refers to the material, which must
 /// outlive it.
 [[nodiscard]] std::vector<IndexUse> indices(const Material& material);
-/// Size of the material's images in bytes.
+/// Size of the material's images in bytes, including a relief.
 [[nodiscard]] std::size_t texture_bytes(const Material& material);
 /// True if the surface bounds a medium that light enters. Such a surface must be closed.
 [[nodiscard]] bool encloses_medium(const Material& material);

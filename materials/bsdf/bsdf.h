@@ -21,10 +21,10 @@
 
 namespace abbe {
 
-/// Interface of the scattering models.
-/// - `sample`: samples a direction.
-/// - `index_inside`: at one wavelength, the index behind a surface that light enters, relative to the
-///   outside; 1 for other surfaces.
+/// Interface of the scattering models. Directions are unit vectors in the local frame of `BsdfSample`. No
+/// function throws.
+/// - `sample`, `eval`, `pdf`, `index_inside`, `delta_probability` and `delta_power`: the free functions of
+///   these names below describe them.
 /// - `kScatters`: true if the model scatters into more than single directions. It then has `eval` and `pdf`.
 /// - `kDelta`: true if the model scatters into single directions. It then has `delta_probability` and
 ///   `delta_power`.
@@ -55,6 +55,7 @@ using Bsdf = std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, CoatedDiel
                           PolariserBsdf, WavePlateBsdf, DepolariserBsdf>;
 static_assert(sizeof(Bsdf) <= 4 * sizeof(SampledSpectrum));  // every path vertex stores one
 
+/// True if `List` is a variant whose types all satisfy `BsdfModel`.
 template <typename List>
 inline constexpr bool kAllBsdfModels = false;
 template <typename... Models>
@@ -74,14 +75,16 @@ template <typename Visitor>
   return std::visit(std::forward<Visitor>(visitor), bsdf);
 }
 
-/// Samples the direction into which light leaves (in radiance mode: from which it arrives). Empty if no light
-/// leaves.
+/// Samples the local direction `wi` into which light from `wo` leaves; in radiance mode, from which it
+/// arrives. `hero` is the number of the wavelength sample that draws it. Empty if wo.z is 0 or if the sampled
+/// event carries no light; the path then ends.
 [[nodiscard]] inline std::optional<BsdfSample> sample(const Bsdf& bsdf, const Imath::V3f& wo,
                                                       const BsdfRandom& u, int hero, TransportMode mode) {
   return visit_model([&](const auto& model) { return model.sample(wo, u, hero, mode); }, bsdf);
 }
 
-/// f(wo, wi) [1/sr] at each wavelength, without the cosine and without delta lobes.
+/// f(wo, wi) [1/sr] at each wavelength, without the cosine of wi and without delta lobes. It is 0 for models
+/// that have delta lobes only. Refraction scales it by `mode`, as `TransportMode` states.
 [[nodiscard]] inline SampledSpectrum eval(const Bsdf& bsdf, const Imath::V3f& wo, const Imath::V3f& wi,
                                           TransportMode mode) {
   return visit_model(
@@ -95,7 +98,7 @@ template <typename Visitor>
 }
 
 /// Pdf [1/sr] with which `sample` draws wi by an event that is not delta, at each wavelength as if it were
-/// the hero.
+/// the hero. It is 0 for models that have delta lobes only.
 [[nodiscard]] inline SampledSpectrum pdf(const Bsdf& bsdf, const Imath::V3f& wo, const Imath::V3f& wi) {
   return visit_model(
       [&]<typename Model>(const Model& model) {
@@ -108,7 +111,8 @@ template <typename Visitor>
 }
 
 /// Probability with which `sample` draws a delta event, at each wavelength as if it were the hero. The
-/// remaining probability belongs to the events of `pdf` and to events without a direction.
+/// remaining probability belongs to the events of `pdf` and to empty samples. It is 0 for models without
+/// delta lobes.
 [[nodiscard]] inline SampledSpectrum delta_probability(const Bsdf& bsdf, const Imath::V3f& wo) {
   return visit_model(
       [&]<typename Model>(const Model& model) {
@@ -121,7 +125,8 @@ template <typename Visitor>
 }
 
 /// Fraction of the unpolarised light from `wo` that leaves in a single direction, at each wavelength: by
-/// transmission if `through`, else by reflection.
+/// transmission if `through`, else by reflection. It is a fraction of power, without the factor 1/eta^2 of
+/// radiance.
 [[nodiscard]] inline SampledSpectrum delta_power(const Bsdf& bsdf, const Imath::V3f& wo, bool through) {
   return visit_model(
       [&]<typename Model>(const Model& model) {
@@ -133,10 +138,11 @@ template <typename Visitor>
       bsdf);
 }
 
-/// Density of a delta event at each wavelength, equal for both directions of travel: the probability of the
-/// event. Absorbing thin films, also in a mixture, transmit with a probability that depends on the side of
-/// incidence. Their transmittance does not depend on it and replaces the probability. `squared_eta` is the
-/// squared index on the far side divided by that on the side of incidence.
+/// Density of the delta event `event` of `sample` at each wavelength, without unit and equal for both
+/// directions of travel. It is the probability of the event, except for transmission by thin films, also in a
+/// mixture. If films absorb, that probability depends on the side of incidence, so their transmittance
+/// replaces it. `squared_eta` is the squared index on the far side divided by that on the side of incidence;
+/// `mode` is that of `sample`.
 [[nodiscard]] inline SampledSpectrum delta_density(const Bsdf& bsdf, const BsdfSample& event,
                                                    float squared_eta, TransportMode mode) {
   const bool may_be_film =
@@ -151,13 +157,14 @@ template <typename Visitor>
   return visit_model([]<typename Model>(const Model&) { return Model::kScatters; }, bsdf);
 }
 
-/// At one wavelength, the index behind a surface that light enters, relative to the outside; 1 for other
-/// surfaces.
+/// Index behind a surface that light enters, relative to the outside, at wavelength sample `lane`; 1 for
+/// other surfaces.
 [[nodiscard]] inline float index_inside(const Bsdf& bsdf, int lane) {
   return visit_model([lane](const auto& model) { return model.index_inside(lane); }, bsdf);
 }
 
-/// True if the surface absorbs all light.
+/// True if the model is `DiffuseBsdf` with reflectance 0 at all wavelengths. False for every other model,
+/// even if it absorbs all light.
 [[nodiscard]] inline bool is_black(const Bsdf& bsdf) {
   const auto* diffuse = std::get_if<DiffuseBsdf>(&bsdf);
   return diffuse != nullptr && diffuse->reflectance.is_zero();

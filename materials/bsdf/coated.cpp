@@ -17,6 +17,8 @@ struct Powers {
   SampledSpectrum R, T;
 };
 
+// Powers of the surface of index n + ik inside, relative to the outside; `inside` if light arrives from
+// there.
 Powers all_lanes(const CoatingAt& at, const SampledSpectrum& n, const SampledSpectrum& k, float cos_i,
                  bool inside) {
   SampledSpectrum::Values R, T;

@@ -8,14 +8,15 @@
 
 namespace abbe {
 
-/// A smooth dielectric interface under thin films, which may absorb. It refers to the material and holds the
-/// wavelengths of the packet.
+/// A smooth dielectric interface under thin films, which may absorb. It refers to the material, which must
+/// outlive it, and holds the wavelengths of the packet. Films do not scatter; they absorb what they neither
+/// reflect nor transmit.
 struct CoatedDielectricBsdf {
   static constexpr bool kScatters = false;
   static constexpr bool kDelta = true;
 
-  SampledSpectrum wavelengths_nm;
-  const RefractiveIndex* index;
+  SampledSpectrum wavelengths_nm;  ///< Wavelengths in standard air [nm].
+  const RefractiveIndex* index;    ///< Index inside; its k is ignored.
   const Coating* coating;
   const RefractiveIndex* outside = nullptr;  ///< Medium outside; nullptr is air.
 
@@ -30,15 +31,16 @@ struct CoatedDielectricBsdf {
   }
 };
 
-/// A smooth conductor under thin films.
+/// A smooth conductor under thin films, opaque, reflecting on both sides. It refers to the material, which
+/// must outlive it.
 struct CoatedConductorBsdf {
   static constexpr bool kScatters = false;
   static constexpr bool kDelta = true;
 
-  SampledSpectrum wavelengths_nm;
-  const RefractiveIndex* index;
+  SampledSpectrum wavelengths_nm;  ///< Wavelengths in standard air [nm].
+  const RefractiveIndex* index;    ///< Complex index of the conductor.
   const Coating* coating;
-  const RefractiveIndex* outside = nullptr;
+  const RefractiveIndex* outside = nullptr;  ///< Medium outside; nullptr is air.
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;

@@ -11,6 +11,7 @@
 namespace abbe {
 namespace {
 
+// Fractions of light that the coat reflects and lets in, R and T, at an angle of cosine cos_i.
 struct Passage {
   SampledSpectrum reflected, let_in;
 };

@@ -10,17 +10,18 @@ namespace abbe {
 /// reflects specularly. The ground scatters the light that enters; the coat reflects it internally any number
 /// of times before it leaves diffusely:
 ///
-///   f = T(o) T(i) rho/(n^2 (1 - rho r) pi),
+///   f = T(o) T(i) rho/(n^2 (1 - rho r) pi).
 ///
-/// with T the Fresnel transmittance, rho the reflectance of the ground, and r the internal diffuse
-/// reflectance of the coat. The model conserves energy for rho = 1. [Saunderson1942]
+/// n is the index of the coat relative to the outside, and T its Fresnel transmittance. rho is the
+/// reflectance of the ground, and r the internal diffuse reflectance of the coat. The model conserves energy
+/// for rho = 1. [Saunderson1942]
 struct CoatedDiffuseBsdf {
   static constexpr bool kScatters = true;
   static constexpr bool kDelta = true;
 
   SampledSpectrum n;       ///< Index of the coat relative to the outside, 1 or more.
   SampledSpectrum ground;  ///< rho/(n^2 (1 - rho r)).
-  bool dispersive;
+  bool dispersive;         ///< True if n may differ between wavelengths.
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
@@ -31,8 +32,9 @@ struct CoatedDiffuseBsdf {
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
-/// The model at one packet. `n` is the index of the coat, `rho` the reflectance of the ground, `inner` the
-/// internal diffuse reflectance of the coat.
+/// The model at one packet. `n` is the index of the coat relative to the outside, `rho` the reflectance of
+/// the ground, in [0, 1]. `inner` is the internal diffuse reflectance of the coat
+/// (`diffuse_reflectance_inside`); rho * inner must be below 1.
 [[nodiscard]] inline CoatedDiffuseBsdf coated_diffuse(const SampledSpectrum& n, const SampledSpectrum& rho,
                                                       const SampledSpectrum& inner, bool dispersive) {
   return {n, rho / (n * n * (SampledSpectrum(1) - rho * inner)), dispersive};

@@ -37,7 +37,7 @@ struct SchlickBsdf {
   static constexpr bool kScatters = false;
   static constexpr bool kDelta = true;
 
-  SampledSpectrum r0;  ///< Reflectance along the normal.
+  SampledSpectrum r0;  ///< Reflectance along the normal, in [0, 1].
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& /*u*/, int /*hero*/,
                                                  TransportMode /*mode*/) const {

@@ -8,6 +8,7 @@
 namespace abbe {
 namespace {
 
+// Reflectance for unpolarised light from `wo`.
 inline SampledSpectrum reflectance(const ConductorBsdf& metal, const Imath::V3f& wo) {
   const float cos_i = std::min(std::abs(wo.z), 1.0F);
   return SampledSpectrum::map(metal.n, metal.k,

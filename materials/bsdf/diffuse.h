@@ -14,7 +14,7 @@ struct DiffuseBsdf {
   static constexpr bool kScatters = true;
   static constexpr bool kDelta = false;
 
-  SampledSpectrum reflectance;
+  SampledSpectrum reflectance;  ///< Directional-hemispherical reflectance, in [0, 1].
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;

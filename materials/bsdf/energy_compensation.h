@@ -9,16 +9,17 @@
 
 namespace abbe {
 
-/// Table of the energy 1 - E(w) that single scattering by a rough surface loses, for directions w above the
+/// Table of the energy 1 - E(w) that single scattering by a rough surface loses, for unit vectors w above the
 /// surface. Multiply scattered light leaves in proportion to it, which preserves reciprocity and conserves
 /// energy. [Kelemen2001] [Kulla2017]
 class EnergyCompensation {
  public:
-  /// Coordinates of a direction in all tables of the same facets.
+  /// Coordinates of a direction in all tables of the same facets. The tilt runs from the horizon to the
+  /// normal, the turn from the azimuth of x to that of y.
   struct TableCoordinates {
-    int tilt_cell, turn_cell;
-    float tilt, turn;  ///< Position within the cell, in [0, 1].
-    int density_cell;
+    int tilt_cell, turn_cell;  ///< Cells of tilt and turn, counted from 0.
+    float tilt, turn;          ///< Position within the cell, in [0, 1].
+    int density_cell;          ///< Cell of the tabulated pdf of `sample`.
   };
   /// Table coordinates of a direction, on either side of the surface.
   [[nodiscard]] static TableCoordinates table_coordinates(const Microfacets<float>& facets,
@@ -26,18 +27,18 @@ class EnergyCompensation {
 
   /// Writes the energies E(w), w.z > 0, into `energies`, one for each table.
   using Energies = std::function<void(const Imath::V3f& w, std::span<double> energies)>;
-  /// Makes `count` tables, one for each energy, from their values for a few hundred directions.
+  /// Makes `count` tables, one for each of the energies, from their values for a few hundred directions.
   [[nodiscard]] static std::vector<EnergyCompensation> tabulate(const Microfacets<float>& facets,
                                                                 std::size_t count, const Energies& energies);
 
-  /// 1 - E, in [0, 1).
+  /// 1 - E, in [0, 1), interpolated between the tabulated directions.
   [[nodiscard]] float at(const TableCoordinates& coordinates) const;
   /// Integral of 1 - E over projected solid angle [sr], positive.
   [[nodiscard]] float total() const { return total_; }
-  /// Samples a direction w, w.z > 0, approximately in proportion to (1 - E) w.z.
+  /// Samples a direction w, w.z > 0, approximately in proportion to (1 - E) w.z. `u` is in [0, 1)^2.
   [[nodiscard]] Imath::V3f sample(const Imath::V2f& u) const;
   [[nodiscard]] float pdf(const TableCoordinates& coordinates,
-                          float cos) const;  ///< Pdf of `sample` [1/sr]; `cos` is w.z.
+                          float cos) const;  ///< Pdf of `sample` [1/sr]; `cos` is |w.z|.
 
  private:
   static constexpr int kTilts = 33;
@@ -57,10 +58,10 @@ class EnergyCompensation {
   std::array<float, kDensityCells> density_{};
 };
 
-/// E for perfectly reflecting facets. [Heitz2014, eq. 99]
+/// E for perfectly reflecting facets, w.z > 0. [Heitz2014, eq. 99]
 [[nodiscard]] double mirror_energy(const Microfacets<float>& facets, const Imath::V3f& w);
-/// E of a dielectric interface for each relative index in `etas`, by reflection and transmission together.
-/// [Walter2007, eq. 20 and 21]
+/// E of a dielectric interface by reflection and transmission together, w.z > 0. `energies` receives one
+/// value for each relative index n_t/n_i in `etas`, with w on the side of n_i. [Walter2007, eq. 20 and 21]
 void dielectric_energies(const Microfacets<float>& facets, const Imath::V3f& w, std::span<const float> etas,
                          std::span<double> energies);
 

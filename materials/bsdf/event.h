@@ -7,29 +7,32 @@
 namespace abbe {
 
 /// The quantity that a path carries: radiance from the camera, or power (the adjoint of importance) from a
-/// light. Refraction scales radiance by 1/eta^2 and leaves power unchanged.
+/// light. Refraction scales radiance by 1/eta^2 and leaves power unchanged; eta is the index on the side of
+/// wi divided by that on the side of wo.
 enum class TransportMode { radiance, power };
 
-/// Random numbers of one scattering event.
+/// Random numbers of one scattering event, each in [0, 1).
 struct BsdfRandom {
-  float lobe;
-  Imath::V2f direction;
+  float lobe;            ///< Selects the lobe, such as reflection or transmission.
+  Imath::V2f direction;  ///< Selects the direction within a lobe.
 };
 
-/// A sampled scattering event. Directions are local: z points along the normal, and both directions point
-/// away from the surface.
+/// A sampled scattering event. Directions are local unit vectors: z points along the outward normal, and x
+/// along dp/du if the material `needs_coordinates`, else anywhere in the surface. The given direction wo and
+/// the sampled wi both point away from the surface.
 ///
-/// The hero wavelength drew the direction. `weight` is f |cos wi| / pdf(hero) at each wavelength. `lane_pdf`
-/// is pdf(wavelength)/pdf(hero), with which transport applies MIS over wavelengths. Both are 0 at wavelengths
+/// The hero wavelength drew the direction. `weight` is f |cos wi|/pdf(hero) at each wavelength; for a delta
+/// event, the fraction of light that it carries divided by its probability. `lane_pdf` is
+/// pdf(wavelength)/pdf(hero), with which transport applies MIS over wavelengths. Both are 0 at wavelengths
 /// that cannot scatter into this direction.
 struct BsdfSample {
   Imath::V3f wi;
   SampledSpectrum weight;
   SampledSpectrum lane_pdf{1.0F};
-  float pdf = 0;  ///< Pdf of wi at the hero wavelength [1/sr]; for a delta event its probability.
-  bool delta = false;
-  bool transmitted = false;
-  bool dispersive = false;  ///< True if wi depends on wavelength, so that only the hero continues.
+  float pdf = 0;             ///< Pdf of wi at the hero wavelength [1/sr]; for a delta event its probability.
+  bool delta = false;        ///< True if wi has a finite probability, as in a mirror.
+  bool transmitted = false;  ///< True if wi is on the other side of the surface than wo.
+  bool dispersive = false;   ///< True if wi depends on wavelength, so that only the hero continues.
 };
 
 }  // namespace abbe

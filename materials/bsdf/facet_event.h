@@ -11,8 +11,9 @@
 
 namespace abbe {
 
-/// Functions shared by the rough models. Directions o and i are in a frame with o.z > 0. `visibility` is
-/// G1(o)/o.z, so that facets are sampled with pdf visibility (o.h) D(h).
+/// Functions shared by the rough models. Directions o and i are unit vectors that point away from the
+/// surface, in a frame with o.z > 0. `visibility` is G1(o)/o.z, so that facets are sampled with pdf
+/// visibility (o.h) D(h).
 
 /// A local direction in the frame in which `wo` is above the surface.
 [[nodiscard]] inline Imath::V3f from_side_of(const Imath::V3f& wo, const Imath::V3f& w) {
@@ -25,9 +26,9 @@ namespace abbe {
                               [](float x, float y) { return y > 0 ? std::min(x / y, 1.0F) : 0.0F; });
 }
 
-/// Fraction of the light scattered by a facet from o to i that other facets do not mask. The arguments are
-/// the lambda of both directions. Masking is height-correlated in reflection [Heitz2014, eq. 99] and
-/// independent in transmission.
+/// Fraction of the light scattered by a facet from o to i that other facets do not mask: G2/G1(o). The
+/// arguments are Smith's Lambda (`Microfacets::lambda`) of both directions. Masking is height-correlated in
+/// reflection [Heitz2014, eq. 99] and independent in transmission.
 [[nodiscard]] inline float unmasked(float lambda_o, float lambda_i, bool reflected) {
   return reflected ? (1 + lambda_o) / (1 + lambda_o + lambda_i) : 1 / (1 + lambda_i);
 }
@@ -40,17 +41,17 @@ namespace abbe {
   return {number(0), {number(1), number(2)}};
 }
 
-/// Cosine of incidence on the facets that mirror o into i.
+/// Cosine of incidence on the facets that mirror o into i, in [0, 1].
 [[nodiscard]] inline float mirror_cosine(const Imath::V3f& o, const Imath::V3f& i) {
   return std::min((o + i).length() / 2, 1.0F);
 }
 
-/// Mirror facets: the pdf of i [1/sr] if they reflect all light, and the cosine of incidence on them.
+/// Facets that mirror one direction into another.
 struct FacetMirror {
-  float density;
-  float cos;
+  float density;  ///< Pdf of i [1/sr] if the facets reflect all light.
+  float cos;      ///< Cosine of incidence on the facets.
 };
-/// The mirror facets between o and i.
+/// The mirror facets between o and i, i.z > 0.
 [[nodiscard]] inline FacetMirror facet_mirror(const Microfacets<float>& facets, float visibility,
                                               const Imath::V3f& o, const Imath::V3f& i) {
   return {visibility * facets.D(o + i) / 4, mirror_cosine(o, i)};  // |dh/di| = 1/(4 o.h)
@@ -61,8 +62,9 @@ struct FacetMirror {
 /// travel then agree at grazing incidence on the facet.
 struct RefractingFacet {
   Imath::V3d m;
-  double cos_o, cos_i;  ///< Cosines with m times its length. The facet exists only if both are positive.
-  double m2;
+  /// |m| times the cosines of incidence and refraction. The facet exists only if both are positive.
+  double cos_o, cos_i;
+  double m2;  ///< |m|^2.
 
   RefractingFacet(const Imath::V3f& o, const Imath::V3f& i, double eta)
       : m(Imath::V3d(o) + Imath::V3d(i) * eta) {
@@ -73,7 +75,8 @@ struct RefractingFacet {
   }
   /// True if a facet refracts o into i.
   [[nodiscard]] bool exists() const { return cos_o > 0 && cos_i > 0 && m.z != 0; }
-  /// Cosine between the facet normal and the direction on the side of lower index.
+  /// Cosine between the facet normal and the one of o and i that is on the side of lower index. The facet
+  /// must exist.
   [[nodiscard]] float cos_rarer_side(float eta) const {
     return std::min(static_cast<float>((eta > 1 ? cos_o : cos_i) / std::sqrt(m2)), 1.0F);
   }
@@ -84,7 +87,7 @@ struct RefractingFacet {
 }
 
 /// Pdf of i [1/sr] of the light that facets refract from o, eta = n_i/n_o, weighted by their transmittance;
-/// |dh/di| is eta^2 |i.h|/m^2. [Walter2007, eq. 17]
+/// |dh/di| is eta^2 |i.h|/m^2. It is 0 if no facet refracts o into i. [Walter2007, eq. 17]
 [[nodiscard]] inline float facet_refraction(const Microfacets<float>& facets, float visibility,
                                             const Imath::V3f& o, const Imath::V3f& i, float eta) {
   const double e = eta;

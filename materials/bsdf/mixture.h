@@ -10,9 +10,10 @@ namespace abbe {
 
 struct MixtureMaterial;
 
-/// A mixture of scattering models. It refers to the material and makes the component models at each call,
-/// because a path vertex has no room for several. Each wavelength samples a component in proportion to its
-/// weight there. Delta lobes are sampled separately; the pdfs of all other lobes add up.
+/// A mixture of scattering models. It refers to the material, which must outlive it, and makes the component
+/// models at each call, because a path vertex has no room for several. Each wavelength samples a component in
+/// proportion to its weight there. Delta lobes are sampled separately; the pdfs of all other lobes add up.
+/// Where the weights sum to less than 1, the rest of the light is absorbed.
 class MixtureBsdf {
  public:
   static constexpr bool kScatters = true;
@@ -27,8 +28,8 @@ class MixtureBsdf {
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
   [[nodiscard]] SampledSpectrum delta_probability(const Imath::V3f& wo) const;
   [[nodiscard]] SampledSpectrum delta_power(const Imath::V3f& wo, bool through) const;
-  /// Mean of the components' Mueller matrices, weighted by the power that each scatters from wo to wi. Empty
-  /// if all depolarise.
+  /// Mean of the components' Mueller matrices, weighted by the power that each scatters from wo to wi: by
+  /// delta lobes if `delta`, else by all others. Empty if all depolarise.
   [[nodiscard]] std::optional<MuellerMatrix> mueller(const Imath::V3f& wo, const Imath::V3f& wi,
                                                      bool delta) const;
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }

@@ -23,6 +23,7 @@ constexpr int kCosines = 32;
 constexpr int kSteps = 64;
 constexpr float kTableError = 3e-3F;
 
+// Schlick's factor (1 - cosine)^5.
 float fifth_power(float cosine) {
   return schlick(std::clamp(cosine, 0.0F, 1.0F), 0.0F);
 }

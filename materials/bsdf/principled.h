@@ -10,21 +10,23 @@ namespace abbe {
 
 /// Parameters of the principled model besides its base colour, each in [0, 1].
 struct PrincipledParameters {
-  float metallic = 0;
-  float roughness = 0.5F;  ///< Square root of the facets' alpha.
-  float specular = 0.5F;   ///< Reflectance along the normal of the dielectric part, divided by 0.08.
-  float sheen = 0;         ///< Strength of a lobe at grazing angles, as of cloth.
-  float clearcoat = 0;     ///< Strength of a second highlight.
-  float clearcoat_gloss = 1;
+  float metallic = 0;         ///< Fraction of the metallic part; the rest is dielectric.
+  float roughness = 0.5F;     ///< Square root of the facets' alpha.
+  float specular = 0.5F;      ///< Reflectance along the normal of the dielectric part, divided by 0.08.
+  float sheen = 0;            ///< Strength of a lobe at grazing angles, as of cloth.
+  float clearcoat = 0;        ///< Strength of a second highlight.
+  float clearcoat_gloss = 1;  ///< Interpolates alpha of the coat between its dull (0) and glossy (1) value.
 };
 
-/// Reflectance of a clear coat of strength 1, relative to a layer of its index; alpha of the coat at a gloss
-/// of 0 and of 1.
+/// Reflectance of a clear coat of strength 1, relative to that of a layer of index 1.5.
 inline constexpr double kCoatScale = 0.25;
+/// Alpha of the clear coat at a gloss of 0.
 inline constexpr double kDullCoatAlpha = 0.1;
+/// Alpha of the clear coat at a gloss of 1.
 inline constexpr double kGlossyCoatAlpha = 0.001;
 
-/// The principled model without its base colour, with its directional albedo at 32 cosines.
+/// The principled model without its base colour, with its directional albedo at 32 cosines. Directions are
+/// local unit vectors that point away from the surface.
 class Principled {
  public:
   /// A scattering function [1/sr] or albedo as `white` + base colour * `coloured`.
@@ -36,13 +38,15 @@ class Principled {
   /// Tabulates the directional albedo.
   explicit Principled(const PrincipledParameters& parameters);
 
-  /// The scattering function of [Burley2012], without the limit on energy. Both directions have z > 0.
+  /// The scattering function of [Burley2012], without the limit on energy. It is 0 unless both directions
+  /// have z > 0.
   [[nodiscard]] Terms unlimited(const Imath::V3f& wo, const Imath::V3f& wi) const;
-  /// Directional albedo at a cosine, before the limit on energy; accurate to 3e-3.
+  /// Directional albedo at the cosine of a direction, clamped to [0, 1], before the limit on energy; accurate
+  /// to 3e-3.
   [[nodiscard]] Terms albedo(float cosine) const;
-  /// Pdf of `draw` [1/sr], the same for all wavelengths.
+  /// Pdf of `draw` [1/sr], equal for all wavelengths; 0 unless both directions have z > 0.
   [[nodiscard]] float density(const Imath::V3f& wo, const Imath::V3f& wi) const;
-  /// Samples a direction; empty if it points below the surface.
+  /// Samples a direction for wo, wo.z > 0; empty if it points below the surface.
   [[nodiscard]] std::optional<Imath::V3f> draw(const Imath::V3f& wo, const BsdfRandom& u) const;
 
  private:
@@ -75,8 +79,8 @@ struct PrincipledBsdf {
   static constexpr bool kScatters = true;
   static constexpr bool kDelta = false;
 
-  SampledSpectrum base;  ///< In [0, 1].
-  const Principled* principled;
+  SampledSpectrum base;          ///< In [0, 1].
+  const Principled* principled;  ///< Model of the material, which must outlive this.
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;

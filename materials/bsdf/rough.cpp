@@ -6,12 +6,14 @@
 namespace abbe {
 namespace {
 
+// Table of the energy that perfectly reflecting facets lose.
 EnergyCompensation lost_by_mirror(const Microfacets<float>& facets) {
   return EnergyCompensation::tabulate(facets, 1, [&](const Imath::V3f& w, std::span<double> energies) {
     energies[0] = mirror_energy(facets, w);
   })[0];
 }
 
+// The relative index n at a coordinate x: the inverse of `RoughInterface::coordinate`.
 float index_at(float coordinate) {
   return 1 + coordinate * std::abs(coordinate);
 }

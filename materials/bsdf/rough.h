@@ -14,6 +14,9 @@
 
 namespace abbe {
 
+// The models below satisfy `BsdfModel` of `materials/bsdf/bsdf.h`, which describes `sample`, `eval`, `pdf`
+// and `index_inside`. `eval` returns f(wo, wi) [1/sr] without the cosine of wi.
+
 /// Reflecting microfacets with their table of lost energy, computed once for all wavelengths.
 struct RoughMetal {
   /// Tabulates the lost energy.
@@ -23,21 +26,22 @@ struct RoughMetal {
   EnergyCompensation lost;
 };
 
-/// Microfacets between two media. The inner index relative to the outer one is in [low_n, high_n].
+/// Microfacets between two media, with tables of lost energy. The inner index relative to the outer one is in
+/// [low_n, high_n].
 ///
 /// Energies are tabulated at an odd number of indices. From one even-numbered index to the next, they are
 /// quadratic in the coordinate x = sign(n - 1) sqrt(|n - 1|). Near n = 1, where energies change fast, the
 /// critical angle is proportional to x. They have a kink at n = 1, so a range that contains 1 is divided
 /// there.
 struct RoughInterface {
-  static constexpr std::size_t kMaxIndices = 17;
+  static constexpr std::size_t kMaxIndices = 17;  ///< Largest number of tabulated indices.
 
   /// Tabulates the lost energy for relative indices in [low_n, high_n].
   RoughInterface(const Microfacets<float>& facets, float low_n, float high_n);
 
   /// The coordinate x of a relative index n.
   [[nodiscard]] static float coordinate(float n) { return std::copysign(std::sqrt(std::abs(n - 1)), n - 1); }
-  /// Largest distance by which the relative indices [low, high] exceed [low_n, high_n].
+  /// Largest distance by which the relative indices [low, high] exceed [low_n, high_n]; 0 if they do not.
   [[nodiscard]] float distance_to(float low, float high) const {
     return std::max({low_n - low, high - high_n, 0.0F});
   }
@@ -47,22 +51,23 @@ struct RoughInterface {
   Microfacets<float> facets;
   float low_n, high_n;
   std::vector<float> coordinates;  ///< Coordinates of the tabulated indices, ascending; an odd number.
-  std::array<std::vector<EnergyCompensation>, 2>
-      lost;                  ///< Lost energy for light from outside and from inside, for each index.
+  /// Lost energy for light from outside (first) and from inside (second), for each of `coordinates`.
+  std::array<std::vector<EnergyCompensation>, 2> lost;
   float inside_probability;  ///< Fraction of multiple scattering to the inside, at `sampling_index`.
 };
 
-/// A rough conductor, opaque, reflecting on both sides and reciprocal. It refers to the material and holds
-/// the wavelengths of the packet. Microfacets reflect [Walter2007, eq. 20] with height-correlated masking
-/// [Heitz2014, eq. 99]. Multiple scattering [Kulla2017] is coloured by the conductor's diffuse reflectance.
+/// A rough conductor, opaque, reflecting on both sides and reciprocal. It refers to the material, which must
+/// outlive it, and holds the wavelengths of the packet. Microfacets reflect [Walter2007, eq. 20] with
+/// height-correlated masking [Heitz2014, eq. 99]. Multiple scattering [Kulla2017] is coloured by the
+/// conductor's diffuse reflectance.
 struct RoughConductorBsdf {
   static constexpr bool kScatters = true;
   static constexpr bool kDelta = false;
 
-  SampledSpectrum wavelengths_nm;
+  SampledSpectrum wavelengths_nm;    ///< Wavelengths in standard air [nm].
   SampledSpectrum mean_reflectance;  ///< `diffuse_reflectance` relative to the outside.
-  const RefractiveIndex* index;
-  const RefractiveIndex* outside;  ///< Index outside; nullptr is air.
+  const RefractiveIndex* index;      ///< Complex index of the conductor.
+  const RefractiveIndex* outside;    ///< Index outside; nullptr is air.
   const RoughMetal* surface;
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
@@ -74,23 +79,24 @@ struct RoughConductorBsdf {
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
-/// A rough dielectric interface with its normal towards the outside. `n` is the inside index relative to the
-/// outside; it differs from 1 by at least 1e-3. Each wavelength refracts at its own facets [Walter2007, eq.
-/// 21], so all wavelengths may continue with the hero. Masking is height-correlated in reflection and
-/// independent on the two sides in transmission.
+/// A rough dielectric interface with its normal towards the outside. The inside index relative to the outside
+/// differs from 1 by at least 1e-3. Each wavelength refracts at its own facets [Walter2007, eq. 21], so all
+/// wavelengths may continue with the hero. Masking is height-correlated in reflection and independent on the
+/// two sides in transmission.
 ///
 /// Multiply scattered light leaves on either side independently of the side of incidence. This split
 /// preserves reciprocity (of radiance over n^2) and conserves energy together. Single transmission is still
 /// masked towards n = 1, so the surface does not vanish in that limit as a real one does.
 ///
-/// `sample` always returns a direction. Its weight differs from 1 by the errors of the tables and, at other
-/// wavelengths than the hero, by the difference of indices. So weights do not accumulate along long paths.
-/// The pdf of multiple scattering is as accurate as the tables, about 1e-3 of the light.
+/// `sample` returns a direction for every wo that is not in the surface. Its weight differs from 1 by the
+/// errors of the tables and, at other wavelengths than the hero, by the difference of indices. So weights do
+/// not accumulate along long paths. The pdf of multiple scattering is as accurate as the tables, about 1e-3
+/// of the light.
 struct RoughDielectricBsdf {
   static constexpr bool kScatters = true;
   static constexpr bool kDelta = false;
 
-  SampledSpectrum n;
+  SampledSpectrum n;              ///< Inside index relative to the outside.
   const RoughInterface* surface;  ///< Holds the tables for n.
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,

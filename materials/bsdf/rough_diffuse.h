@@ -13,8 +13,8 @@ struct OrenNayarBsdf {
   static constexpr bool kScatters = true;
   static constexpr bool kDelta = false;
 
-  SampledSpectrum reflectance;
-  float roughness;  ///< In [0, 1]; 0 is Lambertian.
+  SampledSpectrum reflectance;  ///< Reflectance of the facets, in [0, 1].
+  float roughness;              ///< In [0, 1]; 0 is Lambertian.
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
@@ -23,8 +23,8 @@ struct OrenNayarBsdf {
   [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
-/// Roughness of facets whose slopes have the standard deviation `sigma_deg` [degrees]: B/A in the qualitative
-/// model of [OrenNayar1994].
+/// Roughness of facets whose slopes have the standard deviation `sigma_deg` [degrees], in [0, 90]. It is 0
+/// for flat surfaces and below 0.8: B/A in the qualitative model of [OrenNayar1994].
 [[nodiscard]] float oren_nayar_roughness(double sigma_deg);
 
 }  // namespace abbe

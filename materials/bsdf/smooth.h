@@ -6,13 +6,13 @@
 
 namespace abbe {
 
-/// A smooth dielectric interface with its normal towards the outside. `n` is the inside index relative to the
-/// outside.
+/// A smooth dielectric interface with its normal towards the outside.
 struct DielectricBsdf {
   static constexpr bool kScatters = false;
   static constexpr bool kDelta = true;
 
-  SampledSpectrum n;
+  SampledSpectrum n;  ///< Inside index relative to the outside.
+  /// True if n may differ between wavelengths; then only the hero continues after refraction.
   bool dispersive;
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
@@ -33,8 +33,8 @@ struct ConductorBsdf {
   static constexpr bool kScatters = false;
   static constexpr bool kDelta = true;
 
-  SampledSpectrum n;
-  SampledSpectrum k;
+  SampledSpectrum n;  ///< Real part of the index relative to the outside.
+  SampledSpectrum k;  ///< Imaginary part of that index, 0 or more.
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;

@@ -16,7 +16,7 @@ struct ThinElement {
   static constexpr bool kScatters = false;
   static constexpr bool kDelta = true;
 
-  SampledSpectrum transmittance;  ///< Of unpolarised light.
+  SampledSpectrum transmittance;  ///< Transmittance of unpolarised light, in [0, 1].
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& /*u*/, int /*hero*/,
                                                  TransportMode /*mode*/) const {

@@ -8,6 +8,7 @@
 namespace abbe {
 namespace {
 
+// Reflectance and transmittance of the sheet for unpolarised light.
 struct Sheet {
   float reflected, transmitted;
 };

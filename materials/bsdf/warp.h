@@ -8,7 +8,8 @@
 
 namespace abbe {
 
-/// Unit vector at the polar angle of cosine `cos_theta` from z and the azimuth `phi` [rad].
+/// Unit vector at the polar angle of cosine `cos_theta`, in [-1, 1], from z and the azimuth `phi` [rad] from
+/// x towards y.
 [[nodiscard]] inline Imath::V3f direction_at(double cos_theta, double phi) {
   const double sin_theta = std::sqrt(std::max(0.0, (1 - cos_theta) * (1 + cos_theta)));
   return Imath::V3f(Imath::V3d(sin_theta * std::cos(phi), sin_theta * std::sin(phi), cos_theta));
@@ -18,13 +19,14 @@ namespace abbe {
 struct SineCosine {
   float sine, cosine;
 };
-/// Sine and cosine of an angle in [-pi/4, pi/4], by their series, to float precision.
+/// Sine and cosine of an angle in [-pi/4, pi/4] rad, by their series, to float precision.
 [[nodiscard]] inline SineCosine sine_cosine_of_eighth(float angle) {
   const float x = angle * angle;
   return {angle * (1 + x * (-1.0F / 6 + x * (1.0F / 120 + x * (-1.0F / 5040 + x * (1.0F / 362880))))),
           1 + x * (-0.5F + x * (1.0F / 24 + x * (-1.0F / 720 + x * (1.0F / 40320))))};
 }
 
+/// Area of a disc, in the squared unit of the radius.
 template <typename Real>
 [[nodiscard]] Real disc_area(Real radius) {
   return std::numbers::pi_v<Real> * radius * radius;
@@ -53,8 +55,8 @@ template <typename Real>
   return {((along_x ? radius : other) + 1) / 2, ((along_x ? other : radius) + 1) / 2};
 }
 
-/// Samples a direction about z, z >= 0, with pdf cos/(pi sine^2) [1/sr] within the cone whose half angle has
-/// that sine.
+/// Samples a direction about z, z >= 0, with pdf cos/(pi sine^2) [1/sr] within the cone about z whose half
+/// angle has the sine `sine`, in (0, 1]. `u` is in [0, 1)^2.
 [[nodiscard]] inline Imath::V3f cosine_cone(const Imath::V2f& u, float sine) {
   const float radius = sine * std::max(std::abs(2 * u.x - 1),
                                        std::abs(2 * u.y - 1));  // distance of the disc point from the center
@@ -62,7 +64,7 @@ template <typename Real>
   return {disc.x, disc.y, std::sqrt((1 - radius) * (1 + radius))};
 }
 
-/// Samples a direction about z, z >= 0, with pdf cos/pi [1/sr].
+/// Samples a direction about z, z >= 0, with pdf cos/pi [1/sr]. `u` is in [0, 1)^2.
 [[nodiscard]] inline Imath::V3f cosine_hemisphere(const Imath::V2f& u) {
   return cosine_cone(u, 1);
 }

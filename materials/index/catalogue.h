@@ -12,11 +12,13 @@ namespace abbe {
 /// The data folder of transparent materials.
 inline constexpr const char* kGlassFolder = "glass";
 
-/// A table of `data/glass` with one dispersion formula per row. Columns: id, formula, c1, c2, ...,
-/// lambda_min_um, lambda_max_um, db_path; optionally source, name and index_relative_to.
+/// A table of `data/glass` with one dispersion formula per row. Rows are numbered from 0. Columns: id,
+/// formula, c1, c2, ..., lambda_min_um, lambda_max_um, db_path; optionally source, name and
+/// index_relative_to.
 class Catalogue {
  public:
   /// If `with_extinction` is true, the folder may hold extinction tables of these materials as `<id>_k.csv`.
+  /// Throws Error{input} if the table has no column `id` or `db_path`.
   Catalogue(Table table, bool with_extinction);
 
   /// Row number of each id and alias.
@@ -25,10 +27,10 @@ class Catalogue {
   [[nodiscard]] const std::map<std::string, std::size_t>& glasses() const { return glasses_; }
 
   /// The index of a row under `name`, with its extinction if that is tabulated. Reports a malformed number, a
-  /// pole within the row's range, and n <= 1 there; the result is then empty.
+  /// pole within the row's range, and n <= 1 there; the result is then empty. Throws as `cell`.
   [[nodiscard]] std::optional<NamedIndex> load(std::size_t row, const std::string& name,
                                                Diagnostics& diagnostics) const;
-  /// The text of a cell. Throws Error{input} if there is no such column.
+  /// The text of a cell. Throws Error{input} if there is no such column; `row` must exist.
   [[nodiscard]] const std::string& cell(std::size_t row, const std::string& column) const;
 
  private:
@@ -43,9 +45,9 @@ class Catalogue {
   std::map<std::string, std::size_t> glasses_;
 };
 
-/// The shipped catalogues, read at the first request and cached. `dielectrics` holds transparent materials by
-/// name, `makers` the other glasses of the makers of optical glass. nullptr, with an error in `diagnostics`,
-/// if the file cannot be read.
+/// The shipped catalogues, read at the first request and cached for the whole run; thread-safe. `dielectrics`
+/// holds transparent materials by name, `makers` the other glasses of the makers of optical glass. nullptr,
+/// with an error in `diagnostics`, if the file cannot be read.
 [[nodiscard]] const Catalogue* dielectrics(Diagnostics& diagnostics);
 [[nodiscard]] const Catalogue* makers(Diagnostics& diagnostics);
 

@@ -8,21 +8,23 @@
 
 namespace abbe {
 
-/// One of the dispersion formulas 1 to 9 of refractiveindex.info. `c` holds c1, c2, ... in order; absent
-/// coefficients are 0. [Polyanskiy2024]
+/// One of the dispersion formulas 1 to 9 of refractiveindex.info. `c` holds c1, c2, ... in order, for
+/// wavelengths in micrometres; absent coefficients are 0. [Polyanskiy2024]
 struct DispersionFormula {
-  int id = 2;
+  int id = 2;  ///< Number of the formula, 1 to 9.
   std::array<double, 17> c{};
   int terms = 17;                   ///< Number of coefficients given in the table.
   bool vacuum_wavelengths = false;  ///< True if its wavelengths are in vacuum, false if in standard air.
 };
 
-/// n by formula `f.id` at a wavelength in MICROMETRES. NaN if n^2 < 0 or the id is unknown.
+/// n by formula `f.id` at a wavelength in MICROMETRES, in the medium of the formula's wavelengths; its range
+/// is not checked. NaN if n^2 < 0 or the id is unknown.
 template <typename T>
 [[nodiscard]] T dispersion_index(const DispersionFormula& f, const T& wavelength_um);
 
-/// An error message if `f` cannot be used on [low_nm, high_nm]. The reason is a resonance there (within 1e-3
-/// of its squared wavelength), or n <= 1 at a wavelength that Abbe supports. Empty otherwise.
+/// An error message if `f` cannot be used on [low_nm, high_nm], its range of wavelengths [nm]. The reason is
+/// a resonance there (within 1e-3 of its squared wavelength), or n <= 1, or no n, at a wavelength in [300,
+/// 1100] nm. Empty otherwise.
 [[nodiscard]] std::optional<std::string> dispersion_fault(const DispersionFormula& f, double low_nm,
                                                           double high_nm);
 
@@ -34,7 +36,7 @@ T coefficient(const DispersionFormula& f, int i) {
   return T(f.c[static_cast<std::size_t>(i - 1)]);
 }
 
-/// The sum c_first L^c_(first+1) + c_(first+2) L^c_(first+3) + ...
+/// The sum c_first L^c_(first+1) + c_(first+2) L^c_(first+3) + ..., with L the wavelength [um].
 template <typename T>
 T powers(const DispersionFormula& f, int first, const T& L) {
   using std::pow;
@@ -44,7 +46,8 @@ T powers(const DispersionFormula& f, int first, const T& L) {
   return sum;
 }
 
-/// The sum c1 + c2 L^2/(L^2 - p3) + c4 L^2/(L^2 - p5) + ..., with p = c^2 if `squared`, else p = c.
+/// The sum c1 + c2 L^2/(L^2 - p3) + c4 L^2/(L^2 - p5) + ..., with p = c^2 if `squared`, else p = c. L2 is the
+/// squared wavelength L^2 [um^2].
 template <typename T>
 T sellmeier(const DispersionFormula& f, bool squared, const T& L2) {
   T sum = coefficient<T>(f, 1);
@@ -55,7 +58,7 @@ T sellmeier(const DispersionFormula& f, bool squared, const T& L2) {
   return sum;
 }
 
-/// The term c_i L^c_(i+1)/(L^2 - c_(i+2)^c_(i+3)), a resonance of formula 4.
+/// The term c_i L^c_(i+1)/(L^2 - c_(i+2)^c_(i+3)), a resonance of formula 4; L is the wavelength [um].
 template <typename T>
 T resonance(const DispersionFormula& f, int i, const T& L) {
   using std::pow;
@@ -64,7 +67,7 @@ T resonance(const DispersionFormula& f, int i, const T& L) {
   return coefficient<T>(f, i) * pow(L, coefficient<T>(f, i + 1)) / (L * L - T(pole));
 }
 
-/// The sum c1 + c2/(c3 - L^-2) + c4/(c5 - L^-2) + ...
+/// The sum c1 + c2/(c3 - L^-2) + c4/(c5 - L^-2) + ..., with L2 the squared wavelength L^2 [um^2].
 template <typename T>
 T gas(const DispersionFormula& f, const T& L2) {
   T sum = coefficient<T>(f, 1);

@@ -10,7 +10,7 @@ namespace abbe {
 /// A refractive index with its name and source.
 struct NamedIndex {
   std::string name;
-  std::string source;
+  std::string source;  ///< Text that identifies the origin of the data.
   RefractiveIndex index;
 };
 

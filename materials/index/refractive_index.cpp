@@ -43,6 +43,7 @@ Curve each_nm(F quantity) {
   return Curve(std::move(knots));
 }
 
+// 1/n of air over wavelength, the factor from values relative to vacuum to values relative to air.
 Curve per_index_of_air() {
   return each_nm([](double nm) { return 1 / air_index(nm); });
 }
@@ -86,12 +87,14 @@ RefractiveIndex RefractiveIndex::with_k(Curve k) const {
   return index;
 }
 
+// Replaces k and its range, if k is given.
 void RefractiveIndex::take(std::optional<Extinction> k) {
   if (!k) return;
   k_ = std::move(k->k);
   k_range_ = k->range;
 }
 
+// Tabulates n and k relative to air for the packet functions, unless these evaluate the data directly.
 void RefractiveIndex::bake() {
   if (medium_ == IndexMedium::vacuum && absorbing()) baked_k_ = product(k_, per_index_of_air());
   const auto* formula = std::get_if<DispersionFormula>(&n_);

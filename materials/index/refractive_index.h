@@ -9,7 +9,7 @@
 
 namespace abbe {
 
-/// Larger than k of any glass or varnish, smaller than k of any metal.
+/// A value of k larger than that of any glass or varnish, smaller than that of any metal.
 inline constexpr double kLargestGlassK = 1e-3;
 
 /// The medium relative to which an index is tabulated.
@@ -19,7 +19,7 @@ enum class IndexMedium { air, vacuum };
 /// Empty otherwise.
 [[nodiscard]] std::optional<std::string> index_fault(const Curve& n, const Curve& k);
 
-/// A range of wavelengths [nm] with measured data.
+/// A range of wavelengths [nm] with measured data, including both ends.
 struct DataRange {
   double low_nm, high_nm;
   [[nodiscard]] bool contains(double nm) const { return low_nm <= nm && nm <= high_nm; }
@@ -31,25 +31,27 @@ struct Extinction {
   DataRange range;
 };
 
-/// A complex refractive index n + ik over wavelength, with the medium and the range of its data. Outside
-/// [low_nm, high_nm] n has the value at the nearer end; so does k outside `k_range`. If k was never measured,
-/// it is 0. The packet functions agree with the double functions to 1e-5.
+/// A complex refractive index n + ik over wavelength, with the medium and the range of its data. Wavelengths
+/// are in standard air. The constructors do not check values; no function throws. Outside [low_nm, high_nm] n
+/// has the value at the nearer end; so does k outside `k_range`. If k was never measured, it is 0. The packet
+/// functions hold for 300-1100 nm, where they agree with the double functions to 1e-5.
 class RefractiveIndex {
  public:
-  /// A constant, non-dispersive n + ik.
+  /// A constant, non-dispersive n + ik relative to air, valid at all wavelengths; its k counts as measured.
   explicit RefractiveIndex(double n, double k = 0);
-  /// A dispersion formula, valid on [low_nm, high_nm], with k if it was measured.
+  /// A dispersion formula, valid on [low_nm, high_nm], with k if it was measured; both are relative to
+  /// `medium`.
   RefractiveIndex(const DispersionFormula& formula, std::optional<Extinction> k, IndexMedium medium,
                   double low_nm, double high_nm);
-  /// Tabulated n, valid on [low_nm, high_nm], with k if it was measured.
+  /// Tabulated n, valid on [low_nm, high_nm], with k if it was measured; both are relative to `medium`.
   RefractiveIndex(Curve n, std::optional<Extinction> k, IndexMedium medium, double low_nm, double high_nm);
-  /// Tabulated n and k, both valid on [low_nm, high_nm].
+  /// Tabulated n and k, both valid on [low_nm, high_nm] and relative to `medium`.
   RefractiveIndex(Curve n, Curve k, IndexMedium medium, double low_nm, double high_nm);
 
   /// A copy with `k`, relative to air and valid at all wavelengths, in place of its own k.
   [[nodiscard]] RefractiveIndex with_k(Curve k) const;
 
-  /// Tabulated values at a wavelength [nm], relative to `medium()`.
+  /// Catalogued n and k at a wavelength [nm], relative to `medium()`.
   [[nodiscard]] double catalogued_n(double wavelength_nm) const;
   [[nodiscard]] double catalogued_k(double wavelength_nm) const;
 
@@ -69,7 +71,7 @@ class RefractiveIndex {
   [[nodiscard]] bool absorbing() const;  ///< True if k > 0 somewhere in [300, 1100] nm.
   /// The medium relative to which the catalogued values hold.
   [[nodiscard]] IndexMedium medium() const { return medium_; }
-  /// The range in which n is valid [nm].
+  /// The range in which n is valid [nm]; 0 to infinity for a constant.
   [[nodiscard]] double low_nm() const { return low_nm_; }
   [[nodiscard]] double high_nm() const { return high_nm_; }
   /// Range in which k was measured; empty if k was never measured.

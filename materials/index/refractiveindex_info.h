@@ -13,9 +13,9 @@ namespace abbe {
 ///   optionally one that gives k ("tabulated nk", "tabulated k"). Outside its table k has the value at the
 ///   nearer end.
 /// - REFERENCES and COMMENTS become the source.
-/// - `n_is_absolute` and `wavelength_is_vacuum` in SPECS, CONDITIONS or PROPERTIES declare the medium of
-///   index and wavelengths, which is air by default. Earlier editions spell them `n_absolute` and
-///   `wavelength_vacuum`.
+/// - `n_is_absolute` and `wavelength_is_vacuum` in SPECS, CONDITIONS or PROPERTIES are true for an index
+///   relative to vacuum and for wavelengths in vacuum; air is the default. Earlier editions spell them
+///   `n_absolute` and `wavelength_vacuum`.
 /// Anything missing, malformed, out of order, misplaced or contradictory is reported as an input error with
 /// its position; the result is then empty.
 [[nodiscard]] std::optional<NamedIndex> read_refractiveindex_info(const std::filesystem::path& path,

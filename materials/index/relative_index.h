@@ -11,8 +11,8 @@ struct RelativeIndex {
   bool dispersive;  ///< True if n may differ between wavelengths.
 };
 
-/// The index of `inside` at the given wavelengths, relative to `outside`, or to air if that is nullptr. Equal
-/// indices on both sides give exactly 1.
+/// The index of `inside` at the given wavelengths [nm in air], relative to `outside`, or to air if that is
+/// nullptr. Equal indices on both sides give exactly 1.
 [[nodiscard]] inline RelativeIndex relative_index(const RefractiveIndex& inside,
                                                   const RefractiveIndex* outside,
                                                   const SampledSpectrum& wavelengths_nm) {

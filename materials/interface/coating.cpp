@@ -9,7 +9,7 @@
 namespace abbe {
 namespace {
 
-// Evaluates a quantity of the layers as seen from one side. `material(i)` is n + ik of material i. It, n, k
+// Evaluates a quantity of the layers from one side. `material(i)` is n + ik of material i. It, n, k
 // and the wavelength are relative to the medium outside.
 template <typename Material, typename Evaluate>
 auto eval_films(const Coating& coating, double wavelength_nm, double n, double k, double cos_i, bool inside,
@@ -85,7 +85,8 @@ CoatingAt::CoatingAt(const Coating& coating, const SampledSpectrum& wavelengths_
   if (outside != nullptr) wavelengths_nm_ = wavelengths_nm / outside->n(wavelengths_nm);
 }
 
-// Rounding errors of many layers are too large in float, so the computation is in double.
+// The medium inside has the index n + ik relative to that outside; light arrives from within if `inside` is
+// true. Rounding errors of many layers are too large in float, so the computation is in double.
 FresnelPower<float> CoatingAt::power(int lane, float n, float k, float cos_i, bool inside) const {
   const auto material = [&](std::uint32_t i) { return Complex<double>{n_[i][lane], k_[i][lane]}; };
   const FresnelPower<double> f =

@@ -11,9 +11,11 @@
 
 namespace abbe {
 
-/// Coherent layers on a smooth surface, ordered from the outside inwards. Without layers the surface is bare.
-/// Layers of the same material refer to one entry of `materials`.
+/// Coherent layers on a smooth surface, ordered from the outside inwards: at most `kMaxLayers` of at most
+/// `kMaxMaterials` materials. Without layers the surface is bare. Layers of the same material refer to one
+/// entry of `materials`.
 struct Coating {
+  /// A material of the layers under its name in the scene.
   struct Material {
     std::string index_name;
     RefractiveIndex index;
@@ -21,7 +23,7 @@ struct Coating {
   /// A layer of `materials[material]`.
   struct Layer {
     std::uint32_t material;
-    double thickness_nm;
+    double thickness_nm;  ///< Above 0.
   };
   static constexpr std::size_t kMaxMaterials = 16;
   static constexpr std::size_t kMaxLayers = 256;
@@ -30,33 +32,38 @@ struct Coating {
   std::vector<Layer> layers;
 };
 
-/// Reflectance and transmittance of the coated surface of a medium with index n + ik. Light arrives from
-/// outside or, if `inside` is true, from within a medium of real index n. All indices, including that of the
-/// medium `outside`, are relative to air.
+/// Reflectance and transmittance of the coated surface of a medium with index n + ik, at the wavelength in
+/// air and the cosine of incidence `cos_i` in [0, 1]. Light arrives from outside or, if `inside` is true,
+/// from within the medium, whose k is then ignored. All indices, including that of the medium `outside`, are
+/// relative to air. T is the power that enters the far medium, so the layers absorb 1 - R - T.
 [[nodiscard]] FresnelPower<double> coated_power(const Coating& coating, double wavelength_nm, double n,
                                                 double k, double cos_i, bool inside, double outside = 1);
 
-/// Mueller matrices of the same surface. The matrix of transmission holds for a medium that does not absorb.
+/// Mueller matrices of the coated surface of `coated_power`, with the same arguments. The matrix of
+/// transmission holds for a medium that does not absorb.
 [[nodiscard]] InterfaceMueller<double> coated_mueller(const Coating& coating, double wavelength_nm, double n,
                                                       double k, double cos_i, bool inside,
                                                       double outside = 1);
 
-/// Amplitude reflection coefficients of the same surface, with the signs of `FresnelAmplitudes`.
+/// Amplitude reflection coefficients of the coated surface of `coated_power`, with the same arguments and
+/// with the signs of `FresnelAmplitudes`.
 [[nodiscard]] FilmReflection<double> coated_reflection(const Coating& coating, double wavelength_nm, double n,
                                                        double k, double cos_i, bool inside,
                                                        double outside = 1);
 
-/// A coating at the wavelengths of a packet. The constructor looks up its indices once for all wavelengths,
-/// relative to the medium `outside`, or to air if that is nullptr.
+/// A coating at the wavelengths of a packet [nm in air]. It refers to the coating, which must outlive it. The
+/// constructor looks up its indices once for all wavelengths, relative to the medium `outside`, or to air if
+/// that is nullptr.
 class CoatingAt {
  public:
   CoatingAt(const Coating& coating, const SampledSpectrum& wavelengths_nm,
             const RefractiveIndex* outside = nullptr);
 
-  /// Reflectance and transmittance at one wavelength for a medium of index n + ik, relative to the medium
-  /// outside.
+  /// Reflectance and transmittance at wavelength sample `lane`. The medium inside has the index n + ik
+  /// relative to that outside. Light arrives at an angle of cosine `cos_i` in [0, 1], from within if `inside`
+  /// is true; k is then ignored.
   [[nodiscard]] FresnelPower<float> power(int lane, float n, float k, float cos_i, bool inside) const;
-  /// Mueller matrices of reflection and transmission at one wavelength.
+  /// Mueller matrices of reflection and transmission, with the arguments of `power`.
   [[nodiscard]] InterfaceMueller<float> mueller(int lane, float n, float k, float cos_i, bool inside) const;
 
  private:

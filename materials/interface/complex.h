@@ -17,10 +17,12 @@ template <typename T>
 Complex<T> operator*(const Complex<T>& a, const Complex<T>& b) {
   return {a.re * b.re - a.im * b.im, a.re * b.im + a.im * b.re};
 }
+/// |a|^2, as std::norm.
 template <typename T>
 T norm(const Complex<T>& a) {
   return a.re * a.re + a.im * a.im;
 }
+/// a times the real number s.
 template <typename T>
 Complex<T> scaled(const Complex<T>& a, const T& s) {
   return {a.re * s, a.im * s};

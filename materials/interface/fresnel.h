@@ -9,11 +9,14 @@
 
 namespace abbe {
 
-/// Power reflectance and transmittance of a smooth interface for s and p polarisation; R + T = 1.
+/// Power reflectance and transmittance of a smooth surface for s and p polarisation. R + T is 1 at a bare
+/// interface and less if thin films or a sheet absorb.
 template <typename T>
 struct FresnelPower {
   T Rs, Rp;
   T Ts, Tp;
+  /// Cosine between the normal and the transmitted ray; 0 if no ray is transmitted, as by total internal
+  /// reflection or a conductor.
   T cos_t;  ///< Cosine of the refracted angle; 0 for total internal reflection and for a conductor.
 
   /// Reflectance for unpolarised light.
@@ -22,8 +25,8 @@ struct FresnelPower {
   [[nodiscard]] T transmitted() const { return (Ts + Tp) * T(0.5); }
 };
 
-/// Fresnel power of a dielectric interface, eta = n_t/n_i > 0, cos_i in [0, 1]. R and T keep full relative
-/// precision however small they are. [Born1999, sec. 1.5]
+/// Fresnel power of a dielectric interface, eta = n_t/n_i > 0, cos_i in [0, 1]. Total internal reflection
+/// gives R = 1 and T = 0. R and T keep full relative precision however small they are. [Born1999, sec. 1.5]
 template <typename T>
 [[nodiscard]] FresnelPower<T> fresnel_dielectric(const T& cos_i, const T& eta);
 
@@ -37,14 +40,16 @@ template <typename T>
 template <typename T>
 [[nodiscard]] Complex<T> normal_component(const T& cos_i, const T& eta, const T& k);
 
-/// Complex amplitude coefficients for a relative index eta, Im eta > 0 if absorbing. r_p and r_s have
-/// opposite signs at normal incidence. Fields vary in time as exp(-i omega t).
+/// Complex amplitudes of the reflected and transmitted electric fields, divided by the incident one. cos_i is
+/// in [0, 1], eta the relative index, with Im eta > 0 if absorbing. r_p and r_s have opposite signs at normal
+/// incidence. Fields vary in time as exp(-i omega t).
 struct FresnelAmplitudes {
   std::complex<double> rs, rp, ts, tp;
 };
 [[nodiscard]] inline FresnelAmplitudes fresnel_amplitudes(double cos_i, std::complex<double> eta);
 
-/// Schlick's approximation, for comparison only. [Schlick1994]
+/// Schlick's approximation r0 + (1 - r0) (1 - cos_i)^5 of the reflectance, for comparison only. r0 is the
+/// reflectance along the normal, cos_i in [0, 1]. [Schlick1994]
 template <typename T>
 [[nodiscard]] T schlick(const T& cos_i, const T& r0);
 

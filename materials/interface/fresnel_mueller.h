@@ -7,9 +7,11 @@
 
 namespace abbe {
 
-/// Mueller elements of reflection by a smooth interface of relative index eta + ik, cos_i in [0, 1]. Total
-/// internal reflection changes the phase only. With g the normal component of the refracted wave vector and
-/// theta the angle of incidence, Fresnel's amplitudes [Born1999, sec. 1.5.2 and 14.2] have the ratio
+/// Normalised Mueller elements of reflection by a smooth interface of relative index eta + ik, cos_i in [0,
+/// 1]: the reflectance of unpolarised light is divided out. The axis is perpendicular to the plane of
+/// incidence. Total internal reflection changes the phase only. With g the normal component of the refracted
+/// wave vector and theta the angle of incidence, Fresnel's amplitudes [Born1999, sec. 1.5.2 and 14.2] have
+/// the ratio
 ///
 ///   r_p/r_s = (sin^2 theta - g cos theta)/(sin^2 theta + g cos theta).
 ///
@@ -25,9 +27,10 @@ template <typename T>
   return {T(2) * u * w.re * scale, T(1), (u * u - w2) * scale, T(2) * u * w.im * scale};
 }
 
-/// Mueller elements of refraction into a transparent medium of relative index eta. The result is meaningless
-/// if nothing is refracted. The amplitudes have the ratio t_p/t_s = (cos_i + eta cos_t)/(eta cos_i + cos_t)
-/// [Born1999, sec. 1.5.2], which is exactly 1 for eta = 1.
+/// Normalised Mueller elements of refraction into a transparent medium of relative index eta: the
+/// transmittance of unpolarised light is divided out. The axis is perpendicular to the plane of incidence.
+/// cos_i is in [0, 1]. The result is meaningless if nothing is refracted. The amplitudes have the ratio
+/// t_p/t_s = (cos_i + eta cos_t)/(eta cos_i + cos_t) [Born1999, sec. 1.5.2], which is exactly 1 for eta = 1.
 template <typename T>
 [[nodiscard]] MuellerElements<T> refraction_mueller(const T& cos_i, const T& eta) {
   const T cos_t = refracted_cosine(cos_i, eta);

@@ -12,8 +12,8 @@ namespace abbe {
 [[nodiscard]] double diffuse_reflectance_inside(double eta);
 
 /// Diffuse reflectance of a smooth interface to a medium of index n + ik, relative to the outside, from which
-/// the light arrives. It is 2 int_0^1 R(c) c dc by Gauss-Legendre quadrature, accurate to 5e-5. If n < 1 and
-/// k is so small that total reflection sets in at an angle, the error is up to 2e-3.
+/// the light arrives; n > 0, k >= 0. It is 2 int_0^1 R(c) c dc by Gauss-Legendre quadrature, accurate to
+/// 5e-5. If n < 1 and k is so small that total reflection sets in at an angle, the error is up to 2e-3.
 [[nodiscard]] double diffuse_reflectance(double n, double k);
 
 }  // namespace abbe

@@ -22,7 +22,7 @@ enum class FacetShape { ggx, beckmann };
 
 /// A microfacet surface whose slopes along x and y have widths alpha_x and alpha_y in [kMinAlpha, 1]. Smith's
 /// assumption holds: heights and slopes are independent. Directions are local: z points along the normal,
-/// away from the surface. A facet is given by its normal h, h.z > 0.
+/// away from the surface. A facet is given by its normal h, h.z > 0. Directions w are unit vectors.
 template <typename T>
 struct Microfacets {
   using Vec = Imath::Vec3<T>;
@@ -37,15 +37,16 @@ struct Microfacets {
   /// h may have any length. [Walter2007, eq. 25 and 33]
   [[nodiscard]] T D(const Vec& h) const;
   /// Smith's Lambda: masked area per visible area of the facets that face w, on either side of the surface.
-  /// [Heitz2014, sec. 5]
+  /// It is 0 or more, and infinite for w.z = 0. [Heitz2014, sec. 5]
   [[nodiscard]] T lambda(const Vec& w) const;
-  /// Fraction of the facets facing w that are visible from w.
+  /// Smith's masking: fraction of the facets facing w that are visible from w, in [0, 1].
   [[nodiscard]] T G1(const Vec& w) const { return 1 / (1 + lambda(w)); }
-  /// Distribution of normals visible from w, w.z > 0 [1/sr]. [Heitz2014b]
+  /// Distribution of normals visible from w, w.z > 0: a pdf of the unit vector h [1/sr], 0 for facets that
+  /// face away from w. [Heitz2014b]
   [[nodiscard]] T visible(const Vec& w, const Vec& h) const {
     return G1(w) * std::max(T(0), w.dot(h)) * D(h) / w.z;
   }
-  /// Samples a normal from `visible` with u in [0, 1)^2.
+  /// Samples a unit normal h, h.z > 0, from `visible` with u in [0, 1)^2; w.z > 0.
   [[nodiscard]] Vec sample_visible(const Vec& w, const Imath::Vec2<T>& u) const;
   /// Width of the slopes along the azimuth of w, times the sine of the polar angle of w.
   [[nodiscard]] T projected_alpha(const Vec& w) const {
@@ -55,7 +56,7 @@ struct Microfacets {
 
 /// Inverts the distribution of visible slopes. Slopes s are distributed as exp(-s^2)/sqrt(pi), weighted by
 /// max(0, 1 - k s), where k >= 0 is the tangent of the viewing angle. Returns the slope at the cumulative
-/// probability u. [Heitz2014b]
+/// probability u in [0, 1); it lies in [-6, 6]. [Heitz2014b]
 [[nodiscard]] inline double visible_slope(double u, double k) {
   constexpr double kMaxSlope = 6;  // larger slopes are too rare for a float u
   constexpr double kRootPi = 1 / std::numbers::inv_sqrtpi;

@@ -28,7 +28,8 @@ template <typename T>
 inline constexpr MuellerElements<T> kIdealMirror{T(0), T(1), T(-1), T(0)};
 
 /// Elements from the powers `S` and `P` perpendicular to the plane of incidence and in it. `sp` is the mean
-/// of s p* over all contributions that add without interference. Returns the identity if the power is zero.
+/// of s p* over all contributions that add without interference. Returns the elements of the identity if the
+/// power is zero.
 template <typename T>
 [[nodiscard]] MuellerElements<T> mueller_elements(const T& S, const T& P, const Complex<T>& sp) {
   const T sum = S + P;
@@ -77,7 +78,7 @@ class MuellerMean {
 /// powers S and P. Then d = (S - P)/(S + P) and c + is = 2 s p*/(S + P) [Born1999, sec. 1.5]. Polarisers and
 /// retarders have it about their own axis. Without depolarisation p = 1 and d^2 + c^2 + s^2 = 1.
 struct MuellerMatrix {
-  Imath::V3f axis;
+  Imath::V3f axis;  ///< Unit vector in the frame of the event's directions, local or world.
   SampledSpectrum d{};
   SampledSpectrum p{1.0F};
   SampledSpectrum c{1.0F};

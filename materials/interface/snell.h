@@ -18,8 +18,9 @@ template <typename T>
 template <typename T>
 [[nodiscard]] T refracted_cosine(const T& cos_i, const T& eta);
 
-/// Direction of the refracted ray, pointing away from the surface on the side opposite to `wo`; eta =
-/// n_t/n_i, n.wo > 0. Empty for total internal reflection. [Marschner2021, sec. 14.1]
+/// Direction of the refracted ray, pointing away from the surface on the side opposite to the unit vector
+/// `wo`. The unit normal n points to the side of wo, n.wo > 0, and eta = n_t/n_i. Empty for total internal
+/// reflection. [Marschner2021, sec. 14.1]
 template <typename T>
 [[nodiscard]] std::optional<Imath::Vec3<T>> refract(const Imath::Vec3<T>& wo, const Imath::Vec3<T>& n,
                                                     const T& eta);

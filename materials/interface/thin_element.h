@@ -9,7 +9,7 @@
 namespace abbe {
 
 /// Mueller elements of a linear polariser about its axis. `blocked` is the transmittance perpendicular to the
-/// axis divided by that along it.
+/// axis divided by that along it, in [0, 1].
 template <typename T>
 [[nodiscard]] MuellerElements<T> polariser_mueller(const T& blocked) {
   using std::sqrt;

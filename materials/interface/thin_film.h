@@ -25,7 +25,8 @@ struct FilmLayer {
 
 /// Reflectance and transmittance of coherent layers on a substrate of relative index eta + ik, cos_i in [0,
 /// 1]. `layers` are ordered from the side of incidence. T is the power that enters the substrate, so the
-/// layers absorb 1 - R - T. Without layers the result is that of the bare interface.
+/// layers absorb 1 - R - T. cos_t is that of the substrate, 0 if k > 0. Without layers the result is that of
+/// the bare interface.
 ///
 /// The fields at each boundary follow from the characteristic matrices of the layers [Born1999, sec. 1.6]
 /// [Macleod2010, sec. 2.6]. The method is stable for any absorption and at all angles, also above the
@@ -34,16 +35,19 @@ template <typename T>
 [[nodiscard]] FresnelPower<T> film_power(const T& cos_i, std::span<const FilmLayer<T>> layers, const T& eta,
                                          const T& k);
 
-/// Amplitude reflection coefficients of the same layers and substrate, with the signs of `FresnelAmplitudes`.
+/// Amplitude reflection coefficients of coherent layers on a substrate, with the signs of
+/// `FresnelAmplitudes`.
 template <typename T>
 struct FilmReflection {
   Complex<T> s, p;
 };
+/// Amplitude reflection coefficients, with the arguments of `film_power`.
 template <typename T>
 [[nodiscard]] FilmReflection<T> film_reflection(const T& cos_i, std::span<const FilmLayer<T>> layers,
                                                 const T& eta, const T& k);
 
-/// Mueller matrices of the same layers. The matrix of transmission holds for a transparent substrate.
+/// Mueller matrices of reflection and transmission, with the arguments of `film_power`. The matrix of
+/// transmission holds for a transparent substrate.
 template <typename T>
 [[nodiscard]] InterfaceMueller<T> film_mueller(const T& cos_i, std::span<const FilmLayer<T>> layers,
                                                const T& eta, const T& k);
@@ -57,15 +61,16 @@ struct Matrix {
   Complex<T> cosine, over, times;
 };
 
-/// Rank of the medium inside. The medium of highest priority prevails in an overlap; among equals, that of
-/// the smallest shape.
+/// Tangential fields of one polarisation at a boundary between layers, normalised: u and v are E and H for s,
+/// H and E for p, in units in which v = kappa u for a wave that travels into the substrate.
 template <typename T>
 struct Fields {
   Complex<T> u, v;
-  T scale;  ///< Ratio of these fields to those caused by a unit field in the substrate.
+  T scale;  ///< u and v divided by the fields here that a unit field in the substrate causes.
 };
 
-/// Propagates `at` through a layer to the layer's other side; see `Crossing`.
+/// Propagates the fields `at` on the far side of a layer to the side of incidence. `m` is the layer's matrix,
+/// `decay` the factor e^(-Im d) that it contains.
 template <typename T>
 void cross(Fields<T>& at, const Matrix<T>& m, const T& decay) {
   using std::abs;
@@ -77,6 +82,7 @@ void cross(Fields<T>& at, const Matrix<T>& m, const T& decay) {
 }
 
 /// The incident and the reflected wave that compose the fields at the first boundary, times 2 kappa_i.
+/// kappa_i is the admittance of the medium of incidence, the cosine of incidence.
 template <typename T>
 struct Waves {
   Complex<T> arriving, reflected;
@@ -85,7 +91,8 @@ struct Waves {
       : arriving(scaled(at.u, kappa_i) + at.v), reflected(scaled(at.u, kappa_i) + scaled(at.v, T(-1))) {}
 };
 
-/// R and T from the fields at the first boundary; `kappa_t` is the real part of the substrate's admittance.
+/// R and T, in this order, from the fields at the first boundary; `kappa_i` is the cosine of incidence,
+/// `kappa_t` is the real part of the substrate's admittance.
 template <typename T>
 std::pair<T, T> powers(const Fields<T>& at, const T& kappa_i, const T& kappa_t) {
   const Waves<T> waves(at, kappa_i);
@@ -99,6 +106,7 @@ struct Crossing {
   Matrix<T> s, p;
   T decay;
 };
+/// Matrices of a layer for light at the cosine `cos_i` in the medium of incidence.
 template <typename T>
 Crossing<T> crossing_of(const T& cos_i, const FilmLayer<T>& layer) {
   using std::cos;
@@ -124,12 +132,14 @@ Crossing<T> crossing_of(const T& cos_i, const FilmLayer<T>& layer) {
   return {{cosine, over, sine * q}, {cosine, over * eps, sine * q / eps}, decay};
 }
 
-/// Fields of both polarisations at the first boundary, and the admittances of the substrate.
+/// Fields of both polarisations at the first boundary, and the admittances of the substrate for s (`q_t`) and
+/// p (`p_t`).
 template <typename T>
 struct Stack {
   Fields<T> s, p;
   Complex<T> q_t, p_t;
 };
+/// Fields of the stack, with the arguments of `film_power`.
 template <typename T>
 Stack<T> stack(const T& cos_i, std::span<const FilmLayer<T>> layers, const T& eta, const T& k) {
   const Complex<T> one{T(1), T(0)};

@@ -15,11 +15,11 @@ struct DensityGrid {
   std::vector<float> density;  ///< Densities, 0 or more, with x running fastest.
 };
 
-/// A segment of a ray through a grid, and the density integrated along it [m].
+/// A segment of a ray through a grid, in the units of `PlacedGrid::march` [m].
 struct GridSegment {
-  float distance;
-  float column;
-  bool reached;  ///< True if the requested column was reached before the end of the ray.
+  float distance;  ///< Distance from the origin at which the segment ends.
+  float column;    ///< Integral of the density along the segment.
+  bool reached;    ///< True if the requested column was reached before the end of the ray.
 };
 
 /// A grid in space. `from` is the first node and `to` the last [m]; each coordinate of `to` is larger.
@@ -29,8 +29,9 @@ struct PlacedGrid {
   Imath::V3d to;
 
   /// Follows the ray until the integral of density is `column` or the distance is `distance`. Both may be
-  /// infinite, and both are in units of the length of `direction`, which represents 1 m. The result is exact:
-  /// along a line through a cell, the density is a cubic, which Simpson's rule integrates exactly.
+  /// infinite, and both are in units of the length of `direction`, which represents 1 m. Outside the grid the
+  /// density is 0, so a ray that misses it has column 0 at `distance`. The result is exact: along a line
+  /// through a cell, the density is a cubic, which Simpson's rule integrates exactly.
   [[nodiscard]] GridSegment march(const Imath::V3d& origin, const Imath::V3d& direction, float distance,
                                   float column) const;
 };

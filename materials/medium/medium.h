@@ -8,13 +8,14 @@
 
 namespace abbe {
 
-/// A medium that absorbs and scatters light along its path. Per metre it absorbs the fraction
-/// `absorption_per_m` and scatters the fraction `scattering_per_m` by the phase function.
+/// A medium that absorbs and scatters light along its path. `absorption_per_m` and `scattering_per_m` are its
+/// coefficients of absorption and scattering [1/m] over the wavelength in air [nm].
 struct Medium {
   Curve absorption_per_m = Curve(0.0);  ///< 0 or more.
   Curve scattering_per_m = Curve(0.0);  ///< 0 or more.
   PhaseFunction phase = IsotropicPhase{};
-  std::optional<PlacedGrid> grid = {};  ///< Factor of both in an inhomogeneous medium.
+  /// Factor of both coefficients in an inhomogeneous medium; empty if homogeneous.
+  std::optional<PlacedGrid> grid = {};
 
   [[nodiscard]] bool absorbs() const { return absorption_per_m.max() > 0; }
   [[nodiscard]] bool scatters() const { return scattering_per_m.max() > 0; }

@@ -30,14 +30,16 @@ struct PhaseSample {
   Imath::V3f direction;
   float pdf;
 };
-/// Samples exactly from the phase function, so the throughput is unchanged. `u` is in [0, 1)^2.
+/// Samples exactly from the phase function, so the path throughput is unchanged. `u` is in [0, 1)^2.
 [[nodiscard]] PhaseSample sample(const PhaseFunction& phase, const Imath::V2f& u);
 
 /// Pdf [1/sr] of scattering light from the unit vector `from`, its direction of travel, to the unit vector
 /// `to`.
 [[nodiscard]] float pdf(const PhaseFunction& phase, const Imath::V3f& from, const Imath::V3f& to);
 
-/// Mueller matrix of the scattering. Empty if it depolarises, as all but Rayleigh scattering are assumed to.
+/// Mueller matrix of the scattering between unit vectors `from` and `to`, both directions of travel; the
+/// phase function itself is not included. Empty if it depolarises, as all but Rayleigh scattering are assumed
+/// to.
 [[nodiscard]] std::optional<MuellerMatrix> mueller(const PhaseFunction& phase, const Imath::V3f& from,
                                                    const Imath::V3f& to);
 

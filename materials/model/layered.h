@@ -10,14 +10,17 @@
 
 namespace abbe {
 
-/// Internal diffuse reflectance of a transparent smooth coat of `index`, for all wavelengths.
+/// Internal diffuse reflectance (`diffuse_reflectance_inside`) of a transparent smooth coat of `index` in
+/// air, every 1 nm from 300 to 1100 nm.
 [[nodiscard]] Curve inner_reflectance(const RefractiveIndex& index);
 
-/// A Lambertian ground under a smooth transparent coat, such as glazed or varnished paint.
+/// A Lambertian ground under a smooth transparent coat, such as glazed or varnished paint. `SurfaceModel`
+/// describes the member functions.
 struct CoatedDiffuseMaterial {
   std::string index_name;
   RefractiveIndex index;        ///< Index of the coat: n in [1, 100), without k.
   SpectralTexture reflectance;  ///< Reflectance of the uncoated ground, in [0, 1].
+  /// Internal diffuse reflectance in air; other media have their own.
   Curve inner = inner_reflectance(index);
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
@@ -31,7 +34,8 @@ struct CoatedDiffuseMaterial {
   [[nodiscard]] std::size_t texture_bytes() const { return reflectance.memory_bytes(); }
 };
 
-/// A pane of glass modelled as one surface that does not deflect light.
+/// A pane of glass modelled as one surface that does not deflect light, by `ThinGlassBsdf`. `SurfaceModel`
+/// describes the member functions.
 struct ThinGlassMaterial {
   std::string index_name;
   RefractiveIndex index;  ///< k makes the pane absorb.

@@ -8,6 +8,7 @@
 namespace abbe {
 
 /// The boundary of a medium without an interface, such as fog or smoke. Light passes it unchanged.
+/// `SurfaceModel` describes the member functions.
 struct MediumMaterial {
   Medium interior_medium;
 

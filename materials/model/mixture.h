@@ -14,7 +14,7 @@ namespace abbe {
 struct Material;
 
 /// Several materials side by side, too fine to be resolved: f = sum_i w_i f_i. No component is a mixture, and
-/// light enters none.
+/// light enters none. `SurfaceModel` describes the member functions.
 struct MixtureMaterial {
   /// A material with its weight.
   struct Component {

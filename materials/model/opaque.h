@@ -9,7 +9,8 @@
 
 namespace abbe {
 
-/// The part common to all opaque surfaces without an index: a texture of reflectance.
+/// The part common to all opaque surfaces without an index: a texture of reflectance. `SurfaceModel`
+/// describes the member functions.
 struct OpaqueSurface {
   SpectralTexture reflectance;  ///< In [0, 1]; the model defines for which light.
 

@@ -6,7 +6,8 @@
 
 namespace abbe {
 
-/// Burley's principled model; `reflectance` is its base colour.
+/// Burley's principled model; `reflectance` is its base colour. `SurfaceModel` describes the member
+/// functions.
 struct PrincipledMaterial : OpaqueSurface {
   Principled principled;
 

@@ -11,6 +11,7 @@
 namespace abbe {
 namespace {
 
+// The relative index n, moved away from 1 if it differs by less than the tables allow.
 float with_min_contrast(float n) {
   constexpr float kMinContrast = 1e-3F;
   return std::abs(n - 1) < kMinContrast ? 1 + std::copysign(kMinContrast, n - 1) : n;

@@ -12,9 +12,10 @@
 
 namespace abbe {
 
-/// A rough dielectric interface, with slopes along u and perpendicular to it. If both alphas are below
-/// `kMinAlpha`, the scene uses a `DielectricMaterial` instead. A relative index within 1e-3 of 1 is replaced
-/// by the nearest one that differs by 1e-3.
+/// A rough dielectric interface; alpha_x of the facets is the roughness along u, alpha_y that perpendicular
+/// to it. `SurfaceModel` describes the member functions. If both alphas are below `kMinAlpha`, the scene uses
+/// a `DielectricMaterial` instead. A relative index within 1e-3 of 1 is replaced by the nearest one that
+/// differs by 1e-3.
 class RoughDielectricMaterial {
  public:
   /// Tabulates multiple scattering in air, which takes some tens of milliseconds.
@@ -22,7 +23,7 @@ class RoughDielectricMaterial {
                           std::optional<Medium> interior_medium = {});
 
   /// Tabulates multiple scattering also in a medium of that index, unless an existing table covers it. In
-  /// other media `bsdf` uses the table of the nearest relative index.
+  /// other media `bsdf` uses the table of the nearest relative index. Not thread-safe.
   void tabulate_in(const RefractiveIndex& medium);
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
@@ -37,15 +38,17 @@ class RoughDielectricMaterial {
 
   std::string index_name;
   RefractiveIndex index;
-  std::optional<Medium> interior_medium;          ///< Medium inside; empty if it does not scatter.
-  std::shared_ptr<const RoughInterface> surface;  ///< Tables in air.
-  std::vector<std::shared_ptr<const RoughInterface>> surfaces_in_media;
+  /// Medium inside that scatters or absorbs in addition to `index`; else empty.
+  std::optional<Medium> interior_medium;
+  std::shared_ptr<const RoughInterface> surface;                         ///< Tables in air.
+  std::vector<std::shared_ptr<const RoughInterface>> surfaces_in_media;  ///< Tables added by `tabulate_in`.
 
  private:
   [[nodiscard]] const RoughInterface& nearest_surface(float low_n, float high_n) const;
 };
 
-/// A rough conductor, with slopes along u and perpendicular to it.
+/// A rough conductor; alpha_x of the facets is the roughness along u, alpha_y that perpendicular to it.
+/// `SurfaceModel` describes the member functions.
 class RoughConductorMaterial {
  public:
   RoughConductorMaterial(std::string index_name, RefractiveIndex index, const Microfacets<float>& facets);
@@ -62,7 +65,7 @@ class RoughConductorMaterial {
 
   std::string index_name;
   RefractiveIndex index;
-  Curve mean_reflectance;  ///< Diffuse reflectance in air.
+  Curve mean_reflectance;  ///< Diffuse reflectance of the smooth metal in air.
   std::shared_ptr<const RoughMetal> surface;
 };
 

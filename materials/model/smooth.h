@@ -10,17 +10,20 @@
 
 namespace abbe {
 
-/// A Lambertian surface.
+/// A Lambertian surface; `reflectance` is its hemispherical reflectance. `SurfaceModel` describes the member
+/// functions.
 struct DiffuseMaterial : OpaqueSurface {
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
 };
-/// A smooth interface to a transparent or absorbing medium, optionally under thin films.
+/// A smooth interface to a transparent or absorbing medium, optionally under thin films. `SurfaceModel`
+/// describes the member functions.
 struct DielectricMaterial {
   std::string index_name;
   RefractiveIndex index;
-  Coating coating = {};
-  std::optional<Medium> interior_medium = {};  ///< Medium inside; empty if it does not scatter.
+  Coating coating = {};  ///< Thin films; no layers if the surface is bare.
+  /// Medium inside that scatters or absorbs in addition to `index`; else empty.
+  std::optional<Medium> interior_medium = {};
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }
@@ -33,6 +36,7 @@ struct DielectricMaterial {
   [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }
 };
 /// Thin films with the same medium on both sides, such as a soap bubble. Light crosses them undeflected.
+/// `SurfaceModel` describes the member functions.
 struct FilmMaterial {
   Coating layers;
 
@@ -46,11 +50,11 @@ struct FilmMaterial {
   [[nodiscard]] std::vector<IndexUse> indices() const { return indices_of(layers); }
   [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }
 };
-/// A smooth metal, optionally under thin films.
+/// A smooth metal, optionally under thin films. `SurfaceModel` describes the member functions.
 struct ConductorMaterial {
   std::string index_name;
   RefractiveIndex index;
-  Coating coating = {};
+  Coating coating = {};  ///< Thin films; no layers if the metal is bare.
 
   [[nodiscard]] Bsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }

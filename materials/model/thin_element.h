@@ -10,7 +10,7 @@
 
 namespace abbe {
 
-/// The part common to all thin elements.
+/// The part common to all thin elements. `SurfaceModel` describes the member functions.
 struct ThinElementMaterial {
   Curve transmittance;  ///< In [0, 1]; the model defines for which light.
 
@@ -23,7 +23,7 @@ struct ThinElementMaterial {
   [[nodiscard]] static constexpr std::size_t texture_bytes() { return 0; }
 };
 
-/// A unit vector in the surface at an angle [rad] from u, counterclockwise as seen from outside.
+/// A unit vector in the surface at an angle [rad] from u, counterclockwise for a viewer outside.
 [[nodiscard]] Imath::V2d surface_axis(double angle);
 
 /// A linear polariser; `transmittance` is that of light polarised along its axis.

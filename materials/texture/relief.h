@@ -8,8 +8,8 @@
 
 namespace abbe {
 
-/// An image of surface normals. Its three channels in [0, 1] encode the components from -1 to 1 along dp/du,
-/// along dp/dv ("green is up") and along the outward normal.
+/// An image of surface normals. Its first three channels, in [0, 1], encode the components from -1 to 1 along
+/// dp/du, along dp/dv ("green is up") and along the outward normal.
 struct NormalMap {
   TextureImage image;
 
@@ -17,7 +17,7 @@ struct NormalMap {
   [[nodiscard]] Imath::V3d normal(const Imath::V2f& uv) const;
 };
 
-/// An image of heights above the surface: `height_m` [m] times its one channel.
+/// An image of heights above the surface: `height_m` [m] times its first channel.
 struct BumpMap {
   TextureImage image;
   double height_m;

@@ -17,11 +17,11 @@ class SpectralTexture {
  public:
   /// A quantity that is uniform over the surface.
   SpectralTexture(Curve curve) : curve_(std::move(curve)) {}
-  /// The sum over channels c of (value of c) * spectra[c]. Throws Error{internal} unless each channel has a
-  /// spectrum.
+  /// The sum over channels c of the image of (value of c) * spectra[c]. Throws Error{internal} unless each
+  /// channel has a spectrum.
   SpectralTexture(TextureImage image, std::vector<Curve> spectra);
 
-  /// The value at each wavelength, clamped to [0, 1] against rounding errors.
+  /// The value at each wavelength. With an image it is clamped to [0, 1] against rounding errors.
   [[nodiscard]] SampledSpectrum operator()(const SurfaceLookup& at) const {
     return image_ ? of_image(at) : curve_(at.wavelengths_nm);
   }

@@ -15,6 +15,7 @@ struct Neighbours {
   float second;
 };
 
+// The texel of a whole number `index` along an axis of `count` texels, by the rule outside the edges.
 std::size_t wrapped(double index, double count, TextureWrap wrap) {
   const double inside = wrap == TextureWrap::repeat ? index - count * std::floor(index / count)
                                                     : std::clamp(index, 0.0, count - 1);

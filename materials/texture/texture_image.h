@@ -8,9 +8,9 @@
 
 namespace abbe {
 
-/// Interpolation between texel centres: bilinear, or the nearest texel.
+/// Interpolation between texel centres: `bilinear`, or the value of the `nearest` texel.
 enum class TextureFilter { bilinear, nearest };
-/// Extension of the image outside its edges: repeated, or the values of the edge.
+/// Extension of the image outside its edges: `repeat` tiles it, `clamp` continues the values of the edge.
 enum class TextureWrap { repeat, clamp };
 
 /// Position of an image on surface coordinates (u, v): scale * (u, v) + offset, in widths and heights of the
@@ -22,8 +22,9 @@ struct TextureMapping {
   Imath::V2d offset{0, 0};
 };
 
-/// Channels of an image, looked up by surface coordinates. (0, 0) is the lower left corner and (1, 1) the
-/// upper right corner of the displayed image. Texel centres are half a texel from the edges.
+/// Channels of an image, looked up by surface coordinates (u, v) through a `TextureMapping`. Mapped
+/// coordinates (0, 0) are the lower left corner and (1, 1) the upper right corner of the displayed image.
+/// Texel centres are half a texel from the edges.
 class TextureImage {
  public:
   /// `texels` are in rows from the top left, with the channels of a texel together. Throws Error{internal}
@@ -31,14 +32,14 @@ class TextureImage {
   TextureImage(std::size_t width, std::size_t height, std::size_t channels, std::vector<float> texels,
                const TextureMapping& mapping);
 
-  /// Texels that contribute to a value, with weights that sum to 1.
+  /// Numbers of the texels that contribute to a value, in rows from the top left, with weights that sum to 1.
   struct Blend {
     std::array<std::size_t, 4> texel;
     std::array<float, 4> weight;
   };
   /// The blend at surface coordinates.
   [[nodiscard]] Blend blend(const Imath::V2f& uv) const { return blend_at(on_image(uv)); }
-  /// Interpolated value of a channel.
+  /// Interpolated value of a channel, counted from 0; the channel must exist.
   [[nodiscard]] float value(const Blend& blend, std::size_t channel) const {
     float sum = 0;
     for (std::size_t i = 0; i < blend.texel.size(); ++i)
