@@ -7,18 +7,28 @@
 
 namespace abbe {
 
+// The functions below take shapes in render coordinates [m]. `faces` caches the boxes of meshes between
+// calls. None of them throws.
+
 /// Maximum number of pairs of shapes or faces that a check compares. More pairs would take seconds.
 inline constexpr std::size_t kMaxPairs = 50'000'000;
 
-/// True if a face of one shape may coincide with a face of the other, or if the shapes may be tangent:
-/// - two faces are parallel, their boxes intersect, and a corner is at most `tolerance` [m] off the other
-/// plane;
-/// - a sphere is tangent to a face or to another sphere within `tolerance`.
-/// It is also true if either shape moves, if ellipsoids are near each other, or if comparing the faces would
-/// take seconds.
+/// True if a face of one shape may coincide with a face of the other, or if the shapes may be tangent. False
+/// if their bounding boxes are more than `tolerance` [m] apart. Otherwise true if one of these holds:
+/// - two faces meet all conditions below;
+/// - a sphere or ellipsoid is tangent to a face, or a sphere to another sphere, within `tolerance`;
+/// - both are spheres or ellipsoids, and at least one is no sphere;
+/// - either shape moves;
+/// - more than `kMaxPairs` pairs of faces would have to be compared.
+///
+/// Conditions for two faces:
+/// - their normals are parallel by `CoincidentHits::kParallel`;
+/// - their boxes intersect after one of them has grown by `tolerance` on all sides;
+/// - at least one corner of either face is at most `tolerance` off the plane of the other;
+/// - no line in their plane that is parallel to an edge or diagonal separates them by `tolerance` or more.
 [[nodiscard]] bool may_coincide(const Shape& a, const Shape& b, double tolerance, FaceFinder& faces);
 
-/// Relative orientation of two coincident faces: arbitrary, or with normals to the same side.
+/// Relative orientation of the outward normals of two coincident faces: arbitrary, or to the same side.
 enum class Facing { any, same };
 
 /// True if a face of one shape certainly coincides with a face of the other, or if both are the same sphere.
@@ -26,21 +36,22 @@ enum class Facing { any, same };
 /// - three corners of either face are at most `tolerance` [m] off the plane of the other face;
 /// - the faces overlap by more than `tolerance` in every direction, so adjacent faces do not count;
 /// - of two spheres, centers and radii differ by at most `tolerance`.
-/// A disc counts as the square inscribed in it. False if either shape moves.
+/// A disc counts as the square inscribed in it. `facing` has no effect on two spheres. False if either
+/// shape moves, for ellipsoids that are not spheres, and if there are more than `kMaxPairs` pairs of faces.
 [[nodiscard]] bool overlaps(const Shape& a, const Shape& b, double tolerance, FaceFinder& faces,
                             Facing facing = Facing::any);
 
 /// True if the whole surface of a closed shape certainly lies on another shape. Each of its faces coincides
 /// with a face of `body` that faces the same side, or both are one sphere; `tolerance` [m] as in `overlaps`.
-/// False if so many faces are near each other that comparing them would take seconds.
+/// False if either shape moves, or if there are more than `kMaxPairs` pairs of faces.
 [[nodiscard]] bool coats(const Shape& coat, const Shape& body, double tolerance, FaceFinder& faces);
 
-/// True if two faces of one shape coincide, as in `overlaps`. False if so many faces are near each other that
-/// comparing them would take seconds.
+/// True if two faces of one shape coincide, with `tolerance` [m] as in `overlaps` and any orientation. False
+/// if there are more than `kMaxPairs` pairs of faces.
 [[nodiscard]] bool overlaps_itself(const Shape& shape, double tolerance, FaceFinder& faces);
 
-/// True if a point, in render coordinates, lies on a face or sphere that does not move. "On" means so near
-/// that floats cannot resolve the side of the point.
+/// True if a point [m] lies on a face or sphere that does not move: so near that floats cannot resolve the
+/// side of the point. A disc counts as the square inscribed in it. False for ellipsoids that are not spheres.
 [[nodiscard]] bool is_on_surface(const Imath::V3d& point, const Shape& shape, FaceFinder& faces);
 
 }  // namespace abbe

@@ -6,7 +6,8 @@
 
 namespace abbe {
 
-/// Converts a ray to Embree's format, with a mask that accepts all geometry.
+/// Converts a ray to Embree's format: coordinates rounded to the nearest float, tnear 0, and a mask that
+/// accepts all geometry. The direction need not have unit length.
 [[nodiscard]] inline RTCRay embree_ray(const BasicRay<double>& ray) {
   RTCRay r{};
   r.org_x = static_cast<float>(ray.origin.x);

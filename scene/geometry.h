@@ -22,12 +22,13 @@ namespace abbe {
 
 /// Embree's representation of a shape that is not an instance.
 using PlainGeometry = std::variant<TriangleSet, Sphere, Disc>;
-/// Embree scene with the one geometry of a prototype; its instances refer to it.
+/// Embree scene with the one geometry of a prototype, in its coordinates; instances of it refer to it.
 struct InstancedScene {
   std::shared_ptr<const Prototype> prototype;
   PlainGeometry geometry;
   std::unique_ptr<RTCSceneTy, void (*)(RTCSceneTy*)> scene;
 };
+/// An instance of such a scene. It moves if `at->motion` is set. `Geometry` owns the scene.
 struct SceneInstance {
   const InstancedScene* of;
   std::shared_ptr<const Placement> at;
@@ -35,42 +36,51 @@ struct SceneInstance {
 /// Number of boxes, each around one slice of time, by which Embree represents a moving instance. Embree's own
 /// motion blur misses hits in packets whose rays have different times.
 inline constexpr unsigned kTimeSlices = 16;
+/// Embree's representation of any shape of the scene.
 using AttachedGeometry = std::variant<TriangleSet, Sphere, Disc, SceneInstance>;
 
-/// The shapes as Embree geometry.
-/// Embree finds the primitive in float. The shape's own formula then decides in double whether and where the
-/// ray hits it, for instances in the coordinates of their prototype. Curved shapes, and triangles so large
-/// that floats do not resolve the side at which a ray starts, are intersected in double throughout. Therefore
-/// a ray that starts on the correct side of a surface never hits that surface again at its origin. Moving
-/// shapes are placed in double at the ray's time.
+/// The shapes as Embree geometry, in render coordinates [m]. It is immutable; threads may query it
+/// concurrently. Embree finds the primitive in float. The shape's own formula then decides in double whether
+/// and where the ray hits it, for instances in the coordinates of their prototype. Curved shapes, and
+/// triangles so large that floats do not resolve the side at which a ray starts, are intersected in double
+/// throughout. Therefore a ray that starts on the correct side of a surface never hits that surface again at
+/// its origin. Moving shapes are placed in double at the ray's time.
 class Geometry {
  public:
-  /// Builds Embree's scene; `walls` are those near each shape. Throws Error{resource} if memory is exhausted
-  /// and Error{internal} if Embree fails.
+  /// Builds Embree's scene; `shapes` and `materials` need not outlive it. `walls` has one element per shape:
+  /// the opaque surfaces near it, by `walls_near_shapes`. Throws Error{resource} if memory is exhausted or
+  /// Embree reports an unknown error, and Error{internal} for its other errors.
   Geometry(const std::vector<ShapeInstance>& shapes, const std::vector<Material>& materials,
            std::vector<NearWalls> walls);
   ~Geometry();
   Geometry(const Geometry&) = delete;
   Geometry& operator=(const Geometry&) = delete;
 
+  /// Finds the nearest hit at t in (0, ray.t_max), boundaries of media included; nothing if the ray misses.
   [[nodiscard]] std::optional<SurfaceHit> intersect(const Ray& ray) const;
   /// Finds the nearest hit of each ray as if it were traced alone. `hits` has as many elements as `rays`.
   void intersect(std::span<const Ray> rays, std::span<std::optional<SurfaceHit>> hits) const;
-  /// Implements `Scene::coincident` for the scene of these shapes.
+  /// The surfaces that coincide with `hit`, the hit of `ray`, at the ray's time. The first is `hit` itself.
+  /// The others are parallel to it and within `Scene::coincidence_tolerance`, in order along the ray. Each
+  /// side of a shape counts once; hits after the first `CoincidentHits::kMaxHits` are left out. `scene` is
+  /// that of the shapes.
   [[nodiscard]] CoincidentHits coincident(const Scene& scene, const Ray& ray, const SurfaceHit& hit) const;
-  /// Implements `Scene::transmission_may_leak` for the scene of these shapes.
+  /// True if an opaque surface is so close to `hit` that floats do not separate them: a ray transmitted in
+  /// the unit `direction` may start behind it. `Scene::transmission_may_leak` calls this for hits in the
+  /// shape's `near_wall_bounds`. `scene` is that of the shapes; `time` is that of the ray.
   [[nodiscard]] bool wall_within_rounding(const Scene& scene, const SurfaceHit& hit,
                                           const Imath::V3f& direction, float time) const;
-  /// True if the ray hits anything except boundaries of media at t in (0, ray.t_max).
+  /// True if the ray hits anything except boundaries of media at t in (0, ray.t_max), transmitting surfaces
+  /// included. The direction may have any length; t is in its units.
   [[nodiscard]] bool occluded(const BasicRay<double>& ray) const;
   /// Sets `blocked` to 1 for each ray that is occluded, otherwise to 0. It has as many elements as `rays`.
   void occluded(std::span<const BasicRay<double>> rays, std::span<std::uint8_t> blocked) const;
   /// Traces every ray through Embree and discards the results.
   void replay(std::span<const LoggedRay> rays) const;
 
-  /// Number of triangles, with those of every instance.
+  /// Number of triangles, counted once per instance. A quad has two, a sphere or disc none.
   [[nodiscard]] std::size_t triangle_count() const;
-  /// Memory in bytes; each prototype counts once.
+  /// Memory of Embree and of the shapes' data, in bytes; each prototype counts once.
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:

@@ -11,7 +11,9 @@
 
 namespace abbe {
 
-/// The rays of a context as an Embree packet. `valid` disables the entries from `count` on.
+/// The first `count` rays of a context as an Embree packet of `kPacket`; `count` is in [1, `kPacket`].
+/// `valid` is -1 for these and 0, which disables, for the rest. `mask` selects the geometry: `kOpaque`,
+/// `kBoundary` or ~0U for both. Ray `id`s are indices into the context.
 struct alignas(32) Packet {
   std::array<int, kPacket> valid;
   RTCRayHit8 query;
@@ -36,7 +38,9 @@ struct alignas(32) Packet {
       query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
     }
   }
+  /// Distance of the hit of ray `i` in units of its direction; its t_max if there is none.
   [[nodiscard]] float t(std::size_t i) const { return query.ray.tfar[i]; }
+  /// Hit of ray `i` in Embree's format for single rays; valid only if its `geomID` is not the invalid one.
   [[nodiscard]] RTCHit hit(std::size_t i) const {
     RTCHit one{};
     one.u = query.hit.u[i];

@@ -4,34 +4,35 @@
 
 namespace abbe {
 
-/// The times at which the rows of a film are exposed, and the transmittance of the shutter.
-/// Each row is exposed for the exposure time T. The first row starts at time 0, each further one `delay` T
-/// later. The whole film is exposed over the span T (1 + (rows - 1) delay); ray times are fractions of it.
-/// After the fraction s of its exposure, a row has the transmittance S(s). It records the integral of S E
-/// over time for an irradiance E.
+/// The times at which the rows of a film are exposed, and the transmittance of the shutter. Rows count from 0
+/// at the top. Each row is exposed for the exposure time T. The first row starts at time 0, each further one
+/// `delay` T later. The whole film is exposed over the span T (1 + (rows - 1) delay); ray times are fractions
+/// of it. After the fraction s of its exposure, a row has the transmittance S(s). It records the integral of
+/// S E over time for an irradiance E.
 class Shutter {
  public:
-  /// The transmittance after the fraction `time` of a row's exposure; linear between knots.
+  /// The transmittance after a fraction of a row's exposure; linear between knots.
   struct Knot {
-    double time = 0;
-    double transmittance = 1;
+    double time = 0;           ///< Fraction of the row's exposure time, in [0, 1].
+    double transmittance = 1;  ///< In [0, 1].
   };
 
   /// A global shutter, fully open for the whole exposure.
   Shutter() = default;
-  /// Builds a shutter from knots in order from 0 to 1, at least one of which transmits light. `delay` is that
-  /// between rows, as a fraction of the exposure time.
+  /// Builds a shutter. The times of the knots do not decrease; the first is 0, the last 1, and the mean
+  /// transmittance is positive. `delay` >= 0 is that between rows, as a fraction of the exposure time. These
+  /// conditions are not checked.
   Shutter(std::vector<Knot> knots, double delay, int rows);
 
-  /// Mean of S: the factor on the exposure time if nothing changes during the exposure.
+  /// Mean of S, in (0, 1]: the factor on the exposure time if nothing changes during the exposure.
   [[nodiscard]] double mean() const { return mean_; }
-  /// The span divided by the exposure time.
+  /// The span divided by the exposure time: 1 + (rows - 1) delay.
   [[nodiscard]] double span() const { return span_; }
-  /// Samples a time at which the row is exposed, in proportion to S, by `u` in [0, 1). Light at that time has
-  /// the weight `mean`.
+  /// Samples a ray time at which the row is exposed, in proportion to S, by `u` in [0, 1). The time is a
+  /// fraction of the span, in [0, 1]. Light at that time has the weight `mean`.
   [[nodiscard]] float sample(int row, float u) const { return plain_ ? u : sample_row(row, u); }
-  /// Weight of light that arrives at the row at a time that is uniform over the span: S, divided by the
-  /// fraction of the span for which a row is open.
+  /// Weight of light that arrives at the row at a ray time that is uniform over the span: S, divided by the
+  /// fraction of the span for which a row is open. 0 while the row is not exposed.
   [[nodiscard]] float weight(int row, float time) const {
     return plain_ ? static_cast<float>(mean_) : row_weight(row, time);
   }

@@ -7,13 +7,15 @@
 
 namespace abbe {
 
-/// A class of light paths that cannot be sampled: a regular expression [Heckbert1990], a description and the
-/// lights concerned. The expression goes from the eye E to the light L over specular (S) and diffuse (D)
-/// vertices.
+/// A class of light paths that cannot be sampled, as text for messages: `EXPRESSION: description (lights)`.
+/// The regular expression [Heckbert1990], such as "E S+ L", leads from the eye E to the light L over specular
+/// (S) and other (D) vertices. Lights are quoted names, at most eight.
 using PathClass = std::string;
 
-/// Light paths of a scene that its integrator cannot sample. `light_tracing_active` is true if photons are
-/// traced from the lights of `features.light_is_traced`. Integrator::light samples by photons alone.
+/// Light paths of a committed scene that its integrator samples with probability zero, or for tiny lights
+/// practically never. Empty if all are sampled. `light_tracing_active` is true if Integrator::automatic or
+/// Integrator::path also traces photons from the lights of `features.light_is_traced`; other integrators
+/// ignore it.
 [[nodiscard]] std::vector<PathClass> unsampled_paths(const Scene& scene, const SceneFeatures& features,
                                                      bool light_tracing_active);
 

@@ -15,26 +15,28 @@ namespace abbe {
 
 struct ShapeInstance;
 
-/// The region in which the render needs fine float coordinates, and the distance at which that ends.
+/// The region in which the render needs fine float coordinates, and the distance [m] at which that ends. Its
+/// coordinates are those of the shapes that it was determined from.
 ///
 /// The shapes are sorted by the distance of their farthest points from the camera. Those before the first gap
 /// of a factor `kGap` are near; the others do not influence the choice of origin. Of the others, a shape that
 /// lies entirely farther than the gap is distant. The rest, such as the ground or a dome, is large.
 struct WorkingRange {
-  static constexpr double kGap = 1000;
+  static constexpr double kGap = 1000;  ///< Ratio of distances.
 
-  Imath::Box3d near;  ///< Box around the near shapes. It is empty if there are none, as for a probe of a
-                      ///< distant light.
-  /// Where floats shall be finest: the center of `near`. It is the camera if nothing is near, or if `near`
-  /// extends more than `kGap` times farther than its nearest shape.
+  /// Box around the near shapes. It is empty if there are none, as for a probe of a distant light.
+  Imath::Box3d near;
+  /// Position at which floats shall be finest: the center of `near`. It is the camera if nothing is near, or
+  /// if `near` extends more than `kGap` times farther than its nearest shape.
   Imath::V3d origin{0, 0, 0};
   /// Shapes farther than this distance from the camera [m] are distant. It is `kGap` times the distance of
   /// the farthest near point, the probe's own surface included.
   double far_threshold = 0;
 };
 /// Determines which shapes are near, large and distant for a camera. For a camera with a lens the nearest
-/// shapes are always near, at any distance. For a probe, which is illuminated at its position, a shape is
-/// near only if it subtends more than 1/`kGap`.
+/// shape in the order of `WorkingRange` is always near, at any distance. For a probe, which is illuminated at
+/// its position, the first near shape is the first one whose box has a diagonal of at least 1/`kGap` of the
+/// distance of its farthest point. Later shapes before the gap are near, however small they are.
 [[nodiscard]] WorkingRange working_range_of(const Camera& camera, std::span<const ShapeInstance> shapes);
 
 /// Radius [m] of a scene with these bounds: half their diagonal, at least 1e-12; 1 for an empty scene.
@@ -42,9 +44,10 @@ struct WorkingRange {
   return bounds.isEmpty() ? 1.0 : std::max(bounds.size().length() / 2, 1e-12);
 }
 
-/// Distance from a point to the nearest point of a box; 0 inside.
+/// Distance from a point to the nearest point of a box, which must not be empty; 0 inside.
 [[nodiscard]] double distance_to(const Imath::Box3d& box, const Imath::V3d& point);
 
+/// The largest absolute coordinate of a point, which determines the spacing of floats there.
 [[nodiscard]] inline double largest_coordinate(const Imath::V3d& point) {
   return std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
 }
@@ -53,7 +56,7 @@ struct WorkingRange {
   return box.isEmpty() ? 0 : std::max(largest_coordinate(box.min), largest_coordinate(box.max));
 }
 
-/// The box enlarged by `by` on all sides.
+/// The box enlarged by `by` on all sides; an empty box stays empty.
 [[nodiscard]] inline Imath::Box3d grown(const Imath::Box3d& box, double by) {
   return {box.min - Imath::V3d(by), box.max + Imath::V3d(by)};
 }
@@ -69,7 +72,7 @@ struct WorkingRange {
   return both;
 }
 
-/// Upper bound of the spacing of floats of this magnitude.
+/// Upper bound of the spacing of floats of this magnitude, `size` >= 0.
 [[nodiscard]] inline double float_step(double size) {
   return static_cast<double>(std::numeric_limits<float>::epsilon()) * size;
 }

@@ -10,11 +10,11 @@ namespace abbe {
 struct LensOptics;
 
 /// A camera with a real lens system, whose film is in the image plane. The first vertex is at the frame's
-/// position, and light propagates against `forward`.
+/// position, and light propagates against `forward`. Functions without a comment are those of `CameraModel`.
 struct LensSystem {
   CameraFrame frame;
-  std::shared_ptr<const LensOptics> optics;
-  /// Rays also take the routes of ghosts; the optics must have them enumerated.
+  std::shared_ptr<const LensOptics> optics;  ///< Not null; prepared for the film of the camera.
+  /// True if rays also take the routes of ghosts; the optics must have them enumerated.
   bool ghosts = false;
 
   [[nodiscard]] CameraRay sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f lens,
@@ -26,11 +26,12 @@ struct LensSystem {
   [[nodiscard]] std::optional<CameraDensity> density(const FilmGrid& grid, const Ray& ray,
                                                      const SampledSpectrum& wavelengths_nm,
                                                      LensRoute route) const;
-  /// Samples the entrance of a ghost; nothing for a lens without ghosts.
+  /// Samples the entrance of a ghost at time 0 by two random numbers in [0, 1); nothing if `ghosts` is false.
   [[nodiscard]] std::optional<GhostEntrance> sample_ghost(Imath::V2f lens) const;
   [[nodiscard]] double min_film_cosine(const FilmGrid& grid) const;
   [[nodiscard]] CameraTraits traits() const;
   [[nodiscard]] const Imath::V3d& position() const { return frame.position; }
+  /// Center of the entrance pupil, or the first vertex if the pupil lies behind it.
   [[nodiscard]] Imath::V3d center() const;
   void translate(const Imath::V3d& by) { frame.position += by; }
 };

@@ -10,8 +10,9 @@ namespace abbe {
 /// and for focus at infinity, where all rays of a film position have one direction.
 [[nodiscard]] double opening_tangent(const Camera& camera);
 
-/// Mean weight [sr] of the rays of a film position over an opening of that tangent, if the central ray has
-/// `central_weight`. It is the irradiance at the position under uniform unit radiance.
+/// Mean weight [sr] of the rays of a film position [pixels], at 550 nm and time 0. It is the irradiance at
+/// the position under uniform unit radiance. `opening_tangent` is the result of that function for `camera`;
+/// if it is 0, the result is `central_weight`.
 [[nodiscard]] double mean_weight(const Camera& camera, double opening_tangent, Imath::V2f film);
 
 }  // namespace abbe

@@ -12,7 +12,8 @@
 
 namespace abbe {
 
-/// The pixels of a film. Film positions are in pixels from the top left corner of the upright image.
+/// The pixels of a film. Film positions are in pixels from the top left corner of the upright image: x to the
+/// right, y down.
 struct FilmGrid {
   int width = 1;
   int height = 1;
@@ -41,27 +42,28 @@ struct WavelengthImages {
 /// A route of light through a lens: 0 is that of the image, the others are those of ghosts, by index.
 using LensRoute = std::uint32_t;
 
-/// A ray into the scene at the requested time. Radiance L along it adds `weight` L to the spectral irradiance
-/// at its film position. The weight includes the balance heuristic over wavelengths, each of which as the
-/// hero would have its own density.
+/// A ray into the scene at the requested time, in render coordinates and of infinite length. Radiance L along
+/// it adds `weight` L to the spectral irradiance at its film position. Here the weights are those of the
+/// hero's density alone. For the balance heuristic over wavelengths the caller divides by the sum of
+/// `lane_pdf`.
 struct CameraRay {
   Ray ray;
   SampledSpectrum weight;  ///< [sr] per wavelength; 0 if the lens transmits nothing.
   float cos_film;          ///< Cosine of the angle of incidence on the film, for responses that depend on it.
-  /// Density of the ray if the wavelength were the hero, relative to the hero's.
+  /// Density of the ray if the wavelength were the hero, relative to the hero's own; 1 for the hero.
   SampledSpectrum lane_pdf{1.0F};
   std::optional<WavelengthImages> images = {};  ///< Present if the lens displaces wavelengths.
   LensRoute route = 0;
 };
 
 /// A connection from a scene point through the lens to the film. Intensity I [W/sr] leaving the point towards
-/// `lens_point` adds `weight` I to the irradiance of the pixel at `film`.
+/// `lens_point` adds `weight` I to the irradiance of the pixel at `film`. The caller tests visibility.
 struct CameraConnection {
-  Imath::V2f film;
-  Imath::V3f lens_point;
-  float pdf_position;      ///< Of the lens point as sampled for that scene point [1/m^2].
+  Imath::V2f film;         ///< Film position [pixels].
+  Imath::V3f lens_point;   ///< End of the shadow ray, in render coordinates at the requested time.
+  float pdf_position;      ///< Density of the lens point as sampled for that scene point [1/m^2].
   SampledSpectrum weight;  ///< [1/m^2] per wavelength.
-  float cos_film;
+  float cos_film;          ///< Cosine of the angle of incidence on the film.
   /// Present if the lens displaces wavelengths; `film` is then the position of one of them.
   std::optional<WavelengthImages> images = {};
   LensRoute route = 0;
@@ -70,9 +72,9 @@ struct CameraConnection {
 /// A point at which light enters a lens on the way of a ghost.
 struct GhostEntrance {
   Imath::V3f point;
-  Imath::V3f normal;  ///< Outward, unit.
-  LensRoute route;
-  float pdf;  ///< Joint density of point and route [1/m^2].
+  Imath::V3f normal;  ///< Unit normal towards the scene.
+  LensRoute route;    ///< Route of the ghost; not 0.
+  float pdf;          ///< Joint density of point and route [1/m^2].
 };
 
 /// Response of a camera to a ray that leaves it at the angle theta with its axis or normal. The densities are
@@ -85,16 +87,16 @@ struct GhostEntrance {
 struct CameraDensity {
   Imath::V2f film;                ///< Film position of the ray.
   SampledSpectrum importance;     ///< Irradiance of the pixel per flux along the ray [1/m^2].
-  float pdf_position;             ///< Of the point where the ray leaves the lens or probe [1/m^2].
-  SampledSpectrum pdf_direction;  ///< Of its direction there [1/sr].
-  float cos_theta;
-  float cos_film;  ///< Cosine of the angle of incidence on the film.
+  float pdf_position;             ///< Density of the point where the ray leaves the lens or probe [1/m^2].
+  SampledSpectrum pdf_direction;  ///< Density of its direction there [1/sr].
+  float cos_theta;                ///< Cosine of theta; positive.
+  float cos_film;                 ///< Cosine of the angle of incidence on the film.
   /// Present if the lens displaces wavelengths; `film` is then the position of one of them.
   std::optional<WavelengthImages> images = {};
 };
 
-/// The film positions of the wavelengths of a ray, connection or density; nullptr if the lens does not
-/// displace them.
+/// The film positions of the wavelengths of a `CameraRay`, `CameraConnection` or `CameraDensity`, which owns
+/// them; nullptr if the lens does not displace them.
 template <typename Of>
 [[nodiscard]] const WavelengthImages* images_of(const Of& of) {
   return of.images ? &*of.images : nullptr;
@@ -123,8 +125,9 @@ struct CameraTraits {
   std::optional<Opening> opening = {};  ///< The opening that light rays can hit; nothing for a point.
 };
 
-/// True if a probe accepts light from a unit direction. The test uses the direction's component perpendicular
-/// to the normal, which is precise for small angles.
+/// True if a probe accepts light that arrives from the unit `direction`, which points away from the probe.
+/// `acceptance` is the sine of the maximum angle with the unit `normal`, in (0, 1]. The test uses the
+/// direction's component perpendicular to the normal, which is precise for small angles.
 [[nodiscard]] inline bool within_acceptance(float acceptance, const Imath::V3f& normal,
                                             const Imath::V3f& direction) {
   const float cos_theta = normal.dot(direction);
@@ -132,26 +135,29 @@ struct CameraTraits {
 }
 
 /// Requirements on a kind of camera. Film positions lie in [0, width] x [0, height]. The two random numbers
-/// in [0, 1) select the lens point, or a probe's direction, uniformly by area. The time is a fraction of the
-/// exposure; see `BasicRay`.
+/// in [0, 1) select the lens point uniformly by area, or a probe's direction in proportion to the cosine.
+/// `hero` is the index of a wavelength. The time is a fraction of the exposure; see `BasicRay`. Models do not
+/// move; they only copy it. None of the functions throws.
 template <typename Model>
 concept CameraModel = requires(const Model& camera, Model& movable, const FilmGrid& film, Imath::V2f u,
                                const Ray& ray, const SampledSpectrum& wavelengths_nm, int hero, float time,
                                LensRoute route) {
   /// Samples the ray of a film position; with a dispersive lens it is that of the hero wavelength.
   { camera.sample_ray(film, u, u, wavelengths_nm, hero, time) } -> std::same_as<CameraRay>;
-  /// Connects a point to the film; nothing if the point is behind the lens or its image falls outside the
-  /// film.
+  /// Connects a point to the film; nothing if the point is behind the lens, its image falls outside the film
+  /// or the lens blocks the ray, and for probes always.
   {
     camera.sample_towards(film, ray.origin, u, wavelengths_nm, time)
     } -> std::same_as<std::optional<CameraConnection>>;
-  /// Density of a ray that starts on the lens or probe and takes that route; nothing if its film position is
-  /// outside the film.
+  /// Density of a ray that starts on the lens or probe, leads into the scene and takes that route. Nothing if
+  /// `sample_ray` cannot produce it: its film position is outside the film, it leads backwards, the lens
+  /// blocks it, or a probe does not accept it.
   { camera.density(film, ray, wavelengths_nm, route) } -> std::same_as<std::optional<CameraDensity>>;
-  /// Minimum cosine of the angle of incidence on the film over all rays and connections.
+  /// Lower bound of the cosine of the angle of incidence on the film over all rays and connections.
   { camera.min_film_cosine(film) } -> std::same_as<double>;
   { camera.traits() } -> std::same_as<CameraTraits>;
-  /// `position`: center of a lens, or corner of a quad probe. `center`: center of either.
+  /// `position` [m]: center of an ideal lens, first vertex of a lens system, corner of a quad probe, or
+  /// center of another probe. `center` [m]: center of the points from which rays start.
   { camera.position() } -> std::same_as<const Imath::V3d&>;
   { camera.center() } -> std::same_as<Imath::V3d>;
   /// Moves the camera by a vector [m].

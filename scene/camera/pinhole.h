@@ -6,10 +6,11 @@
 namespace abbe {
 
 /// A pinhole camera, in which everything is in focus. Its exposure is that of an opening of the nominal size.
+/// The functions are those of `CameraModel`; random numbers for the lens have no effect.
 struct Pinhole {
   CameraFrame frame;
-  double image_distance = 0;   ///< Opening to film [m].
-  double aperture_radius = 0;  ///< Radius of the nominal opening [m].
+  double image_distance = 0;   ///< From opening to film [m]; must be positive.
+  double aperture_radius = 0;  ///< Radius of the nominal opening [m]; must be positive.
   double transmittance = 1;    ///< Fraction of the light that is transmitted, at all wavelengths.
 
   [[nodiscard]] CameraRay sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f lens,

@@ -7,22 +7,25 @@
 
 namespace abbe {
 
-/// A point that receives light from the side of its unit normal.
+/// A point [m] that receives light from the side of its unit normal.
 struct ProbePoint {
   Imath::V3d at{0, 0, 0};
   Imath::V3d normal{0, 0, 1};
 };
 
 /// A surface that receives light without blocking it, from directions within an angle of its normal. Film
-/// pixels are patches of equal area; on a quad they run along `edge_u` and `edge_v`. The film value is the
-/// irradiance by the accepted light. Divided by the projected solid angle pi `acceptance`^2 it is the mean
-/// radiance, multiplied by the area it is the flux.
+/// pixels are patches of equal area; on a quad columns run along `edge_u` and rows along `edge_v`. The film's
+/// irradiance is that by the accepted light. Divided by the projected solid angle pi `acceptance`^2 it is the
+/// mean radiance, multiplied by the area it is the flux.
 struct IrradianceProbe {
   std::variant<ProbePoint, Quad, Disc, SphereSide> surface;
-  double acceptance = 1;  ///< Sine of the maximum angle with the normal.
+  double acceptance = 1;  ///< Sine of the maximum angle with the normal, in (0, 1].
+
+  // Functions without a comment are those of `CameraModel`.
 
   [[nodiscard]] CameraRay sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f direction,
                                      const SampledSpectrum& wavelengths_nm, int hero, float time) const;
+  /// Always nothing: light is connected to a probe as to a surface.
   [[nodiscard]] std::optional<CameraConnection> sample_towards(const FilmGrid& grid, const Imath::V3f& point,
                                                                Imath::V2f lens,
                                                                const SampledSpectrum& wavelengths_nm,

@@ -6,12 +6,13 @@
 
 namespace abbe {
 
-/// A camera with an ideal thin lens, which images the plane in focus sharply.
+/// A camera with an ideal thin lens, which images the plane in focus sharply. Functions without a comment are
+/// those of `CameraModel`.
 struct ThinLens {
   CameraFrame frame;
-  double image_distance = 0;   ///< From lens to film [m].
-  double focus_distance = 0;   ///< From lens to the plane in focus [m]; may be infinite.
-  double aperture_radius = 0;  ///< Radius of the opening [m].
+  double image_distance = 0;   ///< From lens to film [m]; must be positive.
+  double focus_distance = 0;   ///< From lens to the plane in focus [m]; positive, may be infinite.
+  double aperture_radius = 0;  ///< Radius of the opening [m], of the circle around the blades; positive.
   double transmittance = 1;    ///< Fraction of the light that the lens transmits, at all wavelengths.
   std::optional<lens::Iris> iris = {};  ///< Blades that reduce the opening to a polygon.
 
@@ -30,7 +31,7 @@ struct ThinLens {
   [[nodiscard]] Imath::V3d center() const { return frame.position; }
   void translate(const Imath::V3d& by) { frame.position += by; }
 
-  /// Area of the opening between its blades, relative to the full circle.
+  /// Area of the opening between its blades, relative to the full circle: in (0, 1].
   [[nodiscard]] double open_fraction() const { return iris ? iris->area_fraction() : 1; }
 };
 static_assert(CameraModel<ThinLens>);

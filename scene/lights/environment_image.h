@@ -15,9 +15,9 @@
 
 namespace abbe {
 
-/// Orientation of an equirectangular image. Its top row is `up` and its center column `forward`. Columns
-/// farther right lie to the right of an observer who looks forward with `up` upwards. Orthogonal unit
-/// vectors.
+/// Orientation of an equirectangular image, by orthogonal unit vectors in render coordinates. Light from the
+/// direction `up` is at the top edge, light from `forward` in the center. Columns farther right lie to the
+/// right of an observer who looks forward with `up` upwards.
 struct EnvironmentFrame {
   Imath::V3d up;
   Imath::V3d forward;
@@ -26,24 +26,29 @@ struct EnvironmentFrame {
 /// horizontal and rotated by `rotate_deg`, right-handed about the unit vector `up`.
 [[nodiscard]] EnvironmentFrame environment_frame(const Imath::V3d& up, double rotate_deg);
 
-/// Radiance from infinity as a function of direction. Texels have equal azimuth and elevation and are
-/// constant. Their linear Rec.709 colours weight the spectra of `rgb_basis`, times one emission spectrum.
+/// Radiance from infinity as a function of direction. Texels span equal steps of azimuth and elevation and
+/// are constant. Their linear Rec.709 colours weight the spectra of `rgb_basis`, times one emission spectrum.
 class EnvironmentImage {
  public:
-  /// Rows start at the top. The width * height texels are finite and >= 0. Directions are sampled in
-  /// proportion to solid angle times the film value of a texel, summed over the channels.
+  /// Takes width * height texels, row by row from the top and from left to right, finite and >= 0; this is
+  /// not checked. `emission` is the spectral radiance of a texel (1, 1, 1). Directions are sampled in
+  /// proportion to solid angle times the film value of a texel, summed by magnitude over `channels`.
+  /// `channels` need not outlive it.
   EnvironmentImage(int width, int height, std::vector<std::array<float, 3>> texels,
                    const EnvironmentFrame& frame, const Curve& emission, std::span<const Channel> channels);
 
-  /// Spectral radiance arriving from the unit direction `wi`, in the emission's unit.
+  /// Spectral radiance arriving from the direction `wi`, which points away from the scene, in the emission's
+  /// unit.
   [[nodiscard]] SampledSpectrum radiance(const Imath::V3f& wi, const SampledSpectrum& wavelengths_nm) const;
-  /// Samples the unit direction towards incident light; nothing if no texel exposes any channel.
+  /// Samples the unit direction towards incident light by `u` in [0, 1)^2; nothing if no texel exposes any
+  /// channel.
   [[nodiscard]] std::optional<Imath::V3f> sample(Imath::V2f u) const;
-  /// Density [1/sr] of `sample`, constant within a texel.
+  /// Density [1/sr] of `sample`, constant within a texel; 0 if no texel exposes any channel.
   [[nodiscard]] float pdf(const Imath::V3f& wi) const;
 
-  /// Mean over all directions.
+  /// Mean spectral radiance over all directions by solid angle, in the emission's unit.
   [[nodiscard]] Curve mean_radiance() const;
+  /// Memory in bytes of texels and sampling tables.
   [[nodiscard]] std::size_t memory_bytes() const;
 
  private:

@@ -12,8 +12,8 @@ namespace abbe {
 struct LinearPolarisation {
   Imath::V3f axis{0, 0, 1};
 };
-/// The electric field rotates: clockwise as seen by the receiver if right-handed, otherwise
-/// counter-clockwise.
+/// The electric field rotates: clockwise as seen by the receiver, who looks towards the source, if
+/// right-handed, otherwise counter-clockwise.
 struct CircularPolarisation {
   bool right = true;
 };
@@ -25,7 +25,8 @@ struct LightPolarisation {
 };
 
 /// Normalised Stokes vector (1, q, u, v), in the frame whose first axis is the unit vector `axis`,
-/// perpendicular to the propagation direction. `docs/physics/conventions.md` defines the signs.
+/// perpendicular to the propagation direction. q is 1 for full linear polarisation along `axis`, and v is 1
+/// for full right-handed circular polarisation. `docs/physics/conventions.md` defines the signs.
 struct PolarisationState {
   Imath::V3f axis;
   float q = 0;
@@ -34,7 +35,7 @@ struct PolarisationState {
 };
 
 /// Polarisation state of light that propagates along the unit direction `travels`. Nothing if it is linear
-/// and its axis is parallel to that direction.
+/// and its axis is parallel to that direction, where the state is undefined.
 [[nodiscard]] std::optional<PolarisationState> polarised(const LightPolarisation& of,
                                                          const Imath::V3f& travels);
 

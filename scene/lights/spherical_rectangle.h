@@ -8,12 +8,12 @@
 
 namespace abbe {
 
-/// A rectangle in its local axes.
+/// A rectangle and its local axes, in the coordinates of the quad [m].
 struct Rectangle {
   Imath::V3d corner;
   Imath::V3d center;
-  Imath::V3d x, y;  ///< Unit vectors along the edges.
-  double size_u, size_v;
+  Imath::V3d x, y;        ///< Unit vectors along `Quad::edge_u` and `Quad::edge_v`.
+  double size_u, size_v;  ///< Lengths of these edges [m].
 
   /// The rectangle of a quad; nothing for a parallelogram without right angles.
   [[nodiscard]] static std::optional<Rectangle> of(const Quad& quad);
@@ -23,13 +23,16 @@ struct Rectangle {
 /// [Urena2013]
 class SphericalRectangle {
  public:
-  /// Projects a rectangle. Nothing if it looks small or is seen edge-on, where sampling by area is as good
-  /// and more precise.
+  /// Projects a rectangle as viewed from `point`, from either side. Nothing if its area is less than half the
+  /// squared distance of its center, or if it is viewed edge-on. Sampling by area is then as good and more
+  /// precise.
   [[nodiscard]] static std::optional<SphericalRectangle> project(const Rectangle& rectangle,
                                                                  const Imath::V3d& point);
 
+  /// Solid angle [sr].
   [[nodiscard]] double solid_angle() const { return solid_angle_; }
-  /// Parameters (u, v) of the quad for a direction uniform in the solid angle.
+  /// Parameters (u, v) in [0, 1]^2 of the quad's point in a direction that is uniform in the solid angle, by
+  /// random numbers in [0, 1)^2.
   [[nodiscard]] Imath::V2d sample(Imath::V2f u) const;
 
  private:

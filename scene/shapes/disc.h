@@ -11,6 +11,8 @@
 
 namespace abbe {
 
+/// Hit at t in (t_min, ray.t_max), on either side; t is in units of the ray's direction. The normal is that
+/// of the disc, whatever the ray's direction. Nothing for a ray in the plane.
 template <typename T>
 [[nodiscard]] std::optional<ShapeHit<T>> intersect(const Disc& disc, const BasicRay<T>& ray, T t_min) {
   const Imath::Vec3<T> normal(disc.normal);
@@ -24,6 +26,7 @@ template <typename T>
   return ShapeHit<T>{t, Imath::Vec3<T>(disc.center) + across - normal * across.dot(normal), normal};
 }
 
+/// Area of one side [m^2].
 [[nodiscard]] inline double area(const Disc& disc) {
   return std::numbers::pi * disc.radius * disc.radius;
 }
@@ -34,6 +37,7 @@ template <typename T>
   return {disc.center - half, disc.center + half};
 }
 
+/// Samples a point uniformly by area, by `u` in [0, 1]^2; the center for (0.5, 0.5).
 [[nodiscard]] inline SurfacePoint sample_area(const Disc& disc, Imath::V2f u) {
   const Imath::V2d p = Imath::V2d(concentric_disc(u)) * disc.radius;
   return {Imath::V3f(disc.center + Basis<double>(disc.normal).to_world({p.x, p.y, 0})),

@@ -10,20 +10,22 @@
 
 namespace abbe {
 
-/// A triangle at one of its edges. A vertex is identified by the first vertex at its position.
+/// A triangle at one of its edges. A vertex is identified by the index of the first vertex at its position.
 struct EdgeSide {
   std::uint32_t high;      ///< End of the edge with the higher index.
   std::uint32_t opposite;  ///< Third vertex of the triangle.
-  std::uint32_t triangle;
-  bool forward;  ///< True if the triangle's winding runs from the lower end to the higher.
+  std::uint32_t triangle;  ///< Index into `Mesh::triangles`, or that size plus an index into `Mesh::slivers`.
+  bool forward;            ///< True if the triangle's winding runs from the lower end to the higher.
 };
 
-/// The edges of a mesh's triangles. Slivers join edges too; their indices follow those of the triangles.
+/// The edges of a mesh's triangles. Slivers join edges too; their indices follow those of the triangles. A
+/// triangle with two corners at one position has no edges. The mesh need not outlive it.
 class EdgeTable {
  public:
   explicit EdgeTable(const Mesh& mesh);
 
-  /// Calls `visit` with the sides of each edge. Sides with the same third vertex are adjacent.
+  /// Calls `visit` once for each edge with a span of its sides, at least one. Sides with the same third
+  /// vertex are adjacent.
   template <typename Visit>
   void for_each(Visit&& visit) const {
     for (std::size_t low = 0; low + 1 < first_.size(); ++low)

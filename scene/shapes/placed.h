@@ -15,12 +15,12 @@
 
 namespace abbe {
 
-/// The placement of an invertible matrix.
+/// The placement by an invertible affine matrix for row vectors, without motion.
 [[nodiscard]] inline Placement placement(const Imath::M44d& to_world) {
   return {to_world, to_world.inverse()};
 }
 
-/// The placement at that time.
+/// The placement at `time`, a fraction of the exposure in [0, 1]. The result does not move.
 [[nodiscard]] inline Placement placement_at(const Placement& placement, double time) {
   if (!placement.motion) return placement;
   const Imath::M44d since_opening = placement.motion->since_opening(time);
@@ -38,8 +38,10 @@ template <typename T>
   return moved;
 }
 
-/// The ray in the coordinates in which the scene file describes the shape, recentred as the scene is, at the
-/// ray's time. Its t is the distance in the world.
+/// The ray, at its time, in the coordinates in which the scene file describes the shape, minus
+/// `Scene::origin_m`. For an instance of an object these are the object's coordinates. For any other shape
+/// they are the scene's coordinates, without the motion of the shape. A shape that is no `PlacedShape`
+/// returns the ray unchanged. The ray's t is the distance in the world.
 [[nodiscard]] inline BasicRay<double> to_description(const Shape& shape, const BasicRay<double>& ray) {
   const auto* placed = std::get_if<PlacedShape>(&shape);
   if (placed == nullptr) return ray;
@@ -57,7 +59,8 @@ template <typename T>
   return moved.normalized();
 }
 
-/// Nearest hit with an instance of a shape.
+/// Nearest hit with an instance of a shape at t in (`t_min`, ray.t_max), in world coordinates. The placement
+/// is used as it is, without its motion.
 template <typename T, typename S>
 [[nodiscard]] std::optional<ShapeHit<T>> intersect_placed(const S& shape, const Placement& placement,
                                                           const BasicRay<T>& ray, T t_min) {
@@ -67,7 +70,8 @@ template <typename T, typename S>
                      normal_to_world(placement, hit->normal)};
 }
 
-/// True if the ray comes near the box. Rounding never makes it false for a ray that hits.
+/// True if the ray, up to its `t_max`, passes through the box or within rounding of it. Rounding never makes
+/// it false for a ray that hits the box.
 template <typename T>
 [[nodiscard]] bool passes(const BasicRay<T>& ray, const Imath::Box3d& box) {
   const Imath::V3d origin(ray.origin);
@@ -86,6 +90,7 @@ template <typename T>
   return near <= far * (1 + 1e-9);
 }
 
+/// Nearest hit with an instance at t in (`t_min`, ray.t_max), with its pose at the ray's time.
 template <typename T>
 [[nodiscard]] std::optional<ShapeHit<T>> intersect(const PlacedShape& placed, const BasicRay<T>& ray,
                                                    T t_min) {
@@ -99,7 +104,7 @@ template <typename T>
                     placed.of->shape);
 }
 
-/// World positions at time 0 of the corners of the prototype's box.
+/// World positions at time 0 of the eight corners of the prototype's box.
 [[nodiscard]] inline std::vector<Imath::V3d> corners(const Prototype& prototype, const Placement& placement) {
   const std::array<Imath::V3d, 2> ends{prototype.bounds.min, prototype.bounds.max};
   std::vector<Imath::V3d> points;
@@ -109,6 +114,7 @@ template <typename T>
   return points;
 }
 
+/// World box around an instance during the whole exposure.
 [[nodiscard]] inline Imath::Box3d bounds(const PlacedShape& placed) {
   const std::vector<Imath::V3d> points = corners(*placed.of, *placed.at);
   if (placed.at->motion) return placed.at->motion->sweep(points, 0, 1);

@@ -7,6 +7,8 @@
 
 namespace abbe {
 
+/// Hit at t in (t_min, ray.t_max), on either side; t is in units of the ray's direction. The normal is that
+/// of the quad, whatever the ray's direction. Nothing for a ray in the plane.
 template <typename T>
 [[nodiscard]] std::optional<ShapeHit<T>> intersect(const Quad& quad, const BasicRay<T>& ray, T t_min) {
   const Imath::Vec3<T> edge_u(quad.edge_u);
@@ -34,11 +36,12 @@ template <typename T>
 /// The two triangles that represent a quad, as indices of `corners`.
 inline constexpr std::array<std::array<std::uint32_t, 3>, 2> kQuadTriangles{{{0, 1, 2}, {3, 2, 1}}};
 
+/// Outward unit normal.
 [[nodiscard]] inline Imath::V3d normal_of(const Quad& quad) {
   return quad.edge_u.cross(quad.edge_v).normalized();
 }
 
-/// A quad prepared for sampling: its halves are those two triangles.
+/// A quad prepared for sampling: its halves are those two triangles, with corners rounded to float.
 class RenderedQuad {
  public:
   explicit RenderedQuad(const Quad& quad) : normal_(normal_of(quad)) {
@@ -50,7 +53,7 @@ class RenderedQuad {
     halves_ = {half(0, 1, 2), half(3, 2, 1)};
   }
 
-  /// The point at (u, v).
+  /// The point at (u, v) in [0, 1]^2, on one of the halves.
   [[nodiscard]] Imath::V3d at(double u, double v) const {
     const bool first = u + v <= 1;
     const Half& half = halves_[first ? 0 : 1];
@@ -66,16 +69,19 @@ class RenderedQuad {
   Imath::V3f normal_;
 };
 
+/// Area of one side [m^2].
 [[nodiscard]] inline double area(const Quad& quad) {
   return quad.edge_u.cross(quad.edge_v).length();
 }
 
+/// Box around the corners as rounded to float.
 [[nodiscard]] inline Imath::Box3d bounds(const Quad& quad) {
   Imath::Box3d box;
   for (const Imath::V3f& corner : corners(quad)) box.extendBy(Imath::V3d(corner));
   return box;
 }
 
+/// Samples a point uniformly by area: the one at (u.x, u.y), for `u` in [0, 1]^2.
 [[nodiscard]] inline SurfacePoint sample_area(const RenderedQuad& quad, Imath::V2f u) {
   return {Imath::V3f(quad.at(static_cast<double>(u.x), static_cast<double>(u.y))), quad.normal()};
 }

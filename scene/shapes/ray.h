@@ -10,9 +10,9 @@
 
 namespace abbe {
 
-/// A ray, infinite or of length `t_max` [m], with a unit `direction`. `time` is the time of the light along
-/// it, as a fraction of the exposure of the whole film: 0 when the shutter opens, 1 when it has closed for
-/// all rows; see `Shutter`.
+/// A ray in render coordinates [m], infinite or of length `t_max` [m], with a unit `direction`. `time` is the
+/// time of the light along it, as a fraction of the exposure of the whole film: 0 when the shutter opens, 1
+/// when it has closed for all rows; see `Shutter`.
 template <typename T>
 struct BasicRay {
   Imath::Vec3<T> origin;
@@ -27,17 +27,17 @@ using Ray = BasicRay<float>;
   return {origin, direction, std::numeric_limits<float>::infinity(), time};
 }
 
-/// A direction that is unlikely to be parallel to a face of a scene. Rays along it count how often they leave
-/// a shape.
+/// A fixed unit direction that is unlikely to be parallel to a face of a scene. Rays along it count how often
+/// they leave a shape.
 template <typename T>
 [[nodiscard]] Imath::Vec3<T> askew_direction() {
   return Imath::Vec3<T>(T(0.3618), T(0.5119), T(0.7791)).normalized();
 }
 
-/// A recorded ray, and true for a shadow ray.
+/// A recorded ray.
 struct LoggedRay {
   Ray ray;
-  bool shadow;
+  bool shadow;  ///< True for a shadow ray, false for a query of the nearest hit.
 };
 
 /// Rounds a point on a ray to float towards the ray's origin. The nearest floats might lie on the next
@@ -64,7 +64,7 @@ struct LoggedRay {
 [[nodiscard]] inline float largest_coordinate(const Imath::V3f& point) {
   return std::max({std::abs(point.x), std::abs(point.y), std::abs(point.z)});
 }
-/// Offset per unit of the largest coordinate that exceeds the rounding of a point.
+/// Offset per unit of the largest coordinate of a point; it exceeds the rounding of the point.
 inline constexpr float kOffsetSteps = 4 * std::numeric_limits<float>::epsilon();
 
 /// Distance [m] from a surface at `point` at which rays that leave the surface start. Float rounding cannot
@@ -87,7 +87,8 @@ inline constexpr float kOffsetSteps = 4 * std::numeric_limits<float>::epsilon();
   return point + normal * std::copysign(offset_length(point), normal.dot(direction));
 }
 
-/// A ray that leaves the surface at `point` in `direction`, at that time of the exposure.
+/// An infinite ray that leaves the surface at `point` in the unit `direction`, at that time of the exposure.
+/// It starts at `offset_point`.
 [[nodiscard]] inline Ray spawn(const Imath::V3f& point, const Imath::V3f& normal, const Imath::V3f& direction,
                                float time) {
   return ray_at(offset_point(point, normal, direction), direction, time);

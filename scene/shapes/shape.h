@@ -16,19 +16,20 @@
 
 namespace abbe {
 
-/// The intersection of a ray and a shape. The normal is the outward geometric unit normal.
+/// The intersection of a ray and a shape. The normal is the outward geometric unit normal, whatever the ray's
+/// direction.
 template <typename T>
 struct ShapeHit {
-  T t;
+  T t;  ///< In units of the ray's direction.
   Imath::Vec3<T> point;
   Imath::Vec3<T> normal;
 };
 
-/// Triangles with shared vertices. The winding determines the normals: counter-clockwise as seen from
+/// Triangles with shared vertices [m]. The winding determines the normals: counter-clockwise as viewed from
 /// outside. Prisms become meshes too.
 struct Mesh {
   std::vector<Imath::V3d> vertices;
-  std::vector<std::array<std::uint32_t, 3>> triangles;
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< Indices of vertices; nonzero area.
   /// Texture coordinates of the corners of each triangle; none, or as many as triangles.
   std::vector<std::array<Imath::V2f, 3>> coordinates = {};
   /// Unit vertex normals of each triangle: the normals of the smooth surface that it approximates. None, or
@@ -37,17 +38,19 @@ struct Mesh {
   /// Triangles of zero area. No ray hits them, but adjacent triangles are connected through them.
   std::vector<std::array<std::uint32_t, 3>> slivers = {};
 };
+/// A sphere [m]; its normal points away from the center.
 struct Sphere {
   Imath::V3d center;
   double radius;
 };
-/// `normal` has unit length.
+/// A flat disc [m]; its outer side is that of `normal`, which has unit length.
 struct Disc {
   Imath::V3d center;
   Imath::V3d normal;
   double radius;
 };
-/// A parallelogram: corner + u edge_u + v edge_v, normal along edge_u x edge_v.
+/// A parallelogram [m]: corner + u edge_u + v edge_v for u and v in [0, 1], outward normal along edge_u x
+/// edge_v.
 struct Quad {
   Imath::V3d corner;
   Imath::V3d edge_u;
@@ -62,6 +65,7 @@ struct Prototype {
   PlainShape shape;
   Imath::Box3d bounds;
 };
+/// The prototype of a shape, with its bounding box.
 [[nodiscard]] std::shared_ptr<const Prototype> make_prototype(PlainShape shape);
 /// An invertible affine map between a prototype's coordinates and the world, for row vectors. It may mirror;
 /// normals stay outward. The maps of a moving shape are those of time 0, and `placement_at` gives the others.
@@ -79,8 +83,7 @@ struct PlacedShape {
   std::shared_ptr<const Placement> at;
 };
 
-/// Any shape. Each kind computes its nearest hit at t in (t_min, ray.t_max) in float or double.
-/// `ray.direction` may have any length; t is in units of that length.
+/// Any shape. Each kind computes its nearest hit in float or double.
 using Shape = std::variant<Mesh, Sphere, Disc, Quad, PlacedShape>;
 
 /// The shape, or the prototype of an instance, if it is an S; otherwise nullptr.
@@ -90,6 +93,8 @@ template <typename S>
   return std::get_if<S>(&shape);
 }
 
+/// Nearest hit at t in (t_min, ray.t_max); nothing if the ray misses. `ray.direction` may have any length; t
+/// is in units of that length. A moving shape is that at the ray's time. T is float or double.
 template <typename T>
 [[nodiscard]] std::optional<ShapeHit<T>> intersect(const Shape& shape, const BasicRay<T>& ray, T t_min);
 
@@ -109,11 +114,11 @@ template <typename T>
 /// Bounding box of the shape; for an instance that of its prototype's box, for a moving shape that over all
 /// times.
 [[nodiscard]] Imath::Box3d bounds(const Shape& shape);
-/// True if the surface of a static shape may intersect the box. False if they are separate, and if the box
-/// lies entirely inside a sphere, or inside a mesh away from its triangles.
+/// True if the surface of a static shape may intersect the box. False if their bounding boxes are separate,
+/// and if the box lies entirely inside a sphere, or touches no triangle's bounding box in a mesh. Instances
+/// are tested by their bounding box alone.
 [[nodiscard]] bool may_intersect(const Shape& shape, const Imath::Box3d& box);
-/// Area of the outer side of a shape [m^2]. Throws Error{internal}, as does `sample_area`, for static
-/// instances, which do not emit.
+/// Area of the outer side of a shape [m^2]. Throws Error{internal} for static instances, which do not emit.
 [[nodiscard]] double area(const Shape& shape);
 
 /// A point sampled uniformly by area on the surface as rendered: with corners rounded to float, and exact
@@ -123,7 +128,8 @@ struct SurfacePoint {
   Imath::V3f normal;
 };
 /// Samples a point of the shape by two random numbers in [0, 1); for a moving shape in its prototype's
-/// coordinates. `triangle_cdf` is the result of the function below.
+/// coordinates. `triangle_cdf` is the result of the function below for the shape. Throws Error{internal} for
+/// static instances.
 [[nodiscard]] SurfacePoint sample_area(const Shape& shape, const std::vector<float>& triangle_cdf,
                                        Imath::V2f u);
 

@@ -6,8 +6,8 @@
 
 namespace abbe {
 
-/// Repairs and remaining faults of a mesh that shall enclose a medium. Vertices at the same position count as
-/// one. Triangles that share edges in pairs form a component.
+/// Numbers of repairs and of remaining faults of a mesh that shall enclose a medium. Vertices at the same
+/// position count as one. Triangles that share edges in pairs form a component.
 struct SolidReport {
   // Repaired:
   std::size_t repeated = 0;  ///< Duplicate triangles with the same winding: removed.
@@ -23,14 +23,17 @@ struct SolidReport {
   /// Closed components that face outward inside the mesh's own medium.
   std::size_t buried = 0;
 
+  /// True if the mesh was changed.
   [[nodiscard]] bool repaired() const { return repeated + rewound + inverted > 0; }
+  /// True if the mesh, as repaired, encloses a medium everywhere: there are no faults.
   [[nodiscard]] bool encloses() const {
     return open_edges + crowded_edges + clashing_edges + back_to_back + buried == 0;
   }
 };
 
-/// Orients every closed component consistently, facing outward. A component inside the medium enclosed by
-/// others may face inward and bound a cavity. Components inside a flipped component are flipped with it.
+/// Removes repeated triangles of a mesh in place and orients every closed component consistently, facing
+/// outward. A component inside the medium enclosed by others may face inward and bound a cavity. Components
+/// inside a flipped component are flipped with it.
 [[nodiscard]] SolidReport make_solid(Mesh& mesh);
 
 /// True if two triangles of a mesh have the same corners, whatever their windings. Vertices at the same
@@ -42,9 +45,11 @@ struct SolidReport {
 /// further components.
 [[nodiscard]] double enclosed_volume(const Mesh& mesh);
 [[nodiscard]] double enclosed_volume(const Sphere& sphere);
+/// Always 0.
 [[nodiscard]] inline double enclosed_volume(const Disc&) {
   return 0;
 }
+/// Always 0.
 [[nodiscard]] inline double enclosed_volume(const Quad&) {
   return 0;
 }

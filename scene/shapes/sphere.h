@@ -9,9 +9,10 @@
 
 namespace abbe {
 
-/// Roots of |o + t d - c| = r. The discriminant uses the distance between center and line, and the smaller
-/// root follows from the product of both. This avoids cancellation for distant and large spheres. The point
-/// is projected back to the sphere. [Haines2019]
+/// Nearest hit at t in (t_min, ray.t_max), from outside or inside; t is in units of the ray's direction. It
+/// solves |o + t d - c| = r. The discriminant uses the distance between center and line, and the smaller root
+/// follows from the product of both. This avoids cancellation for distant and large spheres. The point is
+/// projected back to the sphere. [Haines2019]
 template <typename T>
 [[nodiscard]] std::optional<ShapeHit<T>> intersect(const Sphere& sphere, const BasicRay<T>& ray, T t_min) {
   const Imath::Vec3<T> center(sphere.center);
@@ -31,6 +32,7 @@ template <typename T>
   return ShapeHit<T>{t, center + normal * radius, normal};
 }
 
+/// Area [m^2].
 [[nodiscard]] inline double area(const Sphere& sphere) {
   return 4 * std::numbers::pi * sphere.radius * sphere.radius;
 }
@@ -40,6 +42,7 @@ template <typename T>
   return {sphere.center - r, sphere.center + r};
 }
 
+/// Samples a point uniformly by area, by `u` in [0, 1]^2: u.x runs from +z to -z, u.y along the longitude.
 [[nodiscard]] inline SurfacePoint sample_area(const Sphere& sphere, Imath::V2f u) {
   const double z = 1 - 2 * static_cast<double>(u.x);
   const double ring = std::sqrt((1 - z) * (1 + z));

@@ -9,18 +9,21 @@
 
 namespace abbe {
 
-/// Triangles that represent a shape, in float as Embree uses them.
+/// Triangles that represent a mesh or quad, in float as Embree uses them, in the coordinates of the shape
+/// [m].
 struct TriangleSet {
   std::vector<Imath::V3f> vertices;
   std::vector<std::array<std::uint32_t, 3>> triangles;
-  /// One per triangle, from the unrounded vertices; empty in a prototype.
+  /// Outward unit normals, one per triangle, from the unrounded vertices; empty in a prototype.
   std::vector<Imath::V3f> normals;
   bool is_quad = false;  ///< True if the two triangles are halves of a parallelogram.
 };
 
+/// The triangles of a mesh or quad without normals.
 [[nodiscard]] TriangleSet triangles_of(const Mesh& mesh);
 [[nodiscard]] TriangleSet triangles_of(const Quad& quad);
-/// Unit normal of a triangle of a mesh or quad, from the unrounded vertices.
+/// Outward unit normal of a triangle of a mesh or quad, from the unrounded vertices. Other shapes are not
+/// allowed.
 [[nodiscard]] Imath::V3d triangle_normal(const PlainShape& shape, std::size_t triangle);
 /// The triangles of a mesh or quad with their normals.
 [[nodiscard]] TriangleSet with_normals(const Mesh& mesh);
@@ -37,6 +40,7 @@ struct TriangleSet {
   return (origin - ray.origin).dot(normal) / ray.direction.dot(normal);
 }
 
+/// Memory in bytes of the lists.
 [[nodiscard]] std::size_t memory_bytes_of(const TriangleSet& set);
 
 /// Displacement that moves a point within its triangle to the distance `clear` from its edges, as far as
