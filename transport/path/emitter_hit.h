@@ -8,8 +8,9 @@
 
 namespace abbe {
 
-/// Attenuates a path that leaves the scene and calls `visit` with a `LightVertex` for every light at infinity
-/// visible along its ray.
+/// Calls `visit` with a `LightVertex` for every environment light and sun visible along the ray of a path
+/// that leaves the scene. If the scene has such lights, first attenuates the path's throughput over the rest
+/// of the ray, by the medium around it.
 template <typename Visit>
 void visit_escaped_lights(const Scene& scene, PathState& path, Visit visit) {
   if (scene.background().empty()) return;
@@ -21,8 +22,8 @@ void visit_escaped_lights(const Scene& scene, PathState& path, Visit visit) {
   }
 }
 
-/// Light vertex of an emitting surface that a ray with the unit direction `direction` hits; nothing if it
-/// does not emit towards the ray.
+/// Light vertex of the surface that a ray with the unit direction `direction` hits; nothing if it is no
+/// light, or does not emit towards the ray's origin.
 [[nodiscard]] inline std::optional<LightVertex> emitter_hit(const Scene& scene, const SurfaceHit& hit,
                                                             const Imath::V3f& direction) {
   const std::int32_t light = scene.shapes[hit.shape].light;

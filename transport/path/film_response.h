@@ -15,32 +15,33 @@
 
 namespace abbe {
 
-/// Total exposure of the film, by light group.
+/// Total exposure of the film, by group of lights.
 struct ExposureByLight {
   std::vector<std::uint32_t> group;  ///< Group of each light of the scene.
   /// Weight of each channel's film value; with a mosaic, of the value of the pixel's only plane.
   std::vector<double> weight;
   std::vector<double> exposure;  ///< Per group: sum of |film value| times its weight.
 
+  /// Adds the film values of one contribution of a light, one per weight. Values that are not finite are
+  /// ignored.
   void add(std::uint32_t light, std::span<const double> values) {
     for (std::size_t k = 0; k < values.size(); ++k)
       if (std::isfinite(values[k])) exposure[group[light]] += weight[k] * std::abs(values[k]);
   }
 };
 
-/// Point and time at which light arrives at the film: pixel, cosine of the angle of incidence, and time
-/// as a fraction of the exposure.
+/// Point and time at which light arrives at the film.
 struct FilmPoint {
-  int x = 0;
-  int y = 0;
-  float cos_film = 1;
-  float time = 0;
+  int x = 0;           ///< Column of the pixel, from the left edge of the whole film.
+  int y = 0;           ///< Row of the pixel, from the top edge of the whole film.
+  float cos_film = 1;  ///< Cosine of the angle of incidence.
+  float time = 0;      ///< Fraction of the exposure of the whole film; see `BasicRay`.
   /// Film position of each wavelength sample; nullptr unless the lens disperses them.
   const WavelengthImages* images = nullptr;
 };
 
-/// Weight of the shutter, per wavelength, at the film row on which that wavelength falls; see
-/// `Shutter::weight`.
+/// Weight of the shutter at the time `time` (see `BasicRay`), per wavelength, at the film row on which that
+/// wavelength falls; see `Shutter::weight`.
 [[nodiscard]] inline SampledSpectrum shutter_weights(const Shutter& shutter, const WavelengthImages& images,
                                                      float time) {
   SampledSpectrum::Values open{};
@@ -65,28 +66,30 @@ struct FilmPoint {
 }
 
 /// Corrects the sampled time for a lens that disperses wavelengths. The time was drawn with the opening of
-/// the point's own row as its pdf (`Shutter::draw`). Returns, per wavelength, the shutter weight of its row
+/// the point's own row as its pdf (`Shutter::sample`). Returns, per wavelength, the shutter weight of its row
 /// over that of the own row. The ratio is both the weight and the relative pdf of the time. Zero if the own
-/// row is closed.
+/// row is closed. `at.images` must not be null.
 [[nodiscard]] inline SampledSpectrum relative_shutter_weights(const Shutter& shutter, const FilmPoint& at) {
   const float own = shutter.weight(at.y, at.time);
   return own > 0 ? shutter_weights(shutter, *at.images, at.time) / SampledSpectrum(own) : SampledSpectrum();
 }
 
-/// Origin of a contribution: its light, and the number of scattering events between the light and the camera
-/// or probe.
+/// Origin of a contribution to the film.
 struct ContributionInfo {
-  std::uint32_t light;
-  int depth;
-  /// Pdf of the path by path tracing over the summed pdfs of all strategies that can sample it.
+  std::uint32_t light;  ///< Index into `Scene::lights`.
+  int depth;            ///< Number of scattering events between the light and the camera or probe.
+  /// Pdf of the path by path tracing over the summed pdfs of all strategies that can sample it. May exceed 1;
+  /// see `StrategyWeights::path_tracing_fraction`.
   float path_tracing_fraction = 1;
   std::uint32_t branch = 0;  ///< `LightPath::branch` of the photon; 0 for other integrators.
 };
 
-/// Receives the film values, one per plane, that path number `path` adds to a pixel.
+/// Receives the film values, one per plane, that a path adds to the pixel of `at`. `path` is the index of the
+/// sample or photon in the list that the integrator traces. `values` and `at.images` are valid during the
+/// call only.
 using Deposit = std::function<void(std::uint32_t path, const FilmPoint& at, std::span<const double> values)>;
 
-/// Receives the film values of each contribution separately.
+/// Receives the film values of each contribution separately; arguments as for `Deposit`.
 using ContributionDeposit = std::function<void(std::uint32_t path, const FilmPoint& at,
                                                const ContributionInfo& info, std::span<const double> values)>;
 
@@ -100,6 +103,8 @@ using ContributionDeposit = std::function<void(std::uint32_t path, const FilmPoi
 /// 0).
 class FilmResponse {
  public:
+  /// Response of these channels; channels and mosaic must outlive it. Without a mosaic (nullptr), each
+  /// channel is a plane of every pixel.
   explicit FilmResponse(std::span<const Channel> channels, const Mosaic* mosaic = nullptr)
       : sensor_(channels),
         mosaic_(mosaic),
@@ -118,8 +123,10 @@ class FilmResponse {
   [[nodiscard]] bool polarised() const { return polarised_; }
 
   /// Calls `deposit` for each pixel on which wavelengths of a contribution fall, with its `planes()` film
-  /// values. The contribution must already be divided by the balance over wavelengths and techniques. If
-  /// every wavelength is zero, `deposit` is called once, with zeros.
+  /// values. `contribution` is a `SampledSpectrum` or a `StokesSpectrum`, already weighted by the balance
+  /// over wavelengths and techniques. It is not yet divided by the pdf of the wavelengths. If every
+  /// wavelength is zero, `deposit` is called once, with zeros. `deposit` takes the arguments of `Deposit`
+  /// except `path`.
   template <typename Contribution, typename DepositAt>
   void expose(const FilmPoint& at, const SampledWavelengths& wavelengths, const Contribution& contribution,
               DepositAt deposit) {

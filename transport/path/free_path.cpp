@@ -73,7 +73,9 @@ Imath::V3f other_point_along(const Ray& ray, float distance, float end, const Im
 }
 
 // Advances the path through its medium along `ray`, until the medium ends or the hero's optical `depth` is
-// used up. Returns true if the path scatters in the medium.
+// used up. Returns true if the path scatters in the medium. Otherwise `depth` is reduced by the depth passed.
+// Throughput and pdfs advance by the factors of `pass`, which omit a common factor. Pdfs that were stored
+// earlier are multiplied by its reciprocal, so that all have one unit. Only homogeneous media have a segment.
 bool scatters_in_medium(PathState& path, const Ray& ray, const std::optional<SurfaceHit>& hit, float& depth,
                         const SegmentVisitor& visitor) {
   const MediumAt& medium = path.media.medium;

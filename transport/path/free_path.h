@@ -15,26 +15,30 @@ namespace abbe {
   return scene.features.scattering || scene.features.boundaries;
 }
 
-/// Point at `distance` along a ray. The ray ends at `end`, possibly infinity, on a surface with the unit
-/// normal `end_normal`, which is 0 if it ends at no surface. A point too close to that surface is moved away
-/// by the offset with which rays leave it. Rounding might otherwise put it behind the surface.
+/// Point at `distance` [m] along a ray, rounded towards its origin. The ray ends at the distance `end` [m],
+/// possibly infinity, on a surface with the unit normal `end_normal`, which is 0 if it ends at no surface. A
+/// point too close to that surface is moved away by the offset with which rays leave it. Rounding might
+/// otherwise put it behind the surface.
 [[nodiscard]] Imath::V3f point_along(const Ray& ray, float distance, float end, const Imath::V3f& end_normal);
 
 /// Event at which a path segment ends.
 enum class SegmentEnd : std::uint8_t {
-  escape,  ///< The path leaves the scene.
-  surface,
-  medium,  ///< The path scatters in a medium.
-  hidden,  ///< The continuation might start behind a wall (`Scene::hides_beyond`); the path ends.
+  escape,   ///< The path leaves the scene.
+  surface,  ///< The path hits a surface that is more than a medium boundary.
+  medium,   ///< The path scatters in a medium.
+  /// The path ends at a medium boundary: behind it the path might start behind an opaque surface that crosses
+  /// the boundary or ends at it (`Scene::transmission_may_leak`).
+  hidden,
 };
 
 /// Receives each homogeneous scattering segment that a path enters, with the state at the segment's origin.
 using SegmentVisitor = std::function<void(const MediumSegment&)>;
 
 /// Advances a path along its ray to its next event: on a surface, in a scattering medium, or out of the
-/// scene. `hit` is the nearest hit of the ray, and becomes the surface of the event. Medium boundaries are
-/// crossed. The ray's origin changes only if a medium scatters the path: then it is the position of the
-/// event.
+/// scene. Updates throughput, pdfs and media, and crosses medium boundaries. `hit` is the nearest hit of the
+/// ray. For `SegmentEnd::surface` it becomes the surface of the event, with the distance from the ray's
+/// origin. The origin changes only for `SegmentEnd::medium`: then it is the position of the event. `visitor`
+/// may be empty. Throws Error{resource} if more than `MediumStack::kMaxShapes` media nest.
 ///
 /// The hero draws its optical depth to the next scattering from e^-depth with `u` in [0, 1)^2; the second
 /// number supplies further digits of the first. Let s_k be the extinction of wavelength k and x the distance.
@@ -44,16 +48,20 @@ using SegmentVisitor = std::function<void(const MediumSegment&)>;
                                    PathState& path, std::optional<SurfaceHit>& hit,
                                    const SegmentVisitor& visitor = {});
 
-/// Transmittance of an unoccluded segment and probability that `propagate` passes it without an event, per
-/// wavelength.
+/// Attenuation of light along an unoccluded segment, per wavelength.
 struct Transmission {
-  SampledSpectrum transmittance{1.0F};
+  SampledSpectrum transmittance{1.0F};  ///< Fraction neither absorbed nor scattered, in [0, 1].
+  /// Probability that `propagate` passes the segment without an event; media that only absorb do not reduce
+  /// it.
   SampledSpectrum pdf{1.0F};
 };
-/// Evaluates the first `distance` [m] of a ray that starts in `media`; `distance` may be infinite.
+/// Evaluates the first `distance` [m] of a ray that starts in `media`, across medium boundaries; `distance`
+/// may be infinite. The ray must hit no other surface before. Throws Error{resource} if more than
+/// `MediumStack::kMaxShapes` media nest.
 [[nodiscard]] Transmission transmission(const Scene& scene, RayCaster& caster, Ray ray, MediumState media,
                                         const SampledSpectrum& wavelengths_nm, float distance);
-/// Tests a shadow ray first. Returns nothing if it is occluded, otherwise the transmission along `ray`.
+/// Tests `shadow_ray` first. Returns nothing if it is occluded, otherwise `transmission` along the first
+/// `distance` [m] of `ray`, which runs along the same segment. Throws as `transmission`.
 [[nodiscard]] std::optional<Transmission> unblocked_transmission(const Scene& scene, RayCaster& caster,
                                                                  const BasicRay<double>& shadow_ray,
                                                                  const Ray& ray, const MediumState& media,

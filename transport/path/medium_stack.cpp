@@ -47,6 +47,7 @@ struct Crossings {
   std::uint32_t by = 0;
 };
 
+// Crossings of each body with a medium by the ray from `from` along the unit vector `direction`.
 std::map<Body, Crossings> crossings(const Scene& scene, const Imath::V3f& from, const Imath::V3f& direction,
                                     float time) {
   std::map<Body, Crossings> found;

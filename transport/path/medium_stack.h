@@ -9,23 +9,31 @@
 
 namespace abbe {
 
-/// Medium stack: the closed shapes with a medium that contain a point of a path, ordered by priority. Among
-/// equals the order is from the largest volume to the smallest, then that of the scene. A shape that encloses
-/// no volume by itself, such as a face of a body, ranks above equals entered before it. The current medium is
-/// that of the last shape; an empty stack is air.
+/// Medium stack: the shapes with a medium that contain a point of a path, by their indices in
+/// `Scene::shapes`. The current medium is that of the last shape; an empty stack is air. The shapes are in
+/// the order of
+/// - ascending priority;
+/// - at equal priority, descending volume;
+/// - at equal volume, ascending index.
+///
+/// A shape without a volume of its own, such as one face of a body, is ordered by entry among shapes of equal
+/// priority. It comes later in the list than those entered before it, so its medium becomes the current one
+/// unless a shape of higher priority contains the point.
 class MediumStack {
  public:
   /// Maximum number of shapes.
   static constexpr std::size_t kMaxShapes = 16;
 
   [[nodiscard]] bool empty() const { return count_ == 0; }
-  /// Shape whose medium is the current one. The stack must not be empty.
+  /// Index of the shape whose medium is the current one. The stack must not be empty.
   [[nodiscard]] std::uint32_t innermost() const { return shapes_[count_ - 1]; }
+  /// Indices of all shapes, the innermost last. Valid while the stack is not changed.
   [[nodiscard]] std::span<const std::uint32_t> shapes() const { return {shapes_.data(), count_}; }
 
-  /// Records that the path crosses the surface of `shape`, entering or leaving it. Nothing changes if the
-  /// path is on that side already, as with a surface that is not closed. Throws Error{resource} for
-  /// more than `kMaxShapes` shapes.
+  /// Records that the path crosses the surface of `shape`, entering or leaving it. Leaving removes
+  /// `entry_of(scene, shape)`. Nothing changes if the path is on that side already, as with a surface that is
+  /// not closed, or if the shape has no medium. Throws Error{resource} if the stack has `kMaxShapes` shapes
+  /// already.
   void cross(const Scene& scene, std::uint32_t shape, bool entering) {
     if (entering)
       enter(scene, shape);
@@ -33,8 +41,9 @@ class MediumStack {
       leave(scene, shape);
   }
 
-  /// Shape by which the body of `shape` was entered: `shape` itself, otherwise the innermost shape of its
-  /// material, because a body may consist of several shapes. Nothing if there is none.
+  /// Shape of the stack by which the body of `shape` was entered: `shape` itself if it is in the stack,
+  /// otherwise the innermost shape of its material, because a body may consist of several shapes. Nothing if
+  /// there is none.
   [[nodiscard]] std::optional<std::uint32_t> entry_of(const Scene& scene, std::uint32_t shape) const;
 
  private:
@@ -45,17 +54,20 @@ class MediumStack {
   std::size_t count_ = 0;
 };
 
-/// Medium stack of a point at a time, found with a ray from the point and its opposite. A shape contains the
-/// point if both rays leave it more often than they enter it. All shapes of one material that enclose no
-/// volume count together, represented by the one that the ray leaves last.
+/// Medium stack of a point at a time (fraction of the exposure), found with a ray from the point and its
+/// opposite. A shape contains the point if both rays leave it more often than they enter it. All shapes of
+/// one material that enclose no volume count together, represented by the one that the first ray leaves last.
+/// Throws Error{resource} if more than `MediumStack::kMaxShapes` shapes contain the point.
 [[nodiscard]] MediumStack enclosing_media(const Scene& scene, const Imath::V3f& point, float time = 0);
-/// Medium stack of the scene's camera (its lens, or the center of its probe) or of a light, at time 0. A
-/// distant light and a light at infinity are outside all shapes. Returns nothing for a light whose corners
-/// are in other media than its center.
+/// Medium stack at the center of the camera's lens or of its probe, at time 0. Throws as `enclosing_media`.
 [[nodiscard]] MediumStack media_at_camera(const Scene& scene);
+/// Medium stack at the center of a light, at time 0; empty for a distant light and a light at infinity.
+/// Returns nothing for an area light whose corners are in other media than its center. Throws as
+/// `enclosing_media`.
 [[nodiscard]] std::optional<MediumStack> media_at_light(const Scene& scene, const Light& light);
-/// True if the media of points in the box may depend on time, or on the position within the box. Set `moves`
-/// if the points themselves move or are spread over the box.
+/// True if the media of points in a world-space box [m] may depend on time, or on the position within the
+/// box. Set `moves` if the points themselves move or are spread over the box. Conservative: true also for
+/// some boxes in which nothing changes.
 [[nodiscard]] bool media_may_change(const Scene& scene, const Imath::Box3d& box, bool moves);
 
 }  // namespace abbe

@@ -7,9 +7,9 @@
 namespace abbe {
 
 /// BSDF [1/sr] with which a surface scatters photon flux that arrived nearby towards the vertex's own path.
-/// `from` is the unit direction to the photon's origin, `normal` the geometric normal at the photon. On a
-/// relief the value is multiplied by the shading cosine over the geometric one, by which flux arrives. 0 if
-/// the photon is on another side or face.
+/// `from` is the unit direction to the photon's origin, `normal` the outward geometric normal at the photon.
+/// On a relief the value is multiplied by the shading cosine of `from` over the geometric one, by which flux
+/// arrives. 0 if the normals differ by more than 60 degrees, because the photon is then on another face.
 [[nodiscard]] inline SampledSpectrum merged_scattering(const SurfaceVertex& vertex, const Imath::V3f& from,
                                                        const Imath::V3f& normal) {
   constexpr float kSameFace = 0.5F;  // minimum cosine between two normals
@@ -19,8 +19,9 @@ namespace abbe {
   return vertex.relief ? outgoing.f * (std::abs(outgoing.wi.z) / cos_incident) : outgoing.f;
 }
 
-/// Stokes vector that a camera path with the polarisation `eye` measures of photon flux with the polarisation
-/// `light`, relative to an unpolarised estimate. Nothing if the path carries no polarisation.
+/// Stokes vector that a camera path with the polarisation `eye` measures of photon flux that `vertex`
+/// scatters, relative to an unpolarised estimate. `light` is the polarisation of the flux, and `from` the
+/// unit direction to its origin. Nothing if `eye` is empty; otherwise `light` must not be empty.
 [[nodiscard]] inline std::optional<StokesSpectrum> merged_polarisation(const SurfaceVertex& vertex,
                                                                        const CarriedPolarisation& eye,
                                                                        const Imath::V3f& from,

@@ -9,20 +9,21 @@ namespace abbe {
 /// direction: scattering and next-event estimation [Veach1997, eq. 9.8] [Wilkie2014, eq. 6]:
 ///     w f / P_hero = [f / P_hero] / sum_k (P_k / P_hero) (s_k + c).
 /// P_k is the pdf of the path up to its last vertex if wavelength k is the hero. s_k is the scattering pdf of
-/// the direction, c the pdf of the connection, equal for all wavelengths.
+/// the direction, c the pdf of the connection, both [1/sr] for a direction. c is equal for all wavelengths.
 ///
 /// A contribution by scattering is multiplied by this weight. A contribution by connection is an estimate f/c
 /// over the throughput; it is multiplied by this weight instead of being divided by c, because the c of w
 /// f/(P_hero c) cancels.
 ///
 /// `scattered` is P_k s_k and `path_pdf` the sum of P_k, both in the unit of the path's throughput: P_hero
-/// before it scatters, P_hero s_hero after.
+/// before it scatters, P_hero s_hero after. The result is infinite if all pdfs are 0.
 [[nodiscard]] inline float mis_weight(const SampledSpectrum& scattered, float connection_pdf,
                                       float path_pdf) {
   return 1 / (scattered.sum() + connection_pdf * path_pdf);
 }
 
-/// Balance heuristic over wavelengths alone, for a path with a single technique: 1 / sum_k P_k.
+/// Balance heuristic over wavelengths alone, for a path with a single technique: 1 / sum_k P_k / P_hero.
+/// `lane_pdf` is that of `PathPacket`; one wavelength at least must have a positive one.
 [[nodiscard]] inline float lane_balance(const SampledSpectrum& lane_pdf) {
   return 1 / lane_pdf.sum();
 }
@@ -46,7 +47,7 @@ class LightWeights {
       : lights_(sampling.lights),
         balances_(sampling.lights == LightStrategy::mis && sampling.heuristic == MisHeuristic::balance) {}
 
-  /// True if next-event estimation contributes.
+  /// True if next-event estimation contributes: for every strategy but `LightStrategy::bsdf`.
   [[nodiscard]] bool connects() const { return lights_ != LightStrategy::bsdf; }
   /// Weight of emission that the path hit by scattering. Arguments as for `mis_weight`.
   [[nodiscard]] float emission_weight(const SampledSpectrum& scattered, float connection_pdf,

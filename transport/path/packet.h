@@ -17,16 +17,17 @@ namespace abbe {
 /// the choices.
 struct PathPacket {
   SampledWavelengths wavelengths;
-  SampledSpectrum throughput{1.0F};  ///< f_j / P_hero.
-  SampledSpectrum lane_pdf{1.0F};    ///< P_k / P_hero; 0 for a wavelength that cannot follow the path.
-  int hero = 0;
+  SampledSpectrum throughput{1.0F};       ///< f_j / P_hero.
+  SampledSpectrum lane_pdf{1.0F};         ///< P_k / P_hero; 0 for a wavelength that cannot follow the path.
+  int hero = 0;                           ///< Index of the hero, 0 to kLanes - 1.
   CarriedPolarisation polarisation = {};  ///< Empty in scenes that need no polarisation.
 
-  /// The hero if no other wavelength can follow the path.
+  /// Index of the hero if no other wavelength can follow the path; nothing if one can.
   [[nodiscard]] std::optional<int> lone_lane() const {
     return lane_pdf.sum() == lane_pdf[hero] ? std::optional(hero) : std::nullopt;
   }
-  /// Largest throughput of a wavelength; independent of which one is the hero.
+  /// Largest throughput over the largest pdf, max_j f_j / max_k P_k; independent of which wavelength is the
+  /// hero.
   [[nodiscard]] float throughput_estimate() const { return throughput.max() / lane_pdf.max(); }
 };
 
@@ -50,18 +51,19 @@ inline void advance(PathPacket& packet, const SampledSpectrum& weight, const Sam
 inline void advance(PathPacket& packet, const BsdfSample& event) {
   advance(packet, event.weight, event.lane_pdf);
 }
-/// Fraction of a packet's throughput that an event preserves; independent of which wavelength is the hero.
+/// Factor by which an event changes `PathPacket::throughput_estimate` if all wavelengths had equal
+/// throughputs and pdfs before; independent of which wavelength is the hero.
 [[nodiscard]] inline float event_throughput(const BsdfSample& event) {
   return event.weight.max() / event.lane_pdf.max();
 }
-/// Applies an event to the polarisation of a packet that carries one. `matrix` is empty if the event
-/// depolarises. `travels` is the direction of the light on the side of the event from which the packet came.
-/// Corrects the throughput from unpolarised to polarised light.
+/// Applies an event to the polarisation of a packet, which must carry one. `matrix` is empty if the event
+/// depolarises. `travels` is the unit direction of the light on the side of the event from which the packet
+/// came. Corrects the throughput from unpolarised to polarised light.
 inline void polarise(PathPacket& packet, const std::optional<MuellerMatrix>& matrix,
                      const Imath::V3f& travels, TransportMode mode) {
   packet.throughput *= packet.polarisation->pass(matrix, travels, mode);
 }
-/// Divides the throughput by a survival probability, equal for all wavelengths.
+/// Divides the throughput by a survival probability in (0, 1], equal for all wavelengths.
 inline void survive(PathPacket& packet, float probability) {
   packet.throughput *= 1 / probability;
 }

@@ -40,8 +40,9 @@ namespace abbe {
 /// - `splits_wavelengths()`: true if paths split into their wavelengths at smooth dispersive glass.
 /// - `connects_equiangular()` and `connect_equiangular(path, segment, u)`: a connection from a point along a
 ///   homogeneous scattering segment, before the event that ends it.
-/// - `adds_path(path)`: a random number in [0, 1) for roulette if a second path leaves the current vertex.
-///   `scatter_added(path, vertex)` turns a copy of the path into the second one and returns its event.
+/// - `adds_path(path)`: a random number in [0, 1) for roulette if a second path leaves the current vertex,
+///   otherwise nothing. `scatter_added(path, vertex)` turns a copy of the path into the second one and
+///   returns its event; nothing ends it.
 ///
 /// A technique that computes the pdf of every event itself sets `kSamplesPolarised` to false.
 template <typename T>
@@ -91,24 +92,29 @@ inline constexpr float kRouletteExponent = kPathRouletteExponent;
 inline constexpr BsdfRandom kRefracted{0x1.fffffep-1F, {0, 0}};
 
 /// Batch of paths that take each step together: their rays are traced as a stream, then each path is updated
-/// independently of the others.
+/// independently of the others. One instance per thread.
 template <typename Technique>
 class PathBatch {
  public:
   using Path = typename Technique::Path;
 
+  /// Scene and caster must outlive the batch.
   PathBatch(const Scene& scene, RayCaster& caster)
       : scene_(scene),
         caster_(caster),
         has_free_paths_(abbe::has_free_paths(scene)),
         max_depth_(depth_limit(scene.render)) {}
 
-  /// Paths of the batch; `active()` has the indices of those that have not ended.
+  /// Paths of the batch. The technique starts them with ray, packet and media, before `run`. Paths that split
+  /// off are appended.
   [[nodiscard]] std::vector<Path>& paths() { return paths_; }
+  /// Indices in `paths()` of those that have not ended; the technique adds those that it starts.
   [[nodiscard]] std::vector<std::uint32_t>& active() { return active_; }
+  /// True if paths may have events between surfaces; see the function of that name.
   [[nodiscard]] bool has_free_paths() const { return has_free_paths_; }
 
-  /// Traces all active paths to their ends.
+  /// Traces all active paths, and those that split off, to their ends. `active()` is then empty. Throws
+  /// Error{resource} if more than `MediumStack::kMaxShapes` media nest.
   void run(Technique& technique) {
     static_assert(PathTechnique<Technique>);
     append_children();
@@ -116,7 +122,7 @@ class PathBatch {
   }
 
   /// Scatters a path at a vertex, after connecting it if the surface is not specular. Returns true if the
-  /// path continues.
+  /// path continues; paths that split off continue in the next step.
   bool scatter_at(Technique& technique, Path& path, const SurfaceVertex& vertex) {
     technique.prepare_scatter(path, vertex);
     const auto [u, v] = path.sampler.two_groups(scattering_group(path.depth));
@@ -312,7 +318,7 @@ class PathBatch {
     const PhaseFunction& phase = path.media.medium.scattering->phase;
     const auto [u, v] = path.sampler.two_groups(scattering_group(path.depth));
     technique.connect_in_medium(path, phase, v);
-    path.free_path_u.emplace(u[2], v[3]);  // of v[3] only the digits that extend u[2] matter
+    path.free_path_u.emplace(u[2], v[3]);  // of v[3] only the digits that extend u[2] are used
     path.prev_context = {path.ray.origin, std::nullopt};
     path.ray.direction = sample_phase_direction(path, phase, {u[0], u[1]});
     return survives_roulette(path, technique.survival_weight_in_medium(path), kPathRouletteExponent, u[3]);

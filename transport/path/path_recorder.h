@@ -18,20 +18,22 @@ namespace abbe {
 
 /// Emission that a recorded path hit.
 struct EmitterHit {
-  std::size_t vertex_count;  ///< Number of the path's vertices before the hit.
-  PathVertex vertex;
+  std::size_t vertex_count;  ///< Number of vertices of the path before the hit.
+  PathVertex vertex;         ///< Vertex on the light, which `RecordedPath::vertices` does not contain.
 };
 
 /// Path that stores its vertices.
 struct RecordedPath : PathState {
   using PathState::PathState;
-  std::vector<PathVertex> vertices;
+  std::vector<PathVertex> vertices;  ///< Vertices from the start of the path on; empty if it was not started.
   std::vector<EmitterHit> emitter_hits;  ///< Filled for camera paths only.
-  /// Pdf [1/sr], per wavelength, with which the last vertex sampled the ray. For a direction of a delta
-  /// distribution see `PathRecorder`.
+  /// Pdf, per wavelength, with which the last vertex sampled the ray: of its direction [1/sr], or of its
+  /// position [1/m^2] if that vertex is a light at infinity. For a delta distribution see `PathRecorder`.
   SampledSpectrum direction_pdf{1.0F};
-  float initial_throughput = 1;  ///< Reference for the throughput in roulette.
-  float eta_scale = 1;  ///< Factor by which refraction has reduced radiance; roulette ignores that reduction.
+  float initial_throughput = 1;  ///< `PathPacket::throughput_estimate` at the start, for roulette.
+  /// Product of `SurfaceVertex::squared_eta` over the events; it undoes the reduction of radiance by
+  /// refraction.
+  float eta_scale = 1;
   /// True if the path has returned to the position of its last vertex, within float resolution.
   bool is_stuck = false;
 
@@ -42,8 +44,9 @@ struct RecordedPath : PathState {
 };
 
 /// Traces paths and stores their vertices for connection by other techniques: camera paths, which carry
-/// radiance, or light paths, which carry power. Vertices in a medium at which the path ends are not stored. A
-/// path ends if it returns to the position of its last vertex, within float resolution.
+/// radiance, or light paths, which carry power. A path ends if it returns to the position of its last vertex,
+/// within float resolution. Such a vertex is not stored, nor one on a black surface or at the maximum depth.
+/// One instance per thread.
 ///
 /// The pdfs of a vertex are, per wavelength,
 ///     pdf_forward(x_i) = p(w_i) dw/dA pass,
@@ -52,35 +55,37 @@ struct RecordedPath : PathState {
 /// probability of passing the media between the vertices. At a vertex in a medium it includes the pdf of an
 /// event there, e^(-depth) s_k with the extinction s_k. [Veach1997, sec. 10.2]
 ///
-/// For a delta distribution p is the event's `delta_density`, equal in both directions: the factor of a Dirac
-/// distribution over directions towards the light. The distribution over directions towards the camera, which
-/// a path from there would sample, has that factor times
-///     dw_light/dw_camera = (n_c^2 |cos_c|)/(n_l^2 |cos_l|).
-/// The pdfs of all strategies are thus in one measure.
+/// A delta event has a Dirac distribution over directions, and p is its factor:
+/// - p = `delta_density` of the event for the direction towards the light, which camera paths sample;
+/// - p = `delta_density` dw_light/dw_camera for the direction towards the camera, which light paths sample.
+/// Here dw_light/dw_camera = (n_c^2 |cos_c|)/(n_l^2 |cos_l|) is the ratio of solid angles that refraction
+/// relates. With it the pdfs of all strategies are in one measure.
 template <TransportMode mode>
 class PathRecorder {
  public:
   using Path = RecordedPath;
   static constexpr TransportMode kMode = mode;
 
+  /// Scene and caster must outlive the recorder.
   PathRecorder(const Scene& scene, RayCaster& caster)
       : scene_(scene), caster_(caster), batch_(scene, caster) {}
 
-  /// All paths. A path to be traced needs its ray, packet, media, first vertex and `direction_pdf`; other
-  /// paths have no vertex.
+  /// All paths. A path to be traced needs its ray, packet, media, first vertex and `direction_pdf`. Paths
+  /// without a vertex are not traced.
   [[nodiscard]] std::vector<RecordedPath>& paths() { return batch_.paths(); }
-  /// Traces all paths to their ends.
+  /// Traces all paths to their ends. Throws as `PathBatch::run`.
   void run() {
     for (std::uint32_t i = 0; i < paths().size(); ++i)
       if (!paths()[i].vertices.empty()) batch_.active().push_back(i);
     batch_.run(*this);
   }
 
-  /// Pdf, per wavelength, of a sampled direction and of the reverse direction to the previous vertex.
+  /// Pdfs [1/sr], per wavelength: `forward` of a sampled direction, `reverse` of the direction to the
+  /// previous vertex if the path came from the next one.
   struct DirectionPdfs {
     SampledSpectrum forward, reverse;
   };
-  /// Pdfs of a delta event.
+  /// Pdfs of a delta event: the factors p of its Dirac distributions (see the class).
   [[nodiscard]] static DirectionPdfs single_direction(const SurfaceVertex& vertex, const BsdfSample& event,
                                                       int hero) {
     const float eta2 = vertex.squared_eta(event, hero);

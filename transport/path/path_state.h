@@ -14,9 +14,11 @@ namespace abbe {
 /// Homogeneous scattering segment of a ray, from its origin, with the path's state there.
 struct MediumSegment {
   Ray ray;
-  float length = 0;    ///< Length [m], which may be infinite; 0 if there is no segment.
-  float path_pdf = 0;  ///< Sum of the lane pdfs at its origin, in the unit of the path's throughput.
-  Imath::V3f end_normal{0, 0, 0};  ///< Unit normal of the surface at its end; 0 if there is none.
+  float length = 0;  ///< Length [m], which may be infinite; 0 if there is no segment.
+  /// Sum over wavelengths of the path's pdf up to the origin, for `mis_weight`. Like the throughput it is
+  /// relative to the pdf with which the hero wavelength sampled the path.
+  float path_pdf = 0;
+  Imath::V3f end_normal{0, 0, 0};  ///< Unit normal of the surface at its end; (0, 0, 0) if there is none.
 };
 
 /// Number of paths in a batch; their states fit into a near cache.
@@ -41,13 +43,15 @@ struct PathState {
   std::optional<Imath::V2f> spare_u;
   /// Spare random numbers of the last event in a medium that draw the free path after it.
   std::optional<Imath::V2f> free_path_u;
-  MediumState media;
-  MediumSegment segment;  ///< Segment of the last event, if that was in a medium.
+  MediumState media;  ///< Media around the ray's origin, on the side to which the ray leaves.
+  /// Segment that led to the last event, if that was in a medium; of length 0 in a medium with a grid.
+  MediumSegment segment;
 
   [[nodiscard]] const SampledSpectrum& lambda_nm() const { return packet.wavelengths.lambda_nm; }
 };
 
-/// Direction in which the light travels if the path travels along `along`.
+/// Direction in which the light travels if a path that carries `mode` travels along `along`: against it for
+/// radiance, along it for power.
 [[nodiscard]] inline Imath::V3f light_travels(const Imath::V3f& along, TransportMode mode) {
   return mode == TransportMode::radiance ? -along : along;
 }

@@ -15,7 +15,7 @@ namespace abbe {
 /// Vertex on the camera: a point of its lens or probe.
 struct CameraVertex {
   Imath::V3f point;
-  LensRoute route = 0;  ///< Route of the light through the lens.
+  LensRoute route = 0;  ///< Route of the light through the lens; above 0 for a ghost.
 };
 
 /// Vertex on a light: a point with the outward normal of an area light, otherwise (0, 0, 0). For a light at
@@ -61,47 +61,50 @@ struct PathVertex {
   }
 };
 
-/// True if light enters a lens here by way of a ghost.
+/// True for a camera vertex through which light gets to the film by way of a ghost.
 [[nodiscard]] bool on_ghost(const PathVertex& vertex);
-/// Position of the vertex; for a vertex at infinity, the direction to it.
+/// Position of the vertex; for a vertex at infinity, the unit direction to it. Refers to `vertex`.
 [[nodiscard]] const Imath::V3f& point_of(const PathVertex& vertex);
-/// Geometric normal; nothing for vertices without one.
+/// Unit geometric normal, outward on shapes: of a surface, an area light, a probe or a lens with an axis.
+/// Nothing for other vertices.
 [[nodiscard]] std::optional<Imath::V3f> normal_of(const Scene& scene, const PathVertex& vertex);
 
-/// Unit vector from `a` to `b` and the distance [m], which may be infinite. At most one of both may be at
-/// infinity.
+/// Straight line between two vertices.
 struct PathSegment {
-  Imath::V3f direction;
-  double distance;
+  Imath::V3f direction;  ///< Unit vector from the first vertex to the second.
+  double distance;       ///< Distance [m]; infinite if one vertex is at infinity.
 };
+/// Segment from `a` to `b`. At most one of both may be at infinity. If they coincide, the distance is 0 and
+/// the direction is undefined.
 [[nodiscard]] PathSegment segment_between(const PathVertex& a, const PathVertex& b);
 
 /// Quantity that the vertex emits or scatters in the unit direction `w`, including the cosine there:
 /// - surface: f |cos| [1/sr];
 /// - medium: the phase function [1/sr];
 /// - camera: its importance times its cosine;
-/// - light: its emission times its cosine, at infinity the emission alone.
+/// - light: its emission (`emission_from`) times the cosine of an area light; 0 where it does not emit.
 ///
-/// `mode` is the quantity that the path carries to a scattering vertex.
+/// `mode` is the quantity that the path carries to a scattering vertex; others ignore it.
 [[nodiscard]] SampledSpectrum eval_towards(const Scene& scene, const PathVertex& vertex, const Imath::V3f& w,
                                            TransportMode mode);
 
-/// Polarisation of the vertex's packet after it leaves in the unit direction `w` by an event that is not
-/// delta, relative to that on arrival. For a light it is the polarisation of its emission, for a camera the
-/// rows that its sensor measures.
+/// Polarisation of the path after it leaves the vertex in the unit direction `w` by an event that is not
+/// delta. It includes all events of the path, this one too, and is relative to the throughput on arrival
+/// (`Polarisation::through`). For a light it is the polarisation of its emission, for a camera the rows that
+/// its sensor measures. Packets of other vertices must carry a polarisation.
 [[nodiscard]] Polarisation polarisation_towards(const Scene& scene, const PathVertex& vertex,
                                                 const Imath::V3f& w, TransportMode mode);
 
 /// Pdf [1/sr], per wavelength, with which the vertex samples the direction `w` by an event that is not delta.
-/// Cameras and lights use their own pdfs. Other vertices use that for a path that arrives along -`before`. A
-/// light at infinity samples the position of the ray instead [1/m^2]. Exchanging `before` and `w` gives the
-/// pdf of the reverse direction.
+/// Cameras and lights use their own pdfs and ignore `before`. Other vertices use the pdf for a path that
+/// arrives along -`before`, a unit vector. A light at infinity samples the position of the ray instead
+/// [1/m^2]. Exchanging `before` and `w` gives the pdf of the reverse direction.
 [[nodiscard]] SampledSpectrum direction_pdf(const Scene& scene, const PathVertex& vertex,
                                             const Imath::V3f& before, const Imath::V3f& w);
 
 /// Factor dω/dA or dω/dV that converts the pdf of a direction at `from` into that of the vertex `to`:
 /// |cos|/d^2 with a normal at `to`, 1/d^2 without. It is 1 if `to` is at infinity, and the cosine alone if
-/// `from` is.
+/// `from` is. The vertices must not coincide.
 [[nodiscard]] float solid_angle_per_area(const Scene& scene, const PathVertex& from, const PathVertex& to);
 
 }  // namespace abbe

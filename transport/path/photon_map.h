@@ -9,8 +9,9 @@
 
 namespace abbe {
 
-/// K-d tree [Bentley1975] of photon positions, queried by position [Jensen1996]. Results and their order
-/// depend on the points alone. Queries may run concurrently.
+/// K-d tree [Bentley1975] of photon positions [m], queried by position [Jensen1996]. Points are numbered from
+/// 0 in the order in which the constructor receives them. Results and their order depend on the points alone.
+/// Queries may run concurrently.
 class PhotonMap {
  public:
   /// Memory per point [bytes].
@@ -23,9 +24,10 @@ class PhotonMap {
 
   [[nodiscard]] std::size_t size() const;
 
-  /// Sets `found` to the points closer than `radius` [m], in the order of their numbers.
+  /// Sets `found` to the numbers of the points closer to `point` than `radius` [m], ascending.
   void within(const Imath::V3f& point, float radius, std::vector<std::uint32_t>& found) const;
-  /// Sets `found` to the `count` nearest points, or all if there are fewer, nearest first.
+  /// Sets `found` to the numbers of the `count` points nearest to `point`, or all if there are fewer, nearest
+  /// first.
   void nearest(const Imath::V3f& point, std::size_t count, std::vector<std::uint32_t>& found) const;
 
  private:

@@ -31,7 +31,8 @@ class Polarisation {
   /// Allocation from a per-thread free list; see `FreeList`.
   static void* operator new(std::size_t size, std::align_val_t alignment);
   static void operator delete(void* memory, std::align_val_t alignment);
-  /// Stokes vector or single row.
+  /// Stokes vector or single row in the frame of the unit vector `axis`, per wavelength, relative to the
+  /// throughput.
   Polarisation(const Imath::V3f& axis, const StokesSpectrum& values)
       : axis_(axis), neutral_(false), rows_{values} {}
   /// Rows of a sensor that measures all four elements.
@@ -41,18 +42,19 @@ class Polarisation {
   [[nodiscard]] static Polarisation all_elements(const Imath::V3f& axis);
 
   /// Applies an event. `travels` is the unit direction of the light before the event for a light path, after
-  /// it for a camera path. `matrix` is empty if the event depolarises. Returns the factor between the result
-  /// and that of unpolarised light, and divides by it.
+  /// it for a camera path. `matrix` is empty if the event depolarises. Returns, per wavelength, the first
+  /// element of the result, which is at least 0: the factor between it and that of unpolarised light. All
+  /// elements are divided by that factor.
   SampledSpectrum pass(const std::optional<MuellerMatrix>& matrix, const Imath::V3f& travels,
                        TransportMode mode);
-  /// Polarisation after an event, relative to the current one.
+  /// Polarisation after an event, relative to the current throughput: `pass` without the division.
   [[nodiscard]] Polarisation through(const std::optional<MuellerMatrix>& matrix, const Imath::V3f& travels,
                                      TransportMode mode) const;
 
   /// Stokes vector that the rows measure of unpolarised light; unused elements are 0.
   [[nodiscard]] StokesSpectrum of_unpolarised() const;
   /// Stokes vector that the rows measure of the polarisation `light`, which travels along the unit vector
-  /// `travels`.
+  /// `travels`. `light` must be a Stokes vector, not the rows of a sensor.
   [[nodiscard]] StokesSpectrum of(const Polarisation& light, const Imath::V3f& travels) const;
 
  private:
@@ -68,7 +70,7 @@ class Polarisation {
 };
 
 /// Optional polarisation of a packet, on the heap: few scenes need it, and packets of other scenes stay
-/// small.
+/// small. Copies are deep. Access to an empty one is undefined.
 class CarriedPolarisation {
  public:
   CarriedPolarisation() = default;

@@ -14,23 +14,27 @@ namespace abbe {
 /// True if the model's events are sampled with polarised pdfs: smooth glass, which reflects or refracts.
 [[nodiscard]] bool samples_polarised(const Bsdf& bsdf);
 
-/// Probability that such a model reflects the packet, with `lane` as the hero. The path arrives along the
-/// unit vector `along`.
+/// Probability that the model of `vertex`, for which `samples_polarised` must be true, reflects the packet
+/// with `lane` as the hero. The packet must carry a polarisation. The path arrives along the unit vector
+/// `along`.
 [[nodiscard]] float polarised_reflectance(const PathPacket& packet, const SurfaceVertex& vertex,
                                           const Imath::V3f& along, TransportMode mode, int lane);
 
 /// Maps a random number `u` in [0, 1) so that the model's unpolarised choice between reflection and
-/// refraction follows the polarised probabilities. The path arrives along the unit vector `along`.
+/// refraction follows the polarised probabilities of the hero. Returns a number in [0, 1). Other arguments
+/// are as for `polarised_reflectance`.
 [[nodiscard]] float polarised_choice(const PathPacket& packet, const SurfaceVertex& vertex,
                                      const Imath::V3f& along, TransportMode mode, float u);
 
-/// Direction sampled from a phase function for polarised light, in the world, and the unpolarised pdf of that
-/// direction [1/sr]. The scattering angle is sampled as for unpolarised light. With f = 1 + A cos 2 phi + B
-/// sin 2 phi of the azimuth phi, the azimuth solves phi + [A sin 2 phi + B (1 - cos 2 phi)]/2 = 2 pi u.
+/// Direction sampled from a phase function for polarised light.
 struct PolarisedDirection {
-  Imath::V3f direction;
-  float pdf;
+  Imath::V3f direction;  ///< Unit vector in world space.
+  float pdf;             ///< Unpolarised pdf of the direction [1/sr].
 };
+/// Samples a direction for a packet that arrives along the unit vector `along`, with `u` in [0, 1)^2. The
+/// packet must carry a polarisation. The scattering angle follows u_x as for unpolarised light. The hero's f
+/// is 1 + A cos 2 phi + B sin 2 phi of the azimuth phi, which solves phi + [A sin 2 phi + B (1 - cos 2
+/// phi)]/2 = 2 pi u_y.
 [[nodiscard]] PolarisedDirection sample_polarised_phase(const PathPacket& packet, const PhaseFunction& phase,
                                                         const Imath::V3f& along, TransportMode mode,
                                                         const Imath::V2f& u);

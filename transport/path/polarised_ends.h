@@ -10,17 +10,18 @@ namespace abbe {
 /// True if the scene's paths carry polarisation and a channel of its sensor distinguishes it.
 [[nodiscard]] bool measures_polarisation(const Scene& scene);
 
-/// Rows of the scene's sensor for light that arrives along the unit vector `travels` at a time. These are the
-/// rows of all four elements in the frame of the film, or that of power alone if the sensor measures no more.
-/// `images` is the effect of a lens that disperses wavelengths, nullptr for other lenses.
+/// Rows of the scene's sensor for light that arrives along the unit vector `travels` at the time `time`, a
+/// fraction of the exposure. These are the rows of all four elements in the frame of the film, or that of
+/// power alone if the sensor measures no more. `images` is the effect of a lens that disperses wavelengths,
+/// nullptr for other lenses.
 [[nodiscard]] Polarisation polarisation_of_film(const Scene& scene, const Imath::V3f& travels, float time,
                                                 const WavelengthImages* images);
 
 /// Polarisation of a light's emission along the unit vector `travels`.
 [[nodiscard]] Polarisation emitted_polarisation(const Light& light, const Imath::V3f& travels);
 
-/// Stokes vector that a camera packet measures of a light in the unit direction `towards`, relative to
-/// unpolarised light and a packet without polarisation. Nothing if the packet carries none.
+/// Stokes vector that a camera packet measures of a light that it sees in the unit direction `towards`,
+/// relative to unpolarised light and a packet without polarisation. Nothing if the packet carries none.
 [[nodiscard]] std::optional<StokesSpectrum> measured_emission(const Light& light, const PathPacket& packet,
                                                               const Imath::V3f& towards);
 

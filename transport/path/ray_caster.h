@@ -13,34 +13,40 @@
 
 namespace abbe {
 
-/// Shadow ray between two points, both offset from their surfaces by `offset_point`, or from such a point to
-/// infinity.
+/// Shadow ray between two points, both offset from their surfaces by `offset_point`. Its direction is the
+/// vector between the points and is not normalised; `t_max` is 1.
 [[nodiscard]] inline BasicRay<double> shadow_ray_between(const Imath::V3f& from, const Imath::V3f& to,
                                                          float time) {
   const Imath::V3d start(from);
   return {start, Imath::V3d(to) - start, 1.0, time};
 }
+/// Shadow ray with origin, direction, length and time of `ray`.
 [[nodiscard]] inline BasicRay<double> shadow_ray_along(const Ray& ray) {
   return {Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max), ray.time};
 }
-/// Shadow ray from a ray's origin to the light sample for which it was drawn.
+/// Shadow ray from a ray's origin to the light sample for which it was drawn; infinite for lights at
+/// infinity.
 [[nodiscard]] inline BasicRay<double> shadow_ray(const Ray& ray, const LightSample& light) {
   return std::isfinite(light.distance) ? shadow_ray_between(ray.origin, light.end, ray.time)
                                        : shadow_ray_along(ray);
 }
 
-/// Access of one thread to the scene's ray queries; counts rays, and logs them if a log is given.
+/// Access of one thread to the scene's ray queries; counts rays, and appends them to `log` if it is not null.
+/// Scene and log must outlive it.
 class RayCaster {
  public:
   explicit RayCaster(const Scene& scene, std::vector<LoggedRay>* log = nullptr) : scene_(scene), log_(log) {}
 
+  /// Number of rays cast so far, shadow rays included.
   [[nodiscard]] std::uint64_t rays() const { return rays_; }
 
+  /// Paths counted by `count_truncated` so far.
   [[nodiscard]] const TruncatedPaths& truncated() const { return truncated_; }
   /// Counts a path truncated with the throughput `throughput`; see `TruncatedPaths`.
   void count_truncated(float throughput) { truncated_.count(throughput); }
 
-  /// Nearest hit of a ray, or of several rays; `rays` and `hits` have equal sizes.
+  /// Nearest hit of a ray, or of each of several rays; nothing for a ray that hits nothing. `rays` and `hits`
+  /// must have equal sizes.
   [[nodiscard]] std::optional<SurfaceHit> intersect(const Ray& ray) {
     count({&ray, 1});
     return scene_.intersect(ray);
@@ -50,7 +56,7 @@ class RayCaster {
     scene_.intersect(rays, hits);
   }
   /// True if a shadow ray is occluded by anything but medium boundaries. The overload for several rays writes
-  /// 1 or 0.
+  /// 1 (occluded) or 0 for each; both spans must have equal sizes.
   [[nodiscard]] bool occluded(const BasicRay<double>& shadow_ray) {
     std::uint8_t blocked = 0;
     occluded({&shadow_ray, 1}, {&blocked, 1});

@@ -16,11 +16,13 @@ struct FullMueller {
   std::array<StokesVector, 4> rows;
 
   [[nodiscard]] static FullMueller identity();
-  /// Matrix of an event that transmits the fraction `power` of unpolarised light, in the frame of the event's
-  /// axis.
+  /// Matrix of an event that passes on the fraction `power` of unpolarised light, in the frame of the event's
+  /// axis: `power` times the normalised `elements`.
   [[nodiscard]] static FullMueller of(const MuellerElements<double>& elements, double power);
 
+  /// Stokes vector of `light` after the event.
   [[nodiscard]] StokesVector operator*(const StokesVector& light) const;
+  /// Matrix of the event `before` followed by this one.
   [[nodiscard]] FullMueller operator*(const FullMueller& before) const;
   FullMueller& operator*=(double power);
 };
@@ -35,7 +37,8 @@ struct RayPolarisation {
   explicit RayPolarisation(const Imath::V3d& direction)
       : first_axis(across(direction, {0, 0, 1})), last_axis(first_axis) {}
 
-  /// Rotates the last frame to another axis; the light travels along the unit vector `direction`.
+  /// Rotates the last frame to `axis`, which is perpendicular to the unit vector `direction` along which the
+  /// light travels.
   void turn_to(const Imath::V3d& axis, const Imath::V3d& direction);
 };
 

@@ -15,12 +15,13 @@ inline constexpr int kLongPath = 64;
 /// truncates the same paths on every machine.
 inline constexpr int kMaxPathDepth = 100000;
 
-/// Maximum number of scattering events of the scene's paths, on surfaces and in media.
+/// Maximum number of scattering events of the scene's paths, on surfaces and in media:
+/// `RenderSettings::max_depth` if it is set, at most `kMaxPathDepth`.
 [[nodiscard]] inline int depth_limit(const RenderSettings& render) {
   return std::min(render.max_depth.value_or(kMaxPathDepth), kMaxPathDepth);
 }
 
-/// True if Russian roulette applies to a path of this depth.
+/// True if Russian roulette applies to a path of this depth; never if the scene's roulette depth is negative.
 [[nodiscard]] inline bool plays_roulette(const RenderSettings& render, int depth) {
   return render.roulette_depth >= 0 && depth >= render.roulette_depth;
 }
@@ -31,7 +32,7 @@ inline constexpr float kPathRouletteExponent = 0.5F;
 inline constexpr float kSpecularRouletteExponent = 1;
 inline constexpr float kJoinedRouletteExponent = 2;
 
-/// Probability that a path of this depth survives roulette: its throughput, clamped to [0.1, 1]
+/// Probability in (0, 1] that a path of this depth survives roulette: `throughput`, clamped to [0.1, 1]
 /// [Marschner2021, sec. 14.4], and above depth 64 at most 1 - a/depth. The bound ends paths even if nothing
 /// absorbs them. Survivors are divided by the probability, so the estimate stays unbiased and the weight at
 /// depth n grows as n^a.

@@ -111,7 +111,7 @@ float StrategyWeights::weight_of(const JoinedPath& path, const EndDensities& end
   const std::size_t last = path.z.size() - 1;
   const int hero = path.z[0]->packet.hero;
   // All pdfs are relative to the hero's pdf of the current strategy. First the products of light pdfs over
-  // z_t' ... z_k.
+  // z_t' ... z_L.
   vertex_pdfs_.resize(last + 1);
   from_light_.assign(last + 2, SampledSpectrum(1.0F));
   sum_ = path_tracing_sum_ = SampledSpectrum();

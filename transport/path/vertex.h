@@ -18,16 +18,16 @@ namespace abbe {
 /// Surface vertex of a path, with its BSDF.
 struct SurfaceVertex {
   SurfaceHit hit;
-  Basis<float> frame;
-  Imath::V3f wo;          ///< Local outgoing direction.
+  Basis<float> frame;     ///< Local frame of the BSDF; z is the shading normal.
+  Imath::V3f wo;          ///< Local unit direction back towards the previous vertex.
   bool relief = false;    ///< True if a bump or normal map turns the frame away from the shape's normal.
   float cos_outside = 1;  ///< Cosine between wo and the shape's normal; set on a relief.
-  std::optional<MediumStack> nested_media_behind =
-      {};  ///< Media of a transmitted path; set in scenes with nested media.
-  Bsdf bsdf;
+  /// Media of a transmitted path; set in scenes with nested media.
+  std::optional<MediumStack> nested_media_behind = {};
+  Bsdf bsdf;  ///< BSDF at the path's wavelengths.
 
-  /// Vertex at a probe: white, diffuse, and viewed along its normal, so that its outgoing radiance is the
-  /// irradiance over pi.
+  /// Vertex at a probe with the unit normal `normal`: white, diffuse, and viewed along its normal, so that
+  /// its outgoing radiance is the irradiance over pi.
   static SurfaceVertex at_probe(const Imath::V3f& point, const Imath::V3f& normal) {
     return {{point, normal, 0, 0}, Basis<float>(normal), {0, 0, 1}, DiffuseBsdf{SampledSpectrum(1.0F)}};
   }
@@ -35,8 +35,9 @@ struct SurfaceVertex {
   SurfaceVertex(const SurfaceHit& surface, const Basis<float>& axes, const Imath::V3f& outgoing,
                 Bsdf scattering)
       : hit(surface), frame(axes), wo(outgoing), bsdf(std::move(scattering)) {}
-  /// Vertex at which a path hits the scene. `interface` is set in scenes with nested media. If no medium
-  /// changes there, the path continues straight, as between equal indices.
+  /// Vertex at which a path hits the scene, with the path's ray still the one that hits it. `interface` is
+  /// set in scenes with nested media. If no medium changes there, the path continues straight, as between
+  /// equal indices.
   SurfaceVertex(const Scene& scene, const SurfaceHit& surface, const std::optional<Interface>& interface,
                 const PathState& path)
       : hit(surface),
@@ -47,7 +48,7 @@ struct SurfaceVertex {
     if (interface) nested_media_behind = interface->media_behind;
   }
 
-  /// Media of a path that arrives in `media` and is transmitted.
+  /// Media of a path that arrives in `media` and is transmitted. Throws as `MediumStack::cross`.
   [[nodiscard]] MediumStack media_behind(const Scene& scene, const MediumStack& media) const {
     if (nested_media_behind) return *nested_media_behind;
     MediumStack crossed = media;
@@ -64,13 +65,14 @@ struct SurfaceVertex {
     return {hit.point, both ? std::nullopt : std::optional(wo.z > 0 ? frame.z : -frame.z), glossy};
   }
 
-  /// Ray that leaves in the unit direction `w` at a time of the exposure.
+  /// Infinite ray that leaves in the unit world direction `w` at the time `time`, a fraction of the exposure.
+  /// Its origin is offset from the surface.
   [[nodiscard]] Ray spawn_ray(const Imath::V3f& w, float time) const {
     return spawn(hit, frame.to_world(wo), w, time);
   }
 
-  /// Samples an event of the BSDF, with the shading-normal correction. Inlined, because a call would slow
-  /// down every path.
+  /// Samples an event of the BSDF with the hero wavelength, with the shading-normal correction; nothing if no
+  /// light is scattered. Inlined, because a call would slow down every path.
   [[nodiscard, gnu::always_inline]] std::optional<BsdfSample> scatter(const BsdfRandom& u, int hero,
                                                                       TransportMode mode) const {
     std::optional<BsdfSample> event = sample(bsdf, wo, u, hero, mode);
@@ -93,8 +95,8 @@ struct SurfaceVertex {
     const float n = index_inside(bsdf, hero);
     return wo.z > 0 ? n * n : 1 / (n * n);
   }
-  /// BSDF f(wo, wi) [1/sr] with the shading-normal correction. The direction is given in world and local
-  /// space.
+  /// BSDF f(wo, wi) [1/sr] with the shading-normal correction, without the cosine. `world` and `local` are
+  /// the same unit direction wi in both spaces.
   [[nodiscard]] SampledSpectrum f(const Imath::V3f& world, const Imath::V3f& local,
                                   TransportMode mode) const {
     SampledSpectrum f = eval(bsdf, wo, local, mode);
@@ -109,6 +111,7 @@ struct SurfaceVertex {
     SampledSpectrum f;  ///< BSDF [1/sr]; the cosine |wi.z| is not included.
     bool crosses;       ///< True if the direction is on the other side than the path's arrival.
   };
+  /// Evaluates the BSDF in the unit world direction `world`.
   [[nodiscard]] OutgoingDirection eval_towards(const Imath::V3f& world, TransportMode mode) const {
     constexpr float kGrazing = 4 * std::numeric_limits<float>::epsilon();
     const Imath::V3f wi = frame.to_local(world);

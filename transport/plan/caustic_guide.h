@@ -15,12 +15,12 @@ namespace abbe {
 
 /// Photon that arrived by specular events alone at a surface that may scatter it.
 struct CausticPhoton {
-  Imath::V3f point;
+  Imath::V3f point;             ///< Point of the surface in world space.
   Imath::V3f from;              ///< Unit direction towards its origin.
   float last_distance;          ///< Distance to the last surface before this one [m].
   float path_distance;          ///< Distance to the light along the path [m], which may be infinite.
-  float power;                  ///< Power divided by the number of emitted photons.
-  float unoccluded_irradiance;  ///< Unoccluded irradiance of all lights at this point [power/m^2].
+  float power;                  ///< Sensor-weighted power divided by the number of emitted photons.
+  float unoccluded_irradiance;  ///< Unoccluded irradiance of all lights at this point [unit of `power`/m^2].
 };
 
 /// Directions from which caustic light arrives at a point: lobes around the directions to points in space, or
@@ -29,7 +29,8 @@ class CausticLobes {
  public:
   static constexpr std::size_t kLobesPerPacket = 8;
   /// Several lobes in structure-of-arrays layout, for vector instructions. From a point p a lobe points along
-  /// (x, y, z) - near p, with the selection probability `probability`. Unused lobes have the probability 0.
+  /// (x, y, z) - near p, with the selection probability `probability`. (x, y, z) is a point in world space
+  /// [m], or a unit direction if near is 0. Unused lobes have the probability 0.
   struct LobePacket {
     using Floats = std::array<float, kLobesPerPacket>;
     Floats x{};
@@ -43,22 +44,26 @@ class CausticLobes {
     Floats probability{};
   };
 
+  /// No lobes.
   CausticLobes() = default;
+  /// Lobes of the width `width` (a in `CausticGuide`), whose selection probabilities sum to 1. `probability`
+  /// is as returned by `probability()`.
   CausticLobes(std::span<const LobePacket> lobes, float width, float probability)
       : lobes_(lobes), width_(width), probability_(probability) {}
 
   [[nodiscard]] bool empty() const { return lobes_.empty(); }
-  /// Probability with which a path draws an additional direction from the lobes.
+  /// Probability with which a path draws an additional direction from the lobes; 0 without lobes.
   [[nodiscard]] float probability() const { return probability_; }
-  /// These lobes with their selection probability multiplied by `factor`.
+  /// These lobes with `probability()` multiplied by `factor`.
   [[nodiscard]] CausticLobes scaled(float factor) const { return {lobes_, width_, probability_ * factor}; }
-  /// Samples a direction from a point; `lobe` and `u` are in [0, 1).
+  /// Samples a unit direction from a point in world space: `lobe` in [0, 1) selects the lobe, `u` in [0, 1)^2
+  /// the direction. There must be lobes.
   [[nodiscard]] Imath::V3f sample(const Imath::V3f& point, float lobe, Imath::V2f u) const;
-  /// Pdf [1/sr] of a unit direction.
+  /// Pdf [1/sr] with which `sample` returns a unit direction from `point`; 0 without lobes.
   [[nodiscard]] float pdf(const Imath::V3f& point, const Imath::V3f& direction) const;
-  /// Pdf [1/sr], per wavelength, of a direction over all paths that leave the vertex: one with the pdf
-  /// `scattering`, and on average `probability()` from the lobes. The lobes count only for wavelengths that
-  /// scattering can send there.
+  /// Summed pdf [1/sr], per wavelength, of a direction over all paths that leave the vertex: one with the pdf
+  /// `scattering` [1/sr], and on average `probability()` from the lobes. The lobes count only for wavelengths
+  /// that scattering can send there.
   [[nodiscard]] SampledSpectrum combined_pdf(const SampledSpectrum& scattering, const Imath::V3f& point,
                                              const Imath::V3f& direction) const {
     const float added = probability_ * pdf(point, direction);
@@ -80,14 +85,16 @@ class CausticLobes {
 /// distance of the light, where flat mirrors show its image. The choice with the sharper lobes is used.
 class CausticGuide {
  public:
+  /// Guide without lobes.
   CausticGuide() = default;
-  /// Builds the guide. `scene` is the bounding box of the shapes, which is divided into cells.
+  /// Builds the guide. `scene` is the bounding box of the shapes [m], which is divided into cells. Photons
+  /// whose power is not positive and finite are ignored; fewer than eight others give an empty guide.
   CausticGuide(std::vector<CausticPhoton> photons, const Imath::Box3d& scene);
 
   /// True if no region has lobes.
   [[nodiscard]] bool empty() const { return regions_.empty(); }
-  /// Lobes at a point. Empty if no caustics are known there, or if they arrive from such a wide angle that
-  /// scattering samples them.
+  /// Lobes at a point in world space. Empty if no caustics are known there, or if they arrive from such a
+  /// wide angle that scattering samples them.
   [[nodiscard]] CausticLobes at(const Imath::V3f& point) const;
 
  private:

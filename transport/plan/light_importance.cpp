@@ -26,6 +26,9 @@ LightImportance::LightImportance(const LightBounds& bounds, double scale, double
       at_infinity_(bounds.at_infinity),
       ambient_(bounds.ambient) {}
 
+// I max(0, cos e) max(0, cos r) / max(d^2, nearest^2) with the strength I and the distance d of the sphere's
+// center. The angle e is that with the emission's axis, less its spread and the sphere's half angle. The
+// angle r is that with the receiver's normal, less the half angle.
 float LightImportance::irradiance(const LightSampleContext& context) const {
   if (ambient_ && context.glossy) return 0;
   const float strength = context.side ? facing_ : all_sides_;

@@ -15,8 +15,9 @@ class LightImportance {
   LightImportance(const LightBounds& bounds, double scale, double min_distance);
 
   /// Irradiance bound for a vertex: the unoccluded irradiance from the most favourable direction and
-  /// orientation within the lights' sphere, at the distance of its center. Not negative; 0 if no emission can
-  /// arrive. [Conty2018] Ambient light counts 0 for glossy vertices.
+  /// orientation within the lights' sphere, at the distance of its center. [Conty2018] Its unit is that of
+  /// the scaled strengths, per m^2 for nearby lights. Not negative; 0 if no emission can arrive, and for
+  /// ambient light at glossy vertices.
   [[nodiscard]] float irradiance(const LightSampleContext& context) const;
 
  private:

@@ -17,21 +17,23 @@ class LightSampler {
  public:
   using Pick = PowerLightSampler::SampledLight;
 
-  /// `sensor_emissions` is as in `Emissions`; lights with 0 are never chosen. Set `scattering_finds` if
-  /// emitter hits and NEE are balanced: then glossy vertices leave ambient light to scattering [Karlik2019].
+  /// `sensor_emissions` is as in `Emissions`, one per light of the scene; lights with 0 are never chosen. Set
+  /// `scattering_finds` if emitter hits and NEE are balanced: then glossy vertices leave ambient light to
+  /// scattering [Karlik2019].
   LightSampler(const Scene& scene, const std::vector<double>& sensor_emissions, bool scattering_finds);
 
   /// True if no light can be chosen.
   [[nodiscard]] bool empty() const { return roots_.empty(); }
 
   /// Total unoccluded irradiance bound at a vertex, as `pick` weights it, in the unit of `sensor_emissions`
-  /// times that of `light_bounds`.
+  /// times that of `light_bounds` per m^2. 0 if no light can be chosen.
   [[nodiscard]] double irradiance(const LightSampleContext& context) const;
 
-  /// Picks a light for a vertex with `u` in [0, 1). Neighbouring values of `u` mostly select neighbouring
-  /// lights.
+  /// Picks a light for a vertex with `u` in [0, 1), and returns its probability, which is positive.
+  /// Neighbouring values of `u` mostly select neighbouring lights. The sampler must not be empty.
   [[nodiscard]] Pick pick(const LightSampleContext& context, float u) const;
-  /// Probability with which `pick` chooses the light for the vertex; bit-identical to that of `pick`.
+  /// Probability with which `pick` chooses the light of index `light` for the vertex; bit-identical to that
+  /// of `pick`. 0 for a light that is never chosen.
   [[nodiscard]] float probability(std::uint32_t light, const LightSampleContext& context) const;
 
  private:

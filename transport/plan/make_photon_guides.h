@@ -9,24 +9,26 @@
 
 namespace abbe {
 
-/// Distant light as viewed from the scene: its center, the distance [m] of that from the scene's center, and
-/// its radius [m].
+/// Distant light as viewed from the scene, whose center is the origin of world space.
 struct DistantLight {
-  Imath::V3d center;
-  double distance;
-  double radius;
+  Imath::V3d center;  ///< Center of the light's bounding box in world space [m].
+  double distance;    ///< Distance of that center from the origin [m].
+  double radius;      ///< Radius of the sphere around the bounding box [m].
 };
-/// Data of a distant light; nothing for a nearby light or one without a position.
+/// Data of a distant light; nothing for a nearby light or one at infinity.
 [[nodiscard]] std::optional<DistantLight> distant_light(const Light& light, const Scene& scene);
 
-/// Error for lights in `traced` whose photons cannot illuminate the scene; nothing if all can. Photons of
-/// distant lights start outside of all shapes that refract them and are sent through the nearby shapes.
-/// Distant shapes receive none, and a distant medium attenuates none. The precision of large shapes is
-/// limited to that of floats there.
+/// Error{scene} for lights in `traced`, a flag per light, whose photons cannot illuminate the scene; nothing
+/// if all can. Set `light_only` if photons aim at all nearby shapes instead of the refracting and specular
+/// ones. Photons of distant lights start outside of all shapes that refract them and are sent through the
+/// nearby shapes. Distant shapes receive none, and a distant medium attenuates none. The precision of large
+/// shapes is limited to that of floats there.
 [[nodiscard]] std::optional<Error> refusal(const Scene& scene, const std::vector<bool>& traced,
                                            bool light_only);
 
-/// Guides of all lights before training; lights without power have none.
+/// Guides before training, one per light. `traced_powers` is the power of each light, 0 if it emits no
+/// photons. Lights without power, and all nearby lights but the 128 strongest, have unguided emission.
+/// `light_only` is as for `refusal`.
 [[nodiscard]] std::vector<PhotonGuide> make_photon_guides(const Scene& scene,
                                                           const std::vector<double>& traced_powers,
                                                           bool light_only);

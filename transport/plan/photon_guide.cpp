@@ -303,6 +303,8 @@ std::vector<PhotonGuide::WeightedPoint> PhotonGuide::spread_over_scales(
   return spread;
 }
 
+// Moves the target to the distance, one of a few, at which the rays pass through the smallest part of it. A
+// move must make that part smaller by five per cent.
 void PhotonGuide::minimise_footprint(std::span<const PilotRay> pilot_rays) {
   constexpr std::size_t kMaxTestRays = 1024;  // rays used for the test
   constexpr int kSteps = 20;
@@ -412,6 +414,7 @@ std::optional<Imath::V2f> PhotonGuide::to_square(const Imath::V3f& from, const I
   return at;
 }
 
+// Pdf of a point of the unit square: uniform fraction plus grids.
 float PhotonGuide::pdf_at(const Imath::V2f& at) const {
   if (grids_.empty()) return 1;
   float pdf = uniform_fraction_;
@@ -419,6 +422,8 @@ float PhotonGuide::pdf_at(const Imath::V2f& at) const {
   return pdf;
 }
 
+// Samples a point of the unit square; `u.x` first selects a grid or the uniform fraction. The pdf is that of
+// the mixture.
 PhotonGuide::SquarePoint PhotonGuide::draw(Imath::V2f u) const {
   if (grids_.empty()) return {u, 1};
   for (const Grid& grid : grids_) {

@@ -14,21 +14,21 @@ namespace abbe {
 
 /// Direction of a photon at its light, with its pdf [1/sr].
 struct GuidedDirection {
-  Imath::V3f wi;
+  Imath::V3f wi;  ///< Unit direction in which the photon leaves, in world space.
   float pdf;
 };
 
-/// Point of the target through which a photon of a distant light is sent, with its pdf [1/m^2].
+/// Point of the target through which a photon of a distant light is sent, with its pdf [1/m^2] on the target.
 struct GuidedPoint {
-  Imath::V3f point;
+  Imath::V3f point;  ///< Point in world space.
   float pdf;
 };
 
 /// Ray of a pilot photon that trains a guide, with its weight.
 struct PilotRay {
-  Imath::V3f from;
-  Imath::V3f direction;
-  double weight;
+  Imath::V3f from;           ///< Origin in world space.
+  Imath::V3f direction;      ///< Unit direction away from the light.
+  double weight;             ///< Positive weight of the ray in training, in any unit.
   std::uint32_t branch = 0;  ///< Rays of one branch hit the same specular shapes with the same events.
 };
 
@@ -43,7 +43,7 @@ class PhotonGuide {
   PhotonGuide() = default;
   /// Guides to the bounding sphere of the targets, uniformly, for a light with the given center and radius
   /// [m]. A light close to the sphere is not guided before training. `beam` is the unit axis of a light with
-  /// a narrow cone.
+  /// a narrow cone. The guide has no target if `target_radius` is 0.
   PhotonGuide(const Imath::V3f& light_center, float light_radius, const Imath::V3f& target_center,
               float target_radius, const std::optional<Imath::V3f>& beam = std::nullopt);
   /// Guide for a distant light whose rays all lie within an angle of cosine `min_cosine` around the unit
@@ -51,6 +51,7 @@ class PhotonGuide {
   /// enabled and trained.
   [[nodiscard]] static PhotonGuide for_distant_light(const Imath::V3f& axis, double min_cosine,
                                                      const Imath::V3f& target_center, double target_radius);
+  /// Lets a guide of a distant light be trained.
   void enable_guiding() { guided_ = true; }
 
   /// Trains the distribution with pilot rays. A tenth of the photons stays uniform, or a half after
@@ -61,28 +62,36 @@ class PhotonGuide {
   ///
   /// Each branch of rays has its own grid over its own part. If there are more than `max_branches`, the
   /// weakest have one grid in common. Let f be the fraction of guided photons and w_i the weight of branch i
-  /// of n. A quarter of f is uniform, so that no later pilot loses a branch:
+  /// of n. A quarter of f is divided equally among the branches, so that no later pilot loses one:
   ///     f_i = f [3/4 w_i / (sum_j w_j) + 1/(4 n)].
   /// Eight rays determine the extent of a branch to within the margin of a grid. If one of several branches
-  /// has fewer rays, photons are sent around them at all scales.
+  /// has fewer rays, photons are sent around them at all scales. `max_branches` is at least 1. Does nothing
+  /// without rays that hit the target, or if `can_train` is false.
   void train(std::span<const PilotRay> pilot_rays, std::size_t max_branches = 6);
   /// Effective number of photons, (sum w)^2 / sum w^2, that train a light or a branch.
   static constexpr double kEnoughPhotons = 50;
   /// Guides half of the photons around a few pilot rays, at all scales, because few rays do not determine the
-  /// extent. The other half is uniform from then on. Does nothing after `train`.
+  /// extent; their weights are ignored. The other half is uniform from then on. Does nothing after `train`,
+  /// without rays that hit the target, or if `can_train` is false.
   void train_from_few(std::span<const PilotRay> pilot_rays);
-  /// True if training has an effect, that is, if there is a target.
+  /// True if training has an effect. This needs a target; a guide `for_distant_light` also needs
+  /// `enable_guiding`.
   [[nodiscard]] bool can_train() const { return guided_ || all_directions_; }
 
-  /// True if some directions are not sampled from the light's emission.
+  /// True if photons are sent through the target, uniformly until training. A distant guide is guided from
+  /// `enable_guiding` on. A light within its target or close to it is guided only after training.
   [[nodiscard]] bool is_guided() const { return guided_; }
 
-  /// Samples a point of the target in front of a distant light.
+  /// Samples a point of the target in front of a distant light with `u` in [0, 1)^2. The guide must be one
+  /// `for_distant_light`.
   [[nodiscard]] GuidedPoint point(Imath::V2f u) const;
+  /// Unit axis from the light to the target, perpendicular to the target.
   [[nodiscard]] const Imath::V3f& axis() const { return axis_; }
+  /// Half the edge of the square target [m].
   [[nodiscard]] float half_size() const { return half_size_; }
 
-  /// Samples the direction of a photon that leaves `from` at a time. `choice` selects target or emission, `u`
+  /// Samples the direction of a photon that leaves `from` at a time (fraction of the exposure), for lights
+  /// that are neither distant nor at infinity. `choice` in [0, 1) selects target or emission, `u` in [0, 1)^2
   /// the direction. A direction without emission has zero power, but a positive pdf.
   [[nodiscard]] GuidedDirection sample(const Light& light, const EmissionPoint& from, float choice,
                                        Imath::V2f u, float time) const;

@@ -9,12 +9,13 @@
 
 namespace abbe {
 
-/// True if the scene determines the number of photons per sample, because camera paths do not depend on it.
+/// True if the scene file may set the number of photons per sample, because a technique traces them
+/// separately from the camera paths: brute-force photons and all that gather photons.
 [[nodiscard]] bool scene_sets_photon_count(std::span<const Technique> techniques);
 
-/// Keys of `render/photons` that the scene sets to other values than the defaults and that its integrator
-/// does not use, in the order of the list. With Integrator::automatic the radius counts as used if
-/// Integrator::vcm may be chosen.
+/// Keys of `render/photons` in the scene file, such as "radius", that the scene's integrator does not use
+/// although the scene sets them to other values than the defaults. With Integrator::automatic the radius
+/// counts as used if Integrator::vcm may be chosen.
 [[nodiscard]] std::vector<std::string_view> unused_photon_settings(const Scene& scene);
 
 }  // namespace abbe

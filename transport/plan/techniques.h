@@ -33,26 +33,28 @@ enum class Technique : std::uint8_t {
 /// Name of a technique in scene files and answers.
 [[nodiscard]] std::string_view name_of(Technique technique);
 
-/// Techniques of the scene's integrator, in the order of the enumeration.
+/// Techniques of the scene's integrator, in the order of the enumeration; at least one.
 [[nodiscard]] std::vector<Technique> chosen_techniques(const Scene& scene);
 
-/// Classes of light paths of a scene that these techniques cannot sample.
+/// Classes of light paths of a scene that none of its `chosen_techniques` can sample.
 [[nodiscard]] std::vector<PathClass> unreached(const Scene& scene);
 
 /// True if `techniques` contains `technique`.
 [[nodiscard]] bool uses(std::span<const Technique> techniques, Technique technique);
 
-/// True if one of the techniques starts paths at lights.
+/// True if one of the techniques starts paths at lights: all but `path` and `adjoint_brute` do.
 [[nodiscard]] bool starts_at_lights(std::span<const Technique> techniques);
 
-/// True if a technique gathers photons that the light paths of a sample store first.
+/// True if a technique gathers photons that the light paths of a sample store first: `photon_map`, `ppm` and
+/// `sppm`.
 [[nodiscard]] bool gathers_photons(Technique technique);
 
 /// Reason why a technique's estimate is biased; "" if it is unbiased.
 [[nodiscard]] std::string_view bias_of(Technique technique);
 
-/// Classes of camera paths that a technique owns in addition to the others of `active`, in the notation of
-/// [Heckbert1990]: E is the camera, S a delta event, D any other event, and L the light.
+/// Classes of camera paths that a technique owns if a plan combines the techniques `active`, of which it is
+/// one. The notation is that of [Heckbert1990], e.g. "E (S|D)* L": E is the camera, S a delta event, D any
+/// other event, and L the light.
 [[nodiscard]] std::string owned_paths(Technique technique, std::span<const Technique> active,
                                       const Camera& camera);
 

@@ -10,14 +10,14 @@ namespace abbe {
 
 /// Integrator with which a scene is rendered, and the reason for it.
 struct IntegratorChoice {
-  Integrator integrator;
-  std::string reason;  ///< Empty if the result is the scene's own setting.
+  Integrator integrator;  ///< Value for `RenderSettings::integrator` of the scene.
+  std::string reason;     ///< Empty if the result is the scene's own setting.
   /// Cost of path tracing, with light tracing if the plan has it, divided by the cost of `alternative` at
   /// equal error. Pilots estimate it; empty if they were not run.
   std::optional<double> cost_ratio = {};
   Integrator alternative = Integrator::bdpt;  ///< Integrator with which the pilots compared path tracing.
-  /// Guiding data that pilots trained for `integrator`, to be passed on as `RenderOptions::guides`; may be
-  /// null.
+  /// Guiding data that pilots trained for `integrator`, to be passed on as `RenderOptions::guides`. Null if
+  /// they trained none for it; the render then trains its own.
   std::shared_ptr<const GuidingData> guides = {};
 };
 
@@ -35,9 +35,10 @@ struct IntegratorChoice {
 /// cost c in rays. Camera paths combined with photons cost (sqrt(V c) + sqrt(V' c'))^2, the minimum over all
 /// allocations. An alternative is cheaper if it saves more than the noise of the pilots explains.
 ///
-/// The result depends on the scene alone, not on its seed, its samples or `threads`. The function throws none
-/// of the errors of `make_plan`. For a scene that `make_plan` rejects, it returns the scene's integrator, or
-/// Integrator::path for a probe if that is possible.
+/// The result depends on the scene alone, not on its seed, its samples or `threads`, which is at least 1. A
+/// scene that `make_plan` rejects with Error{scene} throws nothing here. The result is then the scene's own
+/// integrator, or Integrator::path for a probe if that is possible. Throws Error{resource} if more than
+/// `MediumStack::kMaxShapes` media nest.
 [[nodiscard]] IntegratorChoice choose_integrator(const Scene& scene, int threads);
 
 }  // namespace abbe

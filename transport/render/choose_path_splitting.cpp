@@ -48,6 +48,7 @@ std::vector<PixelSample> trial_samples(const Camera& camera, std::uint32_t pilot
   return paths;
 }
 
+// Noise of the first `pixels` pilot pixels with the plan's splitting, and the rays that it took.
 Trial trace_pilots(const Plan& plan, int threads, std::uint32_t pixels = kTrialPixels) {
   Trial trial;
   std::atomic<std::uint64_t> rays = 0;

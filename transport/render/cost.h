@@ -14,9 +14,10 @@ struct Cost {
   double cpu_s = 0;
 };
 
-/// Measures the time since its construction.
+/// Measures the wall-clock time, and the CPU time of all threads of the process, since its construction.
 class CostMeter {
  public:
+  /// Time since the construction.
   [[nodiscard]] Cost spent() const {
     return {std::chrono::duration<double>(std::chrono::steady_clock::now() - wall_start_).count(),
             process_cpu_seconds() - cpu_start_};
@@ -27,7 +28,8 @@ class CostMeter {
   double cpu_start_ = process_cpu_seconds();
 };
 
-/// Returns a function that runs `work` and adds its cost to `sum`.
+/// Returns a function that runs `work` and adds its cost to `sum`, which must outlive the function. If `work`
+/// throws, nothing is added. Calls must not be concurrent.
 [[nodiscard]] inline std::function<void()> metered(Cost& sum, std::function<void()> work) {
   return [&sum, work = std::move(work)] {
     const CostMeter meter;

@@ -48,6 +48,7 @@ std::optional<std::vector<Number>> parse_numbers(const std::string& text, std::s
   return numbers.size() == count ? std::optional(std::move(numbers)) : std::nullopt;
 }
 
+// Shape from the text that `write_part` writes; nothing for sizes that no film has.
 std::optional<FilmShape> parse_shape(const std::string& text) {
   const auto n = parse_numbers<std::int64_t>(text, 7);
   if (!n || *std::max_element(n->begin(), n->begin() + 5) > std::numeric_limits<int>::max())
@@ -115,6 +116,7 @@ bool read_crop(const FilmIdentity& header, FilmShape& shape) {
   return shape.crop && contains({0, 0, shape.width, shape.height}, *shape.crop);
 }
 
+// Splits the attributes of a part file into identity, shape, samples and counts; nothing if one is invalid.
 std::optional<ParsedHeader> parse_header(FilmIdentity header) {
   auto shape = parse_shape(take(header, kShape));
   const auto counts = parse_numbers<std::uint64_t>(take(header, kCounts), 4);

@@ -23,10 +23,10 @@ namespace abbe {
 
 /// Work that a pass counted, and what it dropped.
 struct PassCounts {
-  std::uint64_t paths = 0;
-  std::uint64_t rays = 0;
-  std::uint64_t nonfinite = 0;
-  TruncatedPaths cut = {};
+  std::uint64_t paths = 0;      ///< Camera paths and light paths started.
+  std::uint64_t rays = 0;       ///< Rays cast, shadow rays included.
+  std::uint64_t nonfinite = 0;  ///< Contributions dropped: a value is not finite or too large for the film.
+  TruncatedPaths cut = {};      ///< Paths that ended at the maximum depth.
 
   PassCounts& operator+=(const PassCounts& more) {
     paths += more.paths;
@@ -39,16 +39,18 @@ struct PassCounts {
 
 /// Films that a pass fills in addition to its main film; null if not requested.
 struct AuxiliaryFilms {
-  FeatureFilm* features = nullptr;
-  const Layers* layers = nullptr;  ///< Set together with `layer_sums`.
-  Film* layer_sums = nullptr;      ///< Planes of all layers, one layer after another.
+  FeatureFilm* features = nullptr;  ///< Sums of the features of the first hit.
+  const Layers* layers = nullptr;   ///< Set together with `layer_sums`.
+  Film* layer_sums = nullptr;       ///< Planes of all layers, one layer after another.
 };
 
 /// Pixels that have all samples of a pass without photons after its first `items` work items, as rectangles
 /// that do not overlap.
 [[nodiscard]] std::vector<Crop> tiles_done(const FilmShape& shape, std::uint32_t items);
 
-/// One pass: samples [first, last) of every pixel, with the photons and the path interval of the plan. With R
+/// One pass: samples [first, last) of every pixel. Each sample has `Plan::photons` photons, if the plan
+/// traces photons. With n = `Plan::path_interval`, a pixel has a camera path in every n-th sample of a
+/// replicate only, of weight n. The first of these samples is random for each pixel and replicate. With R
 /// replicates, sample s is number s / R of the random-number sequence of replicate s mod R.
 ///
 /// Each technique of the plan has a stage of work items: tiles, or batches of photons. Threads take items
@@ -58,12 +60,16 @@ struct AuxiliaryFilms {
 /// threads first trace the light subpaths of a sample; the work items are then its tiles.
 class Pass {
  public:
-  /// Prepares a pass; the film has the first `done` work items already. `seed` selects the random numbers.
+  /// Prepares a pass over `samples`, of which the film has the first `done` work items already. Pixels
+  /// outside `crop` receive nothing. `seed` selects the random numbers. The film must have the size and
+  /// planes of the scene; plan and films must outlive the pass.
   Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleRange& samples, std::uint32_t done,
        std::uint64_t seed, const AuxiliaryFilms& auxiliary = {});
 
-  /// Runs on `threads` threads until all items are done or `pause` returns true. Any thread may call `pause`
-  /// after any item. Rethrows exceptions of the threads.
+  /// Runs on `threads` threads, at least 1, until all items are done or `pause` returns true. Any thread may
+  /// call `pause` after any item. Returns the counts of this call. Rethrows an exception of a thread:
+  /// Error{scene} if a sum of the film overflows, Error{resource} if more than `MediumStack::kMaxShapes`
+  /// media nest.
   PassCounts run(int threads, const std::function<bool()>& pause);
 
   /// Number of finished items, not to be called during `run`.

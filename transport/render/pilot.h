@@ -33,38 +33,44 @@ inline constexpr std::uint64_t kPilotSeed = std::uint64_t{1} << 63;
   return 64.0 * camera.width * camera.height;
 }
 
-/// Pixel x, y of a pilot path: element `pilot` of a sequence that covers the whole film evenly.
+/// Column and row of the pixel of a pilot path: element `pilot` of a sequence that covers the whole film
+/// evenly. Each value of `stream` selects another sequence.
 [[nodiscard]] std::pair<int, int> pilot_pixel(const Camera& camera, std::uint32_t stream,
                                               std::uint32_t pilot);
 
 /// Noise of a pixel as pilots estimate it.
 struct PixelNoise {
-  double mean = 0;
-  double variance = 0;
+  double mean = 0;      ///< Mean of the paths' values.
+  double variance = 0;  ///< Variance of the value of one path.
 };
 
 /// Mean and variance of one path from the values of a pixel's paths. Each replicate has `paths_per_replicate`
-/// consecutive values; the variance follows from the scatter of the replicates.
+/// consecutive values; the variance follows from the scatter of the replicates. There must be two replicates
+/// or more, all of equal size.
 [[nodiscard]] PixelNoise estimate_pixel_noise(std::span<const double> values,
                                               std::size_t paths_per_replicate);
 
 /// A film of one replicate and few samples per pixel, which depends on the plan alone. It has about 65536
 /// paths, at least one and at most 16 per pixel, and as many photons if the plan traces photons. No render
-/// uses its random numbers, so choices that follow from it are independent of the samples of the render.
-/// Empty if `stop` returned true before the film was finished; any thread may call `stop`.
+/// uses its random numbers, so choices that follow from it are independent of the samples of the render. The
+/// film has the crop `crop`. Empty if `stop` returned true before the film was finished; any thread may call
+/// `stop`. `threads` is at least 1. Throws as `Pass::run`.
 [[nodiscard]] std::optional<Film> pilot_film(
     const Plan& plan, int threads, std::optional<Crop> crop = {},
     const std::function<bool()>& stop = [] { return false; });
 
 /// A film of eight replicates and at most 65536 camera paths and photons, with which `hidden_noise` compares
 /// a small film. No render uses its random numbers. Empty for films of more than 8192 pixels or photons per
-/// sample, and if `stop` returned true before the film was finished.
+/// sample, and if `stop` returned true before the film was finished. Arguments and errors are as for
+/// `pilot_film`.
 [[nodiscard]] std::optional<Film> noise_pilot(
     const Plan& plan, int threads, std::optional<Crop> crop = {},
     const std::function<bool()>& stop = [] { return false; });
 
-/// Adds to `sums.exposure` what each group of lights contributes to the whole film in a sample. The estimate
-/// uses 16384 camera paths, and as many photons if the plan traces photons, for any number of pixels.
+/// Adds to `sums.exposure` what each group of lights contributes to the whole film in a sample. All members
+/// of `sums` must be set, with `exposure` of one element per group. The estimate uses 16384 camera paths, and
+/// as many photons if the plan traces photons, for any number of pixels. It does not depend on `threads`.
+/// Throws Error{resource} if more than `MediumStack::kMaxShapes` media nest.
 void pilot_exposures(const Plan& plan, int threads, ExposureByLight& sums);
 
 }  // namespace abbe

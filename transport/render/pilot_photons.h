@@ -18,34 +18,36 @@ namespace abbe {
 
 /// Purpose of pilot photons. Each stage has random numbers of its own.
 enum class PilotStage : std::uint32_t {
-  coarse_guides,
-  photon_guides,
-  wavelengths,
-  caustic_photon_guides,
-  caustics,
-  probe_guides
+  coarse_guides,          ///< Photon guides, first round, with unguided photons.
+  photon_guides,          ///< Photon guides, second round, with guided photons.
+  wavelengths,            ///< Distribution of the photons' wavelengths.
+  caustic_photon_guides,  ///< Guides for the photons of `caustics`.
+  caustics,               ///< Caustic guides of camera paths.
+  probe_guides            ///< Photon guides to a small probe, through balls around it.
 };
 
+/// Number of pilot photons that a thread traces together.
 inline constexpr std::uint32_t kPilotPhotonBatch = 1U << 9;
 
 /// Maximum number of rays that the photons of a stage may cast. It limits the cost of media in which photons
 /// scatter thousands of times.
 inline constexpr std::uint64_t kMaxPilotRays = 1U << 23;
 
-/// The photons of a stage: indices `first` to `first + max_photons`, both multiples of `kPilotPhotonBatch`.
-/// Tracing stops early after `sufficient_results` results or `max_rays` rays.
+/// Photons of a stage, and the limits at which their tracing stops early, after a whole group of batches.
 struct PilotPhotons {
   PilotStage stage;
-  std::uint32_t max_photons;
+  std::uint32_t max_photons;  ///< Maximum number of photons; a multiple of `kPilotPhotonBatch`.
+  /// Number of results that suffices.
   std::size_t sufficient_results = std::numeric_limits<std::size_t>::max();
-  std::uint32_t first = 0;
-  std::uint64_t max_rays = kMaxPilotRays;
+  std::uint32_t first = 0;                 ///< Index of the first photon, which selects its random numbers.
+  std::uint64_t max_rays = kMaxPilotRays;  ///< Number of rays that ends tracing.
 };
 
-/// Returns the results of `trace(tracer, photons)` for each batch of photons, in the order of the batches.
-/// Each thread uses its own tracer, `make_tracer(caster)`. The `size()` of a result counts towards
-/// `sufficient_results`. The random numbers are the same for all scenes and seeds. Neither the results nor
-/// their number depend on `threads`.
+/// Returns a vector with the result of `trace(tracer, photons)` for each batch of photons, in the order of
+/// the batches. `photons` are the samplers of the batch. Each thread uses its own tracer,
+/// `make_tracer(caster)`, and calls both functions concurrently with the others. The `size()` of a result
+/// counts towards `sufficient_results`. The random numbers are the same for all scenes and seeds. Neither the
+/// results nor their number depend on `threads`, which is at least 1. Rethrows an exception of a thread.
 template <typename MakeTracer, typename Trace>
 [[nodiscard]] auto trace_pilot_photons(const Scene& scene, const PilotPhotons& pilots, int threads,
                                        MakeTracer make_tracer, Trace trace) {

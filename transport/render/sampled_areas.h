@@ -12,8 +12,8 @@ namespace abbe {
 
 /// Pixels that hold the same samples.
 struct SampledArea {
-  Crop pixels;
-  SampleRanges samples;
+  Crop pixels;           ///< Rectangle of pixels of the whole film.
+  SampleRanges samples;  ///< Samples that each of these pixels holds.
 
   bool operator==(const SampledArea&) const = default;
 };
@@ -26,7 +26,7 @@ using SampledAreas = std::vector<SampledArea>;
 /// and returns the first such pixels and samples.
 [[nodiscard]] std::optional<SampledArea> add(SampledAreas& areas, const SampledArea& more);
 
-/// Samples of `wanted` that its pixels lack in `areas`.
+/// Samples of `wanted` that its pixels lack in `areas`; empty if they lack none.
 [[nodiscard]] SampledAreas missing(const SampledAreas& areas, const SampledArea& wanted);
 
 /// The smallest rectangle around the areas; `areas` must not be empty.
@@ -34,9 +34,10 @@ using SampledAreas = std::vector<SampledArea>;
 /// True if `inner` lies within `outer`.
 [[nodiscard]] bool contains(const Crop& outer, const Crop& inner);
 
-/// Text of areas, "x0,y0,x1,y1=0:16,32:64 ...".
+/// Text of areas, "x0,y0,x1,y1=0:16,32:64 ...": corners of each rectangle, x1 and y1 excluded, and its
+/// samples.
 [[nodiscard]] std::string to_text(const SampledAreas& areas);
-/// Inverse of `to_text`; empty for any other text.
+/// Inverse of `to_text` for a list that is not empty; nothing for any other text, and for the empty one.
 [[nodiscard]] std::optional<SampledAreas> parse_sampled_areas(std::string_view text);
 
 }  // namespace abbe

@@ -8,7 +8,8 @@ namespace abbe {
 
 /// Variance and cost of one technique, estimated by pilots.
 struct TechniqueCost {
-  /// Variance of a pixel from one sample, divided by the squared mean of its surroundings.
+  /// Variance of a pixel from one sample, divided by the squared mean of its surroundings; mean over all
+  /// pixels.
   double relative_variance;
   double rays;  ///< Rays of one path.
 };
@@ -20,9 +21,9 @@ struct TechniqueCosts {
   TechniqueCost photons;
 };
 
-/// Sets the numbers of camera paths and photons in a sample of a plan that traces both, for the least error
-/// at its cost. The default is one path per pixel and as many photons as pixels. One of the two numbers may
-/// be reduced to a half, a quarter or an eighth.
+/// Sets `Plan::path_interval`, `Plan::photons` and `Plan::photons_split_wavelengths` of a plan that traces
+/// both camera paths and photons, for the least error at its cost. The default is one path per pixel and as
+/// many photons as pixels. One of the two numbers may be reduced to a half, a quarter or an eighth.
 ///
 /// Photons split into their wavelengths if that reduces V' c'. Their number is then reduced by a power of
 /// two, so that they cast about as many rays as photons that do not split.
@@ -34,8 +35,9 @@ struct TechniqueCosts {
 ///
 /// Variances are relative to the squared mean of a region of a sixteenth of the film's width and height, as
 /// in relMSE. Costs are numbers of rays. Both come from 32768 camera paths, eight per pixel, and 65536
-/// photons, and depend on the plan alone. A technique that finds nothing retains an eighth, since it may find
-/// something later. Returns the costs; empty, with the plan unchanged, if only one technique renders.
+/// photons, and depend on the plan alone, not on `threads`, which is at least 1. A technique that finds
+/// nothing retains an eighth, since it may find something later. Returns the costs; empty, with the plan
+/// unchanged, if only one technique renders.
 std::optional<TechniqueCosts> balance_techniques(Plan& plan, int threads);
 
 }  // namespace abbe

@@ -91,6 +91,7 @@ Sampler path_sampler(std::uint32_t pilot, std::uint32_t path) {
 
 using PathValues = std::array<double, kPilotPathsPerPixel>;  // values of the paths through one pixel
 
+// Adds mean, mean square and unbiased variance of the paths through one pixel to its region.
 void add_paths(const PathValues& values, Region& region) {
   double sum = 0;
   double squares = 0;
@@ -107,6 +108,7 @@ void add_paths(const PathValues& values, Region& region) {
   region.variance_squares += variance * variance;
 }
 
+// Traces the camera paths of one pilot pixel.
 void measure_paths(PathTracer& tracer, const Camera& camera, std::uint32_t pilot, PilotSums& sums) {
   const auto [x, y] = pixel_of(camera, pilot);
   std::vector<PixelSample> samples;
@@ -211,6 +213,7 @@ PilotSums measure_batch(const Plan& plan, const std::optional<Plan>& split_plan,
   return sums;
 }
 
+// Sums of all batches of pilots; if light tracing has dispersion, also of photons that split.
 PilotSums measure_all(const Plan& plan, int threads, std::uint32_t pixels) {
   std::optional<Plan> split_plan;
   if (plan.scene.features.dispersion && uses(plan.techniques, Technique::light)) {
@@ -274,6 +277,8 @@ class VarianceError {
   double scatter_ = 0;
 };
 
+// Statistics from the sums. Each region's mean is that of its camera paths plus that of its photons. Squares
+// and variances are divided by the squared mean plus a floor, and scaled from the pilots to all pixels.
 TechniqueStatistics relative_statistics(const PilotSums& sums, const Camera& camera,
                                         std::uint32_t pilot_pixels) {
   const double pixels = static_cast<double>(camera.width) * camera.height;

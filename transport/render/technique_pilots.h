@@ -37,8 +37,8 @@ inline constexpr std::uint32_t kPilotPathsPerPixel = 8;
 /// bidirectional path tracing. Pilots trace `kPilotPathsPerPixel` camera paths through each of `pixels`
 /// pixels, and twice as many photons. If the scene has dispersion, they trace a sixteenth as many photons
 /// again that split into their wavelengths. Bidirectional path tracing has as many photons as camera paths,
-/// and its splats count as those of photons. Costs are numbers of rays, so the result depends on the plan
-/// alone.
+/// and its splats count as those of photons. Costs are numbers of rays, so the result depends on the plan and
+/// on `pixels` alone, not on `threads`, which is at least 1.
 [[nodiscard]] TechniqueStatistics measure_techniques(const Plan& plan, int threads,
                                                      std::uint32_t pixels = 4096);
 

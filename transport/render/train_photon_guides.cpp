@@ -25,6 +25,8 @@ struct PilotSplats {
   [[nodiscard]] std::size_t size() const { return splats.size(); }
 };
 
+// Traces photons and records what they add to the cells. The branch of a photon is that of its first
+// contribution.
 PilotSplats trace_batch(LightTracer& tracer, std::span<const Sampler> photons,
                         const RelativeErrorCells& cells) {
   PilotSplats pilots;

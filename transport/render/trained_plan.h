@@ -12,7 +12,8 @@ namespace abbe {
 ///
 /// Pilots also train where camera paths look for caustics (`train_caustic_guides`). The guiding data depend
 /// on the scene alone, not on its seed, its samples or `threads`. If `guides` is not null, the plan takes
-/// that data instead. Throws as `make_plan`.
+/// that data instead, which must have been trained for the same scene. The scene must outlive the plan.
+/// Throws as `make_plan`.
 [[nodiscard]] Plan make_trained_plan(const Scene& scene, int threads,
                                      const std::shared_ptr<const GuidingData>& guides = {});
 

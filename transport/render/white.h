@@ -11,17 +11,19 @@ namespace abbe {
 /// channels.
 ///
 /// If the scene has several spectra, a pilot of few paths decides. Its random numbers depend on the scene
-/// alone, so neither the seed of the render nor the order of the lights matters. An exception are lights that
-/// contribute equally within the noise of the pilot, about 1 %. The pilot uses `guides`, or trains them if
-/// null.
+/// alone, so neither the seed of the render nor the order of the lights affects it. An exception are lights
+/// that contribute equally within the noise of the pilot, about 1 %. The pilot uses `guides`, or trains them
+/// if null.
 ///
-/// The white is equal energy for a scene without lights. If no photons can illuminate the scene (`refusal`),
-/// the strongest light decides.
+/// The white is equal energy for a scene without lights. If the scene cannot be rendered (`refusal`), or no
+/// light arrives at the film in the pilot, the strongest light decides. `threads` is at least 1 and does not
+/// change the result. Throws Error{resource} if more than `MediumStack::kMaxShapes` media nest.
 [[nodiscard]] White main_light(const Scene& scene, int threads = 1,
                                const std::shared_ptr<const GuidingData>& guides = {});
 
 /// White that the scene requests, else that of `main_light`. Its spectrum is the one in which cameras are
-/// characterised: that of the requested white if it is a light of the scene, else of `main_light`.
+/// characterised: that of the requested white if it has one, as a light of the scene does, else of
+/// `main_light`. Arguments and errors are as for `main_light`.
 [[nodiscard]] White white_of(const Scene& scene, int threads = 1,
                              const std::shared_ptr<const GuidingData>& guides = {});
 

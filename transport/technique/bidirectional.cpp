@@ -123,6 +123,7 @@ void BidirectionalTracer::join(std::uint32_t i, const JoinedVertex& x) {
     merge(i, x.number);
 }
 
+// Adds an emitter hit of the camera subpath.
 void BidirectionalTracer::add_emission(std::uint32_t i, const EmitterHit& emitter_hit) {
   if (emitter_hit.vertex_count == 1 && on_ghost(from_camera_.paths()[i].vertices.front()))
     return;  // see `GhostLights`
@@ -140,6 +141,7 @@ void BidirectionalTracer::add_emission(std::uint32_t i, const EmitterHit& emitte
       measured_emission(emitter, packet, towards));
 }
 
+// Connects camera vertex `t`, from 1, to a light sampled for it.
 void BidirectionalTracer::connect_to_light(std::uint32_t i, std::size_t t) {
   const RecordedPath& eye = from_camera_.paths()[i];
   const auto light = sample_light_vertex(plan_, eye.vertices[t - 1], connection_random(eye.sampler, t - 1));
@@ -149,11 +151,13 @@ void BidirectionalTracer::connect_to_light(std::uint32_t i, std::size_t t) {
   add_joined(i, film_point(i, t, *light));
 }
 
+// Connects camera vertex `t` with light vertex `s`, both from 1.
 void BidirectionalTracer::connect(std::uint32_t i, std::size_t t, std::size_t s) {
   set_joined(i, t, own_light_subpath(i), s);
   add_joined(i, film_point(i, t, own_light_subpath(i).vertices[s - 1]));
 }
 
+// Connects light vertex `s`, from 1, to a point of the lens sampled for it, which may expose any pixel.
 void BidirectionalTracer::connect_to_lens(std::uint32_t i, std::size_t s) {
   const LightSubpaths::Path photon = own_light_subpath(i);
   const PathVertex& from = photon.vertices[s - 1];
@@ -218,6 +222,7 @@ void BidirectionalTracer::set_joined(std::uint32_t i, std::size_t t, const Light
   joined_.t = t;
 }
 
+// Connects the vertices next to the joint of the current path and adds its contribution.
 void BidirectionalTracer::add_joined(std::uint32_t i, const FilmPoint& at) {
   const PathVertex& a = *joined_.z[joined_.t - 1];
   const PathVertex& b = *joined_.z[joined_.t];

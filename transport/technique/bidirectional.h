@@ -19,13 +19,12 @@ namespace abbe {
 
 /// Sample of a pixel: a camera subpath and a light subpath.
 struct PixelPair {
-  int x;
-  int y;
-  Sampler camera;
-  Sampler light;
+  int x;           ///< Column of the pixel.
+  int y;           ///< Row of the pixel.
+  Sampler camera;  ///< Random numbers of the camera subpath.
+  Sampler light;   ///< Random numbers of the light subpath.
   /// True if the camera subpath is traced; if not, only the light subpath exposes, at other pixels.
   bool exposes_pixel;
-  ///< alone.
 };
 
 /// Bidirectional path tracing [Lafortune1993] [Veach1997, ch. 10]. A camera subpath and a light subpath with
@@ -40,19 +39,25 @@ struct PixelPair {
 /// - every path that ends on an area light;
 /// - of paths that end on another light, those with two neighbouring vertices, the light's own included,
 ///   without a delta distribution;
-/// - with merging, which blurs, those with one such vertex on a surface.
+/// - with merging, which blurs, also those with a single vertex without a delta distribution, on a surface.
+///
+/// Deposited values are those of one sample per pixel.
 class BidirectionalTracer {
  public:
+  /// Plan and caster must outlive the tracer.
   BidirectionalTracer(const Plan& plan, RayCaster& caster);
 
-  /// Sets a callback that receives every contribution separately, in addition to the deposited sums.
+  /// Sets a callback that receives every contribution separately, in addition to the deposited sums. An empty
+  /// function removes it.
   void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
-  /// Traces the subpaths of all samples and deposits each sum under its sample's index.
+  /// Traces the subpaths of all samples. Deposits each sum at its pixel, and connections to the camera at any
+  /// pixel, all under the sample's index in `samples`. Throws Error{resource} if more than
+  /// `MediumStack::kMaxShapes` media nest.
   void trace(std::span<const PixelPair> samples, const Deposit& deposit);
 
-  /// Like the other `trace`, with light subpaths traced before. Those of the sample's own pixel are
-  /// connected, all are merged; `PixelPair::light` is not used.
+  /// Like the other `trace`, with light subpaths traced before, one per pixel of the film in the order of the
+  /// rows. That of the sample's own pixel is connected, all are merged; `PixelPair::light` is not used.
   void trace(std::span<const PixelPair> samples, const LightSubpaths& subpaths, const Deposit& deposit);
 
  private:

@@ -23,7 +23,7 @@ class BruteForceTechnique {
   using Path = RecordedPath;
   static constexpr TransportMode kMode = mode;
 
-  /// Removes all wavelengths but the hero from a packet.
+  /// Sets throughput and pdf of all wavelengths but the hero to 0.
   static void keep_hero_only(PathPacket& packet);
 
   // Interface of PathTechnique.
@@ -47,16 +47,19 @@ class BruteForceTechnique {
 /// probe, by chance. One instance per thread.
 ///
 /// Path classes owned: all, except light to a camera without an opening, and light from a directional or
-/// point light to a probe that is a point.
+/// point light to a probe that is a point. Deposited values are those of one sample per pixel.
 class BrutePhotonTracer : public BruteForceTechnique<TransportMode::power> {
  public:
-  /// `sample_fraction` is the fraction of a sample per pixel that one photon represents.
+  /// `sample_fraction` is the fraction of a sample per pixel that one photon represents: one over the number
+  /// of photons per sample. Plan and caster must outlive the tracer.
   BrutePhotonTracer(const Plan& plan, RayCaster& caster, double sample_fraction);
 
-  /// Sets a callback that receives every contribution separately, in addition to the deposited sums.
+  /// Sets a callback that receives every contribution separately, in addition to the deposited sums. An empty
+  /// function removes it.
   void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
-  /// Traces a photon for each sampler and deposits those that the camera records, under the photon's index.
+  /// Traces a photon for each sampler and deposits those that the camera records, under the photon's index in
+  /// `photons`. Throws Error{resource} if more than `MediumStack::kMaxShapes` media nest.
   void trace(std::span<const Sampler> photons, const Deposit& deposit);
 
   // Remaining interface of PathTechnique.
@@ -89,15 +92,19 @@ class BrutePhotonTracer : public BruteForceTechnique<TransportMode::power> {
 /// Brute-force adjoint tracing: paths of one wavelength each from the pixels that hit lights by chance. One
 /// instance per thread.
 ///
-/// Path classes owned: all that end on a light with area.
+/// Path classes owned: all that end on an area, environment or sun light. Deposited values are those of one
+/// sample per pixel.
 class AdjointBruteTracer : public BruteForceTechnique<TransportMode::radiance> {
  public:
+  /// Plan and caster must outlive the tracer.
   AdjointBruteTracer(const Plan& plan, RayCaster& caster);
 
-  /// Sets a callback that receives every contribution separately, in addition to the deposited sums.
+  /// Sets a callback that receives every contribution separately, in addition to the deposited sums. An empty
+  /// function removes it.
   void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
-  /// Traces a path for each sample and deposits each sum under its sample's index.
+  /// Traces a path for each sample and deposits each sum under its sample's index in `samples`, without
+  /// `PixelSample::weight`. Throws Error{resource} if more than `MediumStack::kMaxShapes` media nest.
   void trace(std::span<const PixelSample> samples, const Deposit& deposit);
 
   // Remaining interface of PathTechnique.

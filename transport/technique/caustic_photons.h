@@ -17,27 +17,31 @@ namespace abbe {
 /// Photon on a specular path.
 struct CausticPath : PathState {
   using PathState::PathState;
-  PhotonStart start;
-  float sensor_weight = 0;  ///< Factor from the photon's power to the power that the sensor records.
-  float distance = 0;       ///< Path length so far [m]; infinite for a light at infinity.
+  PhotonStart start;  ///< Where the photon left its light.
+  /// Factor from the photon's power to its power weighted by the sensor's response.
+  float sensor_weight = 0;
+  float distance = 0;  ///< Path length so far [m]; infinite for a light at infinity.
 };
 
-/// Photons that are traced as long as every event is a delta event. Their hits on scattering surfaces train a
-/// `CausticGuide`. One instance per thread.
+/// Photons that are traced as long as every event is a delta event. Their hits on scattering surfaces, after
+/// one delta event or more, train a `CausticGuide`. One instance per thread.
 class CausticPhotonTracer {
  public:
   using Path = CausticPath;
   static constexpr TransportMode kMode = TransportMode::power;
 
+  /// Hit of a photon, with the start of the photon.
   struct TracedPhoton {
     PhotonStart start;
-    CausticPhoton photon;
+    CausticPhoton photon;  ///< Its power is not yet divided by the number of emitted photons.
   };
 
-  /// `sensor_emissions` is `Emissions::sensor_emissions`. All arguments must outlive the tracer.
+  /// `sensor_emissions` is `Emissions::sensor_emissions`, per light. All arguments must outlive the tracer.
   CausticPhotonTracer(const Plan& plan, RayCaster& caster, const std::vector<double>& sensor_emissions);
 
-  /// Traces a photon for each sampler and returns all hits, in an order that depends on nothing else.
+  /// Traces a photon for each sampler and returns the hits of all: none, one or several per photon. They and
+  /// their order depend on plan and samplers alone. The span is valid until the next call. Throws
+  /// Error{resource} if more than `MediumStack::kMaxShapes` media nest.
   [[nodiscard]] std::span<const TracedPhoton> trace(std::span<const Sampler> photons);
 
   // Interface of PathTechnique.

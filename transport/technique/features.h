@@ -14,25 +14,32 @@
 
 namespace abbe {
 
-/// Receives the feature values of all planes for one sample of a pixel.
+/// Receives the feature values of all planes for one sample of a pixel. `values` is valid during the call
+/// only.
 using FeatureDeposit = std::function<void(const PixelSample& sample, std::span<const double> values)>;
 
-/// First-hit features of pixels: a ray sampled as for a path of `PathTracer`, one per sample however many
-/// paths the sample has. Medium boundaries without refraction are crossed; scattering in media is ignored.
-/// One instance per thread.
-/// - Depth: distance from the plane of the lens or probe along its axis, in the scene file's unit.
+/// First-hit features of pixels, in the order of `feature_planes`; all are 0 if the ray hits nothing. Each
+/// sample casts one ray, sampled as for a path of `PathTracer`, however many paths the sample has. Medium
+/// boundaries without refraction are crossed; scattering in media is ignored. One instance per thread.
+/// - Coverage: 1.
+/// - Depth: distance from the plane of the lens or probe along its axis, in the scene file's unit. For a
+///   camera without an axis it is the distance along the ray.
 /// - Position: the point, in the scene file's unit and coordinates.
 /// - Normal: geometric normal of the shape. Shading normal: normal with which the BSDF is evaluated. Both are
 ///   unit vectors towards the ray's origin.
 /// - Albedo, per plane: fraction of the light from there that the surface scatters or transmits, rho(lambda)
-///   = integral of f |cos| dw, averaged over wavelength with the channel's |weight|.
-/// - Id: number of the shape in the scene, from 1.
+///   = integral of f |cos| dw, averaged over wavelength with the channel's |weight|. Each value is an
+///   estimate from one sampled event.
+/// - Id: index of the shape in `Scene::shapes`, plus 1.
 class FeatureTracer {
  public:
+  /// `features` are the features to record, each once, in the order of `Feature`. Plan and caster must
+  /// outlive the tracer.
   FeatureTracer(const Plan& plan, std::span<const Feature> features, RayCaster& caster);
 
-  /// Casts a ray for each sample. Ids have no mean: only the render's `first` samples record them, the others
-  /// record 0.
+  /// Casts a ray for each sample and deposits its features. `first` is true for the first sample of each
+  /// pixel: only that one records an id, because ids have no mean. All other samples record the id 0. Throws
+  /// Error{resource} if more than `MediumStack::kMaxShapes` media nest.
   void trace(std::span<const PixelSample> samples, bool first, const FeatureDeposit& deposit);
 
  private:

@@ -15,13 +15,16 @@ namespace abbe {
 /// each wavelength falls where the ghost sends it. One instance per thread.
 class GhostLights {
  public:
+  /// Plan and caster must outlive it.
   GhostLights(const Plan& plan, RayCaster& caster);
 
-  /// True if the camera has ghosts and a light can be sampled.
+  /// True if the camera has ghosts and a light can be sampled; otherwise `connect` does nothing.
   [[nodiscard]] bool any() const { return any_; }
 
-  /// Makes the connection of one sample of a pixel, with its random numbers and wavelengths, and deposits it
-  /// under the index `path`. `layer_sink` may be empty.
+  /// Makes the connection of one sample of a pixel, with its random numbers and wavelengths. Deposits it
+  /// under the index `path`, at the pixels to which the ghost sends it. Deposits nothing if the light is
+  /// occluded. Values are those of one sample per pixel. `layer_sink` may be empty. Throws Error{resource} if
+  /// more than `MediumStack::kMaxShapes` media nest.
   void connect(const Sampler& sampler, const SampledWavelengths& wavelengths, std::uint32_t path,
                const Deposit& deposit, const ContributionDeposit& layer_sink);
 

@@ -117,6 +117,7 @@ void LightTracer::connect_to(const LightPath& path, int depth, const CameraConne
   shadow_rays_.push_back(shadow_ray_between(ray.origin, lens.lens_point, ray.time));
 }
 
+// Traces the queued shadow rays and exposes the unoccluded connections.
 void LightTracer::resolve_connections() {
   occluded_.resize(shadow_rays_.size());
   caster_.occluded(shadow_rays_, occluded_);

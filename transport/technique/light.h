@@ -19,11 +19,12 @@ namespace abbe {
 /// Photon of the light tracer.
 struct LightPath : PathState {
   using PathState::PathState;
-  float power = 0;  ///< Largest initial power of a wavelength.
+  float power = 0;  ///< Largest throughput of a wavelength at the start.
   /// Hash of the specular events before the first event of another kind, and of their shapes.
   std::uint32_t branch = 0;
   bool scattered = false;  ///< True after an event that is not specular: the branch is complete.
-  /// Adds an event to the branch by a step of the FNV-1a hash.
+  /// Adds an event at the shape of index `shape` to the branch by a step of the FNV-1a hash. After the first
+  /// event that is not specular it does nothing.
   void extend_branch(std::uint32_t shape, const BsdfSample& event) {
     constexpr std::uint32_t kPrime = 16777619;
     scattered = scattered || !event.delta;
@@ -35,7 +36,8 @@ struct LightPath : PathState {
 /// non-specular vertex. Path tracing owns photons whose first vertex is not specular; these are traced only
 /// if no other technique is in the plan. Photons expose a probe where they hit it: all of them without path
 /// tracing, otherwise those whose last vertex is specular, and all of lights without area. If the plan
-/// selects it, photons split into their wavelengths at dispersive glass. One instance per thread.
+/// selects it, photons split into their wavelengths at dispersive glass. Deposited values are those of one
+/// sample per pixel. One instance per thread.
 class LightTracer {
  public:
   using Path = LightPath;
@@ -44,17 +46,19 @@ class LightTracer {
   /// `sample_fraction` is the fraction of a sample per pixel that one photon represents: 1/pixels if a sample
   /// has one photon per pixel. With a `ball_radius` [m], photons that enter or start within the ball of that
   /// radius around the probe's center expose its first pixel instead. This measures the light that passes
-  /// near the probe.
+  /// near the probe. Plan and caster must outlive the tracer.
   LightTracer(const Plan& plan, RayCaster& caster, double sample_fraction,
               std::optional<double> ball_radius = {});
 
   /// Sets a callback that receives every contribution with its light, depth and branch, in addition to the
-  /// deposits.
+  /// deposits. An empty function removes it.
   void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
-  /// Traces a photon for each sampler and deposits its connections under the photon's index.
+  /// Traces a photon for each sampler and deposits its contributions under the photon's index in `photons`.
+  /// The plan must have a light to trace. Throws Error{resource} if more than `MediumStack::kMaxShapes` media
+  /// nest.
   void trace(std::span<const Sampler> photons, const Deposit& deposit);
-  /// Starts of the photons of the last call.
+  /// Starts of all photons of the last call, in the order of its samplers; valid until the next call.
   [[nodiscard]] std::span<const PhotonStart> starts() const { return starts_; }
 
   // Interface of PathTechnique.

@@ -98,6 +98,8 @@ PathTracer::ChosenLight PathTracer::choose_light(const LightSampleContext& conte
   return chosen;
 }
 
+// Queues next-event estimation: w T f |cos| L_e factor with the MIS weight w, which includes 1/pdf. With free
+// paths the weight follows after the shadow ray.
 void PathTracer::connect(CameraPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u) {
   if (!connects() || path.seeks_caustic) return;
   const ChosenLight chosen = choose_light(vertex.light_context(), u, path.ray.time);
@@ -146,6 +148,7 @@ float PathTracer::survival_weight(CameraPath& path, const SurfaceVertex& vertex,
   return path.rr_scale * roulette_throughput(path);
 }
 
+// Traces the queued shadow rays and adds the unoccluded connections.
 void PathTracer::resolve_connections() {
   occluded_.resize(shadow_rays_.size());
   caster_.occluded(shadow_rays_, occluded_);

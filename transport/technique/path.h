@@ -25,34 +25,37 @@ namespace abbe {
 /// which the guide samples the same direction.
 struct GuidedScattering {
   CausticLobes lobes;
-  Imath::V3f point{0, 0, 0};
-  Imath::V3f direction{0, 0, 1};
-  SampledSpectrum pdf;  ///< BSDF sampling pdf per wavelength [1/sr].
+  Imath::V3f point{0, 0, 0};      ///< Point of the surface in world space.
+  Imath::V3f direction{0, 0, 1};  ///< Unit direction in world space in which the path left.
+  SampledSpectrum pdf;            ///< BSDF sampling pdf per wavelength [1/sr].
 };
 
 /// Path from the camera.
 struct CameraPath : PathState {
   using PathState::PathState;
-  FilmPoint at;
-  SampledSpectrum scale;     ///< Film exposure per radiance along its first ray, times the exposure time.
+  FilmPoint at;              ///< Film point to which the path contributes.
+  SampledSpectrum scale;     ///< Exposure of the film per radiance along the first ray [sr s].
   SampledSpectrum radiance;  ///< Weighted sum of its contributions so far.
-  /// Factor by which refraction, guiding and a dispersing lens have reduced its throughput.
+  /// Factor that undoes the reduction of the throughput by refraction, guiding and a dispersing lens; for
+  /// roulette.
   float eta_scale = 1;
-  bool is_split_child = false;            ///< True after the path has split.
-  float rr_scale = kCameraRouletteScale;  ///< Factor from throughput to survival weight.
+  bool is_split_child = false;            ///< True after the path has split by `Plan::log2_splits`.
+  float rr_scale = kCameraRouletteScale;  ///< Factor from throughput to the throughput that roulette uses.
   bool owns_caustics = false;  ///< True if the path owns traced lights that it hits by specular events.
   CausticLobes caustics;       ///< Lobes of the caustic guide at the current vertex.
   GuidedScattering guided;  ///< Its lobes are empty if the guide could not have sampled the last direction.
   bool seeks_caustic = false;  ///< True if the guide sampled its direction: only specular events continue it.
-  LensRoute route = 0;         ///< Route of the path through the lens.
+  LensRoute route = 0;         ///< Route of the path through the lens; above 0 for a ghost.
 };
 
 /// Sample of a pixel.
 struct PixelSample {
-  int x;
-  int y;
-  Sampler sampler;
-  double weight = 1;  ///< Weight of its exposure; above 1 if not every sample has a path at this pixel.
+  int x;            ///< Column of the pixel.
+  int y;            ///< Row of the pixel.
+  Sampler sampler;  ///< Random numbers of the path.
+  /// Weight of its exposure; above 1 if not every sample has a path at this pixel. Integrators ignore it: the
+  /// receiver of their deposits applies it.
+  double weight = 1;
 };
 
 /// Unidirectional path tracer [Kajiya1986] with next-event estimation at every non-specular vertex and
@@ -64,20 +67,24 @@ struct PixelSample {
 /// those of BSDF sampling. The plan may split paths at the first scattering surface [Arvo1990]. One instance
 /// per thread.
 ///
-/// Path classes owned: every path that ends on an area, environment or sun light, or by NEE. Exception:
-/// paths to a traced light whose neighbouring vertex is specular. Of these, camera paths are owned only if
-/// their first vertex is specular too, and probe paths only if their first vertex scatters.
+/// Path classes owned: every path that ends on an area, environment or sun light, or by NEE. Exception: paths
+/// to a traced light whose neighbouring vertex is specular. Of these, camera paths are owned only if their
+/// first vertex is specular too, and probe paths only if their first vertex scatters. Deposited values are
+/// those of one sample per pixel.
 class PathTracer {
  public:
   using Path = CameraPath;
   static constexpr TransportMode kMode = TransportMode::radiance;
 
+  /// Plan and caster must outlive the tracer.
   PathTracer(const Plan& plan, RayCaster& caster);
 
-  /// Sets a callback that receives every contribution separately, in addition to the deposited sums.
+  /// Sets a callback that receives every contribution separately, in addition to the deposited sums. An empty
+  /// function removes it.
   void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
-  /// Traces a path for each sample and deposits each sum under its sample's index, at least once per sample.
+  /// Traces a path for each sample and deposits each sum under its sample's index in `samples`, at least once
+  /// per sample. Throws Error{resource} if more than `MediumStack::kMaxShapes` media nest.
   void trace(std::span<const PixelSample> samples, const Deposit& deposit);
 
   // Interface of PathTechnique.

@@ -20,13 +20,15 @@ namespace abbe {
 
 /// Photons of a density estimate: all within a radius, or a number of nearest ones.
 struct GatherKernel {
-  float radius = 0;
+  float radius = 0;           ///< Radius [m].
   std::size_t nearest = 0;    ///< Number of nearest photons; 0 selects the radius.
   bool final_gather = false;  ///< Gathers one event later, except for caustic photons.
 };
 
-/// Gathering radius of a sample, numbered from 0: r_i^2 = r_1^2 prod_{k<i} (k + a)/(k + 1) with a = 2/3. The
-/// squared bias and the variance of the mean over i samples then decrease at the same rate [Knaus2011]
+/// Gathering radius [m] of the sample of index `sample`, from 0. The first one is r_1 = `first_radius`. With
+/// i = sample + 1 and a = 2/3:
+///     r_i^2 = r_1^2 prod_{k=1}^{i-1} (k + a)/(k + 1).
+/// The squared bias and the variance of the mean over i samples then decrease at the same rate [Knaus2011]
 /// [Kaplanyan2013].
 [[nodiscard]] float gather_radius(float first_radius, std::uint64_t sample);
 
@@ -50,13 +52,16 @@ class PhotonGatherer {
   using Path = GatherPath;
   static constexpr TransportMode kMode = TransportMode::radiance;
 
+  /// Plan and caster must outlive the gatherer.
   PhotonGatherer(const Plan& plan, RayCaster& caster);
 
-  /// Sets a callback that receives every contribution separately, in addition to the deposited sums.
+  /// Sets a callback that receives every contribution separately, in addition to the deposited sums. An empty
+  /// function removes it.
   void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
-  /// Traces a path for each sample, with the packet of the photons, and deposits each sum under its sample's
-  /// index.
+  /// Traces a path for each sample, with packet and time of the photons. Deposits each sum under its sample's
+  /// index in `samples`, as the value of one sample per pixel, without `PixelSample::weight`. Throws
+  /// Error{resource} if more than `MediumStack::kMaxShapes` media nest.
   void trace(std::span<const PixelSample> samples, const PhotonCloud& cloud, const GatherKernel& kernel,
              const Deposit& deposit);
 

@@ -33,6 +33,8 @@ bool emits_in_direction(const Light& light, const EmissionPoint& from, const Ima
   return emits_towards(light, from.normal, wi);
 }
 
+// Photon of a nearby light, in a direction of its guide: L_e |cos| / (q p_area p_direction), q being the
+// probability of the light.
 PhotonRay start_near(const Plan& plan, const PowerLightSampler::SampledLight& pick, const PhotonRandom& u) {
   const Light& light = plan.scene.lights[pick.light];
   const EmissionPoint from = sample_emission_point(light, plan.scene.shapes, u.start, u.time);
@@ -51,6 +53,8 @@ Ray ray_through_target(const PhotonGuide& guide, const GuidedPoint& at, const Im
   return ray_at(at.point - direction * (2 * guide.half_size()), direction, time);
 }
 
+// Photon of a distant light, through a point of the target at the distance d: L_e |cos_light cos_target| / (q
+// p_light p_target d^2).
 PhotonRay start_distant(const Plan& plan, RayCaster& caster, const PowerLightSampler::SampledLight& pick,
                         const PhotonRandom& u) {
   const Light& light = plan.scene.lights[pick.light];
@@ -72,6 +76,7 @@ PhotonRay start_distant(const Plan& plan, RayCaster& caster, const PowerLightSam
   return {ray, static_cast<float>(static_cast<double>(cosines) / density)};
 }
 
+// Photon of a light at infinity, through a point of the target: L_e |cos_target| / (q p_target p_direction).
 PhotonRay start_at_infinity(const Plan& plan, RayCaster& caster, const PowerLightSampler::SampledLight& pick,
                             const PhotonRandom& u) {
   const Light& light = plan.scene.lights[pick.light];

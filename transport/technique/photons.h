@@ -17,14 +17,14 @@ namespace abbe {
 /// Photon stored on a scattering surface.
 struct Photon {
   Imath::V3f point;
-  Imath::V3f normal;         ///< Geometric normal of the surface.
+  Imath::V3f normal;         ///< Outward unit geometric normal of the surface.
   Imath::V3f from;           ///< Unit direction towards its origin.
-  SampledSpectrum power;     ///< Throughput over the hero's pdfs: spectral flux.
+  SampledSpectrum power;     ///< `PathPacket::throughput`: spectral flux, not divided by the number of paths.
   SampledSpectrum lane_pdf;  ///< See `PathPacket`.
   int depth;                 ///< Number of scattering events before this surface.
-  std::uint32_t light;       ///< Index of its light.
+  std::uint32_t light;       ///< Index into `Scene::lights`.
   bool caustic;              ///< True if all events before were delta events.
-  CarriedPolarisation polarisation = {};
+  CarriedPolarisation polarisation = {};  ///< Polarisation on arrival; empty if the scene carries none.
 };
 
 /// Light paths that store photons at every scattering surface except the first, where camera paths connect to
@@ -34,10 +34,12 @@ class PhotonTracer {
   using Path = RecordedPath;
   static constexpr TransportMode kMode = TransportMode::power;
 
+  /// Plan and caster must outlive the tracer.
   PhotonTracer(const Plan& plan, RayCaster& caster);
 
-  /// Traces a path with the given packet and time for each sampler and appends its photons to `photons`, in
-  /// an order that depends on nothing else.
+  /// Traces a path with the given packet and time (fraction of the exposure) for each sampler and appends its
+  /// photons to `photons`, by path and then by depth. Throws Error{resource} if more than
+  /// `MediumStack::kMaxShapes` media nest.
   void trace(std::span<const Sampler> samplers, const PathPacket& packet, float time,
              std::vector<Photon>& photons);
 
@@ -82,14 +84,15 @@ class PhotonTracer {
 
 /// Photons of a sample with their spatial index.
 struct PhotonCloud {
+  /// Builds the index of `stored_photons`, which `traced` paths stored.
   PhotonCloud(std::vector<Photon> stored_photons, std::uint64_t traced, const PathPacket& start_packet,
               float start_time);
 
   std::vector<Photon> photons;
-  PhotonMap map;
+  PhotonMap map;        ///< Positions of `photons`, with the same numbers.
   std::uint64_t paths;  ///< Number of paths traced for them.
   PathPacket packet;    ///< Initial packet of all paths.
-  float time;           ///< Time of all paths.
+  float time;           ///< Time of all paths, a fraction of the exposure.
 };
 
 }  // namespace abbe

@@ -107,6 +107,8 @@ FilmPoint start_from_camera(const Plan& plan, int x, int y, float time, Recorded
   return {x, y, start.cos_film, start.ray.time, start.images ? &images : nullptr};
 }
 
+// The throughput is L_e |cos| / (p_point p_ray). p_point includes the probability of the light. For a light
+// at infinity it is the pdf of the direction, and p_ray that of the ray's position.
 void start_from_light(const Plan& plan, RayCaster& caster, float time, RecordedPath& path) {
   if (plan.traced_lights.empty()) return;
   const Scene& scene = plan.scene;
