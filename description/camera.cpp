@@ -128,12 +128,14 @@ std::optional<PlacedView> build(const spec::View& view, const SourcePosition& wh
     context.diagnostics.error(where, "up is parallel to the viewing direction");
     return std::nullopt;
   }
+  // A roll by the angle r turns the right axis to cos r right - sin r up, clockwise as the camera looks.
   const Imath::V3d level = right.normalized();
   const double roll = view.roll_deg * std::numbers::pi / 180;
   const Imath::V3d turned = level * std::cos(roll) - level.cross(forward) * std::sin(roll);
   return PlacedView{{from, turned, turned.cross(forward), forward}, sight.length()};
 }
 
+// The pinhole at the distance v from the film. Its opening has the radius v/(2 N) for the f-number N.
 std::optional<Pinhole> build(const spec::PinholeCamera& camera, const SourcePosition& where,
                              const Sensor& sensor, const LoadContext& context) {
   const auto view = build(camera.view, where, context);

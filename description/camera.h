@@ -17,28 +17,35 @@ namespace abbe::spec {
 
 /// The f-number or T-stop of a lens.
 struct Aperture {
-  std::optional<double> f_number;
+  std::optional<double> f_number;  ///< Focal length over the diameter of the aperture.
+  /// f-number divided by the square root of the transmittance of the lens. A lens with a T-stop alone is
+  /// lossless. If both are absent, the f-number is `kDefaultFNumber`.
   std::optional<schema::Located<double>> t_stop;
 };
-struct FocalLength : schema::Value<double> {};
-struct FieldOfView : schema::Value<double> {};
+struct FocalLength : schema::Value<double> {};  ///< Distance from the pinhole to the film [scene units].
+struct FieldOfView : schema::Value<double> {};  ///< Full angle along the shorter image axis [degrees].
+/// A camera without a lens, sharp everywhere. Its aperture sets only the exposure.
 struct Pinhole {
   std::variant<std::monostate, FocalLength, FieldOfView> view;
   Aperture aperture;
 };
+/// An ideal lens. A focal length and an aperture are required.
 struct ThinLens {
-  double focal_length = 0;
+  double focal_length = 0;  ///< [scene units]
   Aperture aperture;
   Iris iris;
-  std::optional<FocusDistance> focus_distance;  ///< The distance from `from` to `to` if absent.
+  /// Distance from the lens to the plane in focus, or infinity. If absent, the distance from `View::from` to
+  /// `View::to`.
+  std::optional<FocusDistance> focus_distance;
   SourcePosition where;
 };
 /// Position and orientation of a camera, in scene units.
 struct View {
+  /// Position of the camera: of its pinhole, its thin lens or the first surface of its lens system.
   Imath::V3d from{0, 0, 0};
-  Imath::V3d to{0, 0, 0};
-  Imath::V3d up{0, 0, 0};
-  double roll_deg = 0;
+  Imath::V3d to{0, 0, 0};  ///< Position that the camera looks at.
+  Imath::V3d up{0, 0, 0};  ///< Direction that is up in the image, of any length except 0.
+  double roll_deg = 0;     ///< Rotation about the viewing direction, clockwise as the camera looks.
 };
 /// A lens with its position and orientation.
 template <typename Lens>
@@ -49,30 +56,37 @@ struct CameraWithView {
 using PinholeCamera = CameraWithView<Pinhole>;
 using ThinLensCamera = CameraWithView<ThinLens>;
 using LensSystemCamera = CameraWithView<LensSystem>;
+/// The camera or irradiance probe of a scene file. `std::monostate` means that none has been read.
 struct Camera {
   std::variant<std::monostate, PinholeCamera, ThinLensCamera, LensSystemCamera, Probe> kind;
   SourcePosition where;
-  std::optional<Motion> motion = {};
+  std::optional<Motion> motion = {};  ///< Motion relative to the described pose; at rest if absent.
 };
+/// Key table of `Camera`.
 [[nodiscard]] schema::Fields fields(schema::Tag<Camera>);
 
 }  // namespace abbe::spec
 
 namespace abbe::description {
 
-/// The fastest lens in air: N = 1/(2 sin U'), where U' is the half-angle of the cone of light on the film.
+/// f-number of the fastest lens in air: N = 1/(2 sin U') for U' = 90 degrees, the half-angle of the cone of
+/// light on the film.
 inline constexpr double kFastestFNumber = 0.5;
-/// The f-number that sets the exposure of a pinhole without one of its own.
+/// f-number that sets the exposure of a pinhole with neither f-number nor T-stop.
 inline constexpr double kDefaultFNumber = 4;
 
-/// Builds the camera in front of the sensor's film. Returns nothing after an error. Errors in addition to
-/// those of the key table:
+/// Builds the camera, in metres, in front of the film of `sensor`. `camera.kind` must not be std::monostate.
+/// Returns nothing after an error. Errors in addition to those of the key table:
 /// - a T-stop faster than the f-number, or than the blades allow a lens in air;
-/// - a view without a direction;
-/// - a lens that cannot focus at the requested distance.
+/// - a view without a direction, or with `up` along it;
+/// - a thin lens with a focus distance within its focal length;
+/// - the errors of a lens system and of a probe.
+/// The motion is not built; see `set_moving`. Throws Error{resource} if the memory limit is exceeded.
 [[nodiscard]] std::optional<Camera> build(const spec::Camera& camera, const Sensor& sensor,
                                           LoadContext& context);
-/// Applies a motion to a camera, relative to its described pose. A probe cannot move: that is an error.
+/// Moves `camera` from its described pose to that at which the shutter opens, and sets its motion from then
+/// on. `context.open_s` and `context.span_s` must be set. Reports a probe, which cannot move, and the errors
+/// of a motion; the camera is then not usable or at rest.
 void set_moving(const spec::Motion& spec, Camera& camera, LoadContext& context);
 
 }  // namespace abbe::description

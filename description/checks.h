@@ -6,8 +6,10 @@
 
 namespace abbe::description {
 
-/// Smallest wavelength range [nm] outside which all curves are zero. `low` > `high` if every curve is zero
-/// everywhere.
+// Checks of a scene that has been built. Errors and warnings go to `context.diagnostics`.
+
+/// Smallest wavelength range [nm] outside which all curves passed to `extend` are zero. `low` > `high` if
+/// there is none, or every curve is zero everywhere.
 struct Support {
   double low = kMaxWavelengthNm;
   double high = kMinWavelengthNm;
@@ -15,21 +17,24 @@ struct Support {
 /// Enlarges the range so that it contains all wavelengths at which `curve` is not zero.
 void extend(Support& support, const Curve& curve);
 
-/// Warns of every light that emits nothing in the wavelength range of the sensor. The warning is an error
-/// with --strict.
+/// Warns of every light that emits nothing, or nothing that a channel of the sensor records. The warning is
+/// an error if the diagnostics are strict. Lights must be in the order of `context.emission_positions`.
 void check_lights(const LoadContext& context, const Scene& scene);
 
-/// Reports geometry that single precision cannot resolve, once the scene is recentred:
-/// - a shape with a medium inside, or an emitting mesh, of only a few float steps at its position;
-/// - a nearby opaque shape of only a few float steps;
-/// - a view that spans only a few distinguishable directions. This error is reported at `camera`.
+/// Reports as errors geometry that single precision cannot resolve. The scene must have been recentred. A
+/// float step is the spacing of floats at the largest coordinate of a shape's box:
+/// - a shape with a medium inside, or an emitting mesh, whose box has a diagonal of fewer than 64 steps;
+/// - any other shape of fewer than 8 steps, unless it is far from the camera;
+/// - a pixel, or a distant scene, that spans too few distinguishable directions. This error is at `camera`.
 void check_precision(const SourcePosition& camera, const LoadContext& context, const Scene& scene);
-/// Warns at `where` if the data of this refractive index do not cover the wavelength range of the sensor.
-/// Also warns if its k, where it has one, is measured over a shorter part of that range than its n.
+/// Warns at `where` if the data of the refractive index `use` do not cover the range `sensor` [nm] in which
+/// the sensor responds. Also warns if it has a k that is measured over a shorter part of that range than its
+/// n.
 void check_validity(const IndexUse& use, const Support& sensor, const SourcePosition& where,
                     Diagnostics& diagnostics);
-/// Warns of every refractive index of a material that is used outside the wavelengths of its data. Reports as
-/// an error a medium that must be clear and absorbs where the sensor responds (`clear_fault`).
+/// Warns of every refractive index of a material of `scene` that is used outside the wavelengths of its data.
+/// Reports as an error a medium that must be clear and absorbs where the sensor responds
+/// (`transparency_fault`). `materials` gives the positions of the messages.
 void check_validity(const spec::Materials& materials, const LoadContext& context, const Scene& scene);
 
 }  // namespace abbe::description

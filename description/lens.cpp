@@ -128,6 +128,8 @@ std::optional<lens::Glass> build(const spec::LensGlass& spec, const std::set<dou
   return lens::Glass{std::move(ior->name), std::move(ior->index)};
 }
 
+// Builds a surface. A conic of curvature c and conic constant k ends at the height 1/(|c| sqrt(1 + k)), where
+// its sag is no longer real.
 lens::Surface build(const spec::LensSurface& spec, const std::set<double>& wavelengths_nm,
                     LoadContext& context) {
   lens::Surface surface;

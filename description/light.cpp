@@ -226,6 +226,7 @@ struct LightBuilder {
          inverse_square});
   }
   void operator()(const spec::SpotLightSource& spec) {
+    // The cap of the cone is 1 - cos a = 2 sin^2(a/2) for the half-angle a. This form has no cancellation.
     const double sine = std::sin(spec.source.half_angle_deg * std::numbers::pi / 360);
     const PoseAndMotion moving = point_motion();
     Imath::V3d axis;
@@ -260,6 +261,7 @@ struct LightBuilder {
                        [](double) { return 1.0; }});
   }
   void operator()(const spec::SunLightSource& spec) {
+    // The cap of the disc is 1 - cos a = 2 sin^2(a/2) for the angular radius a.
     const double sine = std::sin(spec.source.angular_diameter_deg * std::numbers::pi / 720);
     const SunLight sun{Imath::V3f(spec.source.towards.normalized()), static_cast<float>(2 * sine * sine)};
     const double of_unit = sun.projected_solid_angle();

@@ -19,16 +19,20 @@ struct Scene;
 
 namespace abbe {
 
-/// Reads, checks and builds a scene. Reports every error; returns nothing if there is one.
-/// If `path` is `kStandardStream` the text comes from standard input, and files it names are relative to the
-/// working directory. `inputs` records every file that the scene and its meshes name, and the memory of
-/// images, grids and meshes. Throws Error{resource} if that memory exceeds its limit. `spec`, if given,
-/// receives the parsed description.
+/// Reads, checks and builds a scene, and commits it, so that it can be rendered. Reports every error to
+/// `diagnostics`; returns nothing if they then have one, also an earlier one. Files that the scene names are
+/// relative to its folder. If `path` is `kStandardStream` the text comes from standard input, and files are
+/// relative to the working directory. `overrides` are applied to the JSON in order, before it is checked.
+/// `inputs`, if given, records every file that the scene and its meshes name, and the memory of images, grids
+/// and meshes. `spec`, if given, receives the parsed description, as far as it was read.
+/// Throws Error{resource} if the memory limit is exceeded, and Error{input} for an unreadable environment
+/// image.
 [[nodiscard]] std::optional<Scene> load_scene(const std::filesystem::path& path,
                                               std::span<const Override> overrides, Diagnostics& diagnostics,
                                               Inputs* inputs = nullptr, spec::Scene* spec = nullptr);
 
-/// Builds a scene from a text, as above; files that it names are relative to `folder`.
+/// Builds a scene from the text `source`, with the same results as for a file. Files that it names are
+/// relative to `folder`; if that is empty, to the working directory.
 [[nodiscard]] std::optional<Scene> load_scene(const std::shared_ptr<const SourceText>& source,
                                               const std::filesystem::path& folder,
                                               std::span<const Override> overrides, Diagnostics& diagnostics,
@@ -40,18 +44,20 @@ struct MeteredScene {
   std::vector<Meter> meters;     ///< The meters in the order of the file; at least one.
   std::filesystem::path folder;  ///< Files that the scene names are relative to this folder.
 };
-/// Reads a scene for its meters, with the diagnostics of `load_scene`. It needs no camera. A scene without
-/// meters is an error.
+/// Reads a scene file for its meters, with the parameters of `load_scene`. It needs no camera. Only the
+/// description and the meters are checked; `scene_of` checks the rest. Reports errors, also a scene without
+/// meters, and returns nothing after one. Throws Error{resource} if the memory limit of `inputs` is exceeded.
 [[nodiscard]] std::optional<MeteredScene> load_meters(const std::filesystem::path& path,
                                                       std::span<const Override> overrides,
                                                       Diagnostics& diagnostics, Inputs* inputs = nullptr);
-/// Reads a text for its meters, as above; files that it names are relative to `folder`.
+/// Reads the text `source` for its meters, with the same results as for a file. Files that it names are
+/// relative to `folder`.
 [[nodiscard]] std::optional<MeteredScene> load_meters(const std::shared_ptr<const SourceText>& source,
                                                       const std::filesystem::path& folder,
                                                       std::span<const Override> overrides,
                                                       Diagnostics& diagnostics, Inputs* inputs = nullptr);
-/// Builds the scene for one meter, which replaces the camera and gives the channels. Reports errors as
-/// `load_scene` does.
+/// Builds and commits the scene for one of `scene.meters`, which replaces the camera and gives the channels.
+/// Its hash `sha256` stays empty. Reports errors, returns nothing after one and throws as `load_scene` does.
 [[nodiscard]] std::optional<Scene> scene_of(const MeteredScene& scene, const Meter& meter,
                                             Diagnostics& diagnostics, Inputs* inputs = nullptr);
 

@@ -25,22 +25,23 @@ namespace abbe::description {
 /// Prototypes of an object for its instances. They are shifted by `-center` to the origin, where single
 /// precision resolves best.
 struct Object {
+  /// One part of one of its shapes.
   struct Member {
-    std::string name;
-    std::uint32_t material;
+    std::string name;        ///< Name of the shape, with "/MATERIAL" if a mesh file has several materials.
+    std::uint32_t material;  ///< Index in `Scene::materials`.
     std::shared_ptr<const Prototype> prototype;
   };
   std::vector<Member> parts;
-  Imath::V3d center{0, 0, 0};
+  Imath::V3d center{0, 0, 0};  ///< Center of the bounding box in the coordinates of the scene file [m].
 };
 
 /// A spectrum that one or more lights name.
 struct SharedLightSpectrum {
   Curve curve;                  ///< The spectrum before scaling.
-  double power;                 ///< Integral of `curve` over wavelength.
-  double luminous;              ///< Photometric integral of `curve`.
+  double power;                 ///< Integral of `curve` over wavelength [nm].
+  double luminous;              ///< Photometric integral of `curve`, as in lm for W/nm.
   double reference_factor = 0;  ///< Scale of the first light; 0 while `normalised` is empty.
-  int exponent = 0;
+  int exponent = 0;             ///< Power of two that scales the curve to [0, 1].
   std::shared_ptr<const Curve> normalised =
       nullptr;  ///< `curve` * reference_factor * 2^-exponent, in [0, 1].
 };
@@ -49,12 +50,12 @@ struct SharedLightSpectrum {
 struct PartialTable {
   NamedCurve table;
   SourcePosition where;  ///< Position at which the scene names the table.
-  std::string channel;   ///< Channel of a sensor to which it belongs; empty for all channels.
+  std::string channel;  ///< Channel of a sensor to which it belongs; empty for all channels, and for a light.
 };
 
 /// Rules by which tables must cover the wavelength range of the sensor.
 struct TableCoverage {
-  NeededRange needed{};                 ///< Range that tables must cover, once sensor or meter is built.
+  NeededRange needed{};  ///< Range [nm] that tables must cover, set once sensor or meter is built.
   std::span<const Channel> channels{};  ///< Channels of the sensor; empty for a meter.
   std::vector<PartialTable>* partial_tables =
       nullptr;            ///< If set, collects the partial tables of the light or sensor under construction.
@@ -63,36 +64,39 @@ struct TableCoverage {
   std::set<std::string> warned{};  ///< Warnings that have been reported.
 };
 
-/// State that the builders of one scene have in common.
+/// State that the builders of one scene have in common. One instance per scene that is built; not
+/// thread-safe.
 struct LoadContext {
-  Diagnostics& diagnostics;
+  Diagnostics& diagnostics;      ///< Receives all errors and warnings.
   std::filesystem::path folder;  ///< Folder to which the files that the scene names are relative.
-  Inputs* inputs = nullptr;      ///< Record of input files and memory, if the command has one.
-  double unit_m = 1;             ///< Metres per scene unit.
+  Inputs* inputs = nullptr;  ///< Record of input files and memory; nullptr if there is none, and no limit.
+  double unit_m = 1;         ///< Metres per scene unit.
   std::vector<std::filesystem::path> files{};        ///< Every file named so far, for the hash of the scene.
   std::vector<SourcePosition> emission_positions{};  ///< Position of each light's emission in the scene file.
   std::vector<SourcePosition> shape_positions{};  ///< Position of each shape of the scene in the scene file.
-  std::map<std::string, Object> objects{};
+  std::map<std::string, Object> objects{};        ///< Objects by name, for instances.
   std::unordered_map<std::string, SharedLightSpectrum>
       light_spectra{};                                         ///< Light spectra by unit, scaling and text.
   std::unordered_map<std::string, std::uint32_t> materials{};  ///< Index in `Scene::materials` by name.
   std::vector<std::shared_ptr<Placement>>
       placements{};                                ///< Placement of each instance; recentred with the scene.
   std::vector<std::shared_ptr<Motion>> motions{};  ///< Every motion; recentred with the scene.
-  double open_s = 0;                               ///< Time at which the first row opens [s].
-  double span_s = 1;                               ///< Time from then until all rows are closed [s].
+  double open_s = 0;  ///< Time at which the first row opens [s], on the keyframes' clock.
+  double span_s = 1;  ///< Duration from then until all rows are closed [s].
   TableCoverage coverage{};
 
-  /// Path of a file that the scene names, recorded for the hash. Reports a URL and returns nothing.
+  /// Path of a file that the scene names, relative to `folder`; recorded as by `remember`. The file need not
+  /// exist. Reports a URL at `where` and returns nothing.
   [[nodiscard]] std::optional<std::filesystem::path> file(const std::string& name,
                                                           const SourcePosition& where);
   /// Records a file for the hash and in `inputs`.
   void remember(const std::filesystem::path& file);
-  /// Adds to the memory of the inputs before it is allocated. Throws Error{resource} if the limit is
-  /// exceeded.
+  /// Reserves `bytes` of memory in `inputs` before `what`, a noun for messages, is allocated. Throws
+  /// Error{resource} if the limit is exceeded.
   void take_memory(const std::string& what, std::size_t bytes) const;
-  /// Name of a table as the data libraries accept it. A user's `FILE.csv`, `FILE.csv:COLUMN` or `FILE.yml`
-  /// becomes a path relative to the scene. Reports a URL and returns nothing.
+  /// Name of a table as the data libraries accept it. A user's `FILE.csv`, `FILE.csv:COLUMN`, `FILE.json` or
+  /// `FILE.yml` becomes a path below `folder`, recorded as by `remember`; any other name is returned
+  /// unchanged. Reports a URL of such a file at `where` and returns nothing.
   [[nodiscard]] std::optional<std::string> table(const std::string& name, const SourcePosition& where);
 };
 

@@ -13,129 +13,160 @@
 
 namespace abbe::spec {
 
+// Materials as scene files describe them. Lengths are in the scene file's unit; reflectances, transmittances
+// and weights are in [0, 1]. "Outside" is the side of the front, to which the normal points.
+
+/// Phase functions without parameters.
 enum class PhaseWord { isotropic, rayleigh };
 struct HenyeyGreenstein {
-  double g = 0;  ///< Mean cosine of the scattering angle.
+  double g = 0;  ///< Mean cosine of the scattering angle, in [-0.9999, 0.9999]; positive scatters forwards.
 };
 /// Scattering of a medium.
 struct Scattering {
-  std::optional<Curve> per_m;  ///< Scattering coefficient [1/m].
+  std::optional<Curve> per_m;  ///< Scattering coefficient [1/m]; 0 if absent.
+  /// Phase function; isotropic if absent.
   std::optional<schema::Located<std::variant<PhaseWord, HenyeyGreenstein>>> phase;
 };
 /// A grid of densities at its nodes, which multiply absorption and scattering.
 struct Grid {
-  schema::Located<std::string> densities;
-  Imath::V3d from{0, 0, 0};
-  Imath::V3d to{0, 0, 0};
+  schema::Located<std::string> densities;  ///< A NumPy file with the axes z, y, x and values in [0, 1e9].
+  Imath::V3d from{0, 0, 0};                ///< Position of the first node.
+  Imath::V3d to{0, 0, 0};  ///< Position of the last node, greater than `from` along each axis.
   SourcePosition where;
 };
 
+/// Lambertian reflection on both sides.
 struct Diffuse {
   Reflectance reflectance;
 };
+/// An interface between the medium inside a closed shape and the medium around it.
 struct Dielectric {
-  TintedIor ior;
-  Scattering scattering;
-  std::vector<LayerEntry> coating;
-  std::optional<Roughness> roughness;
+  TintedIor ior;                       ///< Index and absorption of the medium inside.
+  Scattering scattering;               ///< Scattering of the medium inside.
+  std::vector<LayerEntry> coating;     ///< Thin films, from the outside inwards; none if empty.
+  std::optional<Roughness> roughness;  ///< Smooth if absent; not allowed with a coating.
 };
+/// An opaque metal.
 struct Conductor {
   Ior ior;
-  std::vector<LayerEntry> coating;
-  std::optional<Roughness> roughness;
+  std::vector<LayerEntry> coating;     ///< Thin films, from the outside inwards; none if empty.
+  std::optional<Roughness> roughness;  ///< Smooth if absent; not allowed with a coating.
 };
 /// Thin films with the same medium on both sides, such as a soap bubble: a coating without a substrate.
 struct Film {
   std::vector<LayerEntry> layers;
 };
-/// A medium without an interface.
+/// A medium without an interface, such as fog.
 struct Medium {
-  std::optional<Curve> absorption_per_m;
+  std::optional<Curve> absorption_per_m;  ///< Absorption coefficient, 0 or more; 0 if absent.
   Scattering scattering;
-  std::optional<Grid> grid;
+  std::optional<Grid> grid;  ///< Density 1 everywhere if absent.
 };
+/// A Lambertian base under a smooth clear coat.
 struct CoatedDiffuse {
-  Ior ior;
-  Reflectance reflectance;
+  Ior ior;                  ///< Index of the coat, with n of 1 or more and practically no k.
+  Reflectance reflectance;  ///< Reflectance of the base without its coat.
 };
+/// A pane modelled as one surface, which light crosses without deflection.
 struct ThinGlass {
   TintedIor ior;
-  double thickness = 0;
+  double thickness = 0;  ///< 0 for no absorption.
 };
+/// An ideal mirror, with the same reflectance at every angle.
 struct Mirror {
   Reflectance reflectance;
 };
+/// A smooth mirror with Schlick's approximation.
 struct Schlick {
+  /// Reflectance at normal incidence, or the index from which it follows.
   std::variant<std::monostate, Ior, Reflectance> normal;
 };
+/// Oren and Nayar's rough diffuse surface.
 struct OrenNayar {
   Reflectance reflectance;
-  double sigma_deg = 0;
+  double sigma_deg = 0;  ///< Standard deviation of the facets' slope angles, in [0, 90].
 };
+/// Burley's principled model. All numbers are in [0, 1].
 struct Principled {
   Reflectance base_color;
-  double metallic = 0;
-  double roughness = 0.5;
-  double specular = 0.5;
-  double sheen = 0;
-  double clearcoat = 0;
-  double clearcoat_gloss = 1;
+  double metallic = 0;         ///< Fraction of metallic reflection.
+  double roughness = 0.5;      ///< The microfacet alpha is its square.
+  double specular = 0.5;       ///< Reflectance of the non-metallic part at normal incidence, divided by 0.08.
+  double sheen = 0;            ///< Strength of a cloth-like sheen at grazing angles.
+  double clearcoat = 0;        ///< Strength of a second highlight.
+  double clearcoat_gloss = 1;  ///< Gloss of the second highlight; larger is narrower.
 };
 /// Parameters of all models that are powers of a cosine.
 struct Power {
-  Reflectance reflectance;
-  double exponent = 0;
+  Reflectance reflectance;  ///< Reflectance of the lobe.
+  double exponent = 0;      ///< Power of the cosine, in [0, 1e4].
 };
+/// A power of the cosine of the direction of light to the normal.
 struct CosinePower : Power {
-  bool reciprocal = false;
+  bool reciprocal = false;  ///< True to apply the power to the cosines of both directions.
 };
-struct Phong : Power {};
-struct Retroreflector : Power {};
-/// Parameters of all thin elements.
+struct Phong : Power {};           ///< Phong's highlight around the mirror direction.
+struct Retroreflector : Power {};  ///< A lobe around the direction from which light comes.
+/// Parameters of all thin elements: surfaces that light crosses without deflection.
 struct ThinElement {
-  std::optional<Curve> transmittance;
+  std::optional<Curve> transmittance;  ///< 1 if absent. That of a polariser is along its axis.
 };
+/// A linear polariser.
 struct Polariser : ThinElement {
+  /// Transmittance along the axis over that across it, 1 or more; infinite if absent.
   std::optional<Curve> extinction_ratio;
+  /// Angle of the axis to the surface coordinate u, counter-clockwise if viewed from outside.
   double angle_deg = 0;
 };
+/// A retardance that is the same at all wavelengths.
 struct Retardance {
-  double retardance_deg = 0;
+  double retardance_deg = 0;  ///< Phase lag of the field across the fast axis.
 };
+/// A plate of a birefringent crystal.
 struct Crystal {
   double thickness = 0;
-  Curve birefringence;
+  Curve birefringence;  ///< Index along the slow axis minus that along the fast axis, in [0, 10].
 };
 struct WavePlate : ThinElement {
   std::variant<std::monostate, Retardance, Crystal> kind;
-  double angle_deg = 0;
+  double angle_deg = 0;  ///< Angle of the fast axis to u, counter-clockwise if viewed from outside.
 };
 struct Depolariser : ThinElement {};
+// Key tables and forms by which scene files are read, written and documented.
 [[nodiscard]] schema::Fields fields(schema::Tag<Polariser>);
 [[nodiscard]] schema::Fields fields(schema::Tag<WavePlate>);
 [[nodiscard]] schema::Fields fields(schema::Tag<Depolariser>);
+/// A component of a mixture.
 struct MixturePart {
-  schema::Located<std::string> material;
+  schema::Located<std::string> material;  ///< Name of a material that is no mixture and has no medium inside.
   Curve weight;
 };
+/// Materials side by side. At each wavelength their weights add up to at most 1.
 struct Mixture : schema::Located<std::vector<MixturePart>> {};
 
+/// An image with channels R, G, B in [0, 1], which encode [-1, 1] along u, v and the outward normal.
 struct NormalMap {
   TextureFile file;
 };
+/// An image with one channel of heights above the surface.
 struct BumpMap {
   TextureFile file;
-  double height = 0;
+  double height = 0;  ///< Height for a value of 1.
 };
+/// A material of a scene file. `std::monostate` means that no model has been read, or that there is no
+/// relief.
 struct Material {
   std::variant<std::monostate, Mixture, Diffuse, Dielectric, Conductor, Film, Medium, CoatedDiffuse,
                ThinGlass, Mirror, Schlick, OrenNayar, Principled, CosinePower, Phong, Retroreflector,
                Polariser, WavePlate, Depolariser>
       model;
+  /// Priority of the medium inside a shape where shapes overlap, in [-1000, 1000]; the highest applies. 0 if
+  /// absent.
   std::optional<schema::Located<int>> priority;
   std::variant<std::monostate, NormalMap, BumpMap> relief;
 };
 [[nodiscard]] schema::Fields fields(schema::Tag<Material>);
+/// The form in which scene files write materials: an object of materials by name.
 [[nodiscard]] schema::ValueType materials();
 
 using Materials = std::vector<schema::Named<Material>>;
@@ -144,35 +175,50 @@ using Materials = std::vector<schema::Named<Material>>;
 
 namespace abbe::description {
 
-/// Adds all materials to the scene. A material with an error becomes black, so that references to it cause no
-/// second error.
+// Functions report errors to `context.diagnostics`. Those that read files throw Error{resource} if the memory
+// limit of `context.inputs` is exceeded.
+
+/// Adds all materials to `scene.materials`, in their order, and their indices to `context.materials`. A
+/// material with an error becomes black, so that references to it cause no second error. Also reports a
+/// priority of a material without a medium inside, and a relief of a medium without a surface.
 void build_materials(const spec::Materials& materials, LoadContext& context, Scene& scene);
-/// Builds the model of a material; nothing after an error. A mixture is still without its components.
+/// Builds the model of a material; nothing after an error, and for std::monostate. A mixture is still without
+/// its components. Priority and relief are not built.
 [[nodiscard]] std::optional<MaterialModel> build_model(const spec::Material& material, LoadContext& context);
-/// Index of the material of that name. Reports an unknown name with the nearest known one.
+/// Index in `scene.materials` of the material of that name. Reports an unknown name with the nearest known
+/// one, and returns nothing.
 [[nodiscard]] std::optional<std::uint32_t> find_material(const schema::Located<std::string>& name,
                                                          LoadContext& context, const Scene& scene);
-/// Index in the scene of a material of a mesh file, added as "FILE:NAME" if it is new. One warning lists the
-/// features of it that are not represented.
+/// Index in `scene.materials` of a material of the mesh file `file`, added as "FILE:NAME" if it is new. It is
+/// a clear dielectric or diffuse. One warning at `at` lists the features of a new material that are not
+/// represented.
 [[nodiscard]] std::uint32_t add_file_material(const FileMaterial& material, const std::string& file,
                                               const SourcePosition& at, LoadContext& context, Scene& scene);
-/// Index of the material of lights that name none: diffuse with reflectance 0.
+/// Index in `scene.materials` of the material of lights that name none, added at the first call: diffuse with
+/// reflectance 0.
 [[nodiscard]] std::uint32_t black_material(LoadContext& context, Scene& scene);
 
-/// Builds the medium inside a shape. Reports the errors of its curves; returns nothing after an error.
+/// Builds the medium inside a shape, with coefficients in 1/m and without a grid. `absorption` is in 1/m; 0
+/// if absent. Warns of a phase function without scattering. Reports the errors of its curves; returns nothing
+/// after an error.
 [[nodiscard]] std::optional<Medium> build(const spec::Scattering& scattering,
                                           const std::optional<spec::Curve>& absorption, LoadContext& context);
-/// Reads a grid of densities; positions in metres. Returns nothing after an error.
+/// Reads a grid of densities; positions in metres. Reports a file that cannot be read, another number of axes
+/// than 3, an axis of fewer than 2 nodes, a density outside [0, 1e9] and an empty box. Returns nothing after
+/// an error.
 [[nodiscard]] std::optional<PlacedGrid> build(const spec::Grid& grid, LoadContext& context);
-/// The three thin elements. Return nothing after an error, such as a curve outside its allowed range.
+// The three thin elements, with angles in radians and lengths in metres. Each returns nothing after an error,
+// such as a curve outside its allowed range.
 [[nodiscard]] std::optional<MaterialModel> build(const spec::Polariser& polariser, LoadContext& context);
 [[nodiscard]] std::optional<MaterialModel> build(const spec::WavePlate& plate, LoadContext& context);
 [[nodiscard]] std::optional<MaterialModel> build(const spec::Depolariser& sheet, LoadContext& context);
-/// Builds a mixture of materials of `scene`. Its components must be neither mixtures nor media. Returns
-/// nothing after an error.
+/// Builds a mixture of materials of `scene`. Reports components that are mixtures, have a medium inside, an
+/// axis or a relief, and weights whose sum exceeds 1 at a wavelength. Returns nothing after an error.
 [[nodiscard]] std::optional<MixtureMaterial> build(const spec::Mixture& mixture, LoadContext& context,
                                                    const Scene& scene);
-/// Reads a normal map or a bump map. Returns nullptr after an error.
+// Reads a normal map or a bump map, with heights in metres. Reports an image that cannot be read or has other
+// channels, a value that is not finite, and a normal that does not point outward. Returns nullptr after an
+// error.
 [[nodiscard]] std::shared_ptr<const Relief> build(const spec::NormalMap& map, LoadContext& context);
 [[nodiscard]] std::shared_ptr<const Relief> build(const spec::BumpMap& map, LoadContext& context);
 

@@ -14,21 +14,26 @@ namespace abbe::spec {
 struct Meter {
   MeterQuantity measures = MeterQuantity::irradiance;
   Probe probe;
+  /// Number of cells of a quad along edge_u and edge_v, from 1 to 256 each, which are reported too. One if
+  /// absent.
   std::optional<schema::Located<std::array<std::int64_t, 2>>> cells;
-  std::optional<Bins> spectrum;
+  std::optional<Bins> spectrum;  ///< Wavelength bins in which the quantity is reported too; none if absent.
   SourcePosition where;
 };
 using Meters = std::vector<schema::Named<Meter>>;
+/// Key table by which scene files are read, written and documented.
 [[nodiscard]] schema::Fields fields(schema::Tag<Meter>);
 
 }  // namespace abbe::spec
 
 namespace abbe::description {
 
-/// Builds the meters, with lengths in metres. Reports:
+/// Builds the meters in the order of the file, with lengths in metres. A meter whose surface has an error is
+/// left out. Reports to `context.diagnostics`:
 /// - a flux or intensity of a point;
 /// - cells of a surface that is not a quad;
-/// - a radiance or intensity of a meter that accepts light from a whole hemisphere.
+/// - a radiance or intensity of a meter without an `acceptance_deg`;
+/// - the errors of probes and of wavelength bins.
 [[nodiscard]] std::vector<Meter> build(const spec::Meters& meters, LoadContext& context);
 
 }  // namespace abbe::description

@@ -16,13 +16,18 @@ namespace abbe::spec {
 
 /// An image and its mapping onto surfaces.
 struct TextureFile {
-  schema::Located<std::string> image;
+  schema::Located<std::string> image;  ///< Name of the image file.
   TextureMapping mapping;
 };
+// Key tables and forms by which scene files are read, written and documented.
 [[nodiscard]] schema::Fields fields(schema::Tag<TextureFile>);
-/// The spectrum that each channel of an image multiplies.
+/// The spectrum that each named channel of an image multiplies; channel values are linear. The reflectance is
+/// the sum.
 struct Weights : schema::Located<std::vector<schema::Named<Curve>>> {};
+/// True: the channels R, G, B are a colour. They are linear in files of floats, otherwise encoded as the file
+/// declares, or as sRGB. False is an error.
 struct Rgb : schema::Located<bool> {};
+/// A reflectance that an image gives.
 struct Texture {
   TextureFile file;
   std::variant<std::monostate, Weights, Rgb> of;
@@ -35,35 +40,43 @@ using Reflectance = std::variant<Curve, Texture>;
 
 namespace abbe::description {
 
-/// An image named by a scene, and its mapping onto surfaces.
+/// An image that has been read, and its mapping onto surfaces.
 struct TextureFile {
-  std::string name;
-  SourcePosition where;
+  std::string name;      ///< Name in the scene file, for messages.
+  SourcePosition where;  ///< Position of that name.
   Image image;
   TextureMapping mapping;
   MemoryReservation memory;  ///< Memory of the image.
 
-  /// Reports `what` as an error about this image.
+  /// Reports `what` as an error about this image, at `where`, to `context.diagnostics`.
   void refuse(const std::string& what, ErrorCode code, LoadContext& context) const;
-  /// Name of texel number `i` for messages: "texel (column, row)", counted from the top left.
+  /// Name of texel number `i` for messages: "texel (column, row)", both counted from 0 at the top left.
+  /// Texels count row by row.
   [[nodiscard]] std::string texel_name(std::size_t i) const;
 };
 
-/// Reads the image with its first row at the top. Reports an image that cannot be read or is too large.
+// Functions report errors to `context.diagnostics`.
+
+/// Reads the image, rotated so that its first row is at the top. Reports a URL and an image that cannot be
+/// read or is too large, and returns nothing.
 [[nodiscard]] std::optional<TextureFile> build(const spec::TextureFile& file, LoadContext& context);
 
-/// Reads `channels` of the image, texel by texel, decoded to linear values. Reports a channel that does not
-/// exist and a value that is not finite.
+/// Values of `channels` of the image, decoded to linear values by `encoding`. The channels of a texel follow
+/// each other; texels count row by row from the top left. Reports a channel that does not exist and a value
+/// that is not finite, and returns nothing. Throws Error{resource} if the memory limit is exceeded.
 [[nodiscard]] std::optional<std::vector<float>> read_texels(const TextureFile& file,
                                                             std::span<const std::string> channels,
                                                             const Encoding& encoding, LoadContext& context);
 
-/// Makes a texture of texels with `channels` values each, with the mapping of `file`.
+/// Makes a texture of texels with `channels` values each, in the order of `read_texels`, with the size and
+/// mapping of `file`.
 [[nodiscard]] TextureImage texture_image(const TextureFile& file, std::size_t channels,
                                          std::vector<float> texels);
 
-/// Builds a reflectance. Reports values outside [0, 1], of a curve or a texel; returns nothing after an
-/// error.
+/// Builds a reflectance, with values in [0, 1]. Reports values outside that range, of a curve or a texel;
+/// those of a texel that exceed it by at most 1e-3 are clamped with a warning. Warns that RGB values do not
+/// determine a spectrum. Returns nothing after an error. Throws Error{resource} if the memory limit is
+/// exceeded.
 [[nodiscard]] std::optional<SpectralTexture> build(const spec::Reflectance& reflectance,
                                                    LoadContext& context);
 

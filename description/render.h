@@ -10,29 +10,36 @@ namespace abbe::spec {
 
 /// Settings of photon tracing and gathering.
 struct Photons {
+  /// Photons per sample. If absent, the number of pixels, but at least 16384.
   std::optional<std::uint64_t> per_sample;
+  /// Initial gathering radius [scene units]. If absent, it follows from the size of the scene and the number
+  /// of photons.
   std::optional<double> radius;
-  int nearest = 50;
+  int nearest = 50;  ///< Number of nearest photons in an estimate of the integrator `photon-map`.
+  /// True if `photon-map` gathers one event after the first scattering surface, and only caustic photons
+  /// there.
   bool final_gather = false;
 };
+// Key tables and forms by which scene files are read, written and documented.
 [[nodiscard]] schema::Fields fields(schema::Tag<Photons>);
 
-/// Mode in which paths carry polarisation: where it matters, or never.
+/// Mode in which paths carry polarisation: where it changes the result (`automatic`), or never (`off`).
 enum class PolarisationMode { automatic, off };
 
 /// Settings of a render.
 struct Render {
   Integrator integrator = Integrator::automatic;
-  int samples = 64;
-  std::optional<int> max_depth;
-  schema::Located<int> roulette_depth{{4}, {}};
-  std::uint64_t seed = 0;
-  std::optional<Photons> photons;
+  int samples = 64;              ///< Samples per pixel.
+  std::optional<int> max_depth;  ///< Largest number of scattering events of a path; unlimited if absent.
+  schema::Located<int> roulette_depth{{4}, {}};  ///< Events before Russian roulette begins; -1 disables it.
+  std::uint64_t seed = 0;                        ///< Seed of the random numbers.
+  std::optional<Photons> photons;                ///< Defaults if absent.
+  /// True to let the integrator `auto` choose `vcm` for light paths that no unbiased integrator can sample.
   schema::Located<bool> consistent;
   PolarisationMode polarisation = PolarisationMode::automatic;
-  schema::Located<DirectionSampling> directions;
-  schema::Located<LightStrategy> lights;
-  schema::Located<MisHeuristic> heuristic;
+  schema::Located<DirectionSampling> directions;  ///< Only for the integrator `path`.
+  schema::Located<LightStrategy> lights;          ///< Only for the integrator `path`.
+  schema::Located<MisHeuristic> heuristic;  ///< Only for the integrator `path` with the light strategy `mis`.
 };
 [[nodiscard]] schema::Fields fields(schema::Tag<Render>);
 
@@ -40,9 +47,11 @@ struct Render {
 
 namespace abbe::description {
 
-/// Builds the settings of a render; lengths are in scene units of `unit_m` metres. Reports:
+/// Builds the settings of a render, with lengths in metres; `render` has them in scene units of `unit_m`
+/// metres. Returns settings also after an error. Reports to `diagnostics`:
 /// - Russian roulette that never ends a path, without `max_depth`;
-/// - path sampling options with another integrator than `path`;
+/// - path sampling options other than the defaults, with another integrator than `path`;
+/// - another MIS heuristic than the default, if `lights` uses only one technique;
 /// - `consistent` with another integrator than `auto`.
 [[nodiscard]] RenderSettings build(const spec::Render& render, double unit_m, Diagnostics& diagnostics);
 

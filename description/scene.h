@@ -19,29 +19,32 @@
 // documented.
 namespace abbe::spec {
 
+/// Version of the scene format: the only allowed value of the key "abbe".
 inline constexpr double kFormatVersion = 1;
 
+/// Unit of length of a scene file; `um` is the micrometre, `in` the inch of 25.4 mm.
 enum class Unit { m, cm, mm, um, in };
-/// The kind of a unit of length.
+/// The form in which scene files write a unit of length.
 [[nodiscard]] schema::ValueType units();
 /// Length of a unit in metres.
 [[nodiscard]] double metres(Unit unit);
 
-/// Files that a render writes.
+/// Files that a render writes, relative to the working directory. A file whose name is absent is not written.
 struct Output {
-  std::optional<std::string> image;
-  std::optional<std::string> display;
-  std::optional<double> exposure;
+  std::optional<std::string> image;    ///< The film as an EXR file.
+  std::optional<std::string> display;  ///< The picture as a PNG, JPEG or TIFF file.
+  std::optional<double> exposure;      ///< Film value shown as diffuse white, above 0; automatic if absent.
+  /// Reference white of the picture; the light that exposes the film most if absent.
   std::optional<White> white;
 };
 
 /// The contents of a scene file.
 struct Scene {
-  std::optional<std::string> schema;
+  std::optional<std::string> schema;  ///< Location of the JSON Schema, for editors; not used.
   double version = kFormatVersion;
   Unit units = Unit::m;
-  std::optional<Camera> camera;
-  std::optional<Sensor> sensor;
+  std::optional<Camera> camera;  ///< May be absent in a scene with meters.
+  std::optional<Sensor> sensor;  ///< Required with a camera.
   Meters meters;
   Materials materials;
   std::vector<schema::Named<Object>> objects;
@@ -51,16 +54,22 @@ struct Scene {
   std::optional<Output> output;
   SourcePosition where;
 };
+/// Key table by which scene files are read, written and documented.
 [[nodiscard]] schema::Fields fields(schema::Tag<Scene>);
 
 }  // namespace abbe::spec
 
 namespace abbe::description {
 
-/// Builds the scene for its camera, or for `meter` if given. Reports every error. After an error the parts
-/// without errors are still checked, and the scene is incomplete.
+/// Builds the scene for its camera, or for `meter` if given, and sets `context.unit_m` and other members of
+/// the context. The scene is recentred but not yet committed; see `abbe::Scene::commit`. Reports every error
+/// to `context.diagnostics`. After an error the parts without errors are still checked, and the scene is
+/// incomplete. Throws Error{resource} if the memory limit is exceeded, and Error{input} for an unreadable
+/// environment image.
 [[nodiscard]] abbe::Scene build(const spec::Scene& scene, LoadContext& context, const Meter* meter = nullptr);
-/// Builds the meters of the scene. Reports every error.
+/// Builds the meters of the scene in the order of the file, with lengths in metres, and sets
+/// `context.unit_m`. Reports every error to `context.diagnostics`; a meter whose surface has an error is left
+/// out.
 [[nodiscard]] std::vector<Meter> build_meters(const spec::Scene& scene, LoadContext& context);
 
 }  // namespace abbe::description

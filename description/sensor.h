@@ -16,59 +16,75 @@ namespace abbe::spec {
 
 /// A filter whose transmittance shifts with the angle of incidence.
 struct InterferenceFilter {
-  Curve transmittance;
+  Curve transmittance;  ///< At normal incidence, in [0, 1.05].
+  /// Effective index n in [1, 10]. At an angle of incidence t, wavelengths are multiplied by sqrt(1 -
+  /// sin(t)^2/n^2).
   double effective_index = 1;
 };
 using Filter = std::variant<Curve, InterferenceFilter>;
-using Filters = std::vector<Filter>;
-/// A polariser for linearly polarised light.
+using Filters = std::vector<Filter>;  ///< Filters in series.
+/// A polariser for linearly polarised light, in front of the film.
 struct PolarisingFilter {
-  double angle_deg = 0;
-  std::optional<Curve> transmittance;     ///< 1 if absent.
-  std::optional<Curve> extinction_ratio;  ///< Infinite if absent.
+  double angle_deg = 0;                   ///< Angle of the axis, from the right of the picture towards up.
+  std::optional<Curve> transmittance;     ///< Along the axis, in [0, 1.05]; 1 if absent.
+  std::optional<Curve> extinction_ratio;  ///< Transmittance along over across the axis; infinite if absent.
   SourcePosition where;
 };
 /// A channel with its own filters, and optionally a polariser.
 struct FilteredChannel {
-  std::optional<Filters> filters;
-  std::optional<PolarisingFilter> polariser;
-  std::optional<double> exposure_s;  ///< Exposure time of the sensor if absent.
+  std::optional<Filters> filters;             ///< None if absent.
+  std::optional<PolarisingFilter> polariser;  ///< Polariser before these filters; none if absent.
+  std::optional<double> exposure_s;  ///< Exposure time of this channel; that of the sensor if absent.
 };
+/// The response of a channel: a curve, or filters in front of a detector that all channels have in common.
 using ChannelResponse = std::variant<Curve, FilteredChannel>;
 
 struct Channels : schema::Located<std::vector<schema::Named<ChannelResponse>>> {};
+/// A measured camera: its name in `data/camera`, or FILE.csv.
 struct MeasuredCamera : schema::Located<std::string> {};
+/// A CIE standard observer, with channels X, Y and Z.
 struct StandardObserver : schema::Located<Observer> {};
-/// Wavelength bins of equal width that fill a range.
+/// Wavelength bins of equal width that fill a range; 2 to 1000 of them. The film then records radiances.
 struct Bins {
-  double from_nm = 0;
-  double to_nm = 0;
-  double step_nm = 0;
+  double from_nm = 0;  ///< Lower end of the first bin.
+  double to_nm = 0;    ///< Upper end of the last bin.
+  double step_nm = 0;  ///< Width of each bin.
   SourcePosition where;
 };
 
+// Key tables and forms by which scene files are read, written and documented.
 [[nodiscard]] schema::Fields fields(schema::Tag<Bins>);
 
 /// The pixels of a sensor and the quantities they record.
 struct Sensor {
   std::optional<std::string> model;  ///< Its keys were merged into this struct before the scene was read.
+  /// Width and height [px]. Required except for a probe, which then has one pixel.
   std::optional<schema::Located<std::array<std::int64_t, 2>>> resolution;
-  double pixel_pitch_um = 4.5;
-  double exposure_s = 1;
-  std::optional<Shutter> shutter;
-  double fill_factor = 1;
+  double pixel_pitch_um = 4.5;     ///< Distance between the centers of pixels.
+  double exposure_s = 1;           ///< Exposure time, above 0.
+  std::optional<Shutter> shutter;  ///< If absent, all rows are open for the exposure time.
+  double fill_factor = 1;          ///< Fraction of the pixel area that is sensitive to light, in (0, 1].
+  /// Quantities that the pixels record. `std::monostate` if neither the scene nor its sensor model gives
+  /// them.
   std::variant<std::monostate, Channels, MeasuredCamera, StandardObserver, Bins> counts;
+  /// Kind of the responses: per unit of energy or per photon. If absent it follows from the table and other
+  /// keys.
   std::optional<schema::Located<ResponseKind>> response;
-  std::optional<Curve> quantum_efficiency;
+  std::optional<Curve> quantum_efficiency;  ///< Electrons per photon, in [0, 10], a factor of every channel.
+  /// Electrons per photon of the most sensitive channel at its maximum, which sets a common scale.
   std::optional<schema::Located<double>> peak_quantum_efficiency;
+  /// The scale given as electrons per lx s of daylight (D55) on the sensor, for a pixel of the most sensitive
+  /// channel.
   std::optional<schema::Located<double>> electrons_per_lx_s;
-  std::optional<schema::Located<Filters>> filters;
-  std::optional<Curve> lens_transmission;
-  std::optional<PolarisingFilter> polariser;
-  std::optional<schema::Located<bool>> stokes;
+  std::optional<schema::Located<Filters>> filters;  ///< Filters in series before all channels.
+  std::optional<Curve> lens_transmission;           ///< Transmittance of the lens, in [0, 1.05]; 1 if absent.
+  std::optional<PolarisingFilter> polariser;        ///< Polariser before all channels; none if absent.
+  std::optional<schema::Located<bool>> stokes;      ///< True to measure Stokes vectors; false if absent.
+  /// Names of the channels of the pixels: rows of a pattern that repeats from the top left. If absent, each
+  /// pixel records all channels.
   std::optional<schema::Located<std::vector<schema::Located<std::vector<schema::Located<std::string>>>>>>
       mosaic;
-  std::optional<schema::Located<Readout>> readout;
+  std::optional<schema::Located<Readout>> readout;  ///< Conversion of electrons to codes; none if absent.
   SourcePosition where;
 };
 [[nodiscard]] schema::Fields fields(schema::Tag<Sensor>);
@@ -79,29 +95,35 @@ namespace abbe::description {
 
 /// A sensor in SI units.
 struct Sensor {
-  int width = 1;
-  int height = 1;
+  int width = 1;                ///< [px]
+  int height = 1;               ///< [px]
   double pixel_pitch = 4.5e-6;  ///< Distance between pixels [m].
-  double fill_factor = 1;
-  double exposure_s = 1;
+  double fill_factor = 1;       ///< Fraction of the pixel area that is sensitive to light.
+  double exposure_s = 1;        ///< Exposure time of a row.
   Shutter shutter;
-  std::vector<Channel> channels;
+  std::vector<Channel> channels;  ///< One per wavelength bin for a spectral sensor.
   std::optional<Readout> readout;
   std::optional<Mosaic> mosaic;
-  std::optional<SpectralBins> spectral;
+  std::optional<SpectralBins> spectral;  ///< Wavelength bins of a spectral sensor; nothing for others.
 };
-/// Builds a sensor and reports its errors. The sensor of an irradiance probe (`probe`) has one pixel unless
-/// the file gives a resolution.
+/// Builds a sensor and reports its errors to `context.diagnostics`; parts with an error are missing or have
+/// defaults. `probe` is true for the sensor of an irradiance probe: it has one pixel unless the file gives a
+/// resolution, and may not record polarisation. Reports more than 65536 pixels along an edge, or 2^28 in all,
+/// with ErrorCode::resource.
 [[nodiscard]] Sensor build(const spec::Sensor& sensor, bool probe, LoadContext& context);
 
-/// Builds the wavelength bins. Returns nothing if they do not fill their range, or if there are too few or
-/// too many.
+/// Builds the wavelength bins. Reports bins that do not fill their range, fewer than 2 and more than 1000,
+/// and returns nothing.
 [[nodiscard]] std::optional<SpectralBins> build_bins(const spec::Bins& spec, LoadContext& context);
 
-/// Sets the channels or wavelength bins of a sensor, with all filters applied. Channels without their own
-/// exposure time have that of the sensor. Reports tables of filters and responses that end, without a
-/// declared extrapolation, where a channel records more than a negligible fraction. Warns of filters that are
-/// declared 0 there.
+/// Sets `sensor.channels`, with all filters applied, and `sensor.spectral`. Channels without their own
+/// exposure time have that of the sensor. A channel with an error is missing. Reports to
+/// `context.diagnostics`:
+/// - combinations of keys that exclude each other, and names that are not plain;
+/// - a channel that responds to no wavelength;
+/// - tables of filters and responses that end, without a declared extrapolation, within the range of a
+///   channel.
+/// Warns of filters that end there and are declared 0 outside. The range excludes a negligible fraction.
 void build_channels(const spec::Sensor& spec, Sensor& sensor, LoadContext& context);
 
 }  // namespace abbe::description

@@ -13,33 +13,43 @@
 
 namespace abbe::spec {
 
+// Surfaces as scene files describe them. Lengths and positions are in the scene file's unit, before any
+// transform.
+
+/// A sphere, whose front is outside.
 struct Sphere {
   Imath::V3d center{0, 0, 0};
   double radius = 0;
 };
+/// A flat disc.
 struct Disc {
   Imath::V3d center{0, 0, 0};
-  Imath::V3d normal{0, 0, 0};
+  Imath::V3d normal{0, 0, 0};  ///< Direction of the front, of any length except 0.
   double radius = 0;
 };
+/// A parallelogram, whose front faces edge_u x edge_v.
 struct Quad {
   Imath::V3d corner{0, 0, 0};
   Imath::V3d edge_u{0, 0, 0};
   Imath::V3d edge_v{0, 0, 0};
   SourcePosition where;
 };
+/// A right prism along y around the origin, with an isosceles cross-section whose apex points along +z.
 struct Prism {
-  double apex_deg = 0;
-  double side = 0;
-  double length = 0;
+  double apex_deg = 0;  ///< Angle between the two equal faces, in (0, 180).
+  double side = 0;      ///< Width of the equal faces.
+  double length = 0;    ///< Length along y.
 };
 /// Triangles given in the scene file itself.
 struct InlineMesh {
-  std::vector<std::array<double, 3>> vertices;
+  std::vector<std::array<double, 3>> vertices;  ///< Positions.
+  /// Indices of the vertices of each triangle, counted from 0; counter-clockwise if viewed from the front.
   std::vector<std::array<std::uint32_t, 3>> triangles;
+  /// Texture coordinates of each vertex; none if absent. v increases upwards on images.
   std::optional<schema::Located<std::vector<std::array<double, 2>>>> uv;
   SourcePosition where;
 };
+// Key tables and forms by which scene files are read, written and documented.
 [[nodiscard]] schema::Fields fields(schema::Tag<Sphere>);
 [[nodiscard]] schema::Fields fields(schema::Tag<Disc>);
 [[nodiscard]] schema::Fields fields(schema::Tag<Quad>);
@@ -50,14 +60,16 @@ struct InlineMesh {
 
 namespace abbe::description {
 
-// Each `build` returns the surface in metres, before its transform.
+// Each `build` returns the surface in metres, before its transform. Errors go to `context.diagnostics`.
+
 [[nodiscard]] Sphere build(const spec::Sphere& sphere, const LoadContext& context);
 [[nodiscard]] Disc build(const spec::Disc& disc, const LoadContext& context);
-/// Returns nothing after an error: parallel edges.
+/// Reports parallel edges at `quad.where` and returns nothing then.
 [[nodiscard]] std::optional<Quad> build(const spec::Quad& quad, const LoadContext& context);
 [[nodiscard]] Mesh build(const spec::Prism& prism, const LoadContext& context);
-/// Returns nothing after an error: a triangle with a vertex that does not exist, or texture coordinates that
-/// do not match the vertices in number.
+/// Reports texture coordinates that do not match the vertices in number, and the errors of `check_mesh`: a
+/// vertex that is not finite or does not exist, and a mesh without area. Returns nothing after an error.
+/// Throws Error{resource} if the memory limit is exceeded.
 [[nodiscard]] std::optional<Mesh> build(const spec::InlineMesh& mesh, const LoadContext& context);
 
 }  // namespace abbe::description

@@ -15,16 +15,18 @@ namespace abbe::description::zemax {
 
 using lenses::Line;
 
-inline constexpr std::size_t kEvenCoefficients = 8;  // Coefficients of EVENASPH: r^2 to r^16.
+/// Number of coefficients of an EVENASPH surface: those of r^2, r^4, ... r^16.
+inline constexpr std::size_t kEvenCoefficients = 8;
 
-/// A surface as read so far, with the data that decide the meaning of its lines.
+/// A surface as read so far, with the data that decide the meaning of its lines. Lengths are in the file's
+/// unit, also those of `surface`, until `Reader::finished` converts them to mm.
 struct ReadSurface {
-  spec::LensSurface surface;
-  double curvature = 0;
-  std::array<double, kEvenCoefficients> even{};
-  double semi_diameter = 0;
-  bool fixed = false;  // True if its diameter stops light.
-  bool at_infinity = false;
+  spec::LensSurface surface;                     // Without radius, r2 and asphere.
+  double curvature = 0;                          // Reciprocal of the radius [1/unit]; 0 for a plane.
+  std::array<double, kEvenCoefficients> even{};  // Element i: coefficient of r^(2i+2) [unit^-(2i+1)].
+  double semi_diameter = 0;                      // Half the diameter from DIAM.
+  bool fixed = false;        // True if the diameter stops light: set by the user, or of a floating aperture.
+  bool at_infinity = false;  // True for an object at infinity.
   bool has_type = false;
   bool standard = false;            // True for the type STANDARD, which has no parameters.
   std::optional<Line> parameter{};  // The first parameter that is not 0.
@@ -35,16 +37,18 @@ struct ReadSurface {
 /// A wavelength and its weight.
 struct ReadWavelength {
   double nm;
-  double weight;
+  double weight;  // Relative to those of the other wavelengths; only differences count.
   SourcePosition weight_where;
 };
 
-/// Reads a `.zmx` file line by line: first the keywords of the system, then those of each surface.
+/// Reads a `.zmx` file line by line: first the keywords of the system, then those of each surface. The
+/// diagnostics must outlive it.
 class Reader {
  public:
   explicit Reader(Diagnostics& diagnostics) : diagnostics_(diagnostics) {}
 
-  /// Reads a file; nothing after an error.
+  /// Reads a file; lengths of the result are in mm. Nothing if the diagnostics then have an error, also an
+  /// earlier one. Call it once per instance.
   [[nodiscard]] std::optional<spec::Lens> read(const std::shared_ptr<const SourceText>& source);
 
  private:
@@ -105,19 +109,19 @@ class Reader {
   spec::Lens lens_{};
   std::vector<ReadSurface> surfaces_{};
   std::vector<std::string> catalogues_{};
-  std::vector<double> fields_{};
-  std::map<int, ReadWavelength> wavelengths_{};
-  double unit_mm_ = 1;
-  int field_kind_ = 0;
-  std::size_t field_count_ = 0;       // 0: as many as the file lists.
-  std::size_t wavelength_count_ = 0;  // 0: as many as the file lists.
+  std::vector<double> fields_{};                 // Along y [degrees], or in the file's unit for heights.
+  std::map<int, ReadWavelength> wavelengths_{};  // Key: number in the file.
+  double unit_mm_ = 1;                           // The file's unit of length [mm].
+  int field_kind_ = 0;                           // 0: angles, 1: object heights, 2: paraxial image heights.
+  std::size_t field_count_ = 0;                  // 0: as many as the file lists.
+  std::size_t wavelength_count_ = 0;             // 0: as many as the file lists.
   SourcePosition wavelength_count_where_{};
   SourcePosition fields_where_{};  // Position of the number of fields.
   std::optional<Line> fields_line_{};
-  int primary_ = 1;
+  int primary_ = 1;  // Number of the primary wavelength.
   std::optional<Line> primary_line_{};
   std::string aperture_word_{};  // Keyword of the line that set the aperture.
-  bool open_by_stop_ = false;
+  bool open_by_stop_ = false;    // True for FLOA: the diameter of the stop is the aperture.
   bool ended_ = false;  // True after the last surface; operands of merit functions and tolerances follow.
 };
 

@@ -183,6 +183,7 @@ bool add_normals(const std::array<std::size_t, 3>& triangle, std::size_t base,
   return true;
 }
 
+// Adds the triangles of a primitive, transformed by `map`, to the mesh of its material. False after a fault.
 bool add_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive, const Imath::M44d& map,
                    MeshesByMaterial& meshes, MeshReading& reading) {
   const auto named = primitive.attributes.find("POSITION");

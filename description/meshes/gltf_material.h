@@ -10,7 +10,9 @@ struct Material;
 
 namespace abbe {
 
-/// Adds material number `number` of a glTF file to the mesh file. False after a fault.
+/// Adds a material of a glTF file to `reading.file.materials`. Its index `number` in the file, counted from
+/// 0, names it if it has no name. False after a fault: a base colour outside [0, 1], or a refractive index
+/// outside (0, 100].
 [[nodiscard]] bool read_gltf_material(const tinygltf::Material& from, std::size_t number,
                                       MeshReading& reading);
 

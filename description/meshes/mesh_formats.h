@@ -13,6 +13,7 @@
 
 namespace abbe {
 
+/// Indices of the three corners of a triangle, counted from 0.
 using Triangle = std::array<std::uint32_t, 3>;
 
 /// The state of reading a mesh file. A reader fills `file`, or describes what is wrong in `fault`.
@@ -21,8 +22,8 @@ struct MeshReading {
   FileMaterials materials;
   FileCoordinates coordinates;
   MeshFile file;
-  std::string fault;
-  std::vector<std::string> ignored;  ///< Content of the file that is not read, in words.
+  std::string fault;                 ///< Error message without the path; empty if there is none.
+  std::vector<std::string> ignored;  ///< Content of the file that is not read, in words, for warnings.
   MemoryReservation memory;          ///< Memory of the data, until the file has been read.
 
   /// Records the fault. Returns false, so that a reader can return the result.
@@ -30,8 +31,8 @@ struct MeshReading {
     fault = std::move(what);
     return false;
   }
-  /// Reserves room for `more` elements, and counts the memory before it is allocated. Throws Error{resource}
-  /// if the limit is exceeded.
+  /// Reserves room for `more` further elements in `list`, and counts the memory before it is allocated.
+  /// Throws Error{resource} if the memory limit is exceeded.
   template <typename T>
   void make_room(std::vector<T>& list, std::size_t more) {
     if (list.capacity() - list.size() >= more) return;
@@ -40,28 +41,41 @@ struct MeshReading {
     list.reserve(room);
   }
 };
-/// Read a PLY or an OBJ file. False after a fault.
+
+// Each reader takes the whole contents `bytes` of a file and adds its submeshes and materials to
+// `reading.file`. It returns false after setting `reading.fault`. It throws Error{resource} if the memory
+// limit is exceeded. The vertices are not yet checked; see `check_mesh`.
+
+/// Reads PLY, ASCII or binary, uncompressed.
 [[nodiscard]] bool read_ply(std::string&& bytes, MeshReading& reading);
+/// Reads OBJ and, if materials are requested, the .mtl files that it names.
 [[nodiscard]] bool read_obj(std::string&& bytes, MeshReading& reading);
-/// Reads glTF 2.0, as JSON or GLB. False after a fault. Node transforms are applied; a mirror reverses the
-/// winding of triangles.
+/// Reads glTF 2.0, as JSON or GLB, and the buffer files that it names. Node transforms are applied; a mirror
+/// reverses the winding of triangles.
 [[nodiscard]] bool read_gltf(std::string&& bytes, MeshReading& reading);
 
-/// Reads the bytes of a regular file; `memory` counts them first. Returns a fault, or nothing on success.
+/// Reads the bytes of a regular file into `bytes`, which must be empty; a .ply.gz is decompressed. Returns
+/// nothing on success, otherwise an error message without the path. It is an error if the file, or its
+/// decompressed bytes, exceed 4 GiB. `memory` counts the bytes first. Throws Error{resource} if the memory
+/// limit is exceeded.
 [[nodiscard]] std::optional<std::string> read_mesh_bytes(const std::filesystem::path& path,
                                                          std::string& bytes, MemoryReservation& memory);
-/// Reads the bytes of another file that the mesh file names. It must be in the same folder or below it.
+/// Reads the bytes of another file that the mesh file names into `bytes`, which must be empty, and adds its
+/// path to `reading.file.others`. `name` is relative to the folder of the mesh file. False after setting
+/// `reading.fault`, for a file outside that folder and its subfolders, and for the errors of
+/// `read_mesh_bytes`.
 [[nodiscard]] bool read_named_bytes(const std::string& name, std::string& bytes, MeshReading& reading);
 
-/// Cuts a polygon of n >= 3 corners into n - 2 triangles with its winding; they refer to corners by index.
-/// The result is a fan around the first corner in two cases: if no triangle of the fan turns back as seen
-/// along the normal, which holds for every convex polygon; and if a polygon that is not flat folds over
-/// itself. Otherwise the polygon is cut by its ears.
-/// Returns the fault of a flat polygon whose edges cross, or of a polygon of more than 16384 corners that is
-/// not convex.
+/// Cuts a polygon of n >= 3 corners into n - 2 triangles with its winding. They replace the contents of
+/// `triangles` and refer to corners by index. The result is a fan around the first corner in two cases: if no
+/// triangle of the fan turns back as seen along the normal, which holds for every convex polygon; and if a
+/// polygon that is not flat folds over itself. Otherwise the polygon is cut by its ears. Returns nothing on
+/// success. Returns an error message for a flat polygon whose edges cross, and for a polygon of more than
+/// 16384 corners that is not convex; `triangles` is then not usable.
 [[nodiscard]] std::optional<std::string> cut_polygon(const std::vector<Imath::V3d>& corners,
                                                      std::vector<Triangle>& triangles);
-/// Adds to `list` the attributes at the corners of the triangles that `cut_polygon` made.
+/// Adds to `list` one entry per triangle that `cut_polygon` made: the attributes at its corners. `polygon`
+/// has the attribute of each corner of the polygon.
 template <typename Corner>
 void add_corners(const std::vector<Corner>& polygon, const std::vector<Triangle>& triangles,
                  std::vector<std::array<Corner, 3>>& list) {
@@ -74,8 +88,8 @@ void add_corners(const std::vector<Corner>& polygon, const std::vector<Triangle>
   return length2 > 0 && std::isfinite(length2) ? Imath::V3f(given.normalized()) : Imath::V3f(0);
 }
 
-/// Largest number of triangles of a file, counted after nodes are expanded: a small file can repeat a mesh
-/// many times.
+/// Largest number of triangles, and of vertices, that one material of a glTF file may have. It is counted
+/// after nodes are expanded: a small file can repeat a mesh many times.
 inline constexpr double kMaxTriangles = 67108864;
 
 }  // namespace abbe

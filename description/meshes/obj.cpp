@@ -133,6 +133,7 @@ bool is_index(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size();
 }
 
+// True for a corner v, v/vt, v//vn or v/vt/vn, whose parts are integers.
 bool is_corner(std::string_view word) {
   for (int part = 0; part < 3; ++part) {
     const std::size_t slash = std::min(word.find('/'), word.size());
@@ -144,6 +145,7 @@ bool is_corner(std::string_view word) {
   return false;
 }
 
+// Rejects a face with a malformed corner, which the library would read in part.
 void require_corners(const Obj& obj) {
   constexpr std::string_view kBlanks = " \t\r";
   const std::string_view line = obj.rest();
@@ -165,6 +167,8 @@ std::vector<Triangle> triangles_of(const Obj& obj, const std::vector<std::uint32
   return triangles;
 }
 
+// Cuts a face into triangles of the current material. Its normals count only if each corner has one; so do
+// its texture coordinates.
 void take_face(void* user, tinyobj::index_t* indices, int count) {
   Obj& obj = *static_cast<Obj*>(user);
   require_corners(obj);

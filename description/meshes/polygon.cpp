@@ -53,7 +53,7 @@ class Polygon {
     left_.resize(corners_.size());
     std::iota(left_.begin(), left_.end(), 0U);
     std::vector<Triangle> cut;
-    std::size_t missed = 0;
+    std::size_t missed = 0;  // Corners tried since the last cut. The second round accepts ears without area.
     for (std::size_t i = 0; left_.size() > 2 && missed < 2 * left_.size();) {
       if (!is_ear(i, missed < left_.size() ? line() : -line())) {
         i = next(i);

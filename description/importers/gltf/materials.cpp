@@ -128,6 +128,7 @@ std::optional<LinearRgb> absorption_per_m(const JsonValue* material, const Docum
   return absorption;
 }
 
+// Sets a transmitting material. The facet width alpha is the square of glTF's roughness.
 void set_glass(const JsonValue* material, const SourcePosition& where, spec::Material& to,
                const Document& document) {
   SceneImporter& importer = document.importer;
@@ -158,7 +159,8 @@ void set_glass(const JsonValue* material, const SourcePosition& where, spec::Mat
 }
 
 // Sets the clear coat. In glTF a coat of factor 1 has the full Fresnel reflectance of its index; in Abbe's
-// principled model, a coat of weight 1 has a fraction kCoatShare of it.
+// principled model, a coat of weight 1 has the fraction `kCoatScale` of it. The width of the coat's facets is
+// the square of glTF's roughness; gloss 0 has `kDullCoatAlpha`, gloss 1 `kGlossyCoatAlpha`.
 void set_coat(const JsonValue* material, const SourcePosition& where, spec::Principled& surface,
               const Document& document) {
   const double factor = number(material, extension("materials_clearcoat", "clearcoatFactor"), 0, document);
@@ -166,17 +168,19 @@ void set_coat(const JsonValue* material, const SourcePosition& where, spec::Prin
       number(material, extension("materials_clearcoat", "clearcoatRoughnessFactor"), 0, document);
   if (factor == 0) return;
   const double width = roughness * roughness;
-  const auto cut = [&](const char* what, double value, double max_value) {
+  const auto note_if_above = [&](const char* what, double value, double max_value) {
     if (value > max_value)
       document.importer.note(where, fmt::format("{} above {} is clamped to that value", what, max_value));
   };
-  cut("a clear coat factor", factor, kCoatScale);
-  cut("a facet width of a clear coat", width, kDullCoatAlpha);
+  note_if_above("a clear coat factor", factor, kCoatScale);
+  note_if_above("a facet width of a clear coat", width, kDullCoatAlpha);
   surface.clearcoat = std::min(factor / kCoatScale, 1.0);
   surface.clearcoat_gloss =
       std::clamp((kDullCoatAlpha - width) / (kDullCoatAlpha - kGlossyCoatAlpha), 0.0, 1.0);
 }
 
+// Sets a metallic-roughness surface. Abbe's `specular` is the reflectance ((n - 1)/(n + 1))^2 at normal
+// incidence divided by 0.08.
 void set_surface(const JsonValue* material, const SourcePosition& where, spec::Material& to,
                  const Document& document) {
   const double n = number(material, extension("materials_ior", "ior"), kDefaultIndex, document);

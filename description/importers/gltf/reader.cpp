@@ -71,6 +71,8 @@ M44d unscaled(M44d transform) {
   return transform;
 }
 
+// Sets the camera with a picture of 720 rows. glTF gives the vertical field of view; Abbe takes the one along
+// the shorter axis.
 void set_view_camera(const View& view, const Document& document) {
   constexpr double kHeight = 720;
   SceneImporter& importer = document.importer;

@@ -3,14 +3,14 @@
 #include <array>
 #include <string_view>
 
-// Mitsuba's names of dielectrics and metals.
+// Materials that Mitsuba knows by name: dielectrics by their index, and metals.
 namespace abbe::importers::mitsuba {
 
 struct NamedIndex {
-  std::string_view name;
-  double n;
+  std::string_view name;  ///< Name in Mitsuba, in lower case.
+  double n;               ///< Refractive index relative to vacuum, the same at all wavelengths.
 };
-/// Refractive indices of its dielectrics, which have no dispersion. Names are matched in any case.
+/// Mitsuba's dielectrics. Scene files may write their names in any case, so convert them to lower case first.
 inline constexpr std::array<NamedIndex, 23> kDielectrics{
     {{"vacuum", 1},        {"helium", 1.000036},        {"hydrogen", 1.000132},
      {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.333},
@@ -21,10 +21,12 @@ inline constexpr std::array<NamedIndex, 23> kDielectrics{
      {"bk7", 1.5046},      {"sodium chloride", 1.544},  {"amber", 1.55},
      {"pet", 1.575},       {"diamond", 2.419}}};
 
+/// A metal of Mitsuba for which Abbe ships a table.
 struct NamedMetal {
-  std::string_view source_name;
-  std::string_view table_name;
+  std::string_view source_name;  ///< Case-sensitive name in Mitsuba.
+  std::string_view table_name;   ///< Name of the table of n and k that Abbe ships.
 };
+/// All metals of Mitsuba for which Abbe ships a table.
 inline constexpr std::array<NamedMetal, 14> kMetals{{{"Ag", "Ag_Johnson"},
                                                      {"Al", "Al_Rakic"},
                                                      {"Au", "Au_Johnson"},

@@ -103,6 +103,7 @@ void note_clip_planes(const Object& sensor, const ImportState& state) {
                   near, far));
 }
 
+// Sets camera, sensor and the mirror of the world. Unsupported types of sensors become a perspective camera.
 void read_sensor(const Object& sensor, ImportState& state) {
   SceneImporter& importer = state.importer;
   const std::vector<std::string> types{"batch",       "distant",       "irradiancemeter", "orthographic",

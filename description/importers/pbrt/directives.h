@@ -15,27 +15,29 @@
 
 namespace abbe::importers::pbrt {
 
-/// The graphics state at a position of the file.
+/// pbrt's graphics state at a position of the file.
 struct GraphicsState {
+  /// Current transform, for row vectors. It leads from world to camera space before WorldBegin.
   Imath::M44d to_world{};
-  bool active = true;  ///< True if transforms apply to the start of the exposure.
-  bool reversed = false;
+  bool active = true;     ///< True if transforms apply to the start of the exposure.
+  bool reversed = false;  ///< True after an odd number of ReverseOrientation.
   MaterialUse material{{"diffuse"}};
-  std::optional<Directive> area_light{};
-  std::string interior{};
-  std::string exterior{};
-  std::map<std::string, Parameters> attributes{};  // By the target of the `Attribute` directive.
+  std::optional<Directive> area_light{};           ///< Area light of the following shapes, if any.
+  std::string interior{};                          ///< Name of the medium inside shapes; empty if none.
+  std::string exterior{};                          ///< Name of the medium around shapes; empty if none.
+  std::map<std::string, Parameters> attributes{};  ///< Defaults by the target of the `Attribute` directive.
   OwnedReservation memory{};                       ///< Memory of the state; each copy reserves as much.
 };
 
-/// The state that an `Import` restores at its end.
+/// The state that the end of an imported file restores.
 struct SavedState {
   GraphicsState state;
   std::vector<std::pair<GraphicsState, SourcePosition>> state_stack;
   std::map<std::string, Imath::M44d> coordinate_systems;
 };
 
-/// Executes the directives of a file.
+/// Executes the directives of a file of pbrt-v4 and fills `SceneImporter::scene`. Errors go to the importer's
+/// diagnostics. The importer must outlive it; call `read` once.
 class Reader {
  public:
   Reader(const std::filesystem::path& file, SceneImporter& importer)
@@ -43,16 +45,22 @@ class Reader {
     graphics_state_.memory = OwnedReservation(importer, 2 * sizeof(GraphicsState));
   }
 
+  /// Reads the file to its end. False after an error, of which the first that makes the syntax ambiguous ends
+  /// the reading. Throws Error{resource} if the memory limit of the importer's inputs is exceeded.
   bool read();
 
  private:
-  // Each handler reads what follows its keyword. False if reading cannot continue.
+  // Each handler reads what follows its keyword `word`. False, after an error, if reading cannot continue.
   using Handler = bool (Reader::*)(const Token& word);
   static const std::map<std::string, Handler>& handlers();
 
+  // Appends the quoted names that follow to `to`, up to `max_count` names in all. Reports fewer than
+  // `min_count`.
   bool read_names(std::size_t min_count, std::size_t max_count, const Token& word,
                   std::vector<std::string>& to);
+  // Reads a quoted type and the parameters.
   bool read_directive(const Token& word, Directive& to);
+  // Reads a quoted name and the parameters, one of which is the type; adds `attributes` as defaults.
   bool read_named_directive(const Token& word, const Parameters& attributes,
                             std::map<std::string, Directive>& to);
   bool require_closed_blocks() const {
@@ -99,13 +107,13 @@ class Reader {
   SceneImporter& importer_;
   Materials materials_{import_};
   GraphicsState graphics_state_{};
-  std::vector<std::pair<GraphicsState, SourcePosition>> state_stack_{};
+  std::vector<std::pair<GraphicsState, SourcePosition>> state_stack_{};  // Open blocks and their positions.
   std::map<std::string, Imath::M44d> coordinate_systems_{};
-  std::vector<SavedState> saved_states_{};
-  std::optional<schema::Named<spec::Object>> object_{};
-  std::vector<std::string> empty_objects_{};
+  std::vector<SavedState> saved_states_{};               // One per file being imported.
+  std::optional<schema::Named<spec::Object>> object_{};  // The object between ObjectBegin and ObjectEnd.
+  std::vector<std::string> empty_objects_{};             // Names of objects whose shapes were all dropped.
   SceneOptions options_{};
-  std::size_t material_count_ = 0;
+  std::size_t material_count_ = 0;  // Number of `Material` directives so far.
   bool in_world_ = false;
 };
 

@@ -20,21 +20,22 @@ struct Directive {
   SourcePosition where{};
 };
 
-/// Value type of a texture. Two textures of different types may have the same name.
+/// Value type of a texture: a "float" or a "spectrum". Two textures of different types may have the same
+/// name.
 enum class TextureKind { number, spectrum };
 
-/// State of an import: named textures, materials and media.
+/// State of an import: the textures, materials and media that directives have named so far.
 struct ImportState {
   SceneImporter& importer;
   std::filesystem::path folder;  ///< Folder of the scene file, to which its file names are relative.
   std::map<TextureKind, std::map<std::string, TextureValue>> textures{};
   std::map<std::string, Directive> materials{};
   std::map<std::string, Directive> media{};
-  Imath::M44d world_mirror{};  ///< Applied to all objects; see `world_mirror_of`.
+  Imath::M44d world_mirror{};  ///< Follows every object-to-world matrix; see `world_mirror_of`.
 };
 
-/// The value called `name`. Reports an unknown name with the nearest, calling the values `what`, and returns
-/// nullptr.
+/// The value called `name`. Reports an unknown name at `where` with the nearest known one, and returns
+/// nullptr. `what` is the noun for the values in the message, such as "material".
 template <typename Value>
 [[nodiscard]] const Value* find(const std::map<std::string, Value>& values, std::string_view what,
                                 const std::string& name, const SourcePosition& where,

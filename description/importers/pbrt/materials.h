@@ -12,16 +12,20 @@ struct MaterialUse {
   Directive directive;
   std::string name{};      ///< Name of a named material; otherwise empty.
   std::string interior{};  ///< Name of the interior medium; empty if there is none.
-  std::size_t number = 0;  ///< Number of the unnamed material directive in reading order; 0 before the first.
+  /// Number of the unnamed material directive in reading order, counted from 1; 0 for pbrt's default
+  /// material.
+  std::size_t number = 0;
 };
 
-/// Converts the materials of shapes, each once. Equal unnamed materials become one.
+/// Converts the materials of shapes, each once per interior medium, and adds them to the scene. Equal unnamed
+/// materials become one. The state must outlive it.
 class Materials {
  public:
   explicit Materials(ImportState& state) : import_(state) {}
 
-  /// Name of the converted material. Errors, and materials without a counterpart, which are noted, become
-  /// diffuse.
+  /// Name of the converted material in the written scene. An unknown type is reported, a type without a
+  /// counterpart is noted; both become diffuse. Errors go to the importer's diagnostics. Throws
+  /// Error{resource} if the memory limit of the importer's inputs is exceeded.
   [[nodiscard]] std::string name_of(const MaterialUse& use);
 
  private:

@@ -6,12 +6,13 @@
 // Tables of Abbe for pbrt's named spectra and sensors.
 namespace abbe::importers::pbrt {
 
+/// A name of pbrt and the table of Abbe that replaces it.
 struct Renamed {
-  std::string_view source_name;
-  std::string_view table_name;
+  std::string_view source_name;  ///< Case-sensitive name in pbrt.
+  std::string_view table_name;   ///< Name of a table that Abbe ships.
 };
 
-/// Metals; pbrt's names end in "-eta" or "-k".
+/// Metals, as tables of n and k. pbrt's names have the further ending "-eta" for n or "-k" for k.
 inline constexpr std::array<Renamed, 6> kMetals{{{"metal-Ag", "Ag_Johnson"},
                                                  {"metal-Al", "Al_Rakic"},
                                                  {"metal-Au", "Au_Johnson"},
@@ -33,6 +34,7 @@ inline constexpr std::array<Renamed, 7> kGlasses{{{"glass-BK7", "N-BK7"},
 inline constexpr std::string_view kMagnesia = "metal-MgO";
 inline constexpr double kMagnesiaIndex = 1.7375;
 
+/// CIE illuminants, as relative spectra.
 inline constexpr std::array<Renamed, 17> kIlluminants{{{"stdillum-A", "A"},
                                                        {"stdillum-D50", "D50"},
                                                        {"stdillum-D65", "D65"},
@@ -51,6 +53,7 @@ inline constexpr std::array<Renamed, 17> kIlluminants{{{"stdillum-A", "A"},
                                                        {"illum-acesD60", "D60"},
                                                        {"stdillum-D60", "D60"}}};
 
+/// Cameras, as tables of `data/camera`. pbrt's other sensors have no table in Abbe.
 inline constexpr std::array<Renamed, 7> kSensors{{{"canon_eos_5d", "Canon_EOS_5D"},
                                                   {"canon_eos_5d_mkii", "Canon_EOS_5D_Mark_II"},
                                                   {"canon_eos_5d_mkiii", "Canon_EOS_5D_Mark_III"},

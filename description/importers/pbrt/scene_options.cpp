@@ -90,6 +90,7 @@ void note_exposure(const Directive& camera, SceneImporter& importer) {
             closes - opens));
 }
 
+// Sets a perspective camera, which also replaces unsupported types of cameras.
 void set_perspective_camera(const SceneOptions& options, ImportState& state) {
   SceneImporter& importer = state.importer;
   const Directive& camera = *options.camera;

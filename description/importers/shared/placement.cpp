@@ -47,6 +47,7 @@ V3d moved_vector(const V3d& v, const M44d& m) {
   return to;
 }
 
+// The step of a transform that equals a matrix with this uniform scale.
 spec::Similarity similarity_of(const M44d& m, double scale) {
   spec::Similarity step;
   if (scale != 1) step.scale = scale;
@@ -79,6 +80,7 @@ spec::InlineMesh triangles_of(const spec::Quad& quad) {
   return mesh;
 }
 
+// Sets the material and the emission of a body.
 template <typename Body>
 void describe(Body& body, const ImportedShape& shape) {
   body.material = spec::MaterialName{{shape.material}, shape.where};
@@ -247,6 +249,7 @@ std::size_t bytes_of_texts(const ImportedShape& shape) {
          (file != nullptr ? file->file.native().size() : 0);
 }
 
+// Adds an object that contains only this shape without its matrix, and an instance of it with the matrix.
 void append_as_object(const ImportedShape& shape, SceneImporter& importer) {
   ImportedShape plain = shape;
   plain.to_world = M44d();

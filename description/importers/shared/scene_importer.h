@@ -11,7 +11,9 @@
 #include "io/diagnostics.h"
 #include "io/inputs.h"
 
-// Common state and functions of the importers.
+// Common state and functions of the importers. "Reports" means an error in `diagnostics`; "notes" means an
+// entry in `notes`, which becomes a warning. Functions throw Error{resource} if the memory limit of `inputs`
+// is exceeded; without `inputs` there is no limit.
 namespace abbe::importers {
 
 /// A property of the source scene that is approximated or dropped.
@@ -21,7 +23,7 @@ struct Note {
   std::size_t count = 1;  ///< Number of occurrences.
 };
 
-/// State of an import: the scene to be written and its notes.
+/// State of an import: the scene to be written and its notes. One instance per import and thread.
 struct SceneImporter {
   Diagnostics& diagnostics;
   Inputs* inputs;  ///< Account of the command's files and memory, or nullptr.
@@ -37,17 +39,19 @@ struct SceneImporter {
 
   /// Notes an approximated or dropped property. Equal texts are stored once and counted.
   void note(const SourcePosition& where, const std::string& text);
-  /// Reports an error at `where` and returns false.
+  /// Reports an error with ErrorCode::scene at `where` and returns false.
   bool refuse(const SourcePosition& where, std::string what);
-  /// Sets the maximum depth of paths, at least 1. Smaller values are noted.
+  /// Sets the maximum number of scattering events of a path. A value below 1 becomes 1, which is noted.
+  /// `scene.render` must be set.
   void limit_depth(int depth, const SourcePosition& where);
   /// Notes a medium at `where` if the source scene's integrator ignores media: Abbe does not.
   void note_medium(const SourcePosition& where);
-  /// Reserves memory. Throws Error{resource} if it exceeds the limit.
+  /// Reserves memory in `inputs` until the command ends. Throws Error{resource} if it exceeds the limit.
   void reserve_memory(std::size_t bytes) const;
-  /// Reads a text file; its memory is reserved first. Reports an unreadable file and returns nullptr.
+  /// Reads a UTF-8 text file and adds it to `inputs`; its memory is reserved first. Reports an unreadable
+  /// file and returns nullptr.
   [[nodiscard]] std::shared_ptr<const SourceText> read(const std::filesystem::path& file) const;
-  /// Reserves memory for JSON values and texts of the scene to be written.
+  /// Reserves memory for `count` JSON values and `bytes_of_texts` bytes of texts of the scene to be written.
   void reserve_values(std::size_t count, std::size_t bytes_of_texts = 0);
   /// Memory for writing the scene [bytes]: its JSON tree and its text.
   [[nodiscard]] std::size_t bytes_to_write() const;
@@ -56,10 +60,10 @@ struct SceneImporter {
   [[nodiscard]] std::string name_of(const std::filesystem::path& file) const;
   /// Adds an input file to the account. False, after an error at `where`, if it is not a regular file.
   bool check_file(const std::filesystem::path& file, const SourcePosition& where);
-  /// Counts a file that is included at `where`. False, after an error, if there are too many: small files
-  /// that include each other twice would never end.
+  /// Counts a file that is included at `where`. False, after an error with ErrorCode::resource, from the
+  /// 10001st file on: small files that include each other twice would never end.
   bool count_include(const SourcePosition& where);
-  /// `name`, or `name` with a number if a material has that name.
+  /// `name`, or "`name` 2", "`name` 3" and so on if a material has that name.
   [[nodiscard]] std::string unused_material_name(const std::string& name) const;
   /// Adds a material under an unused name and returns that name.
   std::string add_material(const std::string& name, spec::Material material);
@@ -68,7 +72,8 @@ struct SceneImporter {
 /// Upper bound for the JSON values of a shape, instance, light or material without vertices and spectra.
 inline constexpr std::size_t kValuesPerItem = 40;
 
-/// Reserved memory of a value that owns it. A copy reserves the same amount.
+/// Reserved memory of a value that owns it, released by the destructor. A copy reserves as much again and may
+/// throw Error{resource}; a moved-from object holds nothing. The importer must outlive it.
 class OwnedReservation {
  public:
   OwnedReservation() = default;
@@ -84,7 +89,8 @@ class OwnedReservation {
   ~OwnedReservation() {
     if (bytes_ > 0 && account_->inputs != nullptr) account_->inputs->release_memory(bytes_);
   }
-  /// Reserves more. Throws like `SceneImporter::reserve_memory`.
+  /// Reserves more. Throws Error{resource} like `SceneImporter::reserve_memory`. A default-constructed object
+  /// has no importer and must not grow.
   void grow_by(std::size_t bytes) {
     if (bytes > 0) account_->reserve_memory(bytes);
     bytes_ += bytes;
