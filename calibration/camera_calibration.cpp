@@ -18,6 +18,7 @@ constexpr double kLowestStop = -9;
 constexpr double kHighestStop = 6;
 constexpr double kStopsPerExposure = 1.0 / 3;
 
+// Times from 2^-9 to 2^6 s in thirds of a stop. The brightest value reaches kPhotographLevel in 1 s.
 std::vector<double> exposure_times() {
   std::vector<double> times;
   for (int i = 0; kLowestStop + i * kStopsPerExposure <= kHighestStop; ++i)
@@ -51,6 +52,7 @@ double brightest_patch(const MeasuredCamera& camera) {
   return brightest;
 }
 
+// Largest error of exposure between 1 % and 99 % of the code range.
 double response_error(const ResponseFit& fit, const PlantedResponse& planted) {
   double error = 0;
   for (int i = 10; i <= 990; ++i)

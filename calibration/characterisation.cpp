@@ -15,6 +15,7 @@ T shipped(std::optional<T> value, const std::string& name, const Diagnostics& di
   return *std::move(value);
 }
 
+// Chart and light of the sensitivity index.
 struct IndexSetting {
   Chart chart;
   Curve light;

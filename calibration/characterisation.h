@@ -13,22 +13,27 @@ namespace abbe {
 /// Best possible colour correction of one measured camera on a chart, from integrated colours alone: without
 /// noise, flare and rounding. All errors are CIEDE2000.
 struct CameraQuality {
-  std::string camera;
-  PatchErrors least_squares;  ///< Errors of the white-preserving least-squares matrix.
-  PatchErrors matrix;         ///< Errors of the matrix that minimises the mean.
-  PatchErrors matrix_unseen;  ///< Cross-validation errors of that matrix, leaving one patch out at a time.
-  PatchErrors root;           ///< Errors of the root polynomial of degree 2.
-  PatchErrors root_unseen;
-  double sensitivity_index = 0;  ///< See `sensitivity_index`.
+  std::string camera;            ///< Name in `data/camera`.
+  PatchErrors least_squares;     ///< Errors of the white-preserving least-squares matrix.
+  PatchErrors matrix;            ///< Errors of the matrix that minimises the mean.
+  PatchErrors matrix_unseen;     ///< Cross-validation errors of that matrix, leaving one patch out at a time.
+  PatchErrors root;              ///< Errors of the root polynomial of degree 2.
+  PatchErrors root_unseen;       ///< Cross-validation errors of the root polynomial.
+  double sensitivity_index = 0;  ///< Result of the function `sensitivity_index`.
 };
 
-/// The quality of every shipped camera of three channels, in the order of their names.
+/// The quality of every shipped camera of three channels, in the order of their names, under a light with the
+/// spectral power `light` on any scale. Throws Error{usage} if the chart has too few patches for the root
+/// polynomial (24). Throws Error{input} if a fit does not converge, or if a channel receives nothing from the
+/// light. Throws the error of a shipped table that cannot be loaded.
 [[nodiscard]] std::vector<CameraQuality> all_camera_qualities(const Chart& chart, const Curve& light);
 
-/// Colour accuracy of three channels: 100 - 5.5 times a mean distance in L*a*b*. The mean is over the 18
-/// chromatic patches of the ColorChecker (ISO 17321-1 spectra) in D55, under the white-preserving matrix that
-/// minimises it. It has the form of the sensitivity metamerism index [ISO17321] but not its value. The
-/// standard prescribes another training and tables of measured raw data.
+/// Colour accuracy of three channels: 100 - 5.5 times a mean distance in L*a*b*, at most 100 and possibly
+/// negative. The mean is over the 18 chromatic patches of the ColorChecker (ISO 17321-1 spectra) in D55,
+/// under the white-preserving matrix that minimises it. It has the form of the sensitivity metamerism index
+/// [ISO17321] but not its value. The standard prescribes another training and tables of measured raw data.
+/// Throws Error{usage} for another number of channels. Throws Error{input} if a channel receives nothing from
+/// D55, or if the channels do not distinguish colours.
 [[nodiscard]] double sensitivity_index(const std::vector<Channel>& channels);
 
 }  // namespace abbe

@@ -13,11 +13,13 @@ namespace abbe::cli {
 /// A JSON answer whose keys retain their order.
 using Json = nlohmann::ordered_json;
 
-/// Prints an answer on stdout, as one JSON object with all digits or as plain text. In plain text, lists of
-/// equal length become the columns of a table.
+/// Prints the result of `text` on stdout.
 void print(const Json& answer, bool as_json);
 
-/// Text that `print` writes, ending in a newline.
+/// An answer as one line of JSON with all digits, or as plain text with a line per key; both end in a
+/// newline. Plain text shows numbers to ten digits, and "-" for null and for numbers that are not finite. Its
+/// columns are the list under `wavelength_nm`, `surface`, `field_deg` or `object_height_mm`, and the later
+/// lists of equal length.
 [[nodiscard]] std::string text(const Json& answer, bool as_json);
 
 /// The single element of a list of one, otherwise the list itself.
@@ -26,9 +28,9 @@ void print(const Json& answer, bool as_json);
 /// Replaces every list of one element by that element, also within lists.
 [[nodiscard]] Json without_lists_of_one(Json answer);
 
-/// A text as a cell of a CSV table. `csv_quoted` always adds quotes. `csv_cell` adds them only if needed, for
-/// example around commas and line breaks.
+/// A text as a cell of a CSV table in quotes; its own quotes are doubled.
 [[nodiscard]] std::string csv_quoted(const std::string& text);
+/// A text as a cell of a CSV table, in quotes only if it contains commas, quotes or line breaks.
 [[nodiscard]] std::string csv_cell(const std::string& text);
 
 /// Writes a text to stderr. Errors of the stream are ignored.
@@ -37,10 +39,12 @@ void print_to_stderr(const std::string& text);
 /// Writes one line to stderr, preceded by "abbe: ".
 void print_message(const std::string& message);
 
-/// Prints the warnings, if any. Throws the errors of `require_sound`.
+/// Prints the warnings to stderr, if any. Throws InvalidInput if there are errors, which then contains all
+/// diagnostics.
 void check(const Diagnostics& diagnostics);
 
-/// Value of a loader, after `check` of its diagnostics.
+/// Value of a loader, after `check` of its diagnostics. Throws Error{internal} if there is neither a value
+/// nor an error.
 template <typename T>
 [[nodiscard]] T accepted(std::optional<T> value, const Diagnostics& diagnostics) {
   check(diagnostics);

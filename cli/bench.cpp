@@ -69,6 +69,7 @@ int scale(const BenchOptions& options) {
   return 0;
 }
 
+// Runs the soak test. Its failures are written to the output folder, or to the cache.
 int soak(const BenchOptions& options) {
   if (!options.output.empty() && !options.cache.empty())
     throw Error(ErrorCode::usage, "--cache",
@@ -111,6 +112,7 @@ std::vector<T> sorted_unique(std::vector<T> values) {
   return values;
 }
 
+// True if CPU time or error rose significantly.
 bool is_regression(const Change& change) {
   const auto regressed = [](const Ratio& ratio) { return ratio.changed() && ratio.value > 1; };
   return regressed(change.cpu_per_path) || regressed(change.rel_mse);

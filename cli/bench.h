@@ -11,10 +11,13 @@ namespace abbe::cli {
 
 /// Options of `abbe bench`.
 struct BenchOptions {
-  std::vector<std::string> suites;  ///< Names of suites; empty for all.
-  std::filesystem::path output;     ///< Folder of the report; empty for none.
+  std::vector<std::string> suites;  ///< Names of suites, as `list` prints them; empty for all.
+  /// Folder of the report; empty for none. For a soak test it is the folder of the failures, and empty for
+  /// `<cache>/soak`.
+  std::filesystem::path output;
+  /// Integrators to measure, without duplicates.
   std::vector<Integrator> integrators{Integrator::automatic};
-  std::vector<int> samples{4, 8, 16, 32, 64};
+  std::vector<int> samples{4, 8, 16, 32, 64};  ///< Numbers of samples per pixel, ascending.
   int seeds = 3;    ///< Renders with different seeds per suite, integrator and number of samples.
   int threads = 0;  ///< Number of threads; 0 for one per processor.
   /// Samples per pixel of the reference; 0 for 64 times the largest of `samples`.
@@ -29,19 +32,29 @@ struct BenchOptions {
   bool scale = false;            ///< Measure the cost of scenes of growing size instead.
   std::uint64_t soak_paths = 0;  ///< If not 0, run a soak test with this number of paths instead.
   std::uint64_t soak_seed = 0;   ///< Seed of the first random scene.
-  bool json = false;
+  bool json = false;             ///< Print the answer as JSON instead of plain text.
 };
 
-/// Numbers of samples per pixel from a list such as "4,8,16", in ascending order without duplicates. Throws
-/// Error{usage} that names the option.
+/// Numbers of samples per pixel, 1 to 2^20, from a list such as "4,8,16", in ascending order without
+/// duplicates. Throws Error{usage} that names the option for another text.
 [[nodiscard]] std::vector<int> parse_sample_counts(const std::string& option, const std::string& text);
 
 /// Integrators from a list such as "auto,path", in the order of `kIntegratorNames` without duplicates. Throws
-/// Error{usage} that names the option.
+/// Error{usage} that names the option for an unknown name.
 [[nodiscard]] std::vector<Integrator> parse_integrators(const std::string& option, const std::string& text);
 
-/// Renders the suites, compares them with their references and prints times and errors. Returns the exit
-/// code.
+/// Renders the suites, compares them with their references and with the baseline, and prints times and
+/// errors. The options `list`, `scale` and `soak_paths` replace this, in this order of precedence. Returns 0.
+/// Returns 1 if `strict` is set and a figure became worse, or if the soak test failed.
+/// Throws Error{usage}
+/// - for unknown suites;
+/// - if `cache` is empty and neither XDG_CACHE_HOME nor HOME is set;
+/// - for a soak test with both `output` and `cache`;
+/// - if a file of the report is the same as `baseline` or a table of the data directory.
+///
+/// Throws InvalidInput for a
+/// baseline that cannot be read or compared, Error{output} if the report or the failures cannot
+/// be written.
 int bench(const BenchOptions& options);
 
 }  // namespace abbe::cli

@@ -47,6 +47,7 @@ void require_named_once(const std::string& illuminants, bool are_written) {
   }
 }
 
+// Recovers the response of a series without measured values, and writes its curves.
 int calibrate_response(const CalibrateOptions& options) {
   Inputs inputs(options.max_memory_bytes);
   Diagnostics diagnostics;
@@ -71,6 +72,7 @@ int calibrate_response(const CalibrateOptions& options) {
   return 0;
 }
 
+// Prints the quality of every shipped camera.
 int calibrate_all(const CalibrateOptions& options) {
   Diagnostics diagnostics;
   const auto light = load_illuminant(options.illuminants, {}, diagnostics);
@@ -92,6 +94,8 @@ MeasurementAnswers read_measurements(const CalibrateOptions& options) {
   return measurements;
 }
 
+// Writes configuration, matrices, sensitivities, page and report, and deletes what an earlier calibration
+// left.
 void write_calibrations(const CalibrateOptions& options, const std::vector<CalibrationCase>& cases,
                         const MeasurementAnswers& measurements, Json& report) {
   std::vector<CameraProfile> profiles;

@@ -38,6 +38,7 @@ std::string camera_metrics(const std::vector<Channel>& channels) {
       sensitivity_index(channels));
 }
 
+// CSS colour of an XYZ relative to D65.
 std::string css(const XYZ& xyz) {
   const DisplayColor code = display_code(linear_rgb_of_xyz(xyz));
   return fmt::format("rgb({:.1f}% {:.1f}% {:.1f}%)", 100 * code[0], 100 * code[1], 100 * code[2]);

@@ -8,15 +8,15 @@
 
 namespace abbe::cli {
 
-/// Answers of `abbe transfer` and `abbe mtf` for a page; null if absent.
+/// Answers of `abbe transfer` and `abbe mtf` for a page, as `read_answer` returns them; null if absent.
 struct MeasurementAnswers {
   Json transfer;
   Json mtf;
 };
 
-/// HTML page of calibrations. It shows:
-/// - the camera's spectral responses and their fit to an observer, if `channels` are known;
-/// - the measured noise, dynamic range and modulation transfer;
+/// Self-contained HTML page of calibrations of one camera. It shows:
+/// - the camera's spectral responses and their fit to an observer, if there are three `channels`;
+/// - the measured noise, dynamic range and modulation transfer, if known;
 /// - the reference patches under each illuminant, with white balance only, and corrected;
 /// - the distribution of their colour differences, and all figures.
 [[nodiscard]] std::string page_of(const std::vector<CalibrationCase>& cases,

@@ -9,21 +9,27 @@
 
 namespace abbe::cli {
 
+/// Figures of a response's fit, without its curve.
 [[nodiscard]] Json json_of(const ChannelResponse& response);
-/// Table in plain text with a line per channel.
+/// Table in plain text with a line per channel: errors in % of full scale.
 [[nodiscard]] std::string table_of(const std::vector<ChannelResponse>& responses);
-/// Responses as CSV: the code, then each channel's linear exposure with its 95 % interval.
+/// Responses as CSV: the code, then each channel's linear exposure (1 at full scale) with its 95 % interval.
+/// `source` is named in a comment line. There must be at least one response, and all curves must have one
+/// size.
 [[nodiscard]] std::string csv_of(const std::vector<ChannelResponse>& responses, const std::string& source);
 
+/// All figures of a calibration; colour differences are CIEDE2000 (dE00) and CIE 1976 (dE76).
 [[nodiscard]] Json json_of(const CalibrationCase& one);
 /// Matrices of DNG for the coolest and warmest of several illuminants, with the quality of interpolated
-/// matrices for the others. Null for a single illuminant and for corrections that are not matrices.
+/// matrices for the others. Null for a single illuminant, and if `dng_light` is empty for one of them, as for
+/// a root polynomial.
 [[nodiscard]] Json dng_json(const std::vector<CalibrationCase>& cases);
 /// Tables of a calibration in plain text: responses, then CIEDE2000 of every patch.
 [[nodiscard]] std::string table_of(const CalibrationCase& one);
 
+/// Object with the list `cameras`: means and maxima of the errors of each.
 [[nodiscard]] Json json_of(const std::vector<CameraQuality>& all);
-/// Table in plain text with a line per camera and one of medians.
+/// Table in plain text with a line per camera, of which there must be at least one, and one of medians.
 [[nodiscard]] std::string table_of(const std::vector<CameraQuality>& all);
 
 }  // namespace abbe::cli

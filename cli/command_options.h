@@ -19,6 +19,7 @@
 
 namespace abbe::cli {
 
+/// Upper limit of options that accept every finite number.
 inline constexpr double kAnyNumber = std::numeric_limits<double>::max();
 
 /// A subcommand and its options, which outlive the parsing.
@@ -27,6 +28,8 @@ struct Subcommand {
   CLI::App* app;
   std::shared_ptr<Options> options = std::make_shared<Options>();
 
+  /// Adds the subcommand `name` to `parent`. If the command line selects it, parsing sets `command` to `run`
+  /// with the parsed options. `command` must outlive the parsing.
   Subcommand(CLI::App& parent, const std::string& name, const std::string& help, Command& command,
              int (*run)(const Options&))
       : app(parent.add_subcommand(name, help)) {
@@ -35,7 +38,9 @@ struct Subcommand {
   Options* operator->() const { return options.get(); }
 };
 
-/// Adds an option whose text `parse` converts to a value.
+/// Adds an option or argument whose text `parse` converts to a value, as `parse(flag, text)`. `value` must
+/// outlive the parsing. `type` is the placeholder of the text in the help. Returns the option, which `app`
+/// owns.
 template <typename T, typename Parse>
 CLI::Option* add_parsed(CLI::App& app, const std::string& flag, T& value, Parse parse,
                         const std::string& help, const std::string& type) {
@@ -45,13 +50,14 @@ CLI::Option* add_parsed(CLI::App& app, const std::string& flag, T& value, Parse 
       ->type_name(type);
 }
 
-/// Parsers for `add_parsed` of numbers in [low, high].
+/// Parser for `add_parsed` of a list of numbers in [low, high] (`parse_numbers`).
 inline auto numbers_in(double low, double high) {
   return [low, high](const std::string& option, const std::string& text) {
     return parse_numbers(option, text, low, high);
   };
 }
 
+/// Parser of a single number in [low, high]; throws Error{usage} for another text.
 inline auto number_in(double low, double high) {
   return [low, high](const std::string& option, const std::string& text) {
     const std::vector<double> numbers = parse_numbers(option, text, low, high);
@@ -61,6 +67,7 @@ inline auto number_in(double low, double high) {
   };
 }
 
+/// Parser of an integer in [low, high], which T must be able to hold (`parse_integer`).
 template <typename T>
 auto integer_in(std::int64_t low, std::int64_t high) {
   return [low, high](const std::string& option, const std::string& text) {
@@ -84,11 +91,13 @@ inline CLI::Option* add_response(CLI::App& app, const std::string& flag, std::op
                     "energy|quantum");
 }
 
+/// Three numbers separated by commas, as `parse_triple`.
 inline Imath::V3d parse_vector(const std::string& option, const std::string& text) {
   const std::array<double, 3> v = parse_triple(option, text);
   return {v[0], v[1], v[2]};
 }
 
+/// Adds the flag `--json`.
 inline void add_json(CLI::App& app, bool& json) {
   app.add_flag("--json", json, "Print the answer as one JSON object");
 }

@@ -138,6 +138,7 @@ std::string keys_of(const OptionUsage& option, const std::string& command, int& 
   return fmt::format("{}", fmt::join(keys, " | "));
 }
 
+// Cases of `_abbe_words` for a command and its subcommands.
 void add_words(const CommandUsage& command, std::string& script) {
   std::vector<std::string> commands;
   std::vector<std::string> options;
@@ -149,6 +150,7 @@ void add_words(const CommandUsage& command, std::string& script) {
   for (const CommandUsage& inner : command.commands) add_words(inner, script);
 }
 
+// Cases of `_abbe_kind` for a command and its subcommands.
 void add_kinds(const CommandUsage& command, const CommandUsage& program, std::string& script) {
   int position = 0;
   for (const OptionUsage& option : command.options)

@@ -13,15 +13,18 @@ namespace abbe::cli {
 /// Options of `abbe convert`.
 struct ConvertOptions {
   std::filesystem::path scene;  ///< Scene file; "-" is standard input.
+  /// File `.json` to write; by default standard output.
   std::filesystem::path output = kStandardStream;
-  std::optional<std::filesystem::path> materials = {};  ///< Materials for a scene of another renderer.
+  /// File of materials that replace those of another renderer's scene, by name.
+  std::optional<std::filesystem::path> materials = {};
   std::vector<Override> overrides = {};
   std::size_t max_memory_bytes = default_memory_limit();
 };
 
 /// Writes a scene file in canonical form, or a scene of another renderer (see `convert_scene`) as a scene
-/// file. Returns the exit code. Throws Error{usage} if the output is in another folder than the files that
-/// the scene names, and for options that do not apply to this kind of scene.
+/// file. Returns 0. Throws Error{usage} if the output is in another folder than the files that a scene file
+/// names by relative paths. Throws it also for options that do not apply to this kind of scene. Throws
+/// InvalidInput for an invalid scene, Error{output} if the output cannot be written.
 int convert(const ConvertOptions& options);
 
 }  // namespace abbe::cli

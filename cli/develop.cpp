@@ -94,6 +94,7 @@ void require_effect(const DevelopOptions& options) {
            "has no effect on a bias frame, whose exposure time is zero (allowed with --frame dark or flat)");
 }
 
+// Checks options and outputs before anything is read, and returns the files that will be written.
 std::vector<fs::path> check_outputs(const DevelopOptions& options) {
   require_effect(options);
   for (const fs::path& output : options.outputs) require_developed_extension(output);
@@ -150,6 +151,7 @@ FilmSensor sensor_of(const Image& film, const fs::path& path, const std::vector<
   return sensor;
 }
 
+// Film of a spectral image: exposed on the sensor of a scene, or as recorded by an observer.
 ExposedFilm expose_spectral(Image file, const DevelopOptions& options, Inputs& inputs) {
   const auto [white, overrides] = requested_changes(options);
   Image header{0, 0, {}, file.metadata};
@@ -282,6 +284,7 @@ void set_field(FilmSensor& sensor, const DevelopOptions& options) {
   if (warning && !is_flat) print_message("warning: " + *warning);
 }
 
+// Adds the lights of --profile to the sensor of a DNG.
 void add_profile(FilmSensor& sensor, const DevelopOptions& options, Inputs& inputs) {
   if (options.profile.empty()) return;
   const auto is_dng = [](const fs::path& path) { return extension_of(path) == ".dng"; };

@@ -16,6 +16,7 @@
 namespace abbe::cli {
 namespace {
 
+// The requested ray, or those of the lights, in the coordinates of the scene [m].
 std::vector<BasicRay<double>> rays_of(const Scene& scene, const DrawOptions& options) {
   if (options.origin)
     return {{*options.origin * scene.unit_m - scene.origin_m, options.direction.normalized()}};

@@ -19,10 +19,13 @@ struct InfoOptions {
   bool json = false;
 };
 
-/// Prints what a scene contains, which features it needs and which it skips. Returns the exit code.
+/// Prints what a scene contains, which features it needs and which it skips. Traces pilot rays to choose the
+/// integrator. Returns 0. Throws InvalidInput for an invalid scene; a scene that cannot be rendered only
+/// causes a warning.
 int info(const InfoOptions& options);
 
-/// Report of `abbe info` in plain text, for a scene whose integrator has been chosen.
+/// Report of `abbe info` in plain text. `scene` must have the integrator of `choice`, the result of
+/// `choose_integrator`. Traces pilot rays with one thread per processor.
 [[nodiscard]] std::string describe(const Scene& scene, const IntegratorChoice& choice);
 
 }  // namespace abbe::cli

@@ -13,14 +13,16 @@ inline constexpr int kSignalExit = 128;
 /// one watch may exist at a time.
 class InterruptWatch {
  public:
+  /// Installs the handlers and forgets earlier signals.
   InterruptWatch();
+  /// Restores the default action of the signals, except of those that are ignored.
   ~InterruptWatch();
   InterruptWatch(const InterruptWatch&) = delete;
   InterruptWatch& operator=(const InterruptWatch&) = delete;
 
-  /// True from the first signal on.
+  /// True from the first signal on. The reference is valid for the lifetime of the program.
   [[nodiscard]] const std::atomic<bool>& stop() const;
-  /// Number of the signal, or 0.
+  /// Number of the first signal; 0 if there was none.
   [[nodiscard]] int signal() const;
 };
 

@@ -13,10 +13,12 @@ using lens::Speed;
 
 constexpr double kUmPerMm = 1000;
 
+// Null if the value is missing or not finite.
 Json optional(const std::optional<double>& value, double factor = 1) {
   return value && std::isfinite(*value) ? Json(factor * *value) : Json();
 }
 
+// Null if the value is not finite.
 Json finite(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }

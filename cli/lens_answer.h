@@ -7,18 +7,19 @@
 
 namespace abbe::cli {
 
-/// All figures of a lens as JSON.
+/// All figures of a lens as JSON. Keys name the units; figures that do not exist, such as the focal length of
+/// an afocal lens, are null.
 [[nodiscard]] Json lens_answer(const LensFigures& figures);
 
-/// Figures of a lens as tables in plain text: of the whole lens, by wavelength, by surface, by field, and of
-/// the brightest ghosts.
+/// Figures of a lens as tables, each an object with a list per column. `whole` has a single value per key.
 struct LensTables {
-  Json whole;
-  Json wavelengths;
-  Json surfaces;
-  Json fields;
-  Json ghosts;
+  Json whole;        ///< The whole lens.
+  Json wavelengths;  ///< First-order properties by wavelength.
+  Json surfaces;     ///< Seidel sums [mm] by surface, counted from 1, and their sum.
+  Json fields;       ///< Distortion, spots and modulation by field.
+  Json ghosts;       ///< Up to ten ghosts, the brightest first; surfaces are counted from 1.
 };
+/// Tables of these figures, rounded to seven digits.
 [[nodiscard]] LensTables lens_tables(const LensFigures& figures);
 
 /// Self-contained HTML page with tables, drawing and plots.

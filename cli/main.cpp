@@ -38,6 +38,7 @@ bool reader_has_closed() {
   return ::poll(&output, 1, 0) == 1 && (output.revents & POLLERR) != 0;
 }
 
+// Parses the command line and runs the chosen command.
 int run(int argc, char** argv) {
   CLI::App app{"Abbe, a spectral renderer validated against measured colour science", "abbe"};
   Command command;
@@ -61,6 +62,7 @@ int run(int argc, char** argv) {
   return command();
 }
 
+// Exit code of `run`; prints exceptions to stderr.
 int guarded(int argc, char** argv) {
   try {
     return run(argc, argv);

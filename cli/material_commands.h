@@ -9,8 +9,9 @@ void add_query(CLI::App& app, Command& command);
 /// Adds `abbe lab`.
 void add_lab(CLI::App& app, Command& command);
 
-/// Adds `abbe transfer` and `abbe mtf`.
+/// Adds `abbe transfer`.
 void add_transfer(CLI::App& app, Command& command);
+/// Adds `abbe mtf`.
 void add_mtf(CLI::App& app, Command& command);
 
 }  // namespace abbe::cli

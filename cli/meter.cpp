@@ -34,6 +34,7 @@ abbe::RenderOptions render_options_of(const MeterOptions& options, const Interru
   return render_options;
 }
 
+// Renders the scene of one meter with progress on stderr, and reads the meter.
 MeterMeasurement measure(Scene scene, const Meter& meter, const MeterOptions& options,
                          const InterruptWatch& watch, Inputs& inputs) {
   set_sampling(options, scene.render);
@@ -58,6 +59,7 @@ Json number(double value) {
   return std::isfinite(value) ? Json(value) : Json();
 }
 
+// Half width of Student's interval; not finite without degrees of freedom.
 double half_interval_95(const Film::Average& value) {
   return abbe::half_interval(value.standard_error, value.degrees_of_freedom, kMeterConfidence);
 }

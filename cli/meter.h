@@ -10,13 +10,18 @@ namespace abbe::cli {
 /// Options of `abbe meter`.
 struct MeterOptions : SamplingOptions {
   std::filesystem::path scene;      ///< Scene file; "-" is standard input.
-  std::vector<std::string> meters;  ///< Names of meters; empty for all.
+  std::vector<std::string> meters;  ///< Names of the meters to read; empty for all.
   std::filesystem::path spectra;    ///< CSV table of the meters' spectra; empty for none.
-  bool json = false;
+  bool json = false;                ///< Print the answer as JSON instead of plain text.
 };
 
-/// Prints the readings of a scene's meters. Returns 0, or 128 plus the number of the signal that stopped it.
-/// In that case the readings so far are printed and valid.
+/// Prints the readings of a scene's meters. Returns the exit code of the command:
+/// - 0 on success;
+/// - 128 plus the number of the signal that stopped it; the readings so far are printed and valid;
+/// - ErrorCode::internal if `strict` is set and samples were discarded because they were not finite.
+///
+/// Throws Error{usage} for unknown meters and for `spectra` without a meter that has a spectrum. Throws
+/// InvalidInput for an invalid scene, Error{scene} if `strict` is set and light is missing.
 int meter(const MeterOptions& options);
 
 }  // namespace abbe::cli

@@ -14,6 +14,7 @@ namespace {
 // Open MPI's mpirun sets this variable in every process that it starts.
 constexpr const char* kProcessCountVariable = "OMPI_COMM_WORLD_SIZE";
 
+// The module if mpirun started several processes, else null.
 const MpiModule* load_module() {
   const char* processes = std::getenv(kProcessCountVariable);
   if (processes == nullptr || std::string_view(processes) == "1") return nullptr;

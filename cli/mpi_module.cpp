@@ -15,6 +15,7 @@ namespace {
 // Numbers per call of MPI, so that neither its counts nor its buffers grow with the film.
 constexpr std::size_t kMaxNumbersPerCall = std::size_t{1} << 20;
 
+// Operation of MPI that adds 128-bit integers exactly.
 void add(void* from, void* to, int* count, MPI_Datatype*) {
   const auto* numbers = static_cast<const Int128*>(from);
   auto* sums = static_cast<Int128*>(to);
@@ -56,6 +57,7 @@ std::uint64_t broadcast_from_root(std::uint64_t value) {
   return value;
 }
 
+// Initialises MPI for calls from the main thread, and finalises it at exit.
 MpiModule start_mpi() {
   int provided = 0;
   MPI_Init_thread(nullptr, nullptr, MPI_THREAD_FUNNELED, &provided);

@@ -16,11 +16,11 @@ namespace abbe::cli {
 /// for another extension and Error{output} if the file cannot be written.
 void require_film_output(const std::filesystem::path& path);
 
-/// Throws Error{usage} unless `path` ends in .png, .jpg or .tif.
+/// Throws Error{usage} unless `path` ends in .png, .jpg or .tif, in either case.
 void require_picture_extension(const std::filesystem::path& path);
 
-/// Throws Error{usage} if a view is requested but no picture uses it. `pictures` names the options that write
-/// pictures.
+/// Throws Error{usage} if any view option is set. A command calls it if it writes no picture. The message
+/// names `pictures`, the options that would write one.
 void require_no_view(const ViewOptions& view, std::string_view pictures);
 
 /// Throws Error{usage} if an output is the same file as another output, an input or a table of the data
@@ -28,15 +28,17 @@ void require_no_view(const ViewOptions& view, std::string_view pictures);
 void require_distinct(std::span<const std::filesystem::path> outputs,
                       std::span<const std::filesystem::path> inputs);
 
-/// The outputs that can be written; the others fail later without affecting these. Throws the first
-/// Error{output} if there are outputs and none can be written.
+/// The outputs that can be written (`require_writable`), in their order; the others fail later without
+/// affecting these. Throws the first Error{output} if there are outputs and none can be written.
 [[nodiscard]] std::vector<std::filesystem::path> writable_among(
     std::span<const std::filesystem::path> outputs);
 
-/// Calls all writers, even if one fails, and then throws the first error.
+/// Calls all writers in order, even if some throw an Error. Then throws the first one; later ones are printed
+/// to stderr. Other exceptions end it at once.
 void write_all(std::span<const std::function<void()>> writers);
 
-/// The files among `names`, which may also be names of tables: "FILE" or "FILE.csv:COLUMN".
+/// The existing files among `names`, without the column of "FILE.csv:COLUMN". Other names, such as those of
+/// tables in the data directory, are left out.
 [[nodiscard]] std::vector<std::filesystem::path> files_among(std::initializer_list<std::string> names);
 
 }  // namespace abbe::cli

@@ -4,18 +4,20 @@
 
 #include "cli/answer.h"
 
-// Beginning of an HTML document, with its style and the title as its first heading.
+// Parts of the HTML documents that commands write.
 namespace abbe::cli {
 
-/// Start of an HTML document up to its heading, which is `title`.
+/// Start of an HTML document up to its first heading: its style, and `title` as title and heading. `title` is
+/// plain text and is escaped.
 [[nodiscard]] std::string page_head(const std::string& title);
-/// End of an HTML document.
+/// End of an HTML document that `page_head` began.
 inline constexpr const char* kPageEnd = "</body></html>\n";
 
-/// Text of a table cell: a text, a number as JSON writes it, or a dash for null.
+/// HTML of a table cell's contents: a text, escaped; any other value as JSON writes it; a dash for null.
 [[nodiscard]] std::string table_cell(const Json& value);
 
-/// SVG document for embedding in a page, without its XML declaration.
+/// The SVG document from its element `svg` on, without its XML declaration, for embedding in a page. It must
+/// contain that element.
 [[nodiscard]] std::string inline_svg(const std::string& document);
 
 }  // namespace abbe::cli

@@ -36,6 +36,7 @@ std::string percent(double fraction) {
 
 enum class Detail { full, brief };
 
+// Relative noise per pixel, or a note while it is unknown; empty if nothing was measured.
 std::string pixel_noise(const RelativeError& error, Detail detail) {
   if (const auto unknown = unknown_error_warning(error))
     return detail == Detail::full ? *unknown : "error not yet known";
@@ -49,6 +50,7 @@ std::string pixel_noise(const RelativeError& error, Detail detail) {
 /// Parts that are omitted on a narrow terminal, the least important first. Each implies those before it.
 enum Dropped { nothing, rate, error_samples, error_details, error, samples, percentage };
 
+// Progress in one line without the dropped parts.
 std::string line_of(const Progress& progress, Dropped dropped) {
   const double done = std::clamp(progress.fraction_done, 0.0, 1.0);
   std::string line;
@@ -85,6 +87,7 @@ int terminal_columns() {
 
 }  // namespace
 
+// An unknown error gives a note, so the text is empty only if nothing was measured.
 std::string error_text(const RelativeError& error, std::string_view prefix) {
   std::string text = pixel_noise(error, Detail::full);
   if (is_known(error) && std::isfinite(error.frame_mean))

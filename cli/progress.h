@@ -9,17 +9,18 @@
 
 namespace abbe::cli {
 
-/// `prefix`, followed by the error of a film: the noise of its pixels and of its mean, or a note that the
-/// error is not yet known. Empty if nothing was measured, as after one sample.
+/// `prefix`, followed by the error of a film: the noise of its pixels and of its mean in %. If the error
+/// is not known (`is_known`), a note about that takes the place of both. The text is "" without the prefix
+/// only if the error is known and nothing was measured.
 [[nodiscard]] std::string error_text(const RelativeError& error, std::string_view prefix);
 
 /// Progress of a render in one line: percentage, samples per pixel and their rate, noise, time left. A log
-/// contains all of it. A terminal of `columns` columns also has a bar. To fit its width, rate, noise, samples
-/// and percentage are omitted in this order; the time left always stays.
+/// contains all of it. A terminal of `columns` columns also has a bar. Rate, noise, samples and percentage
+/// are omitted in this order until the line fits; the time left always stays.
 [[nodiscard]] std::string progress_line(const Progress& progress, std::optional<int> columns = {});
 
 /// Shows progress on stderr. A terminal has one line that is redrawn at most five times a second; otherwise
-/// there is a line per tenth of the work.
+/// there is a line per tenth of the work. Calls must come from one thread at a time.
 class ProgressDisplay {
  public:
   ProgressDisplay();
@@ -28,6 +29,7 @@ class ProgressDisplay {
   ProgressDisplay& operator=(const ProgressDisplay&) = delete;
   /// Shows on a terminal that pilot rays are being traced, until the next call.
   void prepare();
+  /// Shows the progress of the render, unless the last line is too recent.
   void operator()(const Progress& progress);
   /// Removes the line of `prepare` from a terminal before other text is printed.
   void clear();

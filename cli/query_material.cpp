@@ -115,6 +115,7 @@ struct ReflectedFromAir {
   FresnelPower<double> power;
   FilmReflection<double> amplitudes;
 };
+// Reflected power and amplitudes at an angle of incidence in degrees.
 ReflectedFromAir reflect_from_air(const RefractiveIndex& index, const Coating& coating, double nm,
                                   double angle_deg) {
   const double cos_i = angle_deg == 90 ? 0 : std::cos(angle_deg * kDegree);

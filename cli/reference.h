@@ -9,23 +9,23 @@ namespace abbe::cli {
 struct OptionUsage {
   std::vector<std::string> names;  ///< Names as typed ("-o", "--output"); empty for an argument.
   std::string value;               ///< Placeholder of the value ("N", "auto|path|light"); empty for a flag.
-  std::string help;
-  bool required = false;
+  std::string help;                ///< One sentence without a full stop.
+  bool required = false;           ///< True if the command fails without it.
 };
 
 /// One command with all its options and arguments.
 struct CommandUsage {
   std::string name;  ///< Name as typed, such as "abbe query ior".
-  std::string help;
+  std::string help;  ///< One sentence without a full stop.
   std::vector<OptionUsage> options;
-  std::vector<CommandUsage> commands;
+  std::vector<CommandUsage> commands;  ///< Its subcommands.
 };
 
 /// Output format of the reference of all commands.
 enum class ReferenceFormat { markdown, man, bash };
 
-/// Reference of a program: a page in Markdown, a manual page in troff's man macros, or a completion script
-/// for bash.
+/// Reference of a program and all its subcommands: a page in Markdown, a manual page in troff's man macros,
+/// or a completion script for bash.
 [[nodiscard]] std::string reference(const CommandUsage& program, ReferenceFormat format);
 
 /// Completion script for bash. The placeholder of a value determines its completions:

@@ -234,6 +234,7 @@ void attach_viewers(LiveViewers& viewers, abbe::RenderOptions& render_options) {
     };
 }
 
+// Renders the film in the group of processes, from a checkpoint if there is one.
 RenderPart render_film(const Scene& scene, const RenderOptions& options,
                        const std::shared_ptr<const GuidingData>& guides, const InterruptWatch& watch,
                        LiveViewers& viewers, ProgressDisplay& display) {
@@ -341,6 +342,7 @@ double write_pictures(const Outputs& outputs, const PictureSettings& picture_set
   return 1 / picture.scale;
 }
 
+// Writes checkpoint, film, pictures and statistics, even if one of them fails.
 void write_results(const RenderOptions& options, const Outputs& outputs,
                    const std::optional<PictureSettings>& picture_settings, const Scene& scene,
                    const RenderPart& part, Costs& costs) {

@@ -21,27 +21,39 @@ struct LayerChoice {
 /// Options of `abbe render`. Values that are absent are those of the scene.
 struct RenderOptions : SamplingOptions {
   std::filesystem::path scene;  ///< Scene file; "-" is standard input.
+  /// Film `.exr` or partial film `.abbepart`; if empty that of the scene, else SCENE.exr.
   std::filesystem::path output;
-  std::filesystem::path display;
+  std::filesystem::path display;      ///< Picture for a display; if empty that of the scene, if any.
   ViewOptions view;                   ///< View of the display; the configuration defaults to that of $OCIO.
   std::filesystem::path exposure_of;  ///< Film whose display exposure the pictures use; empty for their own.
   /// Picture of the pixels that the display cannot show exactly; empty for none.
   std::filesystem::path gamut;
-  std::filesystem::path stats;  ///< JSON of the statistics; "-" is standard output.
-  std::optional<SampleRange> sample_range;
+  std::filesystem::path stats;  ///< JSON of the statistics; "-" is standard output, empty for none.
+  std::optional<SampleRange> sample_range;  ///< Samples of every pixel to render; all without a value.
+  /// File `.abbepart` in which finished samples are saved; empty for none.
   std::filesystem::path checkpoint;
-  double checkpoint_interval_s = 60;
-  bool resume = false;  ///< Continue from the checkpoint if it exists.
-  std::optional<Crop> crop;
+  double checkpoint_interval_s = 60;  ///< Minimum time between checkpoints.
+  bool resume = false;                ///< Continue from the checkpoint if it exists.
+  std::optional<Crop> crop;           ///< Pixels to render; the whole film without a value.
+  /// Layers to record in addition to the film; none without a value.
   std::optional<LayerChoice> layers;
   std::vector<Feature> features;         ///< Features of the first hits that become channels of the film.
   std::optional<ServerAddress> preview;  ///< Address of a web page that shows the render; none by default.
   std::optional<ServerAddress> tev;      ///< Address of a viewer that receives the render; none by default.
-  bool explain = false;
+  bool explain = false;                  ///< Print the report of `describe` to stderr first.
 };
 
-/// Renders a scene file to films and pictures. Returns 0, or 128 plus the number of the signal that stopped
-/// the render. In that case the image and the checkpoint are written and valid.
+/// Renders a scene file to films and pictures. Under mpirun all processes render one film, which the root
+/// writes. Returns
+/// - 0 on success;
+/// - 128 plus the number of the signal that stopped the render; the image and the checkpoint are written and
+///   valid;
+/// - ErrorCode::internal if `strict` is set and samples were discarded because they were not finite.
+///
+/// Throws Error{usage} for options that contradict one another or the scene, and InvalidInput for an invalid
+/// scene. Throws Error{scene} for a scene that cannot be rendered, or that gives a wrong image if `strict` is
+/// set. Throws Error{output} before the render if an output cannot be written, Error{resource} above
+/// `max_memory_bytes`.
 int render(const RenderOptions& options);
 
 }  // namespace abbe::cli

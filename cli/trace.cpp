@@ -111,6 +111,7 @@ Json tree_answer(const Scene& scene, const RayTree& tree, bool with_branches, co
   return answer;
 }
 
+// Warns of branches and events that the limits cut off.
 void warn_cut(const RayTree& tree, const TraceOptions& options, const FollowLimits& limits) {
   if (options.follow == Follow::both && tree.truncated > 0)
     print_message(
@@ -145,6 +146,7 @@ void print_readable(const Json& answer) {
   }
 }
 
+// Ray from --origin and --dir, or from the light, in the coordinates of the scene [m].
 BasicRay<double> first_ray(const Scene& scene, const TraceOptions& options) {
   if (options.direction && !(options.direction->length() > 0))
     throw Error(ErrorCode::usage, "--dir", "a direction must not be zero");

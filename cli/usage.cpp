@@ -12,6 +12,7 @@
 namespace abbe::cli {
 namespace {
 
+// Error text for an empty value.
 std::string no_value(const CLI::Option& option) {
   return fmt::format("got an empty value, allowed {}", option.get_type_name());
 }

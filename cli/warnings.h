@@ -26,7 +26,8 @@ void warn_of_dark_camera(const Scene& scene, bool strict);
 [[nodiscard]] std::optional<std::string> extrapolated_index_warning(const Scene& scene, const RayTree& tree,
                                                                     double wavelength_nm);
 
-/// Warns of neutral surfaces that interference filters tint towards the corners of the picture.
+/// Warns of neutral surfaces that interference filters tint towards the corners of the picture by more than a
+/// CIEDE2000 of 1.
 void warn_of_tinted_corners(const Scene& scene);
 
 /// Warns of a thin sheet that is ineffective because it coincides with another surface. Throws Error{scene}
@@ -43,7 +44,7 @@ void warn_of_undertrained_guides(const GuidingData* guides);
 /// Warns of settings that the scene's integrator does not use.
 void warn_of_unused_settings(const Scene& scene);
 
-/// Prints a note on the error if the scene turns polarisation off and has paths that it affects.
+/// Prints a note on the error of the image if the scene turns polarisation off and has paths that it affects.
 void note_polarisation(const Scene& scene);
 
 /// Warns of a sensor that measures polarisation in a scene that turns it off. Throws Error{scene} instead if

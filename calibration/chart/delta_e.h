@@ -83,9 +83,10 @@ template <typename T>
 
 }  // namespace delta_e_detail
 
-/// CIEDE2000 (k_L = k_C = k_H = 1) as a vector whose length is the difference [Sharma2005, eqs. 2-22]. The
-/// rotation term is included by completing the square, C'^2 + H'^2 + R_T C' H' = (C' + R_T H'/2)^2 + (1 -
-/// R_T^2/4) H'^2. The vector is therefore smooth at zero difference, where its length is not.
+/// CIEDE2000 (k_L = k_C = k_H = 1) as a vector whose length is the difference [Sharma2005, eqs. 2-22]. Its
+/// components are the weighted differences in lightness, chroma and hue, `lab2` minus `lab1`. The rotation
+/// term is included by completing the square, C'^2 + H'^2 + R_T C' H' = (C' + R_T H'/2)^2 + (1 - R_T^2/4)
+/// H'^2. The vector is therefore smooth at zero difference, where its length is not.
 template <typename T>
 [[nodiscard]] std::array<T, 3> delta_e_2000_vector(const std::array<T, 3>& lab1,
                                                    const std::array<T, 3>& lab2) {
@@ -120,8 +121,8 @@ template <typename T>
   return {dl, T(dc + r_t * dh / 2.0), T(dh * root(T(1.0 - r_t * r_t / 4.0)))};
 }
 
-/// CIEDE2000 colour difference, k_L = k_C = k_H = 1 [Sharma2005, eq. 22]. Exactly opposite hues take the
-/// branch |h1 - h2| <= 180.
+/// CIEDE2000 colour difference, k_L = k_C = k_H = 1 [Sharma2005, eq. 22]; symmetric in its arguments. Exactly
+/// opposite hues take the branch |h1 - h2| <= 180.
 template <typename T>
 [[nodiscard]] T delta_e_2000(const std::array<T, 3>& lab1, const std::array<T, 3>& lab2) {
   using namespace delta_e_detail;

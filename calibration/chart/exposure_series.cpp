@@ -27,6 +27,7 @@ PlantedResponse::PlantedResponse(const std::string& description) {
   power_ = 1 / *gamma;
 }
 
+// z = x^p (1 + s)/(x^p + s) with s = 0 for a pure power.
 double PlantedResponse::code(double exposure) const {
   const double p = std::pow(std::clamp(exposure, 0.0, 1.0), power_);
   return shoulder_ > 0 ? p * (1 + shoulder_) / (p + shoulder_) : p;

@@ -12,23 +12,27 @@
 
 namespace abbe {
 
-/// CIE 1931 tristimulus values, Y = 1 for the perfect diffuser.
+/// CIE 1931 tristimulus values of a reflectance under an illuminant on any scale, Y = 1 for the perfect
+/// diffuser. Not finite if the observer sees nothing of the illuminant in `range`.
 [[nodiscard]] XYZ unit_tristimulus(const Curve& illuminant, const Curve& reflectance, SumRange range = {});
 
 /// Wavelength range of sums over the channels: 300-1100 nm for sensors, which also record light outside the
 /// visible range, and the range of colorimetric sums for observers.
 [[nodiscard]] SumRange sensed(std::span<const Channel> channels);
 
-/// Raw values of a reflectance under an illuminant, in channel order: `sum_product` over the range `sensed`.
-/// They are divided by the value of the perfect diffuser in the channel named G, else Y, else the first.
-/// Throws Error{input} if that channel receives nothing from the illuminant.
+/// Raw values of a reflectance under an illuminant on any scale, in channel order: `sum_product` over the
+/// range `sensed`. They are divided by the value of the perfect diffuser in the channel named G, else Y, else
+/// the first. Empty without channels. Throws Error{input} if that channel receives nothing from the
+/// illuminant.
 [[nodiscard]] std::vector<double> camera_raw(std::span<const Channel> channels, const Curve& illuminant,
                                              const Curve& reflectance);
 
-/// Film values of the perfect diffuser, in channel order: `sum_product` of illuminant and channel over the
-/// range `sensed`. Throws Error{input} naming a channel that receives nothing from the illuminant.
+/// Values of the perfect diffuser, in channel order: `sum_product` of illuminant and channel over the range
+/// `sensed`. They scale with the illuminant. Throws Error{input} naming a channel that receives nothing from
+/// it.
 [[nodiscard]] std::vector<double> diffuser_values(std::span<const Channel> channels, const Curve& illuminant);
 
+/// Values of a camera with three channels, in channel order.
 using Raw = std::array<double, 3>;
 
 /// Values of a three-channel camera and colours for the CIE 1931 observer, for the patches of a chart under
@@ -37,7 +41,7 @@ struct PatchColors {
   std::vector<std::string> names;
   std::vector<Raw> raw;  ///< White-balanced values; the perfect diffuser is (1, 1, 1).
   std::vector<XYZ> xyz;  ///< Y = 1 for the perfect diffuser.
-  XYZ white;             ///< The perfect diffuser.
+  XYZ white;             ///< XYZ of the perfect diffuser, with Y = 1.
   /// Weights of the patches in a fit, > 0; empty for equal weights.
   std::vector<double> weights = {};
 };

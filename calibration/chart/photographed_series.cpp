@@ -251,6 +251,8 @@ std::string full_scale_objection(const Image& image, const Listing& listing, con
       highest / kSixteenBits);
 }
 
+// Measures the regions of one photograph, and appends their codes to the series and the statistics to
+// `measured`.
 void add(const Image& image, const std::optional<RawScale>& recorded, const std::vector<Region>& regions,
          const Scale& scale, PhotographedSeries& all, std::vector<std::vector<PatchChannel>>& measured) {
   MeasuredPlanes planes{planes_of(image), all.channels, mosaic_of(image, recorded),

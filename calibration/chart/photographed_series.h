@@ -14,9 +14,11 @@ namespace abbe {
 
 /// The exposure series of each channel of a camera.
 struct PhotographedSeries {
+  /// Names of the channels: R, G and B first, then others in the order of the file.
   std::vector<std::string> channels;
-  std::vector<ExposureSeries> series;  ///< One series per channel.
-  FullScale full_scale = {};
+  /// One series per channel, whose patches are the regions and whose times are in the order of the listing.
+  std::vector<ExposureSeries> series;
+  FullScale full_scale = {};  ///< Value of the photographs at code 1.
 };
 
 /// Reads photographs of one still scene (any picture format, EXR too) listed in a JSON file:
@@ -26,25 +28,30 @@ struct PhotographedSeries {
 ///
 /// Paths are relative to that file.
 ///
-/// Regions [pixels, the last ones excluded]: each region is a patch. Its code is the median of its code
-/// values, with the standard error of the median from their scatter and from rounding to `bits`. A region
-/// with more black or clipped pixels than may be defective (`exceeds_defects`) counts as black or clipped. A
-/// region without scatter, such as a single pixel, leaves the noise of its channel unknown. Without regions,
-/// the patches are single pixels of a regular grid with unknown noise.
+/// Regions: each one is a patch of the pixels x0 to x1 - 1 and y0 to y1 - 1.
+/// - Its code is the median of its pixels. Its deviation is the standard error of the median, from the
+///   scatter of the pixels and from rounding to `bits`.
+/// - Its code is 0 or 1 if more of its pixels are black or clipped than may be defective (`exceeds_defects`).
+/// - A region without scatter, such as a single pixel, leaves the noise of its channel unknown.
+/// - Without regions, the patches are single pixels of a regular grid, with unknown noise.
 ///
-/// Scale: codes are divided by `full_scale`, the value at which the camera clips, as the file has it. Raw
-/// files supply what the listing omits, as far as `read_raw_image` reads it: exposure time, full scale (their
-/// white level), the code of darkness, bits, and the mosaic, each channel of which is a series. Other files
-/// need `exposure_s`; their default full scale is 1, the largest value of an integer file.
+/// Scale: code 0 is black, and code 1 is `full_scale`, the value of the file at which the camera clips.
+/// - Raw files supply what the listing omits: exposure time, full scale (their white level), black level,
+///   bits, and the mosaic, each channel of which is a series.
+/// - Other files need `exposure_s`. Their black is 0 and their default full scale 1, the largest value of an
+///   integer file.
 ///
 /// Channels are the sensor planes that a file records, otherwise all planes but alpha and variances.
 ///
-/// Reports in `diagnostics`
+/// Returns nothing after an error in `diagnostics`:
+/// - a malformed listing, and a photograph without an exposure time;
 /// - photographs of unequal size or channels, and raw files among others;
 /// - regions outside the photographs, and values that are not finite;
 /// - a `full_scale` that is not a code of raw files above their black.
 ///
-/// All files are added to `inputs`.
+/// Warns if a region shows that the camera clips below `full_scale`. Throws Error{input} or Error{resource}
+/// as `read_raw_image` for a photograph that cannot be read. `inputs`, unless null, records all files and
+/// limits their memory.
 [[nodiscard]] std::optional<PhotographedSeries> read_series(const std::filesystem::path& path,
                                                             Diagnostics& diagnostics,
                                                             Inputs* inputs = nullptr);

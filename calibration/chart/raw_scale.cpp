@@ -50,6 +50,7 @@ std::optional<double> number(const Attributes& attributes, const std::string& ke
   return text ? parse_number(*text) : std::nullopt;
 }
 
+// Attributes `exposure_s.CHANNEL`, by channel.
 std::map<std::string, double> own_exposures(const Attributes& attributes) {
   const std::string prefix = "exposure_s.";
   std::map<std::string, double> own;
@@ -74,6 +75,7 @@ Readout readout_of(const std::string& sensor, std::optional<double> sensitivity)
   return *std::move(readout);
 }
 
+// Replaces codes by those of a straight line.
 void straighten(Image& image, const RawScale& scale) {
   const auto step = static_cast<float>(1 / kSixteenBits);  // with which OpenImageIO rounds alike
   for (ImageChannel& plane : image.channels)

@@ -18,45 +18,51 @@
 
 namespace abbe {
 
-/// Scale of the codes in a raw file, as the file records it.
+/// Scale of the codes in a raw file, as the file records it. Members that it does not record are empty or
+/// have their defaults.
 struct RawScale {
-  int bits = 16;
-  double offset_dn = 0;                 ///< Code of darkness.
-  std::optional<double> saturation_dn;  ///< Code at which the camera clips, if below the highest.
-  std::optional<double> exposure_s;
-  std::map<std::string, double> own_exposure_s;  ///< Exposure times of channels that have their own.
-  std::optional<double> gain_e_per_dn;
-  std::optional<double> electrons_per_lx_s;  ///< For the most sensitive channel.
-  std::optional<Readout> curved;             ///< Set if the read-out has a response curve.
-  /// Code on a straight line for each code; empty if the codes are linear.
+  int bits = 16;         ///< Bits of the codes as read out.
+  double offset_dn = 0;  ///< Code of darkness [DN].
+  /// Code at which the camera clips [DN], if below the highest of its bits.
+  std::optional<double> saturation_dn;
+  std::optional<double> exposure_s;  ///< Exposure time of the sensor [s].
+  /// Exposure times [s] of channels that have their own, by name.
+  std::map<std::string, double> own_exposure_s;
+  std::optional<double> gain_e_per_dn;  ///< Electrons per DN of a linear response.
+  /// Electrons in a pixel of the most sensitive channel per lx s of daylight.
+  std::optional<double> electrons_per_lx_s;
+  std::optional<Readout> curved;  ///< Set if the read-out has a response curve.
+  /// Linearised code for each code of the file; empty if the codes are linear.
   std::vector<std::uint16_t> linear_codes;
   std::vector<std::string> channels;  ///< Channels of the mosaic, in its order.
-  std::optional<Mosaic> mosaic;
+  std::optional<Mosaic> mosaic;       ///< Pattern of the channels; empty if each plane is one channel.
 
   /// Exposure time of a channel [s]; empty if the file records none.
   [[nodiscard]] std::optional<double> exposure_of(const std::string& channel) const {
     const auto own = own_exposure_s.find(channel);
     return own == own_exposure_s.end() ? exposure_s : own->second;
   }
-  /// Highest code that can occur.
+  /// Highest code that can occur [DN], before linearisation.
   [[nodiscard]] double highest() const {
     if (saturation_dn) return std::floor(*saturation_dn);
     return static_cast<double>((1U << static_cast<unsigned>(bits)) - 1);
   }
-  /// Code that a sensor without the response curve would have given for this one.
+  /// Code that a sensor without the response curve would have given for this one. Codes above the table give
+  /// its last entry.
   [[nodiscard]] double linear(double code) const {
     if (linear_codes.empty()) return code;
     return linear_codes[std::min(static_cast<std::size_t>(code), linear_codes.size() - 1)];
   }
 };
 
-/// Reads the scale from an image's attributes; empty if they record no read-out. Throws Error{input} for a
-/// read-out with an invalid response curve.
+/// Reads the scale from the attributes that Abbe writes, as metadata or as lines of an `ImageDescription`.
+/// Empty if they record no read-out. Throws Error{input} for a read-out with an invalid response curve.
 [[nodiscard]] std::optional<RawScale> raw_scale(const Image& image);
 
-/// A raw picture as an image: one channel of codes per plane, with the picture's metadata as attributes.
+/// A raw picture as an image: its codes [DN] as floats, one channel per plane, with the picture's metadata as
+/// attributes.
 [[nodiscard]] Image code_planes(const RawPicture& raw);
-/// Warnings of a DNG's optional opcodes that are not applied, one sentence each.
+/// Warnings of a DNG's optional opcodes that are not applied, one sentence each, which begins with `file`.
 [[nodiscard]] std::vector<std::string> ignored_opcodes(const RawPicture& raw, const std::string& file);
 /// Mosaic of a raw picture; empty if it has none.
 [[nodiscard]] std::optional<Mosaic> mosaic_of(const RawPicture& raw);
@@ -69,13 +75,14 @@ void add_description_attributes(Image& image);
 void drop_alpha(Image& image);
 
 /// Renames the planes R, G and B of a raw TIFF or PNG to the sensor channels that the file records. If their
-/// number differs, an alpha channel, which another program has added, is removed first.
+/// number differs, an alpha channel, which another program has added, is removed first. If it still differs,
+/// or if no channels are recorded, the names remain.
 void name_planes(Image& image);
 
-/// An image whose 16-bit codes are divided by 65535, with their scale.
+/// An image as `read_raw_image` returns it. Codes of 16 bits are divided by 65535.
 struct RawImage {
   Image image;
-  std::optional<RawScale> scale;
+  std::optional<RawScale> scale;           ///< Scale of the sensor's codes; empty if the file records none.
   std::vector<std::string> warnings = {};  ///< Each warning names the file.
 };
 
@@ -88,20 +95,23 @@ struct RawImage {
 ///
 /// If the file records a response curve, codes become those of a straight line, as the table of a DNG makes
 /// them. Codes of a sensor get the attribute `kColorSpace` "Linear", as floats have, and the lines of their
-/// description become attributes (`add_description_attributes`). Throws Error{input} and Error{resource}.
+/// description become attributes (`add_description_attributes`).
+/// `inputs`, unless null, reserves the memory of the image; it does not record the file. Throws Error{input}
+/// for a file that cannot be read, Error{resource} for one that is too large.
 [[nodiscard]] RawImage read_raw_image(const std::filesystem::path& path, Inputs* inputs = nullptr);
-/// The 16-bit code of a value in an image from `read_image`.
+/// The 16-bit code of a value in an image from `read_raw_image` or `read_image`: 65535 times the value,
+/// rounded to a whole number. It is not limited to the range of codes.
 [[nodiscard]] double code_of(float value);
 
 /// Codes of one channel of a raw file.
 struct ChannelCodes {
-  /// Number of consecutive codes in a row of the image.
+  /// Codes of one row of one rendered area.
   struct RowCodes {
-    int y;
-    std::size_t count;
+    int y;              ///< Row of the image, from the top.
+    std::size_t count;  ///< Number of consecutive codes from this row in `dn`.
   };
   std::string channel;
-  std::vector<double> dn;
+  std::vector<double> dn;           ///< Codes [DN], row by row.
   std::vector<RowCodes> rows = {};  ///< Rows of all codes, in the order of `dn`.
 };
 /// Codes of each channel of a raw file, with the channels of a mosaic separated: whole numbers as `double`s,

@@ -105,6 +105,7 @@ void require_no_underflow(const Frame& frame, const std::filesystem::path& file)
   }
 }
 
+// Mean of a channel in a frame.
 struct Moments {
   double mean;
   double mean_variance;  // variance of the mean
@@ -161,6 +162,7 @@ void require_pair(const Frame& first, const Frame& second, bool are_dark, const 
   if (is_copy) refuse(file, "has exactly the codes of the frame before it: two exposures are needed");
 }
 
+// Reads all frames and checks each against the first one, and each pair against the other of the pair.
 std::vector<Frame> read_frames(std::span<const std::filesystem::path> files, bool are_dark, Inputs& inputs,
                                std::vector<std::string>* warnings) {
   std::vector<Frame> frames;

@@ -7,11 +7,14 @@
 
 namespace abbe {
 
-/// Linear, white-balanced measured values with the colours of their chart.
+/// Linear, white-balanced measured values with the colours of their chart, in its order without excluded
+/// patches.
 struct BalancedPatches {
   PatchColors colors;
-  std::array<double, 3> gains;       ///< Factors that balanced them.
-  std::vector<Raw> deviations = {};  ///< Standard deviations of the balanced values; empty: unknown.
+  /// Factors from the measured to the balanced values, in the order R, G, B.
+  std::array<double, 3> gains;
+  /// Standard deviations of the balanced values, one per patch of `colors`; empty: unknown.
+  std::vector<Raw> deviations = {};
 };
 
 /// Balances measured values on the patch named "perfect diffuser", if there is one. Otherwise it uses the

@@ -15,7 +15,7 @@ namespace abbe {
 enum class CorrectionModel {
   linear,             ///< R, G, B: a matrix.
   root_polynomial_2,  ///< R, G, B and the square roots of RG, GB, RB [Finlayson2015].
-  root_polynomial_3,  ///< The former and the cube roots of RG^2, GB^2, RB^2, GR^2, BG^2, BR^2 and RGB.
+  root_polynomial_3,  ///< The former six and the cube roots of RG^2, GB^2, RB^2, GR^2, BG^2, BR^2 and RGB.
 };
 
 /// Names of the models, in the order of `CorrectionModel`.
@@ -26,7 +26,8 @@ inline constexpr std::array kCorrectionNames{"matrix", "root-polynomial-2", "roo
   return model == CorrectionModel::linear ? 3 : model == CorrectionModel::root_polynomial_2 ? 6 : 13;
 }
 
-/// Terms of white-balanced raw values. The root of a negative product is zero.
+/// Terms of white-balanced raw values, in the order of the comments of `CorrectionModel`. The root of a
+/// negative product is zero.
 [[nodiscard]] std::vector<double> correction_terms(CorrectionModel model, const Raw& raw);
 
 /// Colour correction from white-balanced raw values to XYZ, with Y = 1 for the perfect diffuser.
@@ -34,6 +35,7 @@ struct ColorCorrection {
   CorrectionModel model = CorrectionModel::linear;
   std::vector<XYZ> columns;  ///< Contribution of each term, in the order of `correction_terms`.
 
+  /// Sum of the columns times the terms of balanced values: XYZ relative to the light's white.
   [[nodiscard]] XYZ operator()(const Raw& raw) const;
 };
 

@@ -26,6 +26,7 @@ constexpr double kMinDifference = 1e-6;
 // Columns of all terms but the last, which follows from the white.
 using Parameters = std::vector<double>;
 
+// Correction from the columns of all terms but the last, whose column is the white minus their sum.
 ColorCorrection correction_of(CorrectionModel model, const Parameters& p, const XYZ& white) {
   ColorCorrection correction{model, std::vector<XYZ>(term_count(model))};
   XYZ rest = white;
@@ -38,6 +39,7 @@ ColorCorrection correction_of(CorrectionModel model, const Parameters& p, const 
   return correction;
 }
 
+// Inverse of `correction_of`.
 Parameters parameters_of(const ColorCorrection& correction) {
   Parameters p;
   for (std::size_t t = 0; t + 1 < correction.columns.size(); ++t)
@@ -132,6 +134,7 @@ double objective_of(const PatchErrors& errors, const PatchColors& colors, Object
   return std::inner_product(values.begin(), values.end(), colors.weights.begin(), 0.0);
 }
 
+// Throws Error{input} unless the matrix has full column rank.
 void require_determined(const Eigen::MatrixXd& a, Eigen::Index rank) {
   if (rank == a.cols() && a.allFinite()) return;
   throw Error(ErrorCode::input, "colour correction",
@@ -156,6 +159,7 @@ Eigen::MatrixXd solve_least_squares(const Eigen::MatrixXd& a, const Eigen::Matri
   return solution;
 }
 
+// One row per triple.
 Eigen::MatrixXd rows_of(const std::vector<std::array<double, 3>>& values) {
   Eigen::MatrixXd rows(static_cast<Eigen::Index>(values.size()), 3);
   for (Eigen::Index i = 0; i < rows.rows(); ++i)
@@ -171,6 +175,8 @@ Matrix3 least_squares_matrix(const PatchColors& colors) {
   return {x(0, 0), x(1, 0), x(2, 0), x(0, 1), x(1, 1), x(2, 1), x(0, 2), x(1, 2), x(2, 2)};
 }
 
+// The constraint sum_t c_t = w eliminates the last column: sum_t c_t (f_t - f_last) = xyz - w f_last, with
+// the terms f_t, their columns c_t and the white w.
 ColorCorrection white_preserving_least_squares(const PatchColors& colors, CorrectionModel model) {
   const Eigen::MatrixXd raw = rows_of(colors.raw);
   const Eigen::Index n = raw.rows();

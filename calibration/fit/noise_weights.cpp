@@ -16,6 +16,8 @@ double weighted_mean(const std::vector<double>& values, const std::vector<double
          std::accumulate(weights.begin(), weights.end(), 0.0);
 }
 
+// Weights t^2/(t^2 + s^2) under the least-squares matrix of the present weights. The variance s^2 adds up
+// the squared colour shifts of one deviation in each channel.
 std::vector<double> weights_under(const PatchColors& colors, std::span<const Raw> deviations) {
   const ColorCorrection correction = white_preserving_least_squares(colors);
   const double typical = weighted_mean(patch_errors(colors, correction).delta_e, colors.weights);

@@ -13,8 +13,9 @@ namespace abbe {
 ///   error that the camera makes without noise too.
 ///
 /// Patches with s well below t have nearly equal weights. A far noisier patch has the inverse of its variance
-/// as weight, which is best for independent errors of both kinds [DerSimonian1986, eq. 2]. `deviations` are
-/// those of the balanced values, one per patch.
+/// as weight, which is best for independent errors of both kinds [DerSimonian1986, eq. 2]. Weights are in (0,
+/// 1], and 1 if t is 0. `deviations` are those of the balanced values, one per patch. Throws Error{input} if
+/// the patches do not determine the matrix.
 [[nodiscard]] std::vector<double> noise_weights(const PatchColors& colors, std::span<const Raw> deviations);
 
 }  // namespace abbe

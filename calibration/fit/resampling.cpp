@@ -37,6 +37,7 @@ std::vector<std::size_t> draw_indices(std::size_t count, std::mt19937_64& random
   return indices;
 }
 
+// Values at the two ends of the central 95 %.
 Interval percentiles(std::vector<double> values) {
   std::sort(values.begin(), values.end());
   const auto at = [&](double fraction) {

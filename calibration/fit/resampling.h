@@ -10,15 +10,16 @@
 
 namespace abbe {
 
-/// The 95 % interval of an estimate.
+/// The 95 % interval of an estimate, in the unit of the estimate.
 struct Interval {
   double low = 0;
   double high = 0;
 };
 
-/// Error of each patch under a correction that was fitted without it. The patches are dealt to `folds` groups
-/// in turn, and each group is predicted by the fit to all others. As many folds as patches leave one out at a
-/// time. Throws Error{usage} unless `folds` is between 2 and the number of patches.
+/// Error of each patch under a correction that was fitted without it, in the order of the patches. The
+/// patches are dealt to `folds` groups in turn, and each group is predicted by the fit to all others, from at
+/// most two starts. One patch is left out at a time if there are as many folds as patches. Throws
+/// Error{usage} unless `folds` is between 2 and the number of patches, Error{input} if a fit fails.
 [[nodiscard]] PatchErrors cross_validate(const PatchColors& colors, const CorrectionOptions& options,
                                          std::size_t folds);
 
@@ -30,23 +31,24 @@ struct ModelCandidate {
 
 /// Compares all models that have enough patches, by the mean error of `cross_validate`. The first of the
 /// result is the best: the one with the fewest terms among those within 0.01 of the least error. The others
-/// follow by error. With `folds` = 0, there are as many folds as patches, at most 24.
+/// follow by rising error. The model of `options` is not used. There are as many folds as patches, at most
+/// 24, if `folds` is 0. Throws as `cross_validate`.
 [[nodiscard]] std::vector<ModelCandidate> cross_validate_models(const PatchColors& colors,
                                                                 const CorrectionOptions& options,
                                                                 std::size_t folds);
 
 /// Options of a bootstrap [Efron1993].
 struct BootstrapOptions {
-  int replicates = 200;
+  int replicates = 200;  ///< Number of draws, at least 1.
   std::uint64_t seed = 1;
 };
 
-/// Percentile interval of the mean of `values`, drawn with replacement.
+/// 95 % percentile interval of the mean of `values`, which are drawn with replacement and must not be empty.
 [[nodiscard]] Interval bootstrap_mean(std::span<const double> values, const BootstrapOptions& options = {});
 
-/// Percentile intervals of a correction's columns (the XYZ of each term). The patches are drawn with
-/// replacement and the correction is fitted to each draw. A draw that does not determine the correction is
-/// repeated.
+/// 95 % percentile intervals of a correction's columns: those of X, Y and Z for each term. The patches are
+/// drawn with replacement and the correction is fitted to each draw, from at most two starts. A draw whose
+/// fit fails is repeated. Throws the Error{input} of such a fit if more draws fail than are requested.
 [[nodiscard]] std::vector<std::array<Interval, 3>> bootstrap_columns(const PatchColors& colors,
                                                                      const CorrectionOptions& how,
                                                                      const BootstrapOptions& options = {});

@@ -57,6 +57,7 @@ struct QuietLibrary {
   ~QuietLibrary() { FLAGS_minloglevel = before; }
 };
 
+// Minimises the cost from `unknowns`, which receive the solution. Throws Error{input} without convergence.
 ceres::Solver::Summary converge(const WeightedSamples& data, double roughness, int max_iterations,
                                 ResponseUnknowns& unknowns) {
   const auto problem = all_terms(data, roughness, unknowns);
@@ -122,6 +123,8 @@ void estimate_deviations(std::vector<ResponseSample>& samples, WeightedSamples& 
       s.deviation = std::max(kMinDeviation, noise.deviation(predicted_code(unknowns, s)));
 }
 
+// Samples that noise cannot have clipped, with weights 1/(s g') for a code deviation s and the slope g' of
+// the curve.
 WeightedSamples weigh(const std::vector<ResponseSample>& all, const ResponseUnknowns& unknowns,
                       double scale) {
   WeightedSamples data{{}, {}, kCauchy};
@@ -167,6 +170,7 @@ std::vector<double> log_deviations(const WeightedSamples& data, double roughness
   return deviations;
 }
 
+// Linear exposure over that of full scale at equidistant codes.
 std::vector<double> tabulate(const ResponseUnknowns& unknowns, std::size_t size) {
   const ResponseModel<double> model = unknowns.model();
   const double full_scale = model(1.0);

@@ -10,20 +10,21 @@
 
 namespace abbe {
 
-/// Range of codes that a recovered curve does not follow, with the median deviation of their exposures.
+/// Range of codes that a recovered curve does not follow. The deviations are medians over the codes of a
+/// group of nine neighbours that are off the curve, for the worst group.
 struct ResponseMisfit {
   double low_code, high_code;  ///< Range in [0, 1].
-  double exposure;             ///< Fraction of full scale.
-  double log_exposure;         ///< Difference of ln exposure.
+  double exposure;             ///< Deviation of the exposure, as a fraction of full scale.
+  double log_exposure;         ///< Deviation of ln exposure.
 };
 
 /// Recovered response of one channel.
 struct ResponseFit {
-  /// Linear exposure of code i/(size - 1), strictly rising from 0 to 1 at full scale.
+  /// Linear exposure of code i/(size - 1) as a fraction of full scale, strictly rising from 0 to 1.
   std::vector<double> linear;
   /// Standard deviation of ln exposure at each code, relative to mid-scale, where it is 0. The common factor
-  /// of all exposures cannot be observed, and that of full scale hardly. With about 95 % probability,
-  /// averaged over the curve, the truth lies within `linear` exp(+-1.96 `log_deviation`) [Nychka1988].
+  /// of all exposures cannot be observed, and that of full scale hardly. The truth lies within `linear`
+  /// exp(+-1.96 `log_deviation`) with about 95 % probability, averaged over the curve [Nychka1988].
   std::vector<double> log_deviation;
   double initial_cost = 0;  ///< Cost of the last pass at its start.
   double final_cost = 0;    ///< Cost of the last pass at its end.
@@ -44,8 +45,8 @@ struct ResponseFit {
 
 /// Options of the recovery of a response.
 struct ResponseOptions {
-  std::size_t table_size = 4096;
-  int max_iterations = 300;  ///< Maximum number of iterations of each pass.
+  std::size_t table_size = 4096;  ///< Number of entries of `ResponseFit::linear`, at least 2.
+  int max_iterations = 300;       ///< Maximum number of iterations of each pass.
 };
 
 /// Recovers the response of one channel from a series of known exposure times. The unknowns are the curve g
@@ -59,13 +60,17 @@ struct ResponseOptions {
 ///   the smoothness, exactly for the linearised problem.
 /// - Deviations that the series does not state are estimated from the residuals, by code.
 ///
+/// The result depends on ratios of times only. Calls must not run concurrently, because the fit sets the
+/// global log level of glog meanwhile.
+///
 /// Throws Error{input} if
+/// - fewer than 32 codes are usable (`usable_samples`), or the fitted curve does not rise everywhere;
 /// - times and codes contradict one another (`require_usable_times`);
 /// - the series does not determine the curve (`require_determined`);
 /// - the solver does not converge.
 [[nodiscard]] ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions& options = {});
 
-/// 95 % interval of the exposure of entry i of the curve.
+/// Lower and upper end of the 95 % interval of entry i of `ResponseFit::linear`, as fractions of full scale.
 [[nodiscard]] std::pair<double, double> bounds_95(const ResponseFit& fit, std::size_t i);
 
 /// Half the width of the 95 % interval of the exposure of a code in [0, 1], as a fraction of full scale.
@@ -75,11 +80,12 @@ struct ResponseOptions {
 /// of full scale.
 [[nodiscard]] double largest_uncertainty(const ResponseFit& fit);
 
-/// Linear exposure of a code value in [0, 1], interpolated linearly in the table `ResponseFit::linear`.
+/// Linear exposure of a code value, as a fraction of full scale: linear interpolation in `table`, such as
+/// `ResponseFit::linear`, of at least two entries. Codes are first clipped to [0, 1].
 [[nodiscard]] double linearise(const std::vector<double>& table, double code);
 
 /// Standard deviation of the linear exposure of a code: its `deviation` times the mean slope of the table
-/// within one deviation of the code.
+/// within one deviation of the code, limited to [0, 1]. Returns 0 for a deviation of 0.
 [[nodiscard]] double linearise_deviation(const std::vector<double>& table, double code, double deviation);
 
 }  // namespace abbe

@@ -10,19 +10,20 @@ namespace abbe {
 /// A monotone sensor response: ln(linear exposure) as a function of the code value z in (0, 1]. It is a
 /// template on its scalar, so that the solver differentiates the same function.
 ///
-/// In the coordinate u(z) = ln z - ln(1 + kShoulder - z), a power-law toe and a logistic shoulder are both
-/// straight lines. ln exposure is a sum of cumulative uniform B-splines in u (I-splines [Ramsay1988]) with
-/// coefficients exp(theta) > 0. It therefore rises strictly. It is zero at kMidCode, because the scale of the
-/// exposure cannot be observed.
+/// The coordinate is u(z) = ln z - ln(1 + kShoulder - z), in which a power-law toe and a logistic shoulder
+/// are both straight lines. ln exposure is a sum of cumulative uniform B-splines in u (I-splines
+/// [Ramsay1988]) with coefficients exp(theta) > 0. It therefore rises strictly. It is zero at kMidCode,
+/// because the scale of the exposure cannot be observed.
 template <typename T>
 class ResponseModel {
  public:
-  static constexpr std::size_t kCoefficients = 32;
-  static constexpr double kMidCode = 0.5;
+  static constexpr std::size_t kCoefficients = 32;  ///< Number of B-splines.
+  static constexpr double kMidCode = 0.5;           ///< Code of mid-scale, at which the model is zero.
 
+  /// `theta` points to the kCoefficients logarithms of the coefficients, which must outlive the model.
   explicit ResponseModel(const T* theta) : theta_(theta) {}
 
-  /// ln of the linear exposure relative to that of kMidCode.
+  /// ln of the linear exposure relative to that of kMidCode. Codes are limited to [1/65536, 1].
   [[nodiscard]] T operator()(double code) const {
     using std::exp;
     const double x = position(code);
@@ -33,7 +34,7 @@ class ResponseModel {
     return sum;
   }
 
-  /// The derivative of the response by the code.
+  /// Derivative of ln exposure by the code in (0, 1].
   [[nodiscard]] T slope(double code) const {
     using std::exp;
     const double x = position(code);

@@ -7,8 +7,8 @@
 
 namespace abbe {
 
-/// Standard deviation of Gaussian errors with these absolute values, estimated from their median, which a few
-/// outliers hardly change.
+/// Standard deviation of Gaussian errors with these absolute values, of which there must be at least one. It
+/// is estimated from their median, which a few outliers hardly change.
 [[nodiscard]] double deviation_of(std::vector<double> sizes);
 
 /// Noise of codes from dark to full scale, estimated from the residuals of a fit. It is used if a series does
@@ -16,8 +16,9 @@ namespace abbe {
 /// than at dark ones. A fit that assumed equal errors would be far too certain of the bright end.
 class NoiseByCode {
  public:
-  /// Estimates the noise from the absolute `errors` of the codes of `samples`. The samples are divided into
-  /// groups of neighbouring codes, each with the standard deviation of its own errors.
+  /// Estimates the noise from the absolute `errors` of the codes of `samples`, both in one order and not
+  /// empty. The samples are divided into up to 12 groups of neighbouring codes, each with the standard
+  /// deviation of its own errors.
   NoiseByCode(std::span<const ResponseSample> samples, std::span<const double> errors);
 
   /// Standard deviation of a code in [0, 1]: linear between the median codes of the groups, constant outside

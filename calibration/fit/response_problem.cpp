@@ -3,6 +3,8 @@
 namespace abbe {
 namespace {
 
+// Residual w (g(z) - ln E - ln t) of a code z, with its weight w, the curve g, the exposure E and the time
+// t.
 struct SampleResidual {
   ResponseSample sample;
   double weight;

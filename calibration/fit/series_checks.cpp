@@ -28,6 +28,7 @@ std::vector<double> ratios(const ExposureSeries& series, std::size_t from, std::
   return all;
 }
 
+// Throws Error{input} if the codes of most patches fall from one photograph to the next longer one.
 void require_rise(const ExposureSeries& series, std::size_t from, std::size_t to) {
   constexpr std::size_t kMinPatches = 4;
   const std::vector<double> code_ratios = ratios(series, from, to);

@@ -19,9 +19,10 @@ void require_for_response(bool condition, const std::string& message);
 /// lower by 1 % or more.
 void require_usable_times(const ExposureSeries& series);
 
-/// Throws Error{input} unless the samples of a fit determine its curve. Between their lowest and highest
-/// code, the 95 % interval must extend less than a tenth of the highest code's exposure to either side.
-/// Outside, it must extend less than half of full scale.
+/// Throws Error{input} unless the samples of a fit determine its curve. `samples` must not be empty; this is
+/// not checked. Between their lowest
+/// and highest code, the 95 % interval must extend less than a tenth of the highest code's exposure to either
+/// side. Outside, it must extend less than half of full scale.
 void require_determined(const ResponseFit& fit, std::span<const ResponseSample> samples);
 
 }  // namespace abbe

@@ -22,16 +22,19 @@ const Matrix3& hunt_cones() {
   return cones;
 }
 
+// Matrix from XYZ to the cones on which chromatic adaptation acts.
 Matrix3 adapting_cones(AppearanceModel model) {
   return cone_responses(model == AppearanceModel::cam16 ? Adaptation::cat16 : Adaptation::cat02);
 }
 
+// D = F (1 - exp(-(L_A + 42)/92)/3.6), limited to [0, 1]; 1 for complete adaptation.
 double degree_of_adaptation(const ViewingConditions& conditions) {
   if (conditions.complete) return 1;
   const double d = kFullAdaptation * (1 - std::exp(-(conditions.adapting_luminance + 42) / 92) / 3.6);
   return std::clamp(d, 0.0, 1.0);
 }
 
+// F_L = 0.2 k^4 (5 L_A) + 0.1 (1 - k^4)^2 (5 L_A)^(1/3) with k = 1/(5 L_A + 1).
 double luminance_adaptation(double adapting_luminance) {
   const double k = 1 / (5 * adapting_luminance + 1);
   const double k4 = k * k * k * k;
@@ -60,6 +63,8 @@ Appearance::Appearance(AppearanceModel model, const ViewingConditions& condition
   white_response_ = achromatic(compressed(conditions.white)) * induction_;
 }
 
+// Post-adaptation responses R'a = 400 x/(x + 27.13) + 0.1 with x = (F_L |R'|/100)^0.42; the first term has
+// the sign of R'.
 std::array<double, 3> Appearance::compressed(const XYZ& xyz) const {
   std::array<double, 3> cones = multiply(to_adapted_, xyz);
   for (double& cone : cones) {
@@ -69,6 +74,9 @@ std::array<double, 3> Appearance::compressed(const XYZ& xyz) const {
   return cones;
 }
 
+// J = 100 (A/A_w)^(c z), C = t^0.9 (J/100)^(1/2) (1.64 - 0.29^n)^0.73 and M = C F_L^(1/4). The achromatic
+// response is A, the eccentricity e_t, and t = (50000/13) N_c N_cb e_t (a^2 + b^2)^(1/2)/(R'a + G'a + 21
+// B'a/20).
 ColorAppearance Appearance::operator()(const XYZ& xyz) const {
   const std::array<double, 3> cones = compressed(xyz);
   const auto& [r, g, b] = cones;

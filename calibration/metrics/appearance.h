@@ -17,14 +17,14 @@ enum class AppearanceModel {
 /// Viewing conditions in an average surround (F = 1, c = 0.69, N_c = 1). The defaults are those of surface
 /// colours in a light booth of 1000 lx [CIE159, table 2].
 struct ViewingConditions {
-  XYZ white;                       ///< Y = 100.
+  XYZ white;                       ///< Adopted white, with Y = 100.
   double adapting_luminance = 60;  ///< L_A [cd/m^2].
-  double background = 20;          ///< Y_b, relative to a white of 100.
+  double background = 20;          ///< Y_b > 0, relative to a white of 100.
   /// True for complete adaptation to the white; false for a degree that follows from L_A.
   bool complete = false;
 };
 
-/// Correlates of appearance.
+/// Correlates of appearance, on the scales of the models.
 struct ColorAppearance {
   double lightness;     ///< Lightness J.
   double chroma;        ///< Chroma C.
@@ -37,12 +37,13 @@ class Appearance {
  public:
   Appearance(AppearanceModel model, const ViewingConditions& conditions);
 
-  /// Correlates of a colour relative to a white of Y = 100 [CIE159, sec. 3; Li2017, sec. 3]; all zero for
-  /// black.
+  /// Correlates of a colour on the scale of the white, Y = 100 [CIE159, sec. 3; Li2017, sec. 3]. J, C and M
+  /// are 0 for black, whose hue has no meaning. A negative achromatic response counts as black.
   [[nodiscard]] ColorAppearance operator()(const XYZ& xyz) const;
 
-  /// J', a', b' of the uniform colour space of the model, in which distances are colour differences: J' = 1.7
-  /// J/(1 + 0.007 J), M' = ln(1 + 0.0228 M)/0.0228 [Luo2006, eq. 3; Li2017, sec. 5].
+  /// J', a' = M' cos h and b' = M' sin h of the uniform colour space of the model, in which distances are
+  /// colour differences. J' = 1.7 J/(1 + 0.007 J), M' = ln(1 + 0.0228 M)/0.0228 [Luo2006, eq. 3; Li2017, sec.
+  /// 5].
   [[nodiscard]] std::array<double, 3> uniform(const XYZ& xyz) const;
 
  private:
@@ -56,7 +57,7 @@ class Appearance {
   double white_response_;  // A_w
 };
 
-/// Euclidean distance of two colours in a uniform space.
+/// Euclidean distance of two colours in any three-dimensional space.
 [[nodiscard]] double distance_between(const std::array<double, 3>& a, const std::array<double, 3>& b);
 
 }  // namespace abbe

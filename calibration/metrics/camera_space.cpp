@@ -52,6 +52,8 @@ double squared_projection(const Samples1nm& vector, const std::vector<Samples1nm
 
 }  // namespace
 
+// The Vora value is the sum over an orthonormal basis e_i of the observer of |P e_i|^2/3, where P projects
+// on the channels. The residual of a function f is (1 - |P f|^2/|f|^2)^(1/2).
 CameraSpace camera_space(std::span<const Channel> channels) {
   if (channels.size() < 3)
     throw Error(ErrorCode::usage, "camera", "the Vora value and the Luther condition need three channels");

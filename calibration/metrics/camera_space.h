@@ -14,8 +14,8 @@ struct CameraSpace {
   /// P_B)/3 of the projections on the spaces of the channels and of the CIE 1931 colour-matching functions:
   /// the mean squared cosine of the angles between them [Vora1993, eq. 15].
   double vora = 0;
-  /// Relative error of x, y and z: the norm of the residual of the best linear combination of the channels,
-  /// divided by the norm of the function.
+  /// Relative error of x, y and z, in [0, 1]: the norm of the residual of the best linear combination of the
+  /// channels, divided by the norm of the function.
   std::array<double, 3> luther{};
 };
 

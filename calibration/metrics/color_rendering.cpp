@@ -42,6 +42,7 @@ std::array<double, 3> uvw(double luminance, const Uv1960& uv, const Uv1960& refe
 
 }  // namespace
 
+// R_i = 100 - 4.6 d_i, with the distance d_i in U*V*W* between a sample under both lights.
 std::optional<ColorRendering> color_rendering(const Curve& light, SumRange range) {
   const auto summed = [range](const Curve& illuminant, const Curve& reflectance) {
     return tristimulus(illuminant, reflectance, Observer::cie1931, range);

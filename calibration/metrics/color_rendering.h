@@ -11,7 +11,8 @@
 
 namespace abbe {
 
-/// Colour rendering by CIE 13.3.
+/// Colour rendering by CIE 13.3. Indices are at most 100, for a light that renders as its reference does, and
+/// may be negative.
 struct ColorRendering {
   double general = 0;                ///< Ra, the mean of R1 to R8.
   std::array<double, 14> special{};  ///< R1 to R14.
@@ -23,24 +24,26 @@ struct ColorRendering {
 /// and 1 nm sums over `range`. Empty for lights without a colour temperature up to 25 000 K.
 [[nodiscard]] std::optional<ColorRendering> color_rendering(const Curve& light, SumRange range = {});
 
-/// Means over the samples in one range of hue: positions in the plane a', b' and changes of colour. NaN if
-/// the range has no samples under the reference.
+/// Means over the samples in one range of hue: positions in the plane a', b' and changes of colour. All are
+/// NaN if the range has no samples under the reference.
 struct HueBin {
-  std::array<double, 2> test{};
-  std::array<double, 2> reference{};
-  double fidelity = 0;      ///< R_f,h
-  double chroma_shift = 0;  ///< R_cs,h, as a fraction of the reference's chroma.
-  double hue_shift = 0;     ///< R_hs,h [rad].
+  std::array<double, 2> test{};       ///< Mean a', b' under the light.
+  std::array<double, 2> reference{};  ///< Mean a', b' under the reference.
+  double fidelity = 0;                ///< R_f,h, on the scale of R_f.
+  /// R_cs,h, as a fraction of the reference's chroma; positive for more saturated colours.
+  double chroma_shift = 0;
+  double hue_shift = 0;  ///< R_hs,h [rad]; positive towards larger hue angles.
 
   [[nodiscard]] bool has_samples() const { return !std::isnan(fidelity); }
 };
 
-/// Colour fidelity and gamut by CIE 224 and ANSI/IES TM-30.
+/// Colour fidelity and gamut by CIE 224 and ANSI/IES TM-30. R_f is above 0 and at most about 100; R_g of 100
+/// means an equal area.
 struct ColorFidelity {
   static constexpr std::size_t kBins = 16;
   double fidelity = 0;               ///< R_f
   double gamut = 0;                  ///< R_g; NaN if a bin has no samples.
-  std::vector<double> samples;       ///< R_f of each of the 99 samples.
+  std::vector<double> samples;       ///< R_f of each of the 99 samples, in their order.
   std::array<HueBin, kBins> bins{};  ///< Bins of 22.5 degrees, from hue angle 0 on.
 };
 
@@ -50,9 +53,9 @@ struct ColorFidelity {
 /// `range`.
 ///
 /// R_f = 10 ln(1 + exp((100 - 6.73 dE)/10)) of the mean difference [CIE224, sec. 4]. R_g is 100 times the
-/// ratio of the areas of the polygons of the bins' means [TM30, sec. 4]. The hue under the reference selects
-/// the bin. If one of the 16 bins has no samples, R_g is NaN. Empty for lights without a colour temperature
-/// up to 25 000 K.
+/// ratio of the areas of the polygons of the bins' means, light over reference [TM30, sec. 4]. The hue under
+/// the reference selects the bin. If one of the 16 bins has no samples, R_g is NaN. Empty for lights without
+/// a colour temperature up to 25 000 K.
 [[nodiscard]] std::optional<ColorFidelity> color_fidelity(const Curve& light, SumRange range = {});
 
 }  // namespace abbe

@@ -24,6 +24,8 @@ double quantised(double luminance) {
 
 }  // namespace
 
+// L, M, S of Rec.2020 primaries are encoded with the perceptual quantiser's curve, without any rounding. Then
+// I = (L + M)/2, T = C_T/2 and P = C_P.
 std::array<double, 3> itp(const XYZ& absolute) {
   static const Matrix3 from_xyz = rgb_to_xyz(kRec2020).inverse(true);
   static const Matrix3 to_lms = Matrix3(1688, 2146, 262, 683, 2951, 462, 99, 309, 3688) * (1 / 4096.0);

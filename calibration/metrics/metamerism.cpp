@@ -5,6 +5,7 @@
 
 namespace abbe {
 
+// X, Y, Z of the second under the test light are multiplied by first/second under the reference light.
 Metamerism metamerism(const Curve& first, const Curve& second, const Curve& reference, const Curve& test,
                       SumRange range) {
   const auto xyz_of = [range](const Curve& light, const Curve& reflectance) {

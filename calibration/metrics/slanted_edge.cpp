@@ -46,6 +46,7 @@ double contrast(const Plane& plane) {
   return total;
 }
 
+// Hamming window of the given half width, 0 outside it.
 double hamming(double x, double half_width) {
   return std::abs(x) < half_width ? 0.54 + 0.46 * std::cos(std::numbers::pi * x / half_width) : 0;
 }
@@ -101,6 +102,7 @@ struct BinSums {
   [[nodiscard]] double mean() const { return sum / count; }
   [[nodiscard]] double deviations() const { return std::max(0.0, squares - sum * sum / count); }
 };
+// Rejects pixels whose variance the distance from one edge does not explain, and edges with equal sides.
 void require_edge(const std::vector<BinSums>& bins) {
   constexpr double kMaxUnexplained = 0.1;  // an edge of twelve times the noise has 0.03
   constexpr double kMinStep = 0.5;         // fraction of the range of the means
@@ -160,6 +162,8 @@ double binning_response(double frequency) {
   return sinc(frequency) * sinc(2 * frequency);
 }
 
+// Magnitude of the spectrum of the edge's windowed derivative, over the responses of binning and difference,
+// relative to that at frequency 0.
 std::vector<double> modulation(const std::vector<double>& edge) {
   std::vector<double> line_spread(edge.size(), 0);
   const double center = (static_cast<double>(edge.size()) - 1) / 2;

@@ -7,13 +7,20 @@
 
 namespace abbe {
 
-/// Edge response of a picture: angle, edge spread function and modulation transfer function.
+/// Edge response of a picture: angle, edge spread function and modulation transfer function. Rows count from
+/// the top.
 struct EdgeResponse {
-  double angle_deg;    ///< Angle of the edge to the columns of pixels, or to the rows if it is horizontal.
-  bool is_horizontal;  ///< True if the edge lies along the rows.
-  std::vector<double> edge;  ///< Mean values by distance from the edge, every quarter of a pixel.
-  std::vector<double> mtf;   ///< Modulation at the frequencies `frequency(i)`, 1 at 0.
-  /// Frequency of half the modulation [cycles/pixel]; empty if there is none.
+  /// Angle of the edge to the columns of pixels, positive if the edge moves right from row to row. A
+  /// horizontal edge has the angle to the rows, positive if the edge moves down from column to column.
+  double angle_deg;
+  bool is_horizontal;  ///< True if the edge lies along the rows rather than the columns.
+  /// Mean values in bins of a quarter of a pixel, by signed distance from the edge, in the unit of the
+  /// picture. The distance rises to the right, or downwards across a horizontal edge. The edge is between the
+  /// two central bins.
+  std::vector<double> edge;
+  /// Modulation at the frequencies `frequency(i)`, from 0 to about one cycle per pixel; 1 at 0.
+  std::vector<double> mtf;
+  /// Lowest frequency of half the modulation [cycles/pixel], interpolated linearly; empty if there is none.
   std::optional<double> mtf50;
 
   /// Frequency of entry i of `mtf`, across the edge [cycles/pixel].
@@ -29,11 +36,14 @@ struct EdgeResponse {
 /// - The spectrum of the derivative, under a Hamming window, is divided by the responses of binning and
 ///   difference.
 ///
-/// Throws Error{input} for a picture that
-/// - is smaller than 16 x 16 or has a value that is not finite;
-/// - has no edge, or one along the pixels (less than 1 degree) or near the diagonal (more than 40 degrees);
-/// - shows more than one edge, such as a chart or a line: its values must depend on the distance from one
-///   edge, but for a tenth of their variance, and differ between its sides.
+/// Throws Error{input} for a picture
+/// - that is smaller than 16 x 16 pixels or has a value that is not finite;
+/// - without an edge;
+/// - whose edge is along the pixels (less than 1 degree) or near the diagonal (more than 40 degrees);
+/// - whose edge leaves it, comes within about two pixels of its border, or crosses too few columns to fill
+///   all bins;
+/// - with more than one edge, such as a chart or a line. The distance from the edge must explain nine tenths
+///   of the variance, and the two sides must differ.
 [[nodiscard]] EdgeResponse slanted_edge(std::span<const double> values, int width, int height);
 
 }  // namespace abbe

@@ -32,6 +32,7 @@ double distance(const OcioCameraSpace& space, const Chromaticity& white) {
   return std::hypot(xy[0] - white[0], xy[1] - white[1]);
 }
 
+// Space of the film's white: by name, else by the nearest chromaticity.
 const OcioCameraSpace& choose(const std::vector<OcioCameraSpace>& spaces, const std::string& white_name,
                               const std::optional<Chromaticity>& white) {
   if (spaces.size() == 1) return spaces.front();

@@ -9,6 +9,7 @@
 
 namespace abbe {
 
+/// White of the ACES spaces, near D60 [ST2065-1].
 inline constexpr Chromaticity kAcesWhite{0.32168, 0.33767};
 inline constexpr RgbSpace kAces2065{
     {0.7347, 0.2653}, {0, 1}, {0.0001, -0.077}, kAcesWhite};  ///< AP0 [ST2065-1]
@@ -25,11 +26,12 @@ enum class Adaptation {
   cat16,     ///< The cones of CAM16 [Li2017].
 };
 
-/// Matrix from XYZ to the cone responses of a method.
+/// Matrix from XYZ to the cone responses of a method, before any adaptation.
 [[nodiscard]] Matrix3 cone_responses(Adaptation method);
 
-/// Matrix of complete chromatic adaptation of XYZ from one white to another. Empty for a white without a
-/// positive response of every cone, such as a spectral line.
+/// Matrix of complete chromatic adaptation: it converts XYZ under the white `from_white` to XYZ under
+/// `to_white`, and one white to the other. Empty for a white without a positive response of every cone, such
+/// as a spectral line.
 [[nodiscard]] std::optional<Matrix3> adaptation(const XYZ& from_white, const XYZ& to_white,
                                                 Adaptation method = Adaptation::bradford);
 
@@ -38,7 +40,7 @@ enum class Adaptation {
 [[nodiscard]] bool is_same_white(const Chromaticity& a, const Chromaticity& b);
 
 /// Matrix from linear RGB of a space to XYZ relative to D65, with Bradford adaptation if its white is
-/// another.
+/// another. RGB (1, 1, 1) becomes D65 with Y = 1.
 [[nodiscard]] Matrix3 rgb_to_xyz_d65(const RgbSpace& space);
 
 }  // namespace abbe

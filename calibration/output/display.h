@@ -22,44 +22,51 @@ inline constexpr const char* kDisplayExposureKey = "display_exposure";
 struct DisplayPicture {
   /// Channels R, G, B (or Y for a film of one channel) with code values in [0, 1]. The attributes
   /// `kColorSpace` and `kPrimariesKey` describe the codes of Abbe's own displays; the codes of a user's
-  /// configuration are unknown. `kDisplayExposureKey` is 1/scale to seven digits, those of a float.
+  /// configuration are unknown. `kDisplayExposureKey` is 1/scale to seven digits, those of a float. Without
+  /// pixels if the film has none.
   Image image;
-  Image outside;     ///< Channel Y: 1 if the colour was outside the gamut, else 0.
-  double scale = 1;  ///< Factor applied to the film values.
-  /// Fraction of pixels whose colour was outside the gamut, whatever its brightness.
+  Image outside;  ///< Channel Y: 1 if the colour was outside the gamut, else 0.
+  /// Factor applied to the film values; its inverse is the film value displayed as white.
+  double scale = 1;
+  /// Fraction of the recorded pixels whose colour was outside the gamut, whatever its brightness.
   double outside_fraction = 0;
-  double clipped_fraction = 0;  ///< Fraction of pixels that were too bright for the display, or not a number.
+  /// Fraction of the recorded pixels that were too bright for the display, or not a number.
+  double clipped_fraction = 0;
 };
 
 /// OpenColorIO view through which a film is displayed. Empty members select Abbe's own configuration, its
 /// first display and the first view of the display.
 struct ViewOptions {
-  std::filesystem::path config;  ///< A user's OpenColorIO configuration.
-  std::string display;
-  std::string view;
+  /// A user's OpenColorIO configuration, or a name such as "ocio://default".
+  std::filesystem::path config;
+  std::string display;  ///< Name of a display in the configuration.
+  std::string view;     ///< Name of a view of the display.
 };
 
 /// Configuration that $OCIO names; empty if it is not set.
 [[nodiscard]] std::filesystem::path users_configuration();
 
 /// Views of the display that the options select; the selected view comes first. Throws Error{usage} for an
-/// unknown display or view, Error{input} for a configuration that cannot be read.
+/// unknown display or view. Throws Error{input} for a configuration that cannot be read or has no display or
+/// view.
 [[nodiscard]] std::vector<std::string> view_names(const ViewOptions& options);
 
 /// Converts linear values of one sensor to code values of a display, with OpenColorIO.
 class DisplayTransform {
  public:
   /// `channels` names the film channels in order, one or three of them. `to_xyz_d65` converts their values to
-  /// XYZ relative to D65; for one channel only its first column counts. A user's configuration receives
-  /// ACES2065-1: it needs the role `aces_interchange`, or that space by name. Throws Error{usage} for another
-  /// number of channels and for an unknown display or view, Error{input} for an unusable configuration.
+  /// XYZ relative to D65; for one channel only its first column counts. `fit` is not used for pictures:
+  /// `fit()` returns it.
+  /// A user's configuration receives ACES2065-1: it needs the role `aces_interchange`, or that space by name.
+  /// Throws Error{usage} for another number of channels and for an unknown display or view, Error{input} for
+  /// an unusable configuration.
   DisplayTransform(std::vector<std::string> channels, const Matrix3& to_xyz_d65,
                    std::optional<CorrectionFit> fit = {}, const ViewOptions& options = {});
 
   /// Converts a film. The steps are:
-  /// - multiply by `scale`, or by `automatic_scale`;
-  /// - map every colour into the gamut (`map_into`): that of the display for the plain view, AP1 without an
-  ///   upper limit for any other view, which does its own tone mapping;
+  /// - multiply by `scale` > 0, by default `automatic_scale`;
+  /// - map every colour into the gamut (`map_into`) of the display for the plain view;
+  /// - map it into AP1 without an upper limit for any other view, which does its own tone mapping;
   /// - apply the view, and clip code values that still exceed [0, 1].
   ///
   /// A pixel that is not a number becomes black and counts as clipped. Throws Error{input} if the film lacks
@@ -67,8 +74,9 @@ class DisplayTransform {
   [[nodiscard]] DisplayPicture operator()(const Image& film, std::optional<double> scale = {}) const;
 
   /// Scale that maps the 99th percentile of the brightest Rec.709 primary to 1, over the recorded pixels
-  /// (`recorded_areas`) and with colours mapped into that gamut. If the percentile is not positive, the
-  /// brightest pixel counts; the scale is 1 for a film without light. It does not depend on display or view.
+  /// (`recorded_areas`) and with colours mapped into that gamut. Pixels that are not finite are ignored. If
+  /// the percentile is not positive, the brightest pixel counts; the scale is 1 for a film without light. It
+  /// does not depend on display or view. Throws Error{input} if the film lacks a channel.
   [[nodiscard]] double automatic_scale(const Image& film) const;
 
   /// Matrix from film values to XYZ relative to D65.
@@ -91,15 +99,16 @@ class DisplayTransform {
 /// observer does not see, for which chromatic adaptation is impossible.
 [[nodiscard]] Matrix3 white_adaptation(const Chromaticity& white);
 
-/// Display transform of a sensor in a light.
+/// Display transform of a sensor in a light with the spectral power `illuminant` on any scale.
 /// - Three channels named X, Y, Z are an observer; only the white is adapted to D65 (Bradford).
 /// - Other three channels are white balanced on the light. The white-preserving matrix fitted to the
 ///   ColorChecker (BabelColor average) in that light corrects them. Then `white`, by default that of the
 ///   light, is adapted.
 /// - One channel is displayed as grey.
 ///
-/// Luminance is in units of the second channel's value of a neutral. Throws Error{usage} for another number
-/// of channels, and for channels that do not determine colours in this light.
+/// Y is in units of the second channel's value of a neutral, or of the single channel. Throws Error{usage}
+/// for another number of channels, and for channels that do not determine colours in this light. Throws also
+/// as the constructor of `DisplayTransform`.
 [[nodiscard]] DisplayTransform make_display(const std::vector<Channel>& channels, const Curve& illuminant,
                                             const ViewOptions& options = {},
                                             std::optional<Chromaticity> white = {});

@@ -10,6 +10,8 @@
 
 namespace abbe {
 
+// ColorMatrix is the scaled inverse of `to_xyz`. ForwardMatrix undoes the balance, applies `to_xyz` and
+// adapts the white to D50.
 std::optional<DngMatrices> dng_matrices(const Matrix3& to_xyz, const XYZ& white) {
   const auto to_d50 = adaptation(white, dng_white());
   if (!to_d50 || !is_invertible(to_xyz)) return std::nullopt;
@@ -41,6 +43,7 @@ RawLight light_for(std::span<const std::string> channels, const RawLight& light)
   return ordered;
 }
 
+// The weight of the first matrix is (1/T - 1/T_2)/(1/T_1 - 1/T_2).
 Matrix3 forward_between(const DngLight& first, const DngLight& second, double kelvin) {
   const double span = 1 / first.kelvin - 1 / second.kelvin;
   const double weight = span == 0 ? 1 : std::clamp((1 / kelvin - 1 / second.kelvin) / span, 0.0, 1.0);

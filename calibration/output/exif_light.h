@@ -12,7 +12,7 @@ namespace abbe {
 [[nodiscard]] int exif_light_source(const std::string& name);
 
 /// Exif light source number of a light with a known chromaticity only: that of the illuminant with this
-/// chromaticity to 0.0005. Standard illuminants precede FL1 to FL12.
+/// chromaticity to 0.0005, 255 if there is none. Standard illuminants are tried first, then FL1 to FL12.
 [[nodiscard]] int exif_light_source(const Chromaticity& white);
 
 }  // namespace abbe

@@ -218,6 +218,7 @@ OCIO::ConfigRcPtr build_config(std::span<const CameraProfile> profiles) {
   return config;
 }
 
+// Linearisation curves as a .spi1d file.
 std::string spi1d_text(const CameraProfile& profile) {
   const auto& [r, g, b] = profile.linearisation;
   std::string text = fmt::format("Version 1\nFrom 0.0 1.0\nLength {}\nComponents 3\n{{\n", r.size());
@@ -227,6 +228,7 @@ std::string spi1d_text(const CameraProfile& profile) {
   return text + "}\n";
 }
 
+// Root polynomial as a .cube file over the cube roots of the linear values.
 std::string cube_text(const CameraProfile& profile) {
   const double end = cube_end(profile);
   std::string text = fmt::format("# cube roots of linear camera values{} to XYZ, D65\nLUT_3D_SIZE {}\n",
@@ -266,6 +268,7 @@ std::vector<double> bake_trials(double end) {
   return values;
 }
 
+// Largest CIEDE2000 between the interpolated cube and the polynomial at the trial values.
 double bake_error(const OCIO::ConstConfigRcPtr& config, const CameraProfile& profile) {
   const OCIO::GroupTransformRcPtr baked = OCIO::GroupTransform::Create();
   append_cube(baked, profile);
