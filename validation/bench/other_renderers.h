@@ -11,29 +11,32 @@ namespace abbe {
 
 /// Error and run time of another renderer on a suite.
 struct OtherRendererResult {
-  std::string suite;
-  std::string renderer;
-  std::string setting;
-  int samples;  ///< Samples per pixel, or passes.
-  double cpu_s;
-  std::optional<double> nrmse;
-  double relrmse;
-  double floor;  ///< Floor of `relrmse`: `kUsualFloor` or `kLowFloor`.
+  std::string suite;            ///< Name of a `BenchSuite`.
+  std::string renderer;         ///< Name and version, such as "Mitsuba 3.8".
+  std::string setting;          ///< Integrator and variant, such as "path llvm_spectral".
+  int samples;                  ///< Samples per pixel, or passes.
+  double cpu_s;                 ///< CPU time of all threads.
+  std::optional<double> nrmse;  ///< RMSE divided by the mean of the reference; nothing if not measured.
+  double relrmse;               ///< Square root of relMSE (`rel_mse`) with `floor`.
+  double floor;                 ///< `kUsualFloor` or `kLowFloor`.
 
+  /// Renderer and setting, for captions.
   [[nodiscard]] std::string name() const { return renderer + " " + setting; }
 };
 
-/// Reads `data/bench/rivals.csv`. Throws Error{input} if it is missing or malformed.
+/// Reads `data/bench/rivals.csv`, row by row. Throws Error{input} if it is missing or malformed, if a number
+/// is not positive, or if a floor is neither of the two.
 [[nodiscard]] std::vector<OtherRendererResult> load_other_renderers();
 
 /// A point of a curve of error against run time.
 struct CurvePoint {
   double cpu_s;
-  double error;
+  double error;  ///< relRMSE, > 0.
 };
 
-/// Curve of one integrator's rows, by relRMSE with the given floor: one point per sample count. Points whose
-/// error is not positive are omitted.
+/// Curve of one integrator's rows: one point per sample count, in the order of the rows, with means over the
+/// seeds. The error is relRMSE with `floor`, which is `kUsualFloor` or `kLowFloor`. Points whose error is not
+/// positive are omitted.
 [[nodiscard]] std::vector<CurvePoint> error_curve(const std::vector<BenchRow>& rows, double floor);
 
 /// A run time interpolated from a curve.
@@ -42,21 +45,23 @@ struct TimeAtError {
   bool extrapolated;  ///< True if the error lies outside the curve.
 };
 
-/// Run time at which a curve, sorted by time, has the error `error`. Between two points it is interpolated
-/// linearly in the logarithms of both axes. Outside the curve it is extrapolated from the nearer end by error
-/// ~ 1/sqrt(time). Empty for a curve without points.
+/// Run time at which a curve, sorted by time, has the error `error` > 0; the first time if there are several.
+/// Between two points it is interpolated linearly in the logarithms of both axes. An error above that of the
+/// first point is extrapolated from there, a smaller one from the last point, by error ~ 1/sqrt(time).
+/// Nothing for a curve without points.
 [[nodiscard]] std::optional<TimeAtError> time_at_error(std::span<const CurvePoint> curve, double error);
 
 /// Run times of another renderer and of Abbe at the other renderer's error.
 struct EqualError {
   OtherRendererResult other;
-  TimeAtError abbe;
+  TimeAtError abbe;  ///< Run time of Abbe at the error `other.relrmse`.
 
   /// Run time of the other renderer divided by Abbe's.
   [[nodiscard]] double ratio() const { return other.cpu_s / abbe.cpu_s; }
 };
 
-/// Compares the first integrator of a run with all results of other renderers for its suite.
+/// Compares the first integrator of a run with all results of other renderers for its suite, in their order.
+/// Results for other suites are ignored. Empty if Abbe's errors are all hidden by noise.
 [[nodiscard]] std::vector<EqualError> equal_errors(const SuiteRun& run,
                                                    std::span<const OtherRendererResult> other_renderers);
 

@@ -48,6 +48,7 @@ const FilmMean& film_mean(const Case& item) {
   throw Error(ErrorCode::internal, item.id, "the case does not render a film");
 }
 
+// Renders a film with the samples for its margin, n ~ 1/margin^2, and more while the verdict is inconclusive.
 CaseResult measure_film(const Case& item, FilmSetup film, const CaseSettings& settings) {
   Scene& scene = film.scene;
   CaseResult result{{}, item.margin, Verdict::fail, 0, 0, 0};

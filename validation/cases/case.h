@@ -19,14 +19,14 @@ namespace abbe {
 /// Largest deviation that passes, absolute or relative to the reference.
 struct Margin {
   enum class Kind { absolute, relative };
-  double value;
+  double value;  ///< In the unit of the case if absolute; a fraction of |reference| if relative.
   Kind kind = Kind::absolute;
 
-  /// Largest deviation that passes for this reference value, in the unit of the value.
+  /// Largest absolute deviation that passes for this reference value, in the unit of the case.
   [[nodiscard]] double of(double reference) const;
 };
 
-/// A measured value and its known answer.
+/// A measured value and its known answer, in the unit of the case.
 struct Figure {
   std::string what;  ///< Name of the figure within its case; empty if the case has a single one.
   double reference;
@@ -37,12 +37,13 @@ struct Figure {
   [[nodiscard]] double deviation() const { return measured.mean - reference; }
 };
 
-/// Figures computed from formulas and tables, without rendering.
+/// Figures computed from formulas and tables, without rendering. `figures` may throw the errors of tables.
 struct Computed {
   std::function<std::vector<Figure>()> figures;
 };
 
-/// Value of a closed form. It is computed at each call, since some forms take a tenth of a second.
+/// Value of a closed form, in the unit of the case. A form is evaluated at each call instead of at
+/// construction, since some take a tenth of a second. Numbers and functions without arguments convert to it.
 class Expected {
  public:
   Expected(double value) : compute_([value] { return value; }) {}
@@ -59,16 +60,16 @@ class Expected {
 struct FilmMean {
   std::string scene;               ///< Path relative to `data/scenes/validation`.
   std::vector<Override> settings;  ///< Overrides applied to the scene.
-  std::string channel;
-  Expected expected;
-  int samples;         ///< Samples per pixel for the margin of the case.
-  double fine_margin;  ///< Relative margin of a thorough run.
-  /// Path classes, written as `unsampled_paths` writes them, that contribute nothing to this film. An
-  /// integrator may omit them.
+  std::string channel;             ///< Name of the film's channel.
+  Expected expected;               ///< Mean of the channel over all pixels.
+  int samples;                     ///< Samples per pixel for the margin of the case.
+  double fine_margin;              ///< Margin of a thorough run, as a fraction of the expected mean.
+  /// Path classes that contribute nothing to this film, as the expressions before the colon of
+  /// `unsampled_paths`, such as "E L". An integrator may omit them.
   std::vector<std::string> absent = {};
 };
 
-/// Runs that include a measurement. Each tier includes the measurements of the tiers above it.
+/// Runs that include a measurement. Each tier but `never` includes the measurements of the tiers above it.
 enum class Tier {
   quick,     ///< Every validation.
   tests,     ///< The default tests.
@@ -87,13 +88,14 @@ struct TechniqueMean {
 /// Colour differences of a rendered ColorChecker from the colours integrated over its spectra, for each patch
 /// and in the mean.
 struct RenderedChart {
-  std::string illuminant;
-  int samples;
-  double mean_margin;  ///< Margin of the mean; the case's margin applies to each patch.
+  std::string illuminant;  ///< Name of a shipped illuminant.
+  int samples;             ///< Samples per pixel, in quick and thorough runs.
+  double mean_margin;      ///< Margin of the mean [ΔE2000]; the case's margin applies to each patch.
 };
 
 /// Part of the report.
 enum class Suite { optics, radiometry, colour, camera, sensor, techniques };
+/// Names of the suites, in the order of the enumeration.
 inline constexpr std::array kSuiteNames{"optics", "radiometry", "colour", "camera", "sensor", "techniques"};
 
 /// A quantity whose answer is known.
@@ -103,13 +105,13 @@ struct Case {
   std::string title;
   std::string source;  ///< Formula or measurement, with its key in `docs/references.bib`.
   std::string unit;    ///< Unit of the figures; empty for pure numbers.
-  Margin margin;
+  Margin margin;       ///< Margin of figures without their own. A thorough run replaces that of films.
   std::variant<Computed, FilmMean, RenderedChart, TechniqueMean> method;
 };
 
 /// Accuracy and threads of a measurement.
 struct CaseSettings {
-  bool thorough = false;  ///< Render films at their fine margins.
+  bool thorough = false;  ///< Render films at their fine margins, with accordingly more samples.
   int threads = 0;        ///< Number of threads; 0 for one per processor.
 };
 
@@ -121,43 +123,52 @@ struct Remark {
 
 /// Result of measuring a case.
 struct CaseResult {
+  /// Figures of the case: those of `Computed`, one for a film, the mean and then the patches for a chart.
+  /// Empty if nothing was measured.
   std::vector<Figure> figures;
-  Margin margin;      ///< Margin of this run.
-  Verdict verdict;    ///< `inconclusive` counts as a failure.
+  Margin margin;      ///< Margin of this run, for figures without their own.
+  Verdict verdict;    ///< `pass` if all figures pass; otherwise the verdict of one that does not pass.
   std::size_t worst;  ///< Index of the figure with the largest deviation in units of its margin.
-  int samples;        ///< Samples per pixel; 0 if nothing was rendered.
+  int samples;        ///< Samples per pixel of the last render; 0 if nothing was rendered.
   double cpu_s;       ///< CPU time of the whole case, including loading its scene.
   std::vector<Remark> remarks = {};
-  /// Path classes that the integrator cannot sample. If there is one, nothing was measured.
+  /// Path classes that the integrator of a `TechniqueMean` cannot sample. If there is one, nothing was
+  /// measured.
   std::vector<PathClass> unsampled = {};
-  std::vector<std::string> owned = {};  ///< Path classes that each technique of a cell samples.
-  std::optional<Image> picture = {};    ///< Display picture of the film, if the film is not uniform.
+  /// Path classes that each technique of a `TechniqueMean` samples, one text per technique.
+  std::vector<std::string> owned = {};
+  /// Picture with code values in [0, 1]. For a chart it is the developed film. For a film that is not uniform
+  /// it is a false-colour map from 0 to twice the expected mean.
+  std::optional<Image> picture = {};
 
-  /// Largest deviation with which this figure passes.
+  /// Largest absolute deviation with which this figure passes, in the unit of the case.
   [[nodiscard]] double allowed(const Figure& figure) const {
     return figure.margin.value_or(margin).of(figure.reference);
   }
 
+  /// False if the integrator cannot sample the film's light.
   [[nodiscard]] bool measured() const { return unsampled.empty(); }
   [[nodiscard]] bool passed() const { return verdict == Verdict::pass; }
 };
 
 /// Scene, channel and expected mean of a case that renders a film.
 struct FilmSetup {
-  Scene scene;  ///< Its samples per pixel are those of the case.
-  int channel;  ///< Index of the film's channel.
-  double expected;
+  Scene scene;      ///< Its samples per pixel are those of the case.
+  int channel;      ///< Index of the film's channel.
+  double expected;  ///< Expected mean of that channel.
 };
 /// Scene and expected mean of a case measured by `FilmMean` or `TechniqueMean`. Throws Error{internal} for
-/// other methods and if the scene does not load.
+/// other methods, for an unknown channel, and if the scene does not load.
 [[nodiscard]] FilmSetup film_of(const Case& item);
 
-/// Measures one case. A case whose integrator cannot sample the film's light passes without a measurement.
-/// The samples of a film are doubled up to 4 times while the verdict is inconclusive. Throws Error{internal}
-/// if a scene does not load, and the errors of the table loaders.
+/// Measures one case. A `TechniqueMean` whose integrator cannot sample the film's light passes without a
+/// measurement. The samples of a film are doubled up to 4 times while the verdict is inconclusive.
+/// Throws Error{internal} if a scene does not load. Also throws Error{input} for a missing table, and the
+/// errors of `render`.
 [[nodiscard]] CaseResult run_case(const Case& item, const CaseSettings& settings = {});
 
-/// All cases, sorted by suite.
+/// All cases, sorted by suite. The first call builds them from shipped tables and throws Error{input} if one
+/// is missing.
 [[nodiscard]] const std::vector<Case>& all_cases();
 
 /// A topic that a validation should cover and Abbe's does not.
@@ -166,6 +177,7 @@ struct Uncovered {
   std::string what;
   std::string reason;
 };
+/// All topics that are not covered, sorted by suite.
 [[nodiscard]] const std::vector<Uncovered>& uncovered();
 
 }  // namespace abbe

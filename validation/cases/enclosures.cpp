@@ -37,7 +37,8 @@ std::vector<Case> concentric_cases() {
                 {probe_at("[0, 0, 1.000001]", "[0, 0, 1]")}, 0.5 * outer, 64)};
 }
 
-// Two plates of reflectance 0.5 between perfect mirrors; the lower one has exitance 1.
+// Illuminances [lx] of two infinite plates of reflectance 0.5; the lower one emits 1 lm/m^2. The light that
+// leaves a plate, emitted and reflected, arrives at the other one. `lower` is that of the lower plate.
 std::vector<Case> plate_cases() {
   const std::string source = "balance of two infinite plates [Howell2010]";
   const double lower = 1 / (1 - 0.5 * 0.5);

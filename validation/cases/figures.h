@@ -8,19 +8,20 @@
 
 namespace abbe {
 
-/// A figure without sampling error.
+/// A figure without sampling error. `what` is its name within the case.
 [[nodiscard]] inline Figure exact_figure(std::string what, double reference, double measured) {
   return {std::move(what), reference, {measured, 0}};
 }
 
-/// A case that is computed from formulas.
+/// A case measured by `Computed`; the arguments are the members of `Case`.
 [[nodiscard]] inline Case computed_case(Suite suite, std::string id, std::string title, std::string source,
                                         std::string unit, Margin margin, std::vector<Figure> (*figures)()) {
   return {suite,           std::move(id), std::move(title), std::move(source),
           std::move(unit), margin,        Computed{figures}};
 }
 
-/// Spectral lines; wavelengths in air.
+/// Spectral lines C, d, F, g and h: wavelengths in air. `kLineD_nm` is the helium line d, not the sodium line
+/// D.
 inline constexpr double kLineC_nm = 656.2725;
 inline constexpr double kLineD_nm = 587.5618;
 inline constexpr double kLineF_nm = 486.1327;

@@ -60,7 +60,8 @@ std::vector<Figure> catalogue_indices() {
   return figures;
 }
 
-// Calls `add` for each row of the table, with its glass and the index at its wavelength.
+// Collects what `add` appends for each row of the table. `add` receives the name of the row's glass and the
+// index at its wavelength.
 std::vector<Figure> of_glasses(
     const std::function<void(std::vector<Figure>&, const ReferenceTable&, std::size_t row,
                              const std::string& name, double n)>& add) {

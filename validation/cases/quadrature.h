@@ -2,7 +2,8 @@
 
 namespace abbe {
 
-/// Integral of f from a to b by the midpoint rule with `steps` intervals.
+/// Integral of f from a to b by the midpoint rule with `steps` >= 1 intervals. Swapping a and b changes its
+/// sign.
 template <typename Function>
 [[nodiscard]] double midpoint_integral(const Function& f, double a, double b, int steps) {
   const double step = (b - a) / steps;

@@ -9,14 +9,16 @@ namespace abbe {
 /// Chandrasekhar's function H(mu) of an isotropically scattering medium [Chandrasekhar1960, sec. 33].
 /// H(mu) = 1/(sqrt(1 - albedo) + albedo/2 int_0^1 m H(m)/(mu + m) dm), iterated on the nodes of the midpoint
 /// rule.
-/// A semi-infinite layer below a uniform sky, viewed at cosine mu, has 1 - H(mu) sqrt(1 - albedo) times the
-/// radiance of that sky.
+/// A semi-infinite layer below a uniform sky, viewed at cosine mu to its normal, has 1 - H(mu) sqrt(1 -
+/// albedo) times the radiance of that sky.
 class ChandrasekharH {
  public:
+  /// Computes H on 400 nodes in 100 iterations. `albedo` in [0, 1) is the ratio of scattering to extinction.
   explicit ChandrasekharH(double albedo);
 
+  /// H at a cosine `mu` in [0, 1]; at least 1.
   [[nodiscard]] double operator()(double mu) const;
-  /// Mean over mu from 0 to 1. Exact up to rounding: 2/albedo (1 - sqrt(1 - albedo)).
+  /// Mean over mu from 0 to 1. The closed form 2/albedo (1 - sqrt(1 - albedo)) differs only by rounding.
   [[nodiscard]] double mean() const;
 
  private:
@@ -26,8 +28,9 @@ class ChandrasekharH {
   std::vector<double> h_;
 };
 
-/// Homogeneous medium: scattering and extinction coefficients [1/m], and the phase function [1/sr] of the
-/// cosine between the directions of the light before and after scattering.
+/// Homogeneous medium: scattering and extinction coefficients [1/m], and the phase function [1/sr]. The
+/// argument of `phase` is the cosine between the directions of travel before and after scattering: 1 for
+/// forward scattering.
 struct HomogeneousMedium {
   double scattering;
   double extinction;
@@ -36,9 +39,10 @@ struct HomogeneousMedium {
 
 /// Single-scattering radiance [W m^-2 sr^-1 nm^-1] along a line of sight at distance h [m] from a point light
 /// of intensity 1 W/(sr nm) [Chandrasekhar1960, sec. 7]:
-/// scattering int phase exp(-extinction (x + before + r))/r^2 dx, with r = sqrt(x^2 + h^2).
-/// The medium extends along the line from `before` metres in front of the foot of the light, on the camera's
-/// side, to `after` metres behind it.
+/// scattering int phase(-x/r) exp(-extinction (x + before + r))/r^2 dx, with r = sqrt(x^2 + h^2).
+/// x is the distance along the line from the foot of the light, positive away from the camera. The integral
+/// extends from `before` metres in front of the foot to `after` metres behind it. Light is attenuated
+/// from its source to x, and from x to the near end.
 [[nodiscard]] double single_scattering_radiance(const HomogeneousMedium& medium, double h, double before,
                                                 double after);
 

@@ -15,6 +15,7 @@ namespace abbe {
 namespace {
 
 // Mean irradiance [lx] on a wall of a cubic room with edges of `side` m, direct and interreflected.
+// flux/area is the direct irradiance; 1/(1 - reflectance) sums the reflections.
 double room_irradiance(double flux_lm, double side, double reflectance) {
   return flux_lm / (6 * side * side) / (1 - reflectance);
 }

@@ -42,12 +42,12 @@ double distance_in_plane(double position, double direction, double height) {
 
 // Irradiance over a disc of `radius` on the axis, at distance `below` under the centre of a ball of radius 1.
 // Parallel light of irradiance 1 arrives from above. A ring of incidence i has the fraction sin 2i di of the
-// ball's cross-section. All rays of up to `chords` chords are summed.
-double irradiance_behind_ball(double below, double radius, int chords) {
+// ball's cross-section. All rays of 0 (reflected at the outside) to `max_chords` chords are summed.
+double irradiance_behind_ball(double below, double radius, int max_chords) {
   const auto integrand = [&](double incidence) {
     double sum = 0;
-    for (int crossings = 0; crossings <= chords; ++crossings) {
-      const LeavingRay ray = leaving_ray(incidence, crossings);
+    for (int chords = 0; chords <= max_chords; ++chords) {
+      const LeavingRay ray = leaving_ray(incidence, chords);
       const double position = incidence + ray.turn;
       if (distance_in_plane(position, position + incidence, -below) <= radius) sum += ray.power;
     }

@@ -13,8 +13,9 @@ namespace {
 
 using Films = std::set<std::string>;
 
-// Differences between an integrator's measurement and the film's case, and the tier of each film.
-struct MeasuredTechnique {
+// Measurement of an integrator on the films: changes to each film's case, and the tier in which each film is
+// rendered. Films that no set names are in `default_tier`.
+struct MeasuredIntegrator {
   Integrator integrator;
   int sample_factor = 1;  // multiplies the samples of the case
   int min_samples = 1;
@@ -33,14 +34,14 @@ struct MeasuredTechnique {
 // that is 1 % low.
 constexpr int kSharedWavelengths = 256;
 
-// Sorted as `kIntegratorNames`. `ppm` gathers photons as `sppm` does, and needs long renders for enough
-// visible points, so a few films represent all. Integrators that gather photons are biased, so their fine
-// margin is the quick one.
-const std::array<MeasuredTechnique, kIntegratorNames.size()>& all_measured() {
+// Measurements of all integrators, in the order of `kIntegratorNames`. `ppm` gathers photons as `sppm` does
+// and needs long renders for enough visible points, so it renders a few films only. Integrators that gather
+// photons are biased, so their `fine_margin` is as wide as `margin`.
+const std::array<MeasuredIntegrator, kIntegratorNames.size()>& all_measured() {
   static const Override few_photons{"/render/photons/per_sample", "4096"};
-  // These are as near as the nearest 48 of the default number of photons.
+  // 12 neighbours among a quarter of the photons span the same radius as 48 among all, about the default.
   static const Override few_neighbours{"/render/photons/nearest", "12"};
-  // `ppm` never moves its visible points, so it needs many of them.
+  // `ppm` never moves its visible points, so their mean over the film takes many of them.
   static const Override many_visible_points{"/sensor/resolution", "[128, 128]"};
   static const Films long_path_films{"T1-0.8", "T1-0.95", "T8",      "T10-upper", "T10-lower",
                                      "T11",    "T11-16",  "layer-1", "layer-0.2", "scattered-blue"};
@@ -49,12 +50,12 @@ const std::array<MeasuredTechnique, kIntegratorNames.size()>& all_measured() {
     both.insert("ball-disc");
     return both;
   }();
-  static const std::array<MeasuredTechnique, kIntegratorNames.size()> all{
+  static const std::array<MeasuredIntegrator, kIntegratorNames.size()> all{
       {{.integrator = Integrator::automatic, .tests = {"ball-meter"}},
        {.integrator = Integrator::path,
         .tests = {"T1-0.2", "T5-axis", "T11", "T12-white", "T12-glass", "T13-60", "T16-inside", "pane-thick",
                   "ball-axis", "scattered-once", "scattered-blue", "layer-1"}},
-       // One photon in 4e8 hits the sphere of T17, and fewer reach the line of sight in the fog.
+       // One photon in 4e8 hits the sphere of T17, and fewer come to the line of sight in the fog.
        {.integrator = Integrator::light,
         .sample_factor = 16,
         .quick = {"ball-disc"},
@@ -103,14 +104,14 @@ const std::array<MeasuredTechnique, kIntegratorNames.size()>& all_measured() {
   return all;
 }
 
-Tier tier_of(const std::string& film, const MeasuredTechnique& measured) {
+Tier tier_of(const std::string& film, const MeasuredIntegrator& measured) {
   if (measured.never.contains(film)) return Tier::never;
   if (measured.quick.contains(film)) return Tier::quick;
   if (measured.tests.contains(film)) return Tier::tests;
   return measured.thorough.contains(film) ? Tier::thorough : measured.default_tier;
 }
 
-Case cell(const Case& item, const FilmMean& film, const MeasuredTechnique& measured) {
+Case cell(const Case& item, const FilmMean& film, const MeasuredIntegrator& measured) {
   const char* name = kIntegratorNames.at(static_cast<std::size_t>(measured.integrator));
   TechniqueMean method{item.id, measured.integrator, film, tier_of(item.id, measured)};
   method.film.samples = std::max(measured.min_samples, film.samples * measured.sample_factor);
@@ -136,7 +137,7 @@ std::vector<Case> technique_cases(const std::vector<Case>& films) {
   std::vector<Case> cells;
   for (const Case& item : films)
     if (const auto* film = std::get_if<FilmMean>(&item.method); film != nullptr && !is_repeated(item.id))
-      for (const MeasuredTechnique& measured : all_measured()) cells.push_back(cell(item, *film, measured));
+      for (const MeasuredIntegrator& measured : all_measured()) cells.push_back(cell(item, *film, measured));
   return cells;
 }
 

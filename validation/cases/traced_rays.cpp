@@ -48,6 +48,7 @@ struct PrismRay {
   RayTrace trace;
   double deviation_deg;
 
+  // True if the second face transmits the ray.
   [[nodiscard]] bool leaves() const { return trace.events.at(1).kind == TraceEvent::Kind::refract; }
 };
 PrismRay trace_prism(double n, double apex_deg, double incidence_deg) {
@@ -61,6 +62,7 @@ PrismRay trace_prism(double n, double apex_deg, double incidence_deg) {
   return {trace, angle_deg(direction, trace.last.direction)};
 }
 
+// Angle of incidence [degrees] at which light crosses a prism symmetrically.
 double minimum_deviation_incidence(double n, double apex_deg) {
   return std::asin(n * std::sin(apex_deg / 2 * kDegree)) / kDegree;
 }
@@ -88,6 +90,7 @@ std::vector<Figure> deviations_at_50() {
   return figures;
 }
 
+// Distances [mm] from the d line on a screen 1 m away, at the minimum deviation of that line.
 std::vector<Figure> screen_positions() {
   const double incidence = minimum_deviation_incidence(index_at("N-BK7", kD), 60);
   const auto deviation = [&](const NamedLine& line) {

@@ -13,10 +13,12 @@
 
 namespace abbe {
 
-/// Samples a BSDF for a fixed outgoing direction; empty if the light is absorbed.
+/// Samples a BSDF for a fixed outgoing direction, with the wavelength sample `hero` as the hero; empty if the
+/// light is absorbed. All directions are in the local frame: z is the normal, and vectors point away from the
+/// surface.
 using LobeSampler = std::function<std::optional<BsdfSample>(const BsdfRandom& u, int hero)>;
 
-/// Sampler of a BSDF for the outgoing direction `wo`.
+/// Sampler of a BSDF, which is copied, for the unit outgoing direction `wo`.
 [[nodiscard]] LobeSampler sampler_of(const Bsdf& bsdf, const Imath::V3f& wo, TransportMode mode);
 
 /// Agreement of samples with a pdf.
@@ -24,38 +26,41 @@ struct DensityCheck {
   double p;         ///< p-value: probability that samples of this pdf deviate at least as much.
   double integral;  ///< Integral of the pdf over the sphere: the probability of an event that is not delta.
 };
-/// Chi-square test of the non-delta events of `sampler` against `density`. A second set of samples refines
-/// the cells.
-/// Cells with fewer than 5 expected samples are pooled. Samples without an event and delta events count as
-/// one cell. If the pool itself expects fewer than 5, a Poisson test replaces its term; it allows a millionth
-/// of all samples in excess.
+/// Chi-square test of the non-delta events of `sampler` against `density` [1/sr], at the wavelength sample
+/// `hero`. Of `samples` events the frequencies are counted; half as many others define the cells. Cells with
+/// fewer than 5 expected samples are pooled. Samples without an event and delta events count as one cell. If
+/// the pool itself expects fewer than 5, a Poisson test replaces its term; it allows a millionth of all
+/// samples in excess.
 [[nodiscard]] DensityCheck check_density(const LobeSampler& sampler, const SphereDensity& density, int hero,
                                          int samples = 200000, std::uint64_t seed = 0);
 
-/// Means of one quantity over independent random numbers.
+/// Number of independent sets of random numbers.
 inline constexpr std::size_t kReplicates = 16;
+/// Means of one quantity over each set of random numbers.
 using Replicates = std::array<double, kReplicates>;
 /// Mean of the replicates. The standard error follows from their scatter; it is 0 if they are equal.
 [[nodiscard]] Estimate estimate(const Replicates& replicates);
 
-/// Directional-hemispherical reflectance and transmittance of light that arrives along `wo`, for each
-/// wavelength sample.
-/// The estimator is balanced over the wavelengths, each of which is the hero equally often. It samples in
-/// `TransportMode::power`, so that a lossless material gives a sum of 1.
+/// Directional-hemispherical reflectance and transmittance, as fractions of the power, for each wavelength
+/// sample. The estimator is balanced over the wavelengths, each of which is the hero equally often. With a
+/// sampler in `TransportMode::power` a lossless material gives a sum of 1.
 struct Albedo {
-  std::array<Estimate, kLanes> reflected;
-  std::array<Estimate, kLanes> transmitted;
+  std::array<Estimate, kLanes> reflected;    ///< Into the hemisphere of `wo`.
+  std::array<Estimate, kLanes> transmitted;  ///< Into the other hemisphere.
 
+  /// Sum of both means for a wavelength sample.
   [[nodiscard]] double total(int lane) const {
     const auto i = static_cast<std::size_t>(lane);
     return reflected[i].mean + transmitted[i].mean;
   }
 };
+/// Albedo for light from the unit direction `wo`, which points towards the source and is that of `sampler`.
+/// It uses about `samples` random numbers per hero, at least one in each of the `kReplicates` sets.
 [[nodiscard]] Albedo albedo(const LobeSampler& sampler, const Imath::V3f& wo, int samples = 4096,
                             std::uint64_t seed = 0);
 
-/// Replicates of an albedo for each wavelength sample. Equal `samples` and `seed` give equal random numbers
-/// for every sampler.
+/// Replicates of the results of `albedo` for each wavelength sample. Equal `samples` and `seed` give equal
+/// random numbers for every sampler.
 struct AlbedoReplicates {
   std::array<Replicates, kLanes> reflected;
   std::array<Replicates, kLanes> transmitted;
@@ -63,19 +68,22 @@ struct AlbedoReplicates {
 [[nodiscard]] AlbedoReplicates albedo_replicates(const LobeSampler& sampler, const Imath::V3f& wo,
                                                  int samples, std::uint64_t seed = 0);
 
-/// Delta events of a BSDF, each with its probability and weights. They are found by sampling 65 values of the
-/// lobe choice, so an event with a probability below 1/64 may be missed.
+/// Delta events of a BSDF for the unit outgoing direction `wo` and a hero, each with its probability `pdf`
+/// and weights; empty if there are none. They are found by sampling 65 values of the lobe choice, so an event
+/// with a probability below 1/64 may be missed.
 [[nodiscard]] std::vector<BsdfSample> delta_events(const Bsdf& bsdf, const Imath::V3f& wo, int hero,
                                                    TransportMode mode);
 
-/// Deviation of a BSDF from symmetry, over pairs of directions that it connects.
+/// Deviation of a BSDF from symmetry, over pairs of directions that it connects and all wavelength samples.
+/// Both members are 0 if it connects none without delta events.
 struct Asymmetry {
   /// Maximum of |f(a, b) - f(b, a)| / max(f(a, b), f(b, a)), over pairs where either is positive.
   double largest;
   double mean;  ///< Mean of |f(a, b) - f(b, a)|, divided by the mean of (f(a, b) + f(b, a))/2.
 };
 /// Deviation from Helmholtz reciprocity: f(a, b) = f(b, a) on one side of the surface. Across the surface,
-/// each f is divided by n^2 of the side that its light leaves to.
+/// each f is divided by n^2 of the side that its light leaves to. Half of the `pairs` are uniform over the
+/// sphere; in the others the BSDF samples the second direction.
 [[nodiscard]] Asymmetry reciprocity_error(const Bsdf& bsdf, int pairs = 4096, std::uint64_t seed = 0);
 /// Deviation between f(a, b) for radiance, which camera paths use, and f(b, a) for power, which photons use.
 /// It is 0 for every consistent model, reciprocal or not.

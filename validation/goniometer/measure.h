@@ -11,12 +11,12 @@ namespace abbe {
 
 /// Settings of the BSDF bench.
 struct GoniometerSettings {
-  std::vector<double> wavelengths_nm{450, 550, 650};
+  std::vector<double> wavelengths_nm{450, 550, 650};          ///< At least one.
   std::vector<double> angles_deg{0, 15, 30, 45, 60, 75, 85};  ///< Angles of incidence in [0, 90).
   bool from_inside = false;  ///< If true, the beam arrives from the side opposite to the normal.
   Curve illuminant;          ///< Relative spectrum for the colours.
   Observer observer = Observer::cie1931;
-  int samples = 1 << 13;  ///< Samples per angle and packet of eight wavelengths.
+  int samples = 1 << 13;  ///< Samples per angle, packet of eight wavelengths and hero.
 };
 
 /// Colour of scattered light under the bench's illuminant.
@@ -28,11 +28,11 @@ struct ScatteredColor {
 
 /// Scattering of a beam at one angle of incidence.
 struct GoniometerAngle {
-  double angle_deg;
+  double angle_deg;                   ///< Angle of incidence, from the normal on the side of the beam.
   std::vector<Estimate> reflected;    ///< Directional-hemispherical reflectance by wavelength.
   std::vector<Estimate> transmitted;  ///< Directional-hemispherical transmittance by wavelength.
-  ScatteredColor reflected_color;     ///< Colour of the light in the hemisphere.
-  ScatteredColor transmitted_color;
+  ScatteredColor reflected_color;     ///< Colour of all light in the hemisphere of the beam.
+  ScatteredColor transmitted_color;   ///< Colour of all light in the other hemisphere.
   /// p-value of the chi-square test of the samples against the pdf; 1 for delta events only.
   double sampling_p;
   double non_delta_probability;  ///< Integral of the pdf: the probability of an event that is not delta.
@@ -41,19 +41,22 @@ struct GoniometerAngle {
 /// Results of the BSDF bench.
 struct GoniometerReport {
   Lobes lobes;
-  bool dispersive;
-  std::vector<GoniometerAngle> angles;
-  Asymmetry reciprocity;  ///< Result of `reciprocity_error`.
-  double max_albedo;      ///< Largest reflectance plus transmittance over angles and wavelengths.
+  bool dispersive;                      ///< True if a refractive index varies with wavelength.
+  std::vector<GoniometerAngle> angles;  ///< In the order of the settings.
+  Asymmetry reciprocity;                ///< Result of `reciprocity_error` for the first eight wavelengths.
+  double max_albedo;  ///< Largest reflectance plus transmittance over angles and wavelengths.
 };
 
-/// Direction of the incident beam's source; its azimuth is that of -x.
+/// Unit direction towards the incident beam's source, in the local frame whose z is the normal. Its azimuth
+/// is that of -x; z is negative if the beam arrives from inside.
 [[nodiscard]] Imath::V3f incidence(const GoniometerSettings& settings, double angle_deg);
-/// Wavelengths [nm] of a colorimetric sum, in steps of 1 nm.
+/// Wavelengths [nm] of a colorimetric sum (`SumRange`), in steps of 1 nm.
 [[nodiscard]] std::vector<double> visible_wavelengths();
-/// Up to eight of the wavelengths from index `first` on. The last wavelength fills an incomplete packet.
+/// The eight wavelengths from index `first` on. The last wavelength fills an incomplete packet. There must be
+/// at least one.
 [[nodiscard]] SampledSpectrum packet_of(const std::vector<double>& wavelengths_nm, std::size_t first);
 
+/// Measures a material at all angles and wavelengths of the settings. Equal arguments give equal results.
 [[nodiscard]] GoniometerReport measure(const Material& material, const GoniometerSettings& settings);
 
 }  // namespace abbe

@@ -9,7 +9,7 @@
 
 namespace abbe {
 
-/// A density per solid angle [1/sr].
+/// A density per solid angle [1/sr] as a function of a unit direction.
 using SphereDensity = std::function<double(const Imath::V3f& w)>;
 
 /// Partition of the sphere that is fine where directions are dense, so that even a very narrow lobe covers
@@ -17,14 +17,16 @@ using SphereDensity = std::function<double(const Imath::V3f& w)>;
 /// halved along their longer side; none crosses the horizon.
 class SphereCells {
  public:
-  /// Halves cells until none contains more than `max_per_cell` of `directions`.
+  /// Halves cells until none contains more than `max_per_cell` of the unit `directions` or exceeds 4 pi/128
+  /// sr. Cells with a depth below 1e-13 are not halved, and may contain more.
   SphereCells(std::span<const Imath::V3f> directions, std::size_t max_per_cell);
 
   [[nodiscard]] std::size_t count() const { return leaves_.size(); }
+  /// Index in [0, `count()`) of the cell that contains the unit direction `w`.
   [[nodiscard]] std::size_t cell_of(const Imath::V3f& w) const;
-  /// Integral of `density` over each cell by adaptive Gauss-Legendre quadrature. The density may have lobes
-  /// and edges that no quadrature node hits. Cells that contain such features are refined around the given
-  /// `directions`.
+  /// Integral of `density` over each cell, by index, by adaptive Gauss-Legendre quadrature. The density may
+  /// have lobes and edges that no quadrature node hits. Cells that contain such features are refined around
+  /// the given `directions`.
   [[nodiscard]] std::vector<double> integrate(const SphereDensity& density,
                                               std::span<const Imath::V3f> directions = {}) const;
 

@@ -8,22 +8,29 @@
 
 namespace abbe {
 
-/// The light with this name. Throws Error{usage} that names `option` and lists the scene's lights.
+/// The first light with this name. Throws Error{usage} if there is none; the message names the command line's
+/// `option` and lists the scene's lights.
 [[nodiscard]] const Light& light_named(const Scene& scene, const std::string& name,
                                        const std::string& option);
 
-/// Central ray of a light in scene coordinates [m]. It is empty for an environment light.
+/// Central ray of a light in render coordinates [m] at time 0: infinite, with a unit direction away from the
+/// light. It is empty for an environment light.
 /// - Spot light: its axis.
-/// - Area light: the normal at the center of its surface.
-/// - Point light: the ray to the center of the scene's bounds.
-/// - Sun or directional light: the ray through the center of the bounds.
+/// - Area light: the outward normal at the center of its surface, from just off the surface. The center of
+/// a mesh is that of its median triangle by cumulative area.
+/// - Point light: the ray to the center of the scene's bounds, or along +x if the light is there.
+/// - Sun or directional light: the ray through the center of the bounds, from 1.5 times their radius before
+/// it.
 [[nodiscard]] std::optional<BasicRay<double>> central_ray(const Scene& scene, const Light& light);
 
-/// True if a drawing omits the light because it is distant from the scene's other objects.
+/// True if a drawing omits the light because it has a position and is distant by `Scene::is_distant`. False
+/// in a scene without shapes that are not distant.
 [[nodiscard]] bool is_omitted(const Scene& scene, const Light& light);
 
-/// Rays of a light for a drawing: `count` >= 1 in each of two perpendicular planes through the central ray.
-/// The first plane contains the horizontal direction perpendicular to that ray.
+/// Rays of a light for a drawing, as `central_ray` describes them: `count` >= 1 in each of two perpendicular
+/// planes through the central ray, first those of one plane. That plane contains the horizontal direction,
+/// perpendicular to z and to the central ray; for a vertical ray it is x. One ray per plane is the central
+/// ray, more are spread evenly.
 /// - Spot light: a fan over its cone.
 /// - Area light: a fan of 60 degrees to both sides of the normal.
 /// - Point light: a full circle.

@@ -105,7 +105,7 @@ std::string number(double value) {
   return fmt::format("{:.8g}", value);
 }
 
-// Table of the figures, the largest deviations first.
+// Table of the figures, sorted by deviation in units of the margin, the largest first.
 std::string figure_details(const Outcome& outcome) {
   const CaseResult& result = outcome.result;
   constexpr std::size_t kMaxFigures = 24;

@@ -8,14 +8,17 @@ struct Estimate {
   double standard_error;
 };
 
-/// Half width of an interval in standard errors, for the significance 1e-6.
+/// Half width of an interval in standard errors. A normal variable lies outside it, on either side, with
+/// probability 1e-6.
 inline constexpr double kInterval = 4.89;
 
+/// Result of `equivalence`, or of a comparison without sampling error, which is never `inconclusive`.
 enum class Verdict { pass, fail, inconclusive };
 
-/// Equivalence test of a measurement against a reference; `margin` is relative to the reference.
-/// - `pass`: the whole interval of ± 4.89 standard errors lies within the margin.
-/// - `fail`: the interval excludes the reference by more than rounding errors.
+/// Equivalence test of a measurement against a reference. `margin` is a fraction of |reference|. The interval
+/// is the mean ± `kInterval` standard errors.
+/// - `pass`: the whole interval lies within the margin. A reference of 0 never passes.
+/// - `fail`: the interval excludes the reference by more than rounding errors (1e-5 of it), or is not finite.
 /// - `inconclusive`: more samples are needed.
 [[nodiscard]] Verdict equivalence(const Estimate& measured, double reference, double margin);
 

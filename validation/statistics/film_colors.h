@@ -13,9 +13,12 @@ namespace abbe {
 /// Interpretation of an image's colours.
 struct FilmColors {
   std::vector<std::string> channels;  ///< Names of the three channels; the image may lack some.
-  std::optional<Matrix3> to_xyz;      ///< Matrix from the channels to XYZ; empty if unknown.
-  bool adapted = false;               ///< True if XYZ are adapted from the film's white to D65.
-  std::optional<Chromaticity> white;  ///< Reference white that the film records.
+  /// Matrix from the channels, in their order, to XYZ in the scale of the image; nothing if the colours are
+  /// unknown.
+  std::optional<Matrix3> to_xyz;
+  bool adapted = false;  ///< True if XYZ are adapted from the film's white to D65.
+  /// White that the image records, else the white of its recorded primaries. Nothing if it records neither.
+  std::optional<Chromaticity> white;
 };
 
 /// Determines how the channels of an image are converted to XYZ.
@@ -25,6 +28,7 @@ struct FilmColors {
 ///   a readable matrix the colours are unknown.
 /// - R, G, B of any other image are linear, with the primaries that it records (`recorded_primaries`) or
 ///   those of Rec.709.
+/// Throws Error{input} if the recorded white is malformed.
 [[nodiscard]] FilmColors film_colors(const Image& image);
 
 }  // namespace abbe

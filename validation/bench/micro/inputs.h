@@ -11,7 +11,8 @@
 
 namespace abbe::micro {
 
-/// Cyclic sequence of precomputed numbers in [0, 1), so that a benchmark does not time their generation.
+/// Cyclic sequence of 4096 precomputed numbers in [0, 1), so that a benchmark does not time their generation.
+/// Each object starts at the beginning of the same sequence.
 class NumberCycle {
  public:
   NumberCycle() {
@@ -21,11 +22,12 @@ class NumberCycle {
     }
   }
   [[nodiscard]] float next() { return numbers_[at_++ % kSize]; }
+  /// The next two numbers, in their order.
   [[nodiscard]] Imath::V2f pair() {
     const float first = next();
     return {first, next()};
   }
-  /// Eight visible wavelengths in steps of 40 nm.
+  /// Eight wavelengths [nm] in steps of 40 nm, the first in [390, 430). Uses one number.
   [[nodiscard]] SampledSpectrum packet() {
     SampledSpectrum::Values nm;
     const float first = 390 + 40 * next();

@@ -17,6 +17,7 @@ using Json = nlohmann::ordered_json;
 /// Wavelength [nm] that separates the inside of a closed box from the outside. Lights and channels inside use
 /// shorter wavelengths. Lights outside use longer ones, which only the channel `kOutsideChannel` records.
 inline constexpr double kMaxInside_nm = 1000;
+/// Name of the channel that records only light from outside a closed box.
 inline constexpr const char* kOutsideChannel = "outside";
 
 /// Longest exposure [s] with which float can represent the sensor's counts of the brightest light, even if a
@@ -36,43 +37,46 @@ struct DrawnMaterial {
 struct Drawing {
   Random random;
   std::filesystem::path folder;  ///< Folder of the scene's files.
-  bool closed = false;           ///< The camera is in a closed opaque box.
+  bool closed = false;           ///< The camera is in a closed opaque box. `draw_render` may clear it.
   bool signed_response = false;  ///< A channel may have a negative response.
-  double unit_m = 1;
-  double size = 1;  ///< The box extends from -size to size on each axis, around `center`.
+  double unit_m = 1;             ///< Metres per unit of the scene.
+  double size = 1;               ///< The box extends from -size to size on each axis, around `center`.
   std::array<double, 3> center{0, 0, 0};
-  double brightness = 1;    ///< Order of magnitude of radiances.
-  bool uses_probe = false;  ///< A probe replaces the camera.
-  bool moves = false;       ///< Shapes, lights and the camera may move during the exposure.
-  double open_s = 0;        ///< Time at which the shutter opens.
-  double exposure_s = 1;    ///< Duration of the exposure.
-  std::vector<DrawnMaterial> materials;
-  std::vector<Json> targets;  ///< Positions of shapes, for the camera to look at.
-  Json scene;
+  double brightness = 1;                 ///< Order of magnitude of the numbers that describe emission.
+  bool uses_probe = false;               ///< A probe replaces the camera.
+  bool moves = false;                    ///< Shapes, lights and the camera may move during the exposure.
+  double open_s = 0;                     ///< Time at which the shutter opens [s], on the scale of keyframes.
+  double exposure_s = 1;                 ///< Duration of the exposure.
+  std::vector<DrawnMaterial> materials;  ///< Materials drawn so far.
+  std::vector<Json> targets;             ///< Positions of shapes, for the camera to look at.
+  Json scene;                            ///< Description of the scene so far.
 };
 
-/// A curve of the scene language with values in [0, max_value].
+/// A curve over wavelength in the scene language, with values in [0, max_value].
 [[nodiscard]] Json draw_curve(Drawing& drawing, double max_value);
-/// A reflectance in [0, 1], as a curve or an image. Sets `varies` to true for an image.
+/// A reflectance in [0, 1], as a curve or an image. Sets `varies` to true for an image, else leaves it.
 [[nodiscard]] Json draw_reflectance(Drawing& drawing, bool& varies);
 /// A direction of any length, often along an axis or in a plane of two axes.
 [[nodiscard]] Json draw_direction(Drawing& drawing);
 /// A position in the box, at most `extent` times its half width from the center on each axis.
 [[nodiscard]] Json draw_position(Drawing& drawing, double extent);
 
-/// Adds a motion to the description of a shape, light or camera, with some probability if the scene moves.
+/// Adds a motion of up to three keyframes to the description of a shape, light or camera, with probability
+/// 0.4 if the scene moves.
 void maybe_animate(Drawing& drawing, Json& object);
 
-/// Image file of a few pixels, whose channels have values in [low, high). This function and the next two
-/// write a file to the folder and return its name. They throw Error{output}.
+/// Writes an EXR of 2 to 9 pixels per edge, whose channels have values in [low, high). This function and the
+/// next two write a file to the folder and return its name. They throw Error{output} if they cannot write it.
 [[nodiscard]] std::string draw_image(Drawing& drawing, const std::vector<std::string>& channels, double low,
                                      double high);
-/// Grid file of densities in [0, 1), many of them 0.
+/// Writes an NPY grid of 2 to 9 densities per edge in [0, 1), many of them 0.
 [[nodiscard]] std::string draw_densities(Drawing& drawing);
-/// Closed mesh of radius 1 around the origin, as PLY or OBJ.
+/// Writes a closed mesh of radius at most 1 around the origin, as PLY or OBJ.
 [[nodiscard]] std::string draw_mesh_file(Drawing& drawing);
 
-/// Each function draws one part of the scene. They depend on each other in this order.
+/// Each function draws one part of `scene`, under the key of its name, from what the ones before it drew.
+/// They must be called once, in this order. `draw_shapes` also adds the walls of a closed box; `draw_sensor`
+/// sets exposure and shutter.
 void draw_materials(Drawing& drawing);
 void draw_shapes(Drawing& drawing);
 void draw_sensor(Drawing& drawing);
@@ -80,10 +84,11 @@ void draw_camera(Drawing& drawing);
 void draw_lights(Drawing& drawing);
 void draw_render(Drawing& drawing);
 
-/// A shape of the given material without emission. Its size is 1e-4 to 1 times that of the box.
+/// A shape of the given material without emission. Its half size is 1e-4 to 1 times that of the box. Adds its
+/// position to `targets`.
 [[nodiscard]] Json draw_shape(Drawing& drawing, const DrawnMaterial& drawn);
-/// Emission of a light of the given kind: "area", "point" (also for spots), "sun", "directional" or
-/// "environment".
+/// Emission of a light, sometimes polarised. `kind` is "area", "point" (also for spots), "sun", "directional"
+/// or "environment".
 [[nodiscard]] Json draw_emission(Drawing& drawing, const std::string& kind);
 
 }  // namespace abbe::soak

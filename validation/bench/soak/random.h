@@ -14,7 +14,7 @@ namespace abbe::soak {
 /// order is defined, draw twice in one expression.
 using Random = std::mt19937_64;
 
-/// Uniform in [low, high).
+/// Uniform in [low, high); low <= high.
 inline double uniform(Random& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random() >> 11U) * 0x1p-53;
 }
@@ -24,11 +24,12 @@ inline double decades(Random& random, double low, double high) {
   return std::exp(uniform(random, std::log(low), std::log(high)));
 }
 
+/// True with the given probability in [0, 1].
 inline bool chance(Random& random, double probability) {
   return uniform(random, 0, 1) < probability;
 }
 
-/// Log-uniform absolute value with a random sign.
+/// Log-uniform absolute value in [low, high), with 0 < low, and either sign with probability 1/2.
 inline double signed_decades(Random& random, double low, double high) {
   const double size = decades(random, low, high);
   return chance(random, 0.5) ? -size : size;
@@ -39,7 +40,7 @@ inline int integer(Random& random, int low, int high) {
   return low + static_cast<int>(uniform(random, 0, high - low + 1));
 }
 
-/// One of the values with equal probabilities.
+/// One of the values with equal probabilities; there must be at least one.
 template <typename T>
 const T& one_of(Random& random, const std::vector<T>& values) {
   return values[static_cast<std::size_t>(integer(random, 0, static_cast<int>(values.size()) - 1))];

@@ -95,7 +95,7 @@ Json shutter(Drawing& drawing) {
   return shutter;
 }
 
-// The sensor measures the Stokes vector of each channel, or all channels share a polariser.
+// The sensor measures the Stokes vector of each channel, or one polariser covers all channels.
 void measure_polarisation(Drawing& drawing, Json& sensor) {
   const bool behind_polarisers =
       sensor.contains("channels") && sensor["channels"].dump().find("polariser") != std::string::npos;

@@ -40,7 +40,7 @@ Json octahedron(const Point& half) {
   return {{"vertices", vertices}, {"triangles", triangles}};
 }
 
-// Random triangles. Some are thin; some share an edge or coincide.
+// Random triangles. Some are thin; some have a common edge or coincide.
 Json rubble(Random& random, double half) {
   Json vertices = Json::array();
   const int count = integer(random, 3, 30);
