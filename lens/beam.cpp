@@ -37,6 +37,7 @@ Beam::Beam(const SystemAt& at, double stop_radius_mm) : at_(&at), radius_(stop_r
   const FirstOrder first = first_order(at);
   const auto& distance = at.system->object_distance_mm;
   pupil_z_ = std::isfinite(first.entrance_pupil_mm) && !distance ? first.entrance_pupil_mm : 0;
+  // Paraxial height at the stop of a ray over its height in the launch plane.
   const double stop_over_launch =
       std::abs(1 / first.entrance_magnification + (distance ? first.stop_by_slope_mm / *distance : 0));
   scale_ = radius_ / (stop_over_launch > 0 ? stop_over_launch : 1);

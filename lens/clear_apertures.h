@@ -5,8 +5,9 @@
 namespace abbe::lens {
 
 /// The system with a clear aperture at every surface. Surfaces without one get the smallest that transmits
-/// all light to an image with these half sides [mm], for three wavelengths from `low_nm` to `high_nm`. Stops
-/// with blades count as their circle. Throws like `search_pupil`.
+/// all light to an image with these half sides [mm], at `low_nm`, `high_nm` and the wavelength midway. Stops
+/// with blades count as their circle. A surface without light gets 0. Throws Error{scene} if the passing rays
+/// have no bound.
 [[nodiscard]] System with_clear_apertures(const SpectralSystem& system, const Imath::V2d& half_image_mm,
                                           double low_nm, double high_nm);
 

@@ -53,8 +53,9 @@ Crossing<Real> intersect_local(const Surface& surface, const BasicRay<Real>& ray
   return crossing;
 }
 
-// Refracts light that travels along the ray (`sense` 1) or against it (`sense` -1). `eta` is the index behind
-// over that before.
+// Refracts light at the intersection of a ray that travels towards +z. The light travels along the ray
+// (`sense` 1) or against it (`sense` -1), and so does the direction in the hit. `eta` is n_t/n_i of the
+// light.
 template <typename Real>
 Crossing<Real> cross_local(const Surface& surface, const BasicRay<Real>& ray, double sense, const Real& eta) {
   auto crossing = intersect_local(surface, ray);

@@ -10,17 +10,20 @@ namespace abbe::lens {
 
 /// Ellipse in the tangent plane of the last vertex [mm], with one axis along the unit vector `along`.
 struct PupilBound {
-  Imath::V2d center{0, 0};
-  Imath::V2d semi{0, 0};  ///< Semi-axes along `along` and across it; 0 if no light arrives.
-  Imath::V2d along{1, 0};
+  Imath::V2d center{0, 0};  ///< Components along `along` and along its normal (-along.y, along.x).
+  Imath::V2d semi{0, 0};    ///< Semi-axes along `along` and across it; 0 if no light arrives.
+  Imath::V2d along{1, 0};   ///< Unit vector in (x, y).
 
+  /// Area [mm^2]; 0 if no light arrives.
   [[nodiscard]] double area() const { return std::numbers::pi * semi.x * semi.y; }
-  /// Maps a point of the unit disc to the ellipse.
+  /// Maps a point of the unit disc to (x, y) in the ellipse [mm]. Equal areas stay equal.
   [[nodiscard]] Imath::V2d point(const Imath::V2d& disc) const;
+  /// True if (x, y) of the tangent plane [mm] is inside the ellipse; always false for an area of 0.
   [[nodiscard]] bool contains(const Imath::V2d& point) const;
 };
 
-/// Disc in front of a lens through which all its light enters, centered on the axis and normal to it [mm].
+/// Disc in front of a lens through which all its light enters, centered on the axis and normal to it [mm]. z
+/// is measured from the first vertex, as in `system.h`.
 struct EntranceDisc {
   double z;
   double radius;
@@ -29,20 +32,21 @@ struct EntranceDisc {
 /// Bounds of the exit pupil from each point of the image, and of the rays that enter the lens, found once by
 /// tracing from the image. No light that forms the image passes outside them. A stop with blades counts as
 /// its circle. Each bound contains the rims at neighbouring image points and at the edge of the illuminated
-/// image, at three wavelengths. They are shifted to follow the center of the pupil between the points, and
-/// enlarged a little. Light far outside the beam, which surfaces without clear apertures would transmit, is
-/// ignored.
+/// image, at three wavelengths: both ends of the range and its center. They are shifted to follow the center
+/// of the pupil between the points, and enlarged a little. Light far outside the beam, which surfaces without
+/// clear apertures would transmit, is ignored.
 class ExitPupil {
  public:
-  /// Bounds the pupil for an image with these half sides [mm] and wavelengths from `low_nm` to `high_nm`.
-  /// Throws Error{scene} if the pupil has no bound, if no light arrives, or if the field exceeds 87 degrees
-  /// from the axis.
+  /// Bounds the pupil for an image with these half sides [mm], centered on the axis, and wavelengths from
+  /// `low_nm` to `high_nm`. Throws Error{scene} if the pupil has no bound, if no light arrives, or if the
+  /// field exceeds 87 degrees from the axis.
   ExitPupil(const SpectralSystem& system, const Imath::V2d& half_image_mm, double low_nm, double high_nm);
 
-  /// Bound for light that arrives at a point of the image [mm].
+  /// Bound for light that arrives at a point (x, y) of the image [mm]. Points outside the image take the
+  /// nearest bound, shifted.
   [[nodiscard]] PupilBound bound(const Imath::V2d& image) const;
   [[nodiscard]] const EntranceDisc& entrance() const { return entrance_; }
-  /// Smallest cosine of an angle of incidence on the image.
+  /// Lower bound of the cosine of the angle of incidence on the image, over all its points.
   [[nodiscard]] double min_cosine() const { return min_cosine_; }
 
  private:

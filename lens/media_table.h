@@ -9,9 +9,11 @@
 namespace abbe::lens {
 
 /// Index and absorption of the media before the first surface and behind each surface of a lens, tabulated
-/// every nanometre. Linear interpolation is accurate to about 1e-7 for the index.
+/// every nanometre. Linear interpolation is accurate to about 1e-7 for the index. Medium 0 is the air before
+/// the first surface; medium i + 1 is behind surface i.
 class MediaTable {
  public:
+  /// Tabulates the media from 300 to 1100 nm. `system` need not outlive the table.
   explicit MediaTable(const System& system);
 
   /// Position of one wavelength, or of each lane, in the table.
@@ -20,7 +22,7 @@ class MediaTable {
     std::array<const double*, sizeof(Real) / sizeof(ScalarOf<Real>)> row;
     Real fraction;  ///< Position between this row and the next, in [0, 1].
   };
-  /// Table position of a wavelength, clamped to the range of the table.
+  /// Table position of a wavelength [nm], clamped to [300, 1100]. Valid as long as the table.
   template <typename Real>
   [[nodiscard]] Coordinate<Real> coordinate(const Real& wavelength_nm) const;
 
@@ -29,8 +31,9 @@ class MediaTable {
   [[nodiscard]] Real n(std::size_t medium, const Coordinate<Real>& coordinate) const {
     return at(medium, coordinate);
   }
+  /// True if the medium absorbs at any wavelength of the table.
   [[nodiscard]] bool absorbs(std::size_t medium) const { return absorbs_[medium]; }
-  /// Absorption of power.
+  /// Absorption coefficient a of power [1/mm]: e^(-a d) is transmitted over a distance d.
   template <typename Real>
   [[nodiscard]] Real absorption_per_mm(std::size_t medium, const Coordinate<Real>& coordinate) const {
     return at(absorbs_.size() + medium, coordinate);

@@ -11,12 +11,13 @@
 namespace abbe::lens {
 
 /// Results of comparing several numbers. As a condition it is true if any of them is true, so that formulas
-/// for one number apply to several.
+/// for one number apply to several. `&&` and `||` act on each lane and evaluate both sides.
 template <typename Scalar, int Count>
 class MaskOf;
 
 /// `Count` numbers in SIMD registers: a number type for the formulas of one ray, which then trace `Count`
-/// rays at once.
+/// rays at once. Operators, `sqrt` and `abs` act on each lane; a number converts to the same value in all
+/// lanes.
 template <typename Scalar, int Count>
 class NumbersOf {
  public:
@@ -136,7 +137,7 @@ class MaskOf {
   Register registers_[Numbers::kRegisters]{};
 };
 
-/// Number in a lane.
+/// Number in a lane; a single number is that of every lane.
 [[nodiscard]] inline double lane_of(double x, int /*lane*/) {
   return x;
 }
@@ -159,7 +160,7 @@ void set_lane(Imath::Vec3<NumbersOf<Scalar, Count>>& v, int lane, const Imath::V
   v.y.set(lane, value.y);
   v.z.set(lane, value.z);
 }
-/// Numbers that a function returns for each lane; for a single number, that of lane 0.
+/// Calls `f(lane)` for each lane and returns the results. A `double` has only lane 0.
 template <typename Real, typename F>
 [[nodiscard]] Real by_lane(F f) {
   if constexpr (std::is_same_v<Real, double>) {
@@ -171,10 +172,11 @@ template <typename Real, typename F>
   }
 }
 
-/// Result of comparing two numbers.
+/// Result of comparing two numbers: `bool` or a `MaskOf`.
 template <typename Real>
 using Mask = decltype(Real() < Real());
 
+/// `yes` where `which` is true, otherwise `no`, in each lane.
 [[nodiscard]] inline double select(bool which, double yes, double no) {
   return which ? yes : no;
 }
@@ -184,14 +186,15 @@ template <typename Real>
   return {select(which, yes.x, no.x), select(which, yes.y, no.y), select(which, yes.z, no.z)};
 }
 
-/// Normalised vector.
+/// Normalised vector, which must not be 0.
 template <typename Real>
 [[nodiscard]] Imath::Vec3<Real> unit(const Imath::Vec3<Real>& v) {
   using std::sqrt;
   return v * (Real(1) / sqrt(v.dot(v)));
 }
 
-/// Cosine of the refraction angle in each lane; 0 for total reflection.
+/// Cosine of the refraction angle in each lane; 0 for total reflection. `cos_i` is that of the angle of
+/// incidence, eta = n_t/n_i.
 template <typename Scalar, int Count>
 [[nodiscard]] NumbersOf<Scalar, Count> refracted_cosine(const NumbersOf<Scalar, Count>& cos_i,
                                                         const NumbersOf<Scalar, Count>& eta) {

@@ -6,14 +6,16 @@
 
 namespace abbe::lens {
 
-/// A paraxial ray at a surface: its height there and its slope behind it.
+/// A paraxial ray at a surface: its height there [mm] and its slope dy/dz behind it.
 struct ParaxialHit {
   double y;
   double u;
 };
 
-/// Traces a paraxial ray of height y at the first vertex and slope u before it through all surfaces
-/// [Welford1986]: n'u' = n u - y c (n' - n), y(next) = y + u' d. Ignores decentering and tilts.
+/// Traces a paraxial ray of height y [mm] at the first vertex and slope u before it through all surfaces
+/// [Welford1986]: n'u' = n u - y c (n' - n), y(next) = y + u' d. Here n and n' are the indices before and
+/// behind a surface, c is its vertex curvature and d its thickness. Returns one hit per surface, without the
+/// image. Ignores decentering and tilts.
 [[nodiscard]] std::vector<ParaxialHit> paraxial_trace(const SystemAt& at, double y, double u);
 
 /// First-order properties of a system at one wavelength. Distances in object space are measured from the
@@ -27,36 +29,44 @@ struct FirstOrder {
   double rear_principal_mm;       ///< Principal plane of image space; infinite without power.
   double entrance_pupil_mm;       ///< Image of the stop in object space.
   double exit_pupil_mm;           ///< Image of the stop in image space.
-  double entrance_magnification;  ///< Size of the entrance pupil over that of the stop, signed.
-  double stop_by_slope_mm;        ///< Height at the stop of a ray of slope 1 through the first vertex.
-  double exit_magnification;      ///< Size of the exit pupil over that of the stop, signed.
-  double image_distance_mm;       ///< Image of the object; the back focus for an object at infinity.
-  double magnification;           ///< Lateral magnification of a near object; 0 for one at infinity.
+  double entrance_magnification;  ///< Size of the entrance pupil over that of the stop, signed; infinite for
+                                  ///< one at infinity.
+  double stop_by_slope_mm;    ///< Height at the stop of a paraxial ray of slope 1 that meets the axis at the
+                              ///< first vertex.
+  double exit_magnification;  ///< Size of the exit pupil over that of the stop, signed; infinite for one at
+                              ///< infinity.
+  double image_distance_mm;   ///< Paraxial image of the object; the back focus for an object at infinity.
+  double magnification;       ///< Lateral magnification of a near object; 0 for one at infinity.
 };
 
+/// First-order properties by the vertex curvatures; ignores decentering and tilts.
 [[nodiscard]] FirstOrder first_order(const SystemAt& at);
 
-/// Projection of the stop, through the surfaces behind it, from a point of the image onto the tangent plane
-/// of the last vertex, in paraxial optics. The image is `distance_mm` behind that vertex. Not finite if the
-/// image is in the exit pupil.
+/// Projection of the stop from an image point into the tangent plane of the last vertex. A paraxial ray from
+/// height y_s at the stop to height x at the image crosses it at y = magnification y_s + shift x.
 struct StopImage {
-  double magnification;  ///< Magnification of the stop.
-  double shift;          ///< Movement of its center over that of the image point; 1 for a distant pupil.
+  double magnification;
+  double shift;  ///< 1 for an exit pupil at infinity.
 };
+/// Projection for an image plane `distance_mm` behind the last vertex. Not finite if that plane contains the
+/// exit pupil.
 [[nodiscard]] StopImage stop_image(const SystemAt& at, double distance_mm);
 
-/// Slope of a paraxial ray in a direction as defined in `System`; NaN for 90 degrees and more.
+/// Slope dy/dz of a paraxial ray in a direction as defined in `System`: its tangent. NaN for 90 degrees and
+/// more in magnitude.
 [[nodiscard]] double paraxial_slope(double direction_deg);
 
-/// Paraxial chief ray of a field as defined in `System`: its height at the first vertex and its slope before
-/// that. NaN for directions of 90 degrees and more.
+/// A paraxial ray in object space: its height at the first vertex [mm] and its slope dy/dz before that.
 struct ParaxialRay {
   double y;
   double u;
 };
+/// Paraxial chief ray of a field as defined in `System`. NaN for directions of 90 degrees and more, and an
+/// infinite height for a direction to an entrance pupil at infinity.
 [[nodiscard]] ParaxialRay paraxial_chief_ray(const SystemAt& at, double field);
 
-/// Height of the paraxial chief ray at a distance behind the last vertex.
+/// Height of the paraxial chief ray [mm] at a finite distance behind the last vertex. NaN for directions of
+/// 90 degrees and more.
 [[nodiscard]] double paraxial_chief_height(const SystemAt& at, double field, double distance_mm);
 
 }  // namespace abbe::lens

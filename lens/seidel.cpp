@@ -15,6 +15,8 @@ struct SurfaceRays {
 Seidel aspheric(const Profile& profile, const SurfaceRays& r) {
   const double c = profile.curvature;
   const double vertex = profile.vertex_curvature();
+  // G = a_2 + ((1 + k) c^3 - C^3)/8 with the vertex curvature C is the r^4 departure from the osculating
+  // sphere.
   const double departure = profile.even[1] + ((1 + profile.conic) * c * c * c - vertex * vertex * vertex) / 8;
   const double strength = 8 * departure * (r.n_behind - r.n);
   const double y = r.y;

@@ -11,16 +11,16 @@
 
 namespace abbe::lens {
 
-/// A ray in the image plane, or one per lane.
+/// A ray in the image plane, or one per lane, in the coordinates of the lens (`system.h`).
 template <typename Real>
 struct BasicImageRay {
   Mask<Real> reached_image;     ///< If false, the other members are undefined.
-  Imath::Vec2<Real> point;      ///< Position [mm].
-  Imath::Vec3<Real> direction;  ///< Unit vector.
-  Real transmittance;           ///< Transmittance of surfaces and glass for unpolarised light.
-  Imath::Vec3<Real> last;       ///< Point on the last surface, from which the ray comes.
-  Imath::Vec3<Real> first;      ///< Fields of `UnpolarisedFields` at the image.
-  Imath::Vec3<Real> second;
+  Imath::Vec2<Real> point;      ///< Position (x, y) in the image plane [mm].
+  Imath::Vec3<Real> direction;  ///< Unit vector along which the light travels.
+  Real transmittance;  ///< Fraction of the power of unpolarised light left by surfaces and glass, in [0, 1].
+  Imath::Vec3<Real> last;    ///< Point on the last surface, from which the ray comes [mm].
+  Imath::Vec3<Real> first;   ///< Field `UnpolarisedFields::first` at the image, without absorption in glass.
+  Imath::Vec3<Real> second;  ///< Field `UnpolarisedFields::second` at the image, without absorption in glass.
 };
 using ImageRay = BasicImageRay<double>;
 
@@ -28,7 +28,7 @@ using ImageRay = BasicImageRay<double>;
 template <typename Real>
 struct BasicObjectRay {
   Mask<Real> reached_object;  ///< If false, `ray` is undefined.
-  BasicRay<Real> ray;         ///< Starts at the first surface.
+  BasicRay<Real> ray;         ///< Starts at the first surface and travels towards -z.
 };
 
 /// A ray of monochromatic light.
@@ -43,29 +43,31 @@ struct PacketRay {
   SampledSpectrum wavelengths_nm;
 };
 
-/// A point of a surface, and its unit normal towards +z.
+/// A point of a surface [mm], and its unit normal towards +z, in the coordinates of the lens.
 struct SurfacePoint {
   Imath::V3d point;
   Imath::V3d normal;
   double cos_axis;  ///< Cosine of the angle between the normal and the surface's own axis.
 };
 
-/// A system for tracing many rays at arbitrary wavelengths. Its media come from a `MediaTable`, and tracing
-/// allocates no memory.
+/// A system for tracing many rays at arbitrary wavelengths. Its media come from a `MediaTable`, so that
+/// wavelengths count as within [300, 1100] nm. Tracing a ray or a packet allocates no memory. All tracing is
+/// thread-safe and never throws.
 class SpectralSystem {
  public:
-  /// `stop_radius_mm` becomes a clear aperture of the stop surface.
+  /// `stop_radius_mm` becomes a clear aperture of the stop surface, unless that has a smaller one.
   SpectralSystem(System system, double stop_radius_mm);
 
   [[nodiscard]] const System& system() const { return system_; }
   [[nodiscard]] double stop_radius_mm() const { return stop_radius_mm_; }
-  /// Positions of the last vertex and of the image plane [mm].
+  /// Positions z of the last vertex and of the image plane [mm].
   [[nodiscard]] double last_z() const { return vertex_z_[vertex_z_.size() - 2]; }
   [[nodiscard]] double image_z() const { return vertex_z_.back(); }
 
   /// Route that forms the image.
   [[nodiscard]] const Route& direct() const { return direct_; }
-  /// Traces a ray from object space to the image with clear apertures; nothing if it does not arrive.
+  /// Traces a ray from object space to the image along a route, with clear apertures. Nothing if it does not
+  /// arrive. The ray travels towards +z and may start anywhere on its line.
   [[nodiscard]] std::optional<ImageRay> to_image(const Ray& ray, double wavelength_nm,
                                                  const Route& route) const;
   [[nodiscard]] std::optional<ImageRay> to_image(const Ray& ray, double wavelength_nm) const {
@@ -75,21 +77,21 @@ class SpectralSystem {
   /// scenes. On the direct route, the error at the image is below 5e-5 mm.
   [[nodiscard]] BasicImageRay<Floats> to_image(const std::array<PacketRay, 2>& rays,
                                                const Route& route) const;
-  /// Traces a ray from the image, which travels towards -z, backwards along the route to object space;
-  /// nothing if it does not arrive.
+  /// Traces a ray from the image, which travels towards -z, backwards along the route to object space.
+  /// Applies clear apertures; nothing if it does not arrive. The result is that of `BasicObjectRay::ray`.
   [[nodiscard]] std::optional<Ray> to_object(const Ray& ray, double wavelength_nm, const Route& route) const;
   [[nodiscard]] std::optional<Ray> to_object(const Ray& ray, double wavelength_nm) const {
     return to_object(ray, wavelength_nm, direct_);
   }
   /// Traces many rays backwards along the direct route, several at once. Results are in the order of the
-  /// rays.
+  /// rays; nothing for rays that do not arrive.
   [[nodiscard]] std::vector<std::optional<Ray>> to_object(std::span<const ColouredRay> rays) const;
-  /// Position at the stop of a ray from the image, in radii of the stop from its center, without clear
-  /// apertures. Nothing if it does not arrive.
+  /// Position at the stop of a ray from the image towards -z, in radii of the stop from its center. Ignores
+  /// clear apertures; nothing if it does not arrive at the stop.
   [[nodiscard]] std::optional<Imath::V2d> at_stop(const Ray& ray, double wavelength_nm) const;
 
-  /// Conversion between (x, y) in a surface's own coordinates and the point of the surface there. (x, y) must
-  /// be inside its edge.
+  /// Conversion between (x, y) in a surface's own coordinates and the point of the surface there [mm]. (x, y)
+  /// must be inside the edge of its conic.
   [[nodiscard]] SurfacePoint point_of(std::size_t surface, const Imath::V2d& local) const;
   [[nodiscard]] Imath::V2d local_of(std::size_t surface, const Imath::V3d& point) const;
 

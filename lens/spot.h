@@ -14,18 +14,19 @@ namespace abbe::lens {
 struct SpotRay {
   Imath::V2d point;  ///< Position [mm].
   Imath::V2d slope;  ///< Slopes dx/dz and dy/dz.
-  double weight;     ///< Power, in units of `Beam::density` times area of the launch plane [mm^2].
+  double weight;  ///< Power that arrives, after losses, in units of `Beam::density` times mm^2 of the launch
+                  ///< plane.
 };
 
 /// Intersections of a beam with the image plane. The rays are evenly spaced in the launch plane, so each
-/// carries its own power.
+/// carries its own power. Powers have the unit of `SpotRay::weight`.
 struct Spot {
   double wavelength_nm;
-  double field;
-  std::vector<SpotRay> rays;
-  double filled = 0;       ///< Power through the stop without other clear apertures.
-  double passed = 0;       ///< Power that arrives at the image without losses in surfaces and glass.
-  double transmitted = 0;  ///< Power that arrives at the image with these losses.
+  double field;               ///< Field as defined in `System`.
+  std::vector<SpotRay> rays;  ///< Rays that arrive at the image.
+  double filled = 0;          ///< Power through the stop without other clear apertures.
+  double passed = 0;          ///< Power that arrives at the image without losses in surfaces and glass.
+  double transmitted = 0;     ///< Power that arrives at the image with these losses.
 
   /// Fraction of the power through the stop that is lost at clear apertures, by missed surfaces and by total
   /// reflection. Nothing if no ray passes the stop.
@@ -34,25 +35,27 @@ struct Spot {
   }
 };
 
-/// Traces rays through the centers of `side` x `side` cells of the beam's bounding rectangle.
+/// Traces rays through the centers of `side` x `side` cells of the beam's bounding rectangle, with clear
+/// apertures. `field` is only recorded.
 [[nodiscard]] Spot spot(const Beam& beam, double field, int side);
 
-/// Size of several spots about their common centroid.
+/// Size of several spots about their common centroid, with rays weighted by power.
 struct SpotSize {
-  Imath::V2d centroid;
-  double rms_mm;      ///< Root of the mean square distance from the centroid.
-  double largest_mm;  ///< Largest distance from the centroid.
+  Imath::V2d centroid;  ///< Position (x, y) in the image plane [mm].
+  double rms_mm;        ///< Root of the mean square distance from the centroid.
+  double largest_mm;    ///< Largest distance from the centroid.
 };
-/// Size of spots; nothing without rays.
+/// Size of spots together; nothing without rays.
 [[nodiscard]] std::optional<SpotSize> size_of(std::span<const Spot> spots);
 
 /// Displacement of the image plane towards +z [mm] that minimises the sum of the mean squares of groups of
-/// spots, each about its own centroid. Nothing if the displacement has no effect, as for parallel rays.
+/// spots, each about its own centroid. Means are weighted by power. Nothing if the displacement has no
+/// effect, as for parallel rays.
 [[nodiscard]] std::optional<double> best_focus(std::span<const std::vector<Spot>> groups);
 
 /// Geometric modulation transfer of several spots together: the modulus of their Fourier transform for a
-/// pattern of `per_mm` cycles per mm that varies along the unit vector `direction`. Ignores diffraction. 0
-/// without rays.
+/// pattern of `per_mm` cycles per mm that varies along the unit vector `direction`. Ignores diffraction. The
+/// result lies in [0, 1]; 0 without rays.
 [[nodiscard]] double geometric_mtf(std::span<const Spot> spots, double per_mm, const Imath::V2d& direction);
 
 }  // namespace abbe::lens

@@ -4,7 +4,8 @@
 
 namespace abbe {
 
-/// Bijection of 32-bit integers with full avalanche [Wellons2018]. T may be a vector of integers.
+/// Bijection of 32-bit integers with full avalanche [Wellons2018]. T is `std::uint32_t` or a SIMD vector of
+/// it.
 template <typename T>
 constexpr T mix(T x) {
   x ^= x >> 16;
@@ -15,7 +16,7 @@ constexpr T mix(T x) {
   return x;
 }
 
-/// Hash of two integers.
+/// Hash of two integers, which depends on their order.
 template <typename T>
 constexpr T combine(T a, T b) {
   return mix(a ^ (mix(b) + 0x9e3779b9U));

@@ -5,11 +5,13 @@
 
 namespace abbe {
 
-/// Purpose of a sequence of random numbers. Sequences of different purposes are independent. `sample` is for
-/// quantities that all paths of one sample have in common.
+/// Purpose of a sequence of random numbers. Sequences of different purposes are independent. The first three
+/// are for camera paths, light paths and pilot paths. `sample` is for quantities that all paths of one sample
+/// have in common.
 enum class Purpose : std::uint32_t { camera = 1, light = 2, pilot = 3, sample = 4 };
 
-/// One of `count` replicates of a sequence; `count` is 1, 2, 4 or 8.
+/// One of `count` replicates of a sequence. `count` is 1, 2, 4 or 8, and `number` < `count`; the sampler
+/// checks neither.
 struct Replicate {
   std::uint32_t number = 0;
   std::uint32_t count = 1;
@@ -31,17 +33,21 @@ class Sampler {
   /// children.
   static constexpr int kIndexBits = 29;
 
+  /// Sampler for the point `index` of a stream, in one replicate. Different values of `sequence` give
+  /// independent sequences of one purpose.
   Sampler(std::uint64_t seed, Purpose purpose, std::uint32_t sequence, std::uint32_t stream,
           std::uint32_t index, Replicate replicate = {});
 
-  /// Four random numbers in [0, 1) of a group.
+  /// Four random numbers in [0, 1) of a group, multiples of 2^-24. Repeated calls give the same numbers.
+  /// Groups count from 0.
   [[nodiscard]] std::array<float, 4> group(std::uint32_t group) const;
-  /// Random numbers of the groups `first` and `first + 1`, at the cost of one group.
+  /// The results of `group(first)` and `group(first + 1)`, at the cost of one call.
   [[nodiscard]] std::array<std::array<float, 4>, 2> two_groups(std::uint32_t first) const;
   /// Sampler with independent random numbers and the same index, for one of several continuations of a path.
+  /// Each `number`, counted from 0, gives another sampler.
   [[nodiscard]] Sampler branch(std::uint32_t number) const;
-  /// Sampler for child `number` < 2^bits of a path that splits into 2^bits children. The children of all
-  /// paths have consecutive points of the same sequence.
+  /// Sampler for child `number` < 2^bits of a path that splits into 2^bits children. Its index is `index`
+  /// 2^bits + `number`, so that the children of all paths have consecutive points of the same sequence.
   [[nodiscard]] Sampler split_child(std::uint32_t number, int bits) const;
 
  private:

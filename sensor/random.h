@@ -10,14 +10,15 @@ namespace abbe {
 enum class ReadoutPurpose : std::uint64_t { fixed_pattern = 1, noise = 2, row_noise = 3 };
 
 /// Random number generator for the distributions of Boost or the standard library: SplitMix64 [Steele2014].
-/// It advances a 64-bit state in steps of the golden ratio and mixes each state.
+/// Results are uniform over all 64-bit integers. It advances a 64-bit state in steps of the golden ratio and
+/// mixes each state.
 class SplitMix64 {
  public:
   using result_type = std::uint64_t;
 
   constexpr explicit SplitMix64(std::uint64_t state) : state_(state) {}
-  /// Independent sequence for each purpose, key and pixel. No pixel depends on another or on the order of
-  /// processing.
+  /// Independent sequence for each purpose, key (such as a serial number or a hash of seed and frame) and
+  /// pixel index. No pixel depends on another or on the order of processing.
   constexpr SplitMix64(ReadoutPurpose purpose, std::uint64_t key, std::size_t pixel)
       : state_(mixed(mixed(mixed(static_cast<std::uint64_t>(purpose)) + key) + pixel)) {}
 

@@ -14,29 +14,34 @@ namespace abbe {
 /// One patch of a colour chart.
 struct Patch {
   std::string name;
-  Curve reflectance;
+  Curve reflectance;  ///< Reflectance, as a fraction of 1; above 1 for glossy or fluorescent patches.
 };
 
 /// A colour chart: named patches in the order of its table.
 struct Chart {
   std::string name;
-  std::vector<Patch> patches;
+  std::vector<Patch> patches;  ///< In the order of the columns.
 };
 
-/// Reads the table of a chart: one of `data/reflectance` or a user's file.
+/// Reads the table of a chart: one of `data/reflectance` or a user's file, named as for `find_table`. Reports
+/// errors of `find_table` and `read_table`, and returns nothing.
 [[nodiscard]] std::optional<Table> read_chart_table(const std::string& name, const SourcePosition& where,
                                                     Diagnostics& diagnostics);
 /// True if the table contains reflectances over wavelength. Other editions of charts contain colours.
 [[nodiscard]] bool is_spectral(const Table& table);
 
 /// Reads the chart of a table of reflectances, one patch per column, such as
-/// "colorchecker24_babelcolor_average". Reports a table of colours, a unit or values that `use` does not
-/// allow, and a table that does not cover `needed`.
+/// "colorchecker24_babelcolor_average". The folder of `use` must be "reflectance". Reports errors and returns
+/// nothing for
+/// - a table of colours;
+/// - a unit or values that `use` does not allow;
+/// - a column that `load_curve` rejects, such as one that does not cover `needed`.
 [[nodiscard]] std::optional<Chart> load_chart(const std::string& name, const SourcePosition& where,
                                               Diagnostics& diagnostics,
                                               const CurveUse& use = kReflectanceFactorUse,
                                               NeededRange needed = {});
-/// Reads the chart of a shipped table. Throws Error if the table is faulty.
+/// Reads the chart of a shipped table. Throws Error, with the code of the first report of `load_chart`, if
+/// the table is missing or faulty.
 [[nodiscard]] Chart shipped_chart(const std::string& name);
 
 }  // namespace abbe

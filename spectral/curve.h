@@ -22,26 +22,31 @@ struct Knot {
 
 /// A function of wavelength on [300, 1100] nm, piecewise linear between knots. Two knots at the same
 /// wavelength are a jump, where the value is that on its right. Tables and bands are represented exactly,
-/// smooth formulas are sampled every 1 nm. Cells of 1 nm make evaluation O(1).
+/// smooth formulas are sampled every 1 nm. Cells of 1 nm make evaluation O(1). The owner of a curve defines
+/// the unit of its values. Immutable, so that several threads can use it.
 class Curve {
  public:
   /// Zero everywhere.
   Curve();
-  /// The constant `value`.
+  /// The constant `value`. Throws Error{internal} unless it is finite.
   explicit Curve(double value);
   /// Interpolates `knots`, which are sorted by wavelength; constant before the first and after the last.
-  /// Knots outside the range are cut. Throws Error{internal} unless the knots are sorted, finite and
-  /// non-empty.
+  /// Knots outside [300, 1100] nm are cut, where the curve has its value at the end of the range. Throws
+  /// Error{internal} unless the knots are sorted, finite and non-empty.
   explicit Curve(std::vector<Knot> knots);
 
-  /// Value at a wavelength [nm]; a wavelength outside [300, 1100] takes the value at the nearer end.
+  /// Value at a wavelength [nm]; a wavelength outside [300, 1100] takes the value at the nearer end, NaN that
+  /// at 300 nm.
   [[nodiscard]] double operator()(double wavelength_nm) const;
-  /// Values at several wavelengths [nm], accurate to a few float ulps of the larger end of a cell.
+  /// Values at several wavelengths [nm], which must not be NaN, accurate to a few float ulps of the larger
+  /// end of a cell.
   [[nodiscard]] SampledSpectrum operator()(const SampledSpectrum& wavelengths_nm) const;
 
+  /// Knots by ascending wavelength. The first is at 300 nm, the last at 1100 nm.
   [[nodiscard]] std::span<const Knot> knots() const { return knots_; }
-  /// Exact integral over [low_nm, high_nm], which is cut to the range.
+  /// Exact integral [value nm] over [low_nm, high_nm], which is cut to [300, 1100] nm; 0 for an empty range.
   [[nodiscard]] double integral(double low_nm = kMinWavelengthNm, double high_nm = kMaxWavelengthNm) const;
+  /// Largest (smallest) value at any wavelength.
   [[nodiscard]] double max() const { return max_; }
   [[nodiscard]] double min() const { return min_; }
   [[nodiscard]] bool is_constant() const { return min_ == max_; }
@@ -75,7 +80,8 @@ class Curve {
   double max_;
 };
 
-/// Exact integral of the product of two or three curves over [low_nm, high_nm], which is cut to the range.
+/// Exact integral [product nm] of two or three curves over [low_nm, high_nm], which is cut to [300, 1100] nm.
+/// It is 0 for an empty range.
 [[nodiscard]] double integral_of_product(const Curve& a, const Curve& b, double low_nm = kMinWavelengthNm,
                                          double high_nm = kMaxWavelengthNm);
 [[nodiscard]] double integral_of_product(const Curve& a, const Curve& b, const Curve& c,
@@ -85,13 +91,14 @@ class Curve {
 /// between two of these by more than 1e-4 of its largest magnitude, further knots are added. They limit the
 /// deviation to 2e-4 and make the area exact. This happens where the edges of two filters overlap.
 [[nodiscard]] Curve product(const Curve& a, const Curve& b);
-/// Pointwise sum or multiple, exact everywhere.
+/// Pointwise sum, or multiple by a finite `factor` of any sign; exact everywhere.
 [[nodiscard]] Curve sum(const Curve& a, const Curve& b);
 [[nodiscard]] Curve scaled(const Curve& curve, double factor);
 
-/// Curve through a table of samples, linear between them and, outside them, clamped or zero. The last row
-/// still applies at its own wavelength. Throws Error{internal} unless wavelengths ascend strictly. The caller
-/// must check Outside::error; the loader reports it.
+/// Curve through a table of samples, linear between them. Outside them it is 0 for Outside::zero, otherwise
+/// the value of the nearer end. The last row still applies at its own wavelength. Throws Error{internal}
+/// unless there is one finite value for each of at least one strictly ascending wavelengths. Outside::error
+/// counts as a clamp here; the caller checks the coverage, as `load_curve` does.
 [[nodiscard]] Curve table_curve(std::span<const double> wavelengths_nm, std::span<const double> values,
                                 Outside outside);
 

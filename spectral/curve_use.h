@@ -12,7 +12,11 @@
 namespace abbe {
 
 /// Quantity that a curve must have; a table can declare another one.
-/// - `unknown_response`: nothing declares if the response multiplies energy, which is assumed, or photons.
+/// - `any`: no check.
+/// - `fraction`: a fraction of 1, and neither percent, decibels nor densities.
+/// - `per_metre`: an absorption or scattering coefficient for powers of e [1/m].
+/// - `unknown_response`: no check; nothing declares if the response multiplies energy, which is assumed, or
+///   photons.
 /// - `power`: power per nm in any unit, even one that cannot be parsed, for lights that are scaled.
 /// - radiance, intensity, irradiance and flux: W/(m^2 sr nm), W/(sr nm), W/(m^2 nm) and W/nm.
 enum class CurveUnit {
@@ -27,13 +31,13 @@ enum class CurveUnit {
   unknown_response
 };
 
-/// Requirements on a curve: the data folder of its names, the values that it may have, and its unit.
+/// Requirements on a curve.
 struct CurveUse {
-  std::string_view folder;
-  Range allowed;
+  std::string_view folder;  ///< Folder of `data/` for names of tables.
+  Range allowed;            ///< Values that the curve may have at its knots.
   CurveUnit unit = CurveUnit::any;
-  /// True if the curve extrapolates as a constant where its table ends and declares 0, as for light and
-  /// transmittances. A response follows its table.
+  /// True if the caller extrapolates the curve as a constant outside a table that declares 0, as for light
+  /// and transmittances. A response follows its table. The functions below ignore this member.
   bool extrapolates_constant = false;
 };
 inline constexpr CurveUse kIlluminantUse{"illuminant", {0, 1e30}, CurveUnit::power, true};
@@ -50,9 +54,10 @@ inline constexpr CurveUse kQuantumEfficiencyUse{"camera", {0, 10}, CurveUnit::fr
 inline constexpr CurveUse kQuantumResponseUse{"camera", {-10, 10}, CurveUnit::fraction};
 
 /// Explains why the table `name` with the line `# unit: <unit>` does not have the needed unit. Examples are
-/// percent or densities for fractions, 1/cm for 1/m, and photons or power per Hz for power per nm. `remedy`
-/// is appended to the allowed unit if a factor converts to it. Nothing if the unit is right. Prose that can
-/// mean it, such as "reflectance (0-1); wavelength in nm", is accepted, except for coefficients.
+/// percent or densities for fractions, 1/cm for 1/m, and photons or power per Hz for power per nm. `remedy`,
+/// which begins with its own separator, is appended to the allowed unit if a factor converts to it. Nothing
+/// if the unit is right. Prose that can mean it, such as "reflectance (0-1); wavelength in nm", is accepted,
+/// except for coefficients.
 [[nodiscard]] std::optional<std::string> unit_fault(std::string_view name, std::string_view unit,
                                                     CurveUnit needed, std::string_view remedy = {});
 
@@ -74,11 +79,13 @@ inline constexpr CurveUse kQuantumResponseUse{"camera", {-10, 10}, CurveUnit::fr
 /// efficiencies or a response per photon; otherwise nothing.
 [[nodiscard]] std::optional<std::string> unknown_response(std::string_view name, std::string_view unit);
 
-/// True if the unit and the values of the table `name` satisfy `use`. Reports both if they do not.
+/// True if the unit and the values of the table `name` satisfy `use`. Otherwise reports an error with the
+/// code `input` at `where` for each that does not, and returns false.
 bool check_use(const std::string& name, const std::string& unit, const Curve& curve, const CurveUse& use,
                const SourcePosition& where, Diagnostics& diagnostics);
 
-/// Reads a curve from the folder of `use`. Reports a unit or values that `use` does not allow.
+/// Reads a curve from the folder of `use`. Reports errors and returns nothing as `load_curve` of a folder
+/// does, and for a unit or values that `use` does not allow.
 [[nodiscard]] std::optional<NamedCurve> load_curve(const CurveUse& use, const std::string& name,
                                                    const SourcePosition& where, Diagnostics& diagnostics,
                                                    NeededRange needed = {});

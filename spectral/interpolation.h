@@ -8,7 +8,7 @@
 
 namespace abbe {
 
-/// Interpolation between the samples of a table: piecewise linear, `sprague` or `cubic`.
+/// Interpolation between the samples of a table: piecewise linear, or by the functions `sprague` or `cubic`.
 enum class Interpolation { linear, sprague, cubic };
 
 /// A function known at some wavelengths.
@@ -30,13 +30,14 @@ struct Samples {
 /// counts steps from the first value. In each interval, a polynomial of degree 5 matches the value, slope and
 /// curvature at both ends of the quartic through the five values around. The result is smooth to the second
 /// derivative and exact for polynomials of degree 4. Two values are extrapolated past each end. They are
-/// exact only for straight lines, and so are the two intervals at each end.
+/// exact only for straight lines, and so are the two intervals at each end. The caller ensures that
+/// `position` lies within [0, values.size() - 1].
 [[nodiscard]] double sprague(std::span<const double> values, double position);
 
 /// A sample that an interpolation rule does not accept, and the reason.
 struct SampleFault {
-  std::size_t row;
-  std::string text;
+  std::size_t row;   ///< Index of the sample, from 0.
+  std::string text;  ///< Reason, for the end of an error message.
 };
 
 /// The first sample whose step differs from the step before it by more than 1e-6 of a step, or nothing.
@@ -47,8 +48,9 @@ struct SampleFault {
 [[nodiscard]] std::optional<SampleFault> interpolation_fault(std::span<const double> wavelengths_nm,
                                                              Interpolation rule);
 
-/// Function through the samples, resampled so that linear interpolation represents it: at the samples and at
-/// every whole nanometre of [300, 1100] between them. Overshoot is clamped to [low, high]. Linear samples are
+/// Function through the samples by `rule`, resampled so that linear interpolation represents it: at the
+/// samples and at every whole nanometre of [300, 1100] between them. Interpolated values are clamped to [low,
+/// high], samples are not. The caller ensures that `interpolation_fault` finds nothing. Linear samples are
 /// returned unchanged.
 [[nodiscard]] Samples every_nanometre(Samples samples, Interpolation rule, double low, double high);
 

@@ -14,9 +14,9 @@ namespace abbe {
 
 /// A curve read from a table, and its metadata.
 struct NamedCurve {
-  std::string name;
-  std::string source;
-  std::string unit;
+  std::string name;    ///< Name under which it was requested.
+  std::string source;  ///< Line `# source` of the table: a reference, or path and hash of a user's file.
+  std::string unit;    ///< Line `# unit` of the table, unparsed. The values of `curve` are in this unit.
   double low_nm = 0;   ///< First tabulated wavelength.
   double high_nm = 0;  ///< Last tabulated wavelength.
   Curve curve;
@@ -39,25 +39,32 @@ struct TableSamples {
   Samples samples;  ///< One per row.
 };
 
-/// Reads the samples of the curve `name` of a data folder at any wavelengths. Names, units and errors are
-/// those of `load_curve`.
+/// Reads the samples of the curve `name` of a data folder at any wavelengths. Names are those of
+/// `load_curve`. Reports the same errors and returns nothing, except that it checks neither coverage nor
+/// misspelt keys.
 [[nodiscard]] std::optional<TableSamples> load_samples(std::string_view folder, const std::string& name,
                                                        const SourcePosition& where, Diagnostics& diagnostics);
 
 /// Reads the curve `name` of a data folder ("illuminant", "reflectance", "camera", "filter", "observer").
 /// `find_table` describes the names. The first column is `wavelength_nm`, or `wavelength_um` in a user's
 /// file. The line `# interpolation:` selects the rule (default linear). Overshoot is clamped to the line `#
-/// value_range: low, high`, or to 0 if no sample is negative. Illuminants A and E follow their definitions
-/// outside their tables. Reports
+/// value_range: low, high`, or to 0 if no sample is negative. Values keep the unit of the table. Illuminants
+/// A and E follow their definitions outside their tables. An unknown name is an error of the code `scene`,
+/// others have `input`. Reports errors and returns nothing for
+/// - a name that `find_table` does not know, and a file that `read_table` rejects;
+/// - a table of several value columns whose name does not select one;
 /// - wavelengths that do not ascend, and fewer than two samples;
 /// - wavelengths that all lie outside [300, 1100] nm, which indicates a wrong unit;
 /// - a table declared `outside: error` that does not cover `needed`;
-/// - an unknown interpolation rule, samples that it does not accept, and samples outside the declared range.
+/// - an unknown interpolation rule, and samples that it does not accept;
+/// - a malformed `value_range`, and samples outside it;
+/// - a key that resembles one of `governing_keys` but is misspelt.
 [[nodiscard]] std::optional<NamedCurve> load_curve(std::string_view folder, const std::string& name,
                                                    const SourcePosition& where, Diagnostics& diagnostics,
                                                    NeededRange needed = {});
 
-/// Reads a column of a parsed table under the name `name`, with the checks of `load_curve`.
+/// Reads a column of a parsed table. `name` only becomes the name of the curve. Reports errors like
+/// `load_curve`.
 [[nodiscard]] std::optional<NamedCurve> curve_of(const Table& table, const std::string& column,
                                                  const std::string& name, Diagnostics& diagnostics,
                                                  NeededRange needed = {});
@@ -66,14 +73,18 @@ struct TableSamples {
 /// nm. Nothing if some of it lies inside.
 [[nodiscard]] std::optional<std::string> range_fault(double low_nm, double high_nm);
 
-/// Explains that a curve leaves the allowed range, by its first knot outside. Nothing if it does not.
+/// Explains that a curve leaves the allowed range, with the wavelength and value of its first knot outside.
+/// Nothing if it does not.
 [[nodiscard]] std::optional<std::string> value_fault(const Curve& curve, const Range& allowed);
 
-/// CIE daylight of correlated colour temperature `kelvin`, named "daylight:<K>"; 0 above 830 nm.
+/// CIE daylight of correlated colour temperature `kelvin` in [4000, 25000] K, which the caller checks. Named
+/// "daylight:<K>"; relative, 100 at 560 nm and 0 above 830 nm. Throws like `daylight`.
 [[nodiscard]] NamedCurve named_daylight(double kelvin);
 
-/// Reads an illuminant by name: a table of `data/illuminant` as for `load_curve`, "blackbody:<K>" or
-/// "daylight:<K>". Reports a table with negative power.
+/// Reads an illuminant by name: a table of `data/illuminant` as for `load_curve`, "blackbody:<K>" with 100 to
+/// 1e6 K or "daylight:<K>" with 4000 to 25000 K. Black bodies are radiances [W/(m^2 sr nm)]; tables have any
+/// unit of power per nm. Reports errors and returns nothing for other temperatures, negative values, other
+/// units and all errors of `load_curve`.
 [[nodiscard]] std::optional<NamedCurve> load_illuminant(const std::string& name, const SourcePosition& where,
                                                         Diagnostics& diagnostics, NeededRange needed = {});
 

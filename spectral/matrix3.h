@@ -20,7 +20,8 @@ using Matrix3 = Imath::M33d;
   return y;
 }
 
-/// Elements of the matrix row by row, in the format of film attributes.
+/// Elements of the matrix row by row, separated by single blanks, as in film attributes. The digits restore
+/// the exact numbers.
 [[nodiscard]] std::string to_text(const Matrix3& m);
 /// Parses the text of `to_text`. Nothing unless `text` is nine numbers separated by single blanks.
 [[nodiscard]] std::optional<Matrix3> parse_matrix3(std::string_view text);

@@ -14,11 +14,11 @@ namespace abbe {
 /// Linear colour in the primaries of Rec.709 and sRGB; (1, 1, 1) is the perfect diffuser under D65.
 using LinearRgb = std::array<double, 3>;
 
-/// Chromaticities of the primaries of Rec.709 [BT709].
+/// Chromaticities x, y of the red, green and blue primary of Rec.709 [BT709].
 inline constexpr std::array<std::array<double, 2>, 3> kRec709Primaries{
     {{0.64, 0.33}, {0.30, 0.60}, {0.15, 0.06}}};
 
-/// XYZ of a chromaticity with Y = 1.
+/// XYZ of a chromaticity with Y = 1. Its y must not be 0.
 [[nodiscard]] XYZ unit_xyz(const Chromaticity& xy);
 
 /// White of sRGB displays and of Rec.709: D65 as these standards print it.
@@ -34,8 +34,8 @@ struct RgbSpace {
 inline constexpr RgbSpace kRec709{kRec709Primaries[0], kRec709Primaries[1], kRec709Primaries[2],
                                   kD65};  ///< [BT709]
 
-/// RGB space that an image records in its attribute `kPrimariesKey`. Nothing if it records none, or not eight
-/// numbers.
+/// RGB space that an image records in its attribute `kPrimariesKey`: x and y of red, green, blue and white.
+/// Nothing if it records none, or not eight numbers.
 [[nodiscard]] std::optional<RgbSpace> recorded_primaries(const Image& image);
 /// Text of an RGB space for the attribute `kPrimariesKey`.
 [[nodiscard]] std::string primaries_text(const RgbSpace& space);
@@ -44,14 +44,16 @@ inline constexpr RgbSpace kRec709{kRec709Primaries[0], kRec709Primaries[1], kRec
 /// unknown. Nothing if the encoding is known, and the primaries are absent or agree to two digits.
 [[nodiscard]] std::optional<std::string> rec709_fault(const Image& image);
 
-/// Linear RGB to XYZ, such that (1, 1, 1) is the white with Y = 1 [Lindbloom].
+/// Matrix from linear RGB to XYZ, such that (1, 1, 1) is the white with Y = 1 [Lindbloom]. Throws
+/// std::invalid_argument if the primaries lie on one line.
 [[nodiscard]] Matrix3 rgb_to_xyz(const RgbSpace& space);
 
 /// Colour of a reflectance under D65 for the CIE 1931 observer. The white is that of the shipped table of
-/// D65, so that a reflectance of 1 is exactly (1, 1, 1).
+/// D65, so that a reflectance of 1 is exactly (1, 1, 1). Components are negative outside the gamut. Throws
+/// Error{input} if a shipped table is missing.
 [[nodiscard]] LinearRgb linear_rgb(const Curve& reflectance);
 
-/// Decodes an sRGB code value in [0, 1] to a linear value: x/12.92 up to 0.04045, otherwise ((x +
+/// Decodes an sRGB code value x in [0, 1] to a linear value: x/12.92 up to 0.04045, otherwise ((x +
 /// 0.055)/1.055)^2.4 [IEC61966, sec. 5.2].
 [[nodiscard]] double srgb_decoded(double code);
 
@@ -79,9 +81,12 @@ struct RgbBasis {
   Curve green;
   Curve blue;
 };
+/// The basis, computed at the first call, which is thread-safe. Throws Error{input} if a shipped table is
+/// missing, Error{internal} if the fit does not converge.
 [[nodiscard]] const RgbBasis& rgb_basis();
 
-/// Mixture of the basis with the weights `rgb`, each >= 0.
+/// Mixture of the basis with the weights `rgb`, each >= 0. Its values lie between the smallest and largest
+/// weight; three equal weights give a constant. Throws like `rgb_basis`.
 [[nodiscard]] Curve rgb_spectrum(const LinearRgb& rgb);
 
 }  // namespace abbe

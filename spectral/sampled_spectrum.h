@@ -9,12 +9,12 @@
 
 namespace abbe {
 
-/// Number of wavelengths of one path, a power of two.
+/// Number of wavelengths of one path (lanes of a register), a power of two.
 inline constexpr int kLanes = 8;
 static_assert((kLanes & (kLanes - 1)) == 0);
 
-/// One value per wavelength of a path, in one SIMD register. An array would be copied in pieces, and
-/// reloading it as a whole would stall on the stores.
+/// One value per wavelength of a path, in one SIMD register. The default is 0, and arithmetic acts on each
+/// lane. An array would be copied in pieces, and reloading it as a whole would stall on the stores.
 class SampledSpectrum {
  public:
   using Values = std::array<float, kLanes>;
@@ -63,10 +63,12 @@ class SampledSpectrum {
   [[nodiscard]] float min() const {
     return fold([](float a, float b) { return b < a ? b : a; });
   }
+  /// True if all lanes are 0.
   [[nodiscard]] bool is_zero() const { return !any(lanes_ != Lanes{}); }
+  /// True if any lane is NaN.
   [[nodiscard]] bool has_nan() const { return any(lanes_ != lanes_); }
 
-  /// Applies `f` to each lane.
+  /// Result of `f` for each lane of one spectrum or of two.
   template <typename F>
   [[nodiscard]] static SampledSpectrum map(const SampledSpectrum& a, const SampledSpectrum& b, F f) {
     const Values x = a.values();
@@ -113,9 +115,10 @@ class SampledSpectrum {
   Lanes lanes_{};
 };
 
-/// Transmittance e^-(a d) of each wavelength over a distance [m] by Beer's law. The distance may be infinite;
-/// an extinction of 0 then gives 1. Accurate to a few float ulps, and 0 below the smallest normal float. With
-/// n the integer nearest to x/ln 2, e^x = 2^n e^r, where e^r is a power series.
+/// Transmittance e^-(a d) of each wavelength over a distance d >= 0 [m] by Beer's law, with a the extinction.
+/// The distance may be infinite. An extinction of 0 or less gives 1. Accurate to a few float ulps, and 0
+/// below the smallest normal float. Computes e^x = 2^n e^r, where x is -a d, n the integer nearest to x/ln 2,
+/// and e^r a power series.
 [[nodiscard]] inline SampledSpectrum transmittance(const SampledSpectrum& extinction_per_m, float distance) {
   using Lanes = SampledSpectrum::Lanes;
   using Integers [[gnu::vector_size(sizeof(Lanes))]] = std::int32_t;

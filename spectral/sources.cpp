@@ -56,6 +56,7 @@ Curve daylight(double cct_K) {
   const double x = cct_K <= 7000 ? ((-4.6070 * t + 2.9678) * t + 0.09911) * t + 0.244063
                                  : ((-2.0064 * t + 1.9018) * t + 0.24748) * t + 0.237040;
   const double y = (-3.000 * x + 2.870) * x - 0.275;
+  // S = S_0 + M_1 S_1 + M_2 S_2, with (x, y) on the daylight locus and M_1, M_2 from x and y.
   const double m = 0.0241 + 0.2562 * x - 0.7341 * y;
   // The CIE rounds both factors to three decimals, and its tables are computed that way.
   const double m1 = rounded((-1.3515 - 1.7703 * x + 5.9114 * y) / m, 1e3);

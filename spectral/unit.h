@@ -33,12 +33,14 @@ struct Unit {
   /// True if an unknown factor follows, as in W/(m2 furlong). All else describes the factors before it.
   bool has_unknown_factor = false;
 
+  /// Exponent of a base; 0 if the unit does not contain it.
   [[nodiscard]] int of(Base base) const { return exponents[base]; }
   /// True if it divides or has more than one base, so that it is not a single symbol.
   [[nodiscard]] bool is_compound() const;
   /// True if it is a length, an area or a volume.
   [[nodiscard]] bool is_extent() const;
-  /// True if both are equal, except for rounding.
+  /// True if both have equal exponents and factors, except for rounding. False if either has an unknown
+  /// factor.
   [[nodiscard]] bool equals(const Unit& other) const;
 };
 

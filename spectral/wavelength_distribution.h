@@ -20,21 +20,23 @@ namespace abbe {
 class WavelengthDistribution {
  public:
   /// Constructs the distribution from the emission curves of the lights and the weights of the sensor
-  /// channels. Ignores pairs without overlap. If none overlaps, the density is uniform over the support of
-  /// the channels, or over the whole range if that is empty.
+  /// channels, in any units. Negative values count by their magnitude. Ignores pairs without overlap. If none
+  /// overlaps, the density is uniform over the support of the channels, or over the whole range if that is
+  /// empty.
   WavelengthDistribution(std::span<const Curve> emissions, std::span<const Curve> responses);
 
-  /// Distribution whose density is proportional to this one times `importance`. The elements of `importance`
-  /// are > 0 and belong to equally probable parts of this distribution, by ascending wavelength.
+  /// Distribution whose density is proportional to this one times `importance`. The elements of `importance`,
+  /// at least one, are > 0. They belong to equally probable parts of this distribution, by ascending
+  /// wavelength.
   [[nodiscard]] WavelengthDistribution weighted(std::span<const double> importance) const;
 
-  /// Eight wavelengths F^-1(frac(u + j/8)) for u in [0, 1), and their pdfs. Each is rounded to a float of its
-  /// own cell, so that curves and `pdf` take the same side of an edge. A cell narrower than 1.3e-4 nm may
-  /// contain no float; it gives the nearest one outside.
+  /// Eight wavelengths F^-1(frac(u + j/8)) for u in [0, 1), and their pdfs [1/nm]. Lane j has the wavelength
+  /// of j/8. Each is rounded to a float of its own cell, so that curves and `pdf` take the same side of an
+  /// edge. A cell narrower than 1.3e-4 nm may contain no float; it gives the nearest one outside.
   [[nodiscard]] SampledWavelengths sample(float u) const;
   /// Pdf at a wavelength [1/nm]; 0 outside the support.
   [[nodiscard]] double pdf(double wavelength_nm) const;
-  /// Ends of the support [nm].
+  /// Ends of the support [nm]. `pdf` is 0 at `high_nm` and above.
   [[nodiscard]] double low_nm() const { return cells_.front().low_nm; }
   [[nodiscard]] double high_nm() const { return cells_.back().low_nm; }
 

@@ -8,7 +8,7 @@
 
 namespace abbe {
 
-/// Rectangle of pixels of a film: x0 <= x < x1, y0 <= y < y1.
+/// Rectangle of pixels of a film: x0 <= x < x1, y0 <= y < y1, from the top left corner.
 struct Crop {
   int x0, y0, x1, y1;
 
@@ -18,8 +18,8 @@ struct Crop {
 /// Attribute with the crop of a film, "x0,y0,x1,y1"; absent if the film has all pixels.
 inline constexpr const char* kCropKey = "crop";
 
-/// Attribute with the rectangles of a film whose crop has gaps, and the samples of each: "x0,y0,x1,y1=0:16
-/// ...".
+/// Attribute with the rectangles of a film whose crop has gaps, and the ranges first:end of the samples of
+/// each. Example: "0,0,2,2=0:8 3,2,6,4=0:4,5:8".
 inline constexpr const char* kAreasKey = "areas";
 
 [[nodiscard]] inline std::size_t pixel_count(const Crop& c) {
@@ -30,7 +30,7 @@ inline constexpr const char* kAreasKey = "areas";
 [[nodiscard]] std::optional<Crop> common_pixels(const Crop& a, const Crop& b);
 
 /// Conversion between a rectangle and the text "x0,y0,x1,y1". Parsing gives nothing for any other text, for
-/// negative edges and for empty rectangles.
+/// negative edges and for empty rectangles; it knows no film size.
 [[nodiscard]] std::string to_text(const Crop& crop);
 [[nodiscard]] std::optional<Crop> parse_crop(std::string_view text);
 /// Text of several rectangles, separated by spaces.

@@ -19,7 +19,7 @@ namespace abbe {
 __extension__ using Int128 = __int128;
 
 /// Conversion between doubles and fixed point in units of 2^`unit_exponent`, rounded to nearest. The caller
-/// ensures |value| < 2^(unit_exponent + 126).
+/// ensures that `value` is finite and |value| < 2^(unit_exponent + 126).
 [[nodiscard]] Int128 to_fixed(double value, int unit_exponent);
 [[nodiscard]] double from_fixed(Int128 fixed, int unit_exponent);
 /// Adds to a sum. Returns false on overflow, and then leaves the sum unchanged.
@@ -47,62 +47,68 @@ struct FilmShape {
 
 /// Pixels for which a film of this shape has sums.
 [[nodiscard]] Crop pixels_of(const FilmShape& shape);
-/// Memory of the sums of a film of this shape.
+/// Memory [bytes] of the sums of a film of this shape.
 [[nodiscard]] std::size_t bytes_of_sums(const FilmShape& shape);
 
 /// Sums of film values per pixel, channel and replicate in 128-bit fixed point. Integer addition is
 /// associative, so the sums do not depend on the order, the threads or the partition of the work. Replicates
 /// are slices of one sample sequence (`sampling/sampler.h`). The spread of their means is an upper bound on
-/// the variance of the pixel.
+/// the variance of the pixel. Except for adding samples, methods that change a film need exclusive access.
 class Film {
  public:
-  /// Creates a film for values of the order of magnitude `nominal`. It holds values up to 2^44 times that,
-  /// rounded to 2^-67 of it, and sums of 2^16 of the largest values.
+  /// Creates a film for values of the order of magnitude `nominal`; 0 or less counts as 1. It holds values up
+  /// to 2^44 times that, rounded to 2^-67 of it, and sums of 2^16 of the largest values. The other parameters
+  /// are members of `FilmShape`. Throws Error{resource} if memory does not suffice.
   Film(int width, int height, int channels, int replicates, double nominal, std::uint64_t photons = 0,
        std::uint32_t path_interval = 1, std::optional<Crop> crop = {});
   /// Creates a film of this shape. A crop of all pixels is equivalent to none. Throws Error{resource} if
   /// memory does not suffice.
   explicit Film(const FilmShape& shape);
 
-  /// Adds the values of one sample or splat to a pixel of the crop, for the channels from `first` on.
-  /// Thread-safe. Throws Error{scene} if a sum overflows.
+  /// Adds the values of one sample or splat to the pixel of this index (`pixel_at`) in the crop, for the
+  /// channels from `first` on. The caller ensures that the film `holds` the values. Thread-safe. Throws
+  /// Error{scene} if a sum overflows.
   void add(std::size_t pixel, int replicate, std::span<const double> values, std::size_t first = 0);
   /// True if a value is finite and small enough for the film.
   [[nodiscard]] bool holds(double value) const { return std::abs(value) < limit_; }
 
-  /// Sets the number of samples per pixel of each replicate.
+  /// Sets the number of samples per pixel of each replicate, one element each. They are 0 in a new film.
   void set_samples(std::vector<std::uint64_t> per_replicate);
   /// Adds the sums of a film that differs at most in its crop, for the pixels that both have. The caller adds
   /// up the samples. Throws Error{scene} if a sum overflows.
   void add(const Film& other);
-  /// `only` copies some replicates, in this order. `put_back` restores them from such a copy.
+  /// `only` copies the sums of some replicates, in this order, without numbers of samples. It throws
+  /// Error{resource} if memory does not suffice. `put_back` restores the sums from such a copy.
   [[nodiscard]] Film only(std::span<const int> replicates) const;
   void put_back(std::span<const int> replicates, const Film& saved);
-  /// The sums, for processes that add them up.
+  /// The sums in the internal order of the film, for processes that add them up.
   [[nodiscard]] std::span<Int128> sums() { return sums_; }
   /// Conversion between the sums and bytes: 16 per sum, little-endian two's complement, in the film's
-  /// internal order. `from_bytes` gives nothing if their number does not fit the shape.
+  /// internal order. `from_bytes` gives nothing if their number does not fit the shape, and throws
+  /// Error{resource} if memory does not suffice. Its film has no numbers of samples.
   [[nodiscard]] std::string_view bytes() const;
   [[nodiscard]] static std::optional<Film> from_bytes(const FilmShape& shape, std::string_view bytes);
 
   /// Sum of a channel over the samples of a pixel; 0 outside the crop.
   [[nodiscard]] double total(std::size_t pixel, int channel) const;
-  /// Mean of a channel in a pixel, and the variance of that mean. The variance is 0 with fewer than two
-  /// filled replicates.
+  /// Mean of a channel over the samples of a pixel, and the variance of that mean. Both are 0 outside the
+  /// crop and without samples. The variance is also 0 with fewer than two filled replicates.
   [[nodiscard]] double mean(std::size_t pixel, int channel) const;
   [[nodiscard]] double variance(std::size_t pixel, int channel) const;
-  /// Mean of a channel over some pixels, with its standard error and degrees of freedom. The deviation of the
-  /// mean in standard errors follows Student's t with these degrees. If photons are traced, pixels are
-  /// correlated and the replicates of their sum give the error. Otherwise the variances of the pixels add up,
-  /// with the degrees of their sum [Satterthwaite1946]. Error and degrees are 0 without two filled
-  /// replicates.
+  /// Mean of a channel over some pixels, in units of the channel, with its standard error and degrees of
+  /// freedom. The deviation of the mean in standard errors follows Student's t with these degrees. If photons
+  /// are traced, pixels are correlated and the replicates of their sum give the error. Otherwise the
+  /// variances of the pixels add up, with the degrees of their sum [Satterthwaite1946]. Error and degrees are
+  /// 0 without two filled replicates.
   struct Average {
     double mean;
     double standard_error;
     double degrees_of_freedom;
   };
+  /// Average over the whole film.
   [[nodiscard]] Average average(int channel) const;
-  /// Average over x0 <= x < x1, y0 <= y < y1. `divisors`, if any, divide each pixel by a number of its own.
+  /// Average over x0 <= x < x1, y0 <= y < y1, where pixels outside the crop count as 0. `divisors`, one per
+  /// pixel of the film if any, divide each pixel by a number of its own.
   [[nodiscard]] Average average(int channel, int x0, int y0, int x1, int y1,
                                 std::span<const double> divisors = {}) const;
   /// Samples per pixel, summed over the replicates.
@@ -110,13 +116,15 @@ class Film {
   /// Number of replicates that have samples.
   [[nodiscard]] int filled_replicates() const;
 
-  /// Film as an image, with the channels `<name>` and `Variance.<name>` for each name.
+  /// Film as an image: the means of all channels under their `names`, then their variances under
+  /// `Variance.<name>`. There is at least one name per channel. Pixels outside the crop are 0.
   [[nodiscard]] Image image(std::span<const std::string> names) const;
-  /// Updates the pixels of an area in such an image for samples per replicate that differ from those of
-  /// `set_samples`.
+  /// Updates the pixels of an area within the crop in such an image for samples per replicate that differ
+  /// from those of `set_samples`.
   void develop(Image& image, const Crop& area, std::span<const std::uint64_t> samples) const;
 
   [[nodiscard]] const FilmShape& shape() const { return shape_; }
+  /// Pixels that have sums.
   [[nodiscard]] Crop crop() const { return pixels_of(shape_); }
   /// Index of a pixel in the whole film.
   [[nodiscard]] std::size_t pixel_at(int x, int y) const {
@@ -126,6 +134,7 @@ class Film {
   [[nodiscard]] int height() const { return shape_.height; }
   [[nodiscard]] int channels() const { return shape_.channels; }
   [[nodiscard]] int replicates() const { return shape_.replicates; }
+  /// Memory of the sums.
   [[nodiscard]] std::size_t memory_bytes() const { return sums_.size() * sizeof(Int128); }
 
  private:

@@ -7,8 +7,8 @@
 
 namespace abbe {
 
-/// Names of the main planes in a film's file, without variances, layers and features. Throws Error{input} for
-/// a malformed name of a spectral band. The planes are
+/// Names of the main planes in the image of a film's file, without variances, layers and features. Throws
+/// Error{input} for a malformed name of a spectral band. The planes are
 /// - of a spectral film its bands, by Stokes component and wavelength;
 /// - otherwise those that the attribute `sensor_channels` lists, in its order;
 /// - without that attribute all channels except variances, in the order of the file.

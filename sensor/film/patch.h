@@ -16,8 +16,8 @@
 
 namespace abbe {
 
-/// Outline of a chart patch in an image: the corners of a convex quadrilateral in order, in pixels from the
-/// top left corner.
+/// Outline of a chart patch in an image: the corners of a convex quadrilateral in order of either sense, in
+/// pixels from the top left corner, x right and y down.
 struct PatchOutline {
   std::string name;
   std::array<Imath::V2d, 4> corners;
@@ -26,16 +26,16 @@ struct PatchOutline {
 /// Statistics of one channel in a patch. Mean, median and deviation exclude black and saturated pixels if
 /// these are so few that they count as defective (`exceeds_defects`).
 struct PatchChannel {
-  std::size_t pixels = 0;  ///< Number of all pixels.
-  double mean = 0;
+  std::size_t pixels = 0;                ///< Number of all pixels.
+  double mean = 0;                       ///< In units of the plane, like all values here.
   double median = 0;                     ///< Median by `grouped_median`.
   std::optional<double> deviation = {};  ///< Standard deviation of the pixels; nothing for a single pixel.
   std::size_t black = 0;                 ///< Number of pixels at or below the black value.
   std::size_t saturated = 0;             ///< Number of pixels at or above saturation.
   double highest = 0;                    ///< Highest value of all pixels before flat-field division.
   std::size_t at_highest = 0;            ///< Number of pixels with the highest value.
-  std::size_t interquartile_levels =
-      0;  ///< Number of distinct values in the central half of the pixels, before flat-field division.
+  /// Number of distinct values in the central half of the pixels, before flat-field division.
+  std::size_t interquartile_levels = 0;
 
   /// True if there are too many black (saturated) pixels to be defective.
   [[nodiscard]] bool is_black() const {
@@ -45,6 +45,7 @@ struct PatchChannel {
     return exceeds_defects(static_cast<double>(saturated), static_cast<double>(pixels));
   }
 };
+/// Statistics of a patch, by channel.
 struct PatchValues {
   std::string name;
   std::vector<PatchChannel> channels;
@@ -53,12 +54,12 @@ struct PatchValues {
 /// Planes of an image to be measured. With a mosaic there is one plane, in which each channel has its own
 /// pixels.
 struct MeasuredPlanes {
-  std::vector<const ImageChannel*> planes;
-  std::vector<std::string> channels;
-  std::optional<Mosaic> mosaic;
-  std::optional<double> saturation;  ///< Lowest value of a saturated pixel.
-  std::vector<Crop> rendered = {};   ///< Rendered pixels as disjoint areas; empty if all are.
-  std::optional<double> black = {};  ///< Highest value of a black pixel.
+  std::vector<const ImageChannel*> planes;  ///< One per channel, or one for a mosaic; not owned.
+  std::vector<std::string> channels;        ///< Names of the channels.
+  std::optional<Mosaic> mosaic;             ///< Mosaic of the only plane, if it is one.
+  std::optional<double> saturation;         ///< Lowest value of a saturated pixel.
+  std::vector<Crop> rendered = {};          ///< Rendered pixels as disjoint areas; empty if all are.
+  std::optional<double> black = {};         ///< Highest value of a black pixel.
   /// Planes before flat-field division, which decide what is black or saturated. Empty if they are `planes`.
   std::vector<const ImageChannel*> exposed = {};
   /// Lower saturation value of each channel, below `saturation`, if it clips there; empty if none does.
@@ -70,21 +71,24 @@ struct MeasuredPlanes {
   }
 };
 
-/// Measures the pixels that lie entirely within each outline. Throws Error{input} with the name of the patch
-/// if it extends outside the image or its rendered areas, or contains no whole pixel of a channel.
+/// Measures the pixels that lie entirely within each outline, by patch and channel in their order. Throws
+/// Error{input} with the name of the patch if it extends outside the image or its rendered areas, or contains
+/// no whole pixel of a channel.
 [[nodiscard]] std::vector<PatchValues> measure_patches(const Image& image, const MeasuredPlanes& planes,
                                                        std::span<const PatchOutline> outlines);
 
-/// Value of each channel at which it clips below the saturation that its file declares. It is the highest
-/// value of its patches, if all pixels of one patch have it, except for defective ones, while others have
-/// noise. Noise narrower than one step of the codes makes patches uniform by chance. The brightest patch
+/// Value of each channel at which it clips below the `saturation` that its file declares; nothing for
+/// channels that do not. `channels[k]` has the patches of channel k. The level is the highest value in them,
+/// if it is below `saturation` and all pixels of one patch have it, except for defective ones, while others
+/// have noise. Noise narrower than one step of the codes makes patches uniform by chance. The brightest patch
 /// below must therefore have wider noise. Alternatively most patches must have some noise, and another
 /// channel must be uniform at the same value. A channel clips there too if one of its patches has the
 /// clipping value of another channel.
 [[nodiscard]] std::vector<std::optional<double>> clipping_levels(
     std::span<const std::vector<PatchChannel>> channels, std::optional<double> saturation);
 
-/// Clipping level of each channel, if the pixels of the image above it are few enough to be defective.
+/// Clipping level of each channel of measured patches, by the function above; nothing for a channel unless
+/// the pixels of the image above it are few enough to be defective.
 [[nodiscard]] std::vector<std::optional<double>> clipping_levels(const Image& image,
                                                                  const MeasuredPlanes& planes,
                                                                  std::span<const PatchValues> patches);

@@ -5,13 +5,13 @@
 
 namespace abbe {
 
-/// Attribute of a film with the relative error of its mean over the frame. It is infinite if the error is
-/// unknown, for example if some pixels have samples in fewer than two replicates, so that their variances are
-/// 0.
+/// Attribute of a film with the relative error of its mean over the frame (`frame_mean_error`). "inf" means
+/// unknown. An example is a film with pixels whose samples are in fewer than two replicates, where variances
+/// of 0 mean nothing.
 inline constexpr const char* kFrameMeanErrorKey = "frame_mean_error";
 
-/// Attribute of a film whose error is not yet known: the number of samples that carry half of the variance of
-/// its mean.
+/// Attribute of a film with too few effective samples to estimate its error: the effective number of samples
+/// that carry half of the variance of its mean (`few_samples`). Absent for other films.
 inline constexpr const char* kHalfNoiseSamplesKey = "half_noise_samples";
 
 /// True if the attributes of a film or of a file developed from it record an unknown error.

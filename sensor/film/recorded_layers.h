@@ -13,7 +13,7 @@ inline constexpr const char* kLayersKey = "layers";
 /// Prefix of the names of light-group layers.
 inline constexpr const char* kLightLayer = "light.";
 
-/// Parses the value of `kLayersKey`.
+/// Parses the value of `kLayersKey`: the names of the layers in order.
 [[nodiscard]] inline std::vector<std::string> parse_layers(const std::string& text) {
   return split(text, ',');
 }

@@ -9,14 +9,14 @@
 
 namespace abbe {
 
-/// A mosaic, and the names of its channels in their order.
+/// A mosaic, and the names of its channels, to which `Mosaic::channel` refers.
 struct RecordedMosaic {
   Mosaic pattern;
   std::vector<std::string> channels;
 };
 
-/// Mosaic that the attributes of a film or of a file developed from it record. Nothing if they record none or
-/// are malformed.
+/// Mosaic that the attributes `mosaic` and `mosaic_channels` of a film or of a file developed from it record.
+/// Nothing if they record none or are malformed.
 [[nodiscard]] std::optional<RecordedMosaic> recorded_mosaic(
     const std::map<std::string, std::string>& attributes);
 

@@ -23,11 +23,13 @@ inline constexpr const char* kLightsXyKey = "lights_xy";
 /// Attribute with the reason why a film cannot be displayed, instead of its display matrix.
 inline constexpr const char* kNoPictureKey = "no_picture";
 
-/// Records a white and if the scene requests it. Replaces an earlier one.
+/// Records the name and chromaticity of a white, and if the scene requests it (`requested`). Replaces an
+/// earlier one.
 void record_white(const std::string& name, const Chromaticity& xy, bool requested,
                   std::map<std::string, std::string>& metadata);
 
-/// Recorded chromaticity of a film's white; nothing without its name. Throws Error{input} if it is malformed.
+/// Recorded chromaticity of a film's white; nothing if its name or the chromaticity is missing. Throws
+/// Error{input} unless x and y are two positive numbers.
 [[nodiscard]] std::optional<Chromaticity> recorded_white(const Image& film);
 
 }  // namespace abbe

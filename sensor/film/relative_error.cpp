@@ -75,10 +75,11 @@ HistogramMoments moments_of(const Histogram& of) {
   return m;
 }
 
-// Initial distribution: the normal distribution that explains mean and variance, mixed with a uniform one so
-// that no step has probability 0.
+// Initial estimate of the distribution whose sum with the noise `spread` is `observed`. It is a normal
+// distribution with the differences of their means and variances, mixed with a uniform one so that no step of
+// the histogram has probability 0.
 Histogram initial_distribution(const Histogram& observed, const Histogram& spread) {
-  constexpr double kEverything = 0.05;
+  constexpr double kUniformWeight = 0.05;
   const HistogramMoments all = moments_of(observed);
   const HistogramMoments noise = moments_of(spread);
   const double variance = std::max(all.variance - noise.variance, 0.25);
@@ -88,7 +89,7 @@ Histogram initial_distribution(const Histogram& observed, const Histogram& sprea
         -std::pow(static_cast<double>(estimate.first + i) - all.mean + noise.mean, 2) / (2 * variance));
   const double sum = std::accumulate(estimate.mass.begin(), estimate.mass.end(), 0.0);
   for (double& mass : estimate.mass)
-    mass = (1 - kEverything) * mass / sum + kEverything / static_cast<double>(estimate.size());
+    mass = (1 - kUniformWeight) * mass / sum + kUniformWeight / static_cast<double>(estimate.size());
   return estimate;
 }
 

@@ -19,19 +19,20 @@ inline constexpr std::size_t kAllPlanes = std::numeric_limits<std::size_t>::max(
 
 /// Deviation of a film from its expectation: standard deviations divided by means.
 struct RelativeError {
-  double median =
-      std::numeric_limits<double>::infinity();  ///< Median over the nonzero values; infinite if unknown.
+  /// Median over the nonzero values; infinite if unknown.
+  double median = std::numeric_limits<double>::infinity();
   double p95 = std::numeric_limits<double>::infinity();  ///< 95th percentile over them; infinite if unknown.
   /// Relative error of the mean over the frame, by `frame_mean_error`. Unlike the median, it depends on a few
   /// bright pixels.
   double frame_mean = std::numeric_limits<double>::infinity();
-  /// Largest relative error of the frame means of the planes that a target requests, if any.
+  /// Largest relative error of the frame means of the planes that an error target names (`worst_mean_error`).
+  /// Infinite unless the caller sets it.
   double worst_mean = std::numeric_limits<double>::infinity();
   /// Number of samples that carry half of the variance of the film's mean, by `few_samples`. Nothing if they
   /// suffice for an estimate.
   std::optional<std::uint64_t> few_samples = {};
-  /// Standard error of the film's mean predicted by an independent pilot, divided by the film's own, if
-  /// `hidden_noise` finds it significantly larger; otherwise 0.
+  /// Result of the function `hidden_noise`, by which a pilot predicts a larger error than the film shows. It
+  /// is 0 unless the caller sets it.
   double hidden_noise = 0;
 };
 
@@ -43,17 +44,21 @@ struct RelativeError {
 
 /// Values that are not 0 in a pilot, by their index pixel * planes + plane. The pilot must be independent of
 /// the film to be judged. Of very many values, an evenly spread subset is returned. Considers only the first
-/// `intensity_planes` planes: the others are signed, and small where there is much light.
+/// `intensity_planes` planes (all if there are fewer): the others are signed, and small where there is much
+/// light.
 [[nodiscard]] std::vector<std::size_t> nonzero_values(const Film& pilot,
                                                       std::size_t intensity_planes = kAllPlanes);
 
-/// Percentiles of the relative errors of the `nonzero` values, and the error of the frame mean of the first
-/// `intensity_planes` planes. `quantiles_of_deviation` corrects the percentiles for the few replicates. A
-/// nonzero value that is 0 in the film has an infinite error.
+/// Percentiles of the relative errors of the `nonzero` values (indices of `nonzero_values`), and the error of
+/// the frame mean of the first `intensity_planes` planes. `quantiles_of_deviation` corrects the percentiles
+/// for the few replicates. A nonzero value that is 0 in the film has an infinite error. Sets `median`, `p95`,
+/// `frame_mean` and `few_samples`. The percentiles are infinite without nonzero values and with fewer than
+/// two filled replicates.
 [[nodiscard]] RelativeError relative_error(const Film& film, std::span<const std::size_t> nonzero,
                                            std::size_t intensity_planes = kAllPlanes);
 
-/// Largest relative error of the frame means of the first `planes` planes, except dark ones.
+/// Largest relative error of the frame means of the first `planes` planes, except those with a mean of 0 or
+/// less. Infinite if no plane remains, and with fewer than two filled replicates.
 [[nodiscard]] double worst_mean_error(const Film& film, int planes);
 
 /// Relative error of the frame mean of the first `intensity_planes` planes, taken together: sqrt(sum of the
@@ -80,9 +85,10 @@ struct RelativeError {
                                   std::size_t intensity_planes = kAllPlanes);
 
 /// Quantiles of the true standard deviations at ascending `probabilities`, given positive and finite
-/// estimates. Each estimate is the true value times chi/sqrt(f) with f degrees of freedom. The distribution
-/// of the true values is the maximum-likelihood one [Laird1978], found by expectation maximisation in
-/// logarithmic steps of 2.5 %.
+/// estimates, at least one. The result has one value per probability in [0, 1], in the unit of the estimates.
+/// Each estimate is the true value times chi/sqrt(f) with f degrees of freedom. The distribution of the true
+/// values is the maximum-likelihood one [Laird1978], found by expectation maximisation in logarithmic steps
+/// of 2.5 %.
 [[nodiscard]] std::vector<double> quantiles_of_deviation(std::span<const double> estimates,
                                                          double degrees_of_freedom,
                                                          std::span<const double> probabilities);

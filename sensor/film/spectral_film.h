@@ -22,18 +22,23 @@ struct SpectralBins {
 [[nodiscard]] std::vector<double> edges_nm(const SpectralBins& bins);
 
 /// One energy channel for each bin, with weight 1 inside it. Its film value is the radiant exposure in the
-/// bin [J/m^2]. The channels are named by their centers, such as "545nm".
+/// bin [J/m^2]. The channels are named by their centers, such as "545nm". Throws Error{internal} unless the
+/// width of the bins is positive.
 [[nodiscard]] std::vector<Channel> spectral_channels(const SpectralBins& bins);
 
-/// Converts the film of `spectral_channels`, or of these `with_stokes`, to radiances. `exposure_per_radiance`
-/// [s sr] is the ratio of radiant exposure to radiance of each pixel. `Variance.` channels are divided by its
-/// square. Metadata are copied.
+/// Converts a film of `spectral_channels`, with or without their Stokes channels (`with_stokes`). The result
+/// has the radiance integrated over each bin [W/(m^2 sr)]. `exposure_per_radiance` [s sr] has the ratio of
+/// radiant exposure to radiance of each pixel. The radiance is not divided by the width of the bins.
+/// `Variance.` channels are divided by its square. Metadata are copied. Throws Error{internal} if the film
+/// lacks a channel of a bin.
 [[nodiscard]] SpectralImage spectral_film(const Image& film, const SpectralBins& bins,
                                           std::span<const double> exposure_per_radiance);
 
-/// Exposes a sensor to a spectral image. The light of a band is spread evenly over it; light outside 300-1100
-/// nm is ignored. Variances are upper bounds that assume fully correlated errors of the bands. Metadata are
-/// not copied. Throws
+/// Film of a sensor exposed to a spectral image of radiances [W/(m^2 sr)] per band: a plane of exposures and
+/// one of variances (`Variance.`) for each channel. `exposure_per_radiance` [s sr] is that of each pixel. The
+/// light of a band is spread evenly over it; light outside 300-1100 nm is ignored. Variances are upper bounds
+/// that assume fully correlated errors of the bands; 0 for an image without variances. Metadata are not
+/// copied. Throws
 /// - Error{usage} for a channel that depends on the angle of incidence, which an image does not record;
 /// - Error{usage} for a channel with an analyser if the image is not polarised;
 /// - Error{input} if only some bands have variances.

@@ -8,17 +8,18 @@
 
 namespace abbe {
 
-/// Stokes vector (I, Q, U, V) in the frame of the film.
+/// Stokes vector (I, Q, U, V) in the unit of the film. The x axis of its frame points to the right of the
+/// picture (`StokesSpectrum` states the signs).
 using StokesVector = std::array<double, 4>;
 
 /// Planes of a film with the Stokes vectors of one channel or band.
 struct StokesPlanes {
   std::string channel;  ///< Name of the intensity plane.
-  std::array<const ImageChannel*, 4>
-      component;  ///< Plane of V is nullptr if only linear polarisation was measured.
+  /// Plane of V is nullptr if only linear polarisation was measured.
+  std::array<const ImageChannel*, 4> component;
 
   [[nodiscard]] bool has_circular() const { return component[3] != nullptr; }
-  /// Stokes vector of a pixel; V is 0 without its plane.
+  /// Stokes vector of the pixel with this index; V is 0 without its plane.
   [[nodiscard]] StokesVector at(std::size_t pixel) const;
 };
 /// Stokes planes of all channels of a film, which must outlive them. Empty for a film that does not measure
@@ -29,8 +30,10 @@ struct StokesPlanes {
 struct PolarisationFigures {
   double degree;         ///< sqrt(Q^2 + U^2 + V^2)/I; 0 without light.
   double linear_degree;  ///< sqrt(Q^2 + U^2)/I; 0 without light.
-  double angle_deg;      ///< Plane of oscillation of the electric field, atan2(U, Q)/2 in [0, 180).
+  double angle_deg;      ///< Plane of oscillation of the electric field, atan2(U, Q)/2 in [0, 180),
+                         ///< counterclockwise from the right of the picture.
 };
+/// State of polarisation of a Stokes vector.
 [[nodiscard]] PolarisationFigures polarisation_of(const StokesVector& stokes);
 
 }  // namespace abbe

@@ -26,32 +26,35 @@ struct TransferPoint {
 
 /// Measured parameters of a sensor with a linear response, in the terms of `Readout`.
 struct PhotonTransfer {
-  double gain_e_per_dn;
+  double gain_e_per_dn;  ///< K of EMVA 1288.
   double read_noise_e;
   double dark_e_per_s;
-  double prnu_percent;
+  double prnu_percent;  ///< Relative to the mean signal.
   double dsnu_e;
-  std::optional<double> full_well_e;                     ///< `saturation_e`, unless the codes end first.
+  std::optional<double> full_well_e;  ///< `saturation_e` if wells are full there; nothing if codes end first.
   std::vector<TransferPoint> points = {};                ///< Illuminated pairs in their order.
   double gain_standard_error = 0;                        ///< [e/DN]
   std::optional<double> read_noise_standard_error = {};  ///< [e]; nothing if rounding hides the noise.
   /// Electrons at which wells are full or codes end; nothing if the brightest illuminated pair reaches
   /// neither.
   std::optional<double> saturation_e = {};
-  std::optional<double> linearity_error_percent =
-      {};                                      ///< `linearity_error_percent` of the illuminated pairs.
-  std::optional<RelativeBias> gain_bias = {};  ///< `gain_bias` of the pairs that K is fitted to.
+  /// Result of the function `linearity_error_percent` for the illuminated pairs.
+  std::optional<double> linearity_error_percent = {};
+  /// Result of the function `gain_bias` for the pairs that K is fitted to.
+  std::optional<RelativeBias> gain_bias = {};
 };
 
 /// Photon-transfer method of [EMVA1288].
 /// - Temporal variance comes from the difference of two exposures, minus rounding. It grows with the mean by
 ///   1/K DN per DN, and its value in darkness is the read noise.
 /// - Fixed patterns come from the covariance over the pixels of the first and the second frames of pairs.
-/// - K is fitted up to 70 % of saturation. The pair of the largest variance gives saturation, the brightest
-///   pair the full well.
-/// - PRNU is the pattern of the illuminated pair nearest to 50 % of saturation, minus the darkness of each
-///   pixel at its exposure time. The darkness is measured at that time or taken from the line through the
-///   dark signals over time. If the line adds too much noise, the dark pair nearest in time replaces it.
+/// - The saturation signal is that of the illuminated pair with the largest variance. K is fitted to pairs up
+///   to 70 % of it.
+/// - `saturation_e` and the full well come from the brightest pair, if its variance is below half that of its
+///   photon noise.
+/// - PRNU is the pattern of the illuminated pair nearest to 50 % of the saturation signal, minus the darkness
+///   of each pixel at its exposure time. The darkness is measured at that time or taken from the line through
+///   the dark signals over time. If the line adds too much noise, the dark pair nearest in time replaces it.
 ///   Pixels count only if their darkness leaves room for the light of the pair.
 /// - DSNU is the pattern of darkness at 0 s, obtained in the same way. PRNU and DSNU are 0 if noise hides
 ///   them.
@@ -61,9 +64,10 @@ struct PhotonTransfer {
 ///   independent, which row noise violates.
 ///
 /// `dark` has pairs of at least two exposure times, `illuminated` pairs from weak light to above saturation.
-/// `bits` is the depth of the codes and `levels` the level of each. `white_dn` is the code of a full pixel if
-/// no illuminated pair shows it, limited to the highest code. Throws Error{input} if the pairs do not
-/// determine the result.
+/// `bits` is the depth of the codes; `levels[c]` is the level of the 16-bit code c, for all 65536 codes.
+/// `white_dn` is the code of a full pixel if no illuminated pair shows it, limited to the highest code.
+/// Throws Error{input} without dark or illuminated pairs, for frames of unequal sizes or fewer than two
+/// pixels, and for pairs that do not determine the result.
 [[nodiscard]] PhotonTransfer photon_transfer(std::span<const FlatPair> dark,
                                              std::span<const FlatPair> illuminated, int bits,
                                              const std::vector<CodeLevel>& levels = code_levels({}),

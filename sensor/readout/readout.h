@@ -17,10 +17,10 @@ class MonotoneCurve {
     double in;
     double out;
   };
-  /// Throws Error{internal} unless both coordinates increase strictly.
+  /// Throws Error{internal} unless there are two points or more, and both coordinates increase strictly.
   explicit MonotoneCurve(std::vector<Point> points);
 
-  /// Value of the relation or of its inverse. The first and last pieces extrapolate it.
+  /// Value of the relation, or of its inverse. The first and last pieces extrapolate both.
   [[nodiscard]] double operator()(double in) const;
   [[nodiscard]] double inverse(double out) const;
 
@@ -29,11 +29,11 @@ class MonotoneCurve {
 };
 
 /// Electronics of a sensor, which convert the electrons of a pixel to a digital number. Names and units are
-/// those of the scene file.
+/// those of the scene file. No function checks the ranges.
 struct Readout {
   double gain_e_per_dn = 1;  ///< K, electrons per digital number.
   int bits = 16;             ///< Bits of the converter, 1 to 16: codes are 0 to 2^bits - 1.
-  double offset_dn = 0;      ///< Code of a pixel without electrons.
+  double offset_dn = 0;      ///< Code of a pixel without electrons, below the highest code.
   double full_well_e = std::numeric_limits<double>::infinity();  ///< Largest number of electrons in a pixel.
   double saturation_dn = std::numeric_limits<double>::infinity();  ///< Highest code, if below 2^bits - 1.
   double read_noise_e = 0;                                         ///< Standard deviation of the read noise.
@@ -49,21 +49,23 @@ struct Readout {
   /// Linear if absent.
   std::optional<MonotoneCurve> response_curve = {};
 
+  /// Highest code of the converter, a whole number.
   [[nodiscard]] double highest_code() const {
     return std::floor(std::min(static_cast<double>((1U << bits) - 1), saturation_dn));
   }
 };
 
-/// Light-sensitive area of a pixel [m^2]. Times a film value [electrons/m^2] it gives electrons per pixel.
+/// Light-sensitive area of a pixel [m^2]; the fill factor is in (0, 1]. Times a film value [electrons/m^2] it
+/// gives electrons per pixel.
 [[nodiscard]] double gathering_area(double pixel_pitch_m, double fill_factor);
 
 /// One exposure of a sensor. Another seed or frame gives independent noise and the same fixed patterns.
 struct Exposure {
-  double seconds = 1;
-  std::uint64_t seed = 0;
-  std::uint32_t frame = 0;
-  std::size_t width = 0;  ///< Pixels per row, for row noise; 0 if all pixels are one row.
-  /// Exposure time of each pixel, if filters give them different ones; otherwise empty, and all have
+  double seconds = 1;       ///< Exposure time.
+  std::uint64_t seed = 0;   ///< Seed of the noise.
+  std::uint32_t frame = 0;  ///< Number of the exposure in a series.
+  std::size_t width = 0;    ///< Pixels per row, for row noise; 0 if all pixels are one row.
+  /// Exposure time of each pixel [s], if filters give them different ones; otherwise empty, and all have
   /// `seconds`.
   std::span<const double> own_seconds = {};
 
@@ -74,7 +76,7 @@ struct Exposure {
 
 /// Output of the converter for each pixel.
 struct RawFrame {
-  std::vector<std::uint16_t> dn;
+  std::vector<std::uint16_t> dn;        ///< Codes.
   std::vector<std::uint8_t> saturated;  ///< 1 if the well was full or the code is the highest.
 };
 
@@ -84,14 +86,16 @@ struct RawFrame {
 ///     DN = floor(curve((electrons + DSNU + row + N(0, read noise)) / K) + offset + 1/2), clipped to codes.
 ///
 /// PRNU and DSNU are fixed Gaussian patterns [EMVA1288]. `hot` applies to hot pixels only, `row` is one
-/// Gaussian number per row. With blooming, half of the excess charge of a well flows down its column and half
-/// up. It fills the first wells with room or leaves the sensor. A pure function of readout, exposure, pixel
-/// index and electrons; with blooming, of the electrons of the column. Throws Error{input} for electrons that
-/// are not a number or exceed 1e15, with or without the dark signal.
+/// Gaussian number per row, t the exposure time of the pixel. `curve` maps a signal above the offset to a
+/// code above it. With blooming, half of the excess charge of a well flows down its column and half up. It
+/// fills the first wells with room or leaves the sensor. The result is a pure function of readout, exposure,
+/// pixel index and electrons; with blooming, of the electrons of the column. Throws Error{input} for
+/// electrons that are not a number or exceed 1e15, with or without the dark signal.
 [[nodiscard]] RawFrame read_out(const Readout& readout, std::span<const float> expected_e,
                                 const Exposure& exposure);
 
-/// Electrons of a code by offset, curve and gain alone, as a calibration of raw data computes them.
+/// Electrons of a code by offset, curve and gain alone, as a calibration of raw data computes them. Codes
+/// below the offset give negative electrons; nothing is clipped.
 [[nodiscard]] double electrons_of(const Readout& readout, double dn);
 
 /// Expected code without light after an exposure, for a linear response: offset + dark t/K. It is the offset
@@ -99,7 +103,7 @@ struct RawFrame {
 [[nodiscard]] double black_level(const Readout& readout, double exposure_s);
 
 /// Linearised code for each code from 0 to the highest: the rounded output of a sensor without the response
-/// curve. Empty without a curve.
+/// curve, clipped to the same codes. Empty without a curve.
 [[nodiscard]] std::vector<std::uint16_t> linear_codes(const Readout& readout);
 
 /// Lowest code of saturated pixels: the highest code, or that of a full well minus six standard deviations of
@@ -107,7 +111,8 @@ struct RawFrame {
 /// The well counts with at least half of its capacity.
 [[nodiscard]] double white_level(const Readout& readout);
 
-/// Standard deviations of the temporal noise of a pixel [electrons], by source.
+/// Standard deviations of the temporal noise of a pixel [electrons], by source. The total is the root of the
+/// sum of their squares.
 struct TemporalNoise {
   double photon_e;
   double dark_e;
@@ -117,7 +122,7 @@ struct TemporalNoise {
   double total_e;
 };
 /// Temporal noise of a pixel that expects `mean_e` electrons from light. Exact for a linear response below
-/// saturation.
+/// saturation. Negative `mean_e` counts as 0.
 [[nodiscard]] TemporalNoise temporal_noise(const Readout& readout, double mean_e, double exposure_s);
 
 }  // namespace abbe

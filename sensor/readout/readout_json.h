@@ -10,14 +10,16 @@
 
 namespace abbe::spec {
 
+/// Key `gain_e_per_dn`: conversion gain K [electrons per DN].
 struct Gain : schema::Value<double> {};
+/// Key `iso`: saturation-based ISO speed that determines the gain.
 struct IsoSpeed : schema::Located<double> {};
 
 /// Description of the electronics in `sensor/readout` of a scene.
 struct Readout {
   abbe::Readout numbers;  ///< All numbers without a member of their own below.
-  std::variant<std::monostate, Gain, IsoSpeed> conversion;
-  std::optional<int> bits;
+  std::variant<std::monostate, Gain, IsoSpeed> conversion;  ///< Nothing if a camera model gives it.
+  std::optional<int> bits;                                  ///< Nothing if a camera model gives it.
   std::optional<schema::Located<double>> saturation_dn;
   schema::Located<double> offset_dn;
   std::optional<schema::Located<std::vector<std::array<double, 2>>>> response_curve;
@@ -29,10 +31,12 @@ struct Readout {
 
 namespace abbe {
 
-/// Builds the electronics. `sensitivity` is that of a pixel of the most sensitive channel [electrons per lx s
-/// of daylight]. Reports and returns nothing for
-/// - an offset that leaves no codes;
-/// - a curve that does not increase;
+/// Builds the electronics from a complete description. `sensitivity` is that of a pixel of the most sensitive
+/// channel [electrons per lx s of daylight]. It is needed only for an ISO speed. Reports errors with the code
+/// `scene` and returns nothing for
+/// - missing bits, and neither a gain nor a speed;
+/// - a highest code that the bits exclude, or an offset that leaves no codes;
+/// - a curve that does not increase from (0, 0) to (1, 1);
 /// - a speed that the full well or the lack of a sensitivity makes impossible.
 [[nodiscard]] std::optional<Readout> build(const spec::Readout& readout, std::optional<double> sensitivity,
                                            Diagnostics& diagnostics);

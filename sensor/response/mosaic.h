@@ -29,7 +29,8 @@ struct Mosaic {
 /// Name of the only plane of a mosaic's film.
 inline constexpr const char* kRawPlane = "raw";
 
-/// Text of a pattern, such as "R,G/G,B": rows from the top, channels by name.
+/// Text of a pattern, such as "R,G/G,B": rows from the top, channels by their `names` in the order of the
+/// sensor.
 [[nodiscard]] std::string to_text(const Mosaic& mosaic, std::span<const std::string> names);
 /// Parses a pattern. Nothing unless all rows have the same length and all names are known.
 [[nodiscard]] std::optional<Mosaic> parse_mosaic(std::string_view text, std::span<const std::string> names);

@@ -10,15 +10,17 @@
 
 namespace abbe {
 
-/// Row of a channel behind a polariser for light (I, Q, U) of constant spectrum: weight (I + q Q + u U).
+/// Row of a channel behind a polariser for light (I, Q, U) of constant spectrum: weight (I + q Q + u U), in
+/// the frame of the film.
 struct PolariserRow {
   std::string group;  ///< Name of the first channel with a proportional response.
-  double weight = 1;  ///< Relative to that channel.
-  double q = 0;
-  double u = 0;
+  double weight = 1;  ///< Integral of the weight relative to that channel.
+  double q = 0;       ///< cos 2a for a polariser at the angle a, times the mean contrast.
+  double u = 0;       ///< sin 2a, times the mean contrast.
 };
 
-/// Row of each channel behind a polariser, and nothing for the other channels.
+/// Row of each channel behind a polariser, in the order of the channels. Nothing for other channels, and for
+/// a channel whose weight has an integral of 0.
 [[nodiscard]] std::vector<std::optional<PolariserRow>> polariser_rows(std::span<const Channel> channels);
 
 /// Prefix of the attribute with the row of a channel; the name of the channel follows.
