@@ -30,9 +30,10 @@ struct Lattice {
   }
 };
 // Facet normals for each direction. Anisotropic facets use fewer, because their tables have many more
-// directions. Dielectrics need more, because total reflection makes their energies less smooth.
+// directions. Sampling of conductors replaces lost directions, so its pdf is only as exact as the table: with
+// 6,765 normals it is within 5e-4 of E. Dielectrics use fewer, because they compute many indices at once.
 Lattice mirror_lattice(const Microfacets<float>& facets) {
-  return isotropic(facets) ? Lattice{987, 610} : Lattice{610, 377};
+  return isotropic(facets) ? Lattice{6765, 4181} : Lattice{2584, 1597};
 }
 Lattice dielectric_lattice(const Microfacets<float>& facets) {
   return isotropic(facets) ? Lattice{2584, 1597} : Lattice{1597, 987};
@@ -55,6 +56,7 @@ float tilt_of(float z, float sin_times_alpha) {
   return std::sqrt(z / (z + sin_times_alpha));
 }
 constexpr float kQuarterTurn = std::numbers::pi_v<float> / 2;
+// Unit vector with these table coordinates, slightly above the horizon at tilt 0.
 Imath::V3f table_direction(const Microfacets<float>& facets, float tilt, float turn) {
   constexpr float kHorizon = 1e-4F;
   const float x = std::cos(turn * kQuarterTurn);
@@ -63,6 +65,7 @@ Imath::V3f table_direction(const Microfacets<float>& facets, float tilt, float t
   return Imath::V3f(x, y, t / std::max(1 - t, kHorizon) * tilted_alpha(facets, {x, y, 0})).normalized();
 }
 
+// Cell of a coordinate in [0, 1], divided into equal cells, and the position within it.
 struct Cell {
   int number;
   float within;
