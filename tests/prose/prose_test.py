@@ -1,13 +1,22 @@
-"""Tests of .ci/check_prose on short texts whose findings are known."""
+"""Tests of .ci/check_prose and .ci/list_messages on short texts whose findings are known, and the committed list of messages."""
+import difflib
 import importlib.machinery
 import importlib.util
 import pathlib
 import unittest
 
-SCRIPT = pathlib.Path(__file__).resolve().parents[2] / ".ci" / "check_prose"
-loader = importlib.machinery.SourceFileLoader("check_prose", str(SCRIPT))
-check = importlib.util.module_from_spec(importlib.util.spec_from_loader("check_prose", loader))
-loader.exec_module(check)
+CI = pathlib.Path(__file__).resolve().parents[2] / ".ci"
+
+
+def script(name: str):
+    loader = importlib.machinery.SourceFileLoader(name, str(CI / name))
+    module = importlib.util.module_from_spec(importlib.util.spec_from_loader(name, loader))
+    loader.exec_module(module)
+    return module
+
+
+check = script("check_prose")
+listing = script("list_messages")
 
 GLOSSARY = """| term | meaning | source | avoid |
 | --- | --- | --- | --- |
@@ -57,10 +66,28 @@ class Baseline(unittest.TestCase):
         self.assertEqual(len(check.risen({"words": {"io": 1}}, {})), 1)
 
     def test_every_row_of_the_glossary_has_four_columns(self):
-        glossary = (SCRIPT.parents[1] / "docs" / "glossary.md").read_text()
+        glossary = (CI.parent / "docs" / "glossary.md").read_text()
         rows = [line.split("|") for line in glossary.splitlines() if line.startswith("| ")]
         self.assertGreater(len(rows), 50)
         self.assertTrue(all(len(row) == 6 for row in rows))
+
+
+class Messages(unittest.TestCase):
+    def test_adjacent_literals_of_cpp_are_one_text(self):
+        source = 'f("no such " // why\n  "light", R"(a raw\ntext)"); // "in a comment"\nchar c = \'"\';\n#include "a b.h"\n'
+        self.assertEqual(listing.texts_of_cpp(source), ["no such light", "a raw\ntext"])
+
+    def test_fields_of_fstrings_are_braces(self):
+        self.assertEqual(sorted(listing.texts_of_python('f"got {x} here"\n"plain text"')), ["got {} here", "plain text"])
+
+    def test_keys_and_formats_are_no_messages(self):
+        self.assertTrue(listing.is_message("no such light (got {})"))
+        for key in ("focal_length", "{} {}", "XYZ D65", "%d", "/lights/0"):
+            self.assertFalse(listing.is_message(key), key)
+
+    def test_the_committed_list_is_that_of_the_source(self):
+        changed = list(difflib.unified_diff(listing.GOLDEN.read_text().splitlines(), listing.messages().splitlines(), "messages.txt", "source", n=0, lineterm=""))
+        self.assertEqual(changed, [], "read the new texts once as a stranger, then run .ci/list_messages --update:\n" + "\n".join(changed))
 
 
 if __name__ == "__main__":
