@@ -19,7 +19,7 @@ struct LensTables {
   Json fields;       ///< Distortion, spots and modulation by field.
   Json ghosts;       ///< Up to ten ghosts, the brightest first; surfaces are counted from 1.
 };
-/// Tables of these figures, rounded to seven digits.
+/// Tables of these figures. Numbers are texts of seven digits, except in `whole`, where they are not rounded.
 [[nodiscard]] LensTables lens_tables(const LensFigures& figures);
 
 /// Self-contained HTML page with tables, drawing and plots.

@@ -9,8 +9,8 @@ namespace abbe {
 /// are equal. Code without a build id does not contribute.
 [[nodiscard]] std::string build_id();
 
-/// The instruction set that the processor supports, by which Embree selects its code: "x86-64-v4" with
-/// AVX-512, else "x86-64-v3".
+/// The instruction set that the processor supports: "x86-64-v4" with AVX-512, else "x86-64-v3". Libraries may
+/// select their code by it, so films have the same bits only if it is equal.
 [[nodiscard]] std::string instruction_set();
 
 }  // namespace abbe

@@ -35,10 +35,10 @@ struct RecordedLight {
 [[nodiscard]] std::vector<RecordedLight> recorded_lights(const Image& film);
 
 /// Sets the white of a scene whose sensor is exposed to the spectral film `film`. It is the requested one,
-/// else the film's, else that of the scene's lights. `origin` names the option or keyword of `requested`, a
-/// text as for `requested_white`. `path` is the scene file. The film's bands become
-/// `Scene::image_band_edges_nm`. Throws Error{usage} for an unknown `requested` white, and Error{scene} for
-/// one to which chromatic adaptation is impossible.
+/// else `output/white` of the scene, else the film's, else that of the scene's lights. `origin` names the
+/// option or keyword of `requested`, a text as for `requested_white`. `path` is the scene file. The film's
+/// bands become `Scene::image_band_edges_nm`. Throws Error{usage} for an unknown `requested` white, and
+/// Error{scene} for one to which chromatic adaptation is impossible.
 void resolve_white(Scene& scene, const std::filesystem::path& path, const Image& film,
                    const std::optional<std::string>& requested, std::string_view origin);
 

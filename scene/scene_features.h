@@ -27,7 +27,7 @@ struct SceneFeatures {
   bool light_tracing = false;
   bool environment =
       false;              ///< Some environment light exists: light arrives from infinity in all directions.
-  bool textures = false;  ///< Some BSDF varies over its surface, by texture coordinates or vertex normals.
+  bool textures = false;  ///< Some BSDF needs texture coordinates, or some mesh has vertex normals.
   bool delta_lights = false;  ///< Some light is a point, spot or directional light.
   bool narrow_bands = false;  ///< Some emission or response has features narrower than 10 nm.
   /// Polarisation affects the power of some path: one event polarises light, and a later one or the camera

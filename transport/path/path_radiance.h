@@ -20,7 +20,8 @@ class PathRadiance {
     else
       powers_.assign(paths, {});
   }
-  /// Adds a contribution to the sum of a path. `stokes` is as for `with_measurement`.
+  /// Adds a contribution to the sum of a path. `stokes` is as for `with_measurement`; it must be given if the
+  /// sensor measures polarisation.
   void add(std::size_t path, const SampledSpectrum& contribution, const StokesSpectrum* stokes) {
     with_measurement(measures_polarisation_, contribution, stokes, Adder{*this, path});
   }

@@ -29,8 +29,8 @@ namespace abbe {
 
 /// Rays of a light for a drawing, as `central_ray` describes them: `count` >= 1 in each of two perpendicular
 /// planes through the central ray, first those of one plane. That plane contains the horizontal direction,
-/// perpendicular to z and to the central ray; for a vertical ray it is x. One ray per plane is the central
-/// ray, more are spread evenly.
+/// perpendicular to z and to the central ray; for a vertical ray it is x. A single ray per plane is the
+/// central ray. More are spread evenly from edge to edge, and need not include the central ray.
 /// - Spot light: a fan over its cone.
 /// - Area light: a fan of 60 degrees to both sides of the normal.
 /// - Point light: a full circle.

@@ -18,8 +18,9 @@ enum class Verdict { pass, fail, inconclusive };
 /// Equivalence test of a measurement against a reference. `margin` is a fraction of |reference|. The interval
 /// is the mean ± `kInterval` standard errors.
 /// - `pass`: the whole interval lies within the margin. A reference of 0 never passes.
-/// - `fail`: the interval excludes the reference by more than rounding errors (1e-5 of it), or is not finite.
-/// - `inconclusive`: more samples are needed.
+/// - `fail`: otherwise, if the interval excludes the reference by more than rounding errors (1e-5 of it), or
+/// is not finite.
+/// - `inconclusive`: otherwise; more samples are needed.
 [[nodiscard]] Verdict equivalence(const Estimate& measured, double reference, double margin);
 
 }  // namespace abbe
