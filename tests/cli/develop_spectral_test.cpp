@@ -221,7 +221,7 @@ TEST(DevelopSpectral, ResponsesBeyondTheBandsAreTold) {
       << half.err;
   const Outcome none = seen("[610, 650]");
   EXPECT_EQ(none.code, 4);
-  EXPECT_NE(none.err.find("where 100 % of the response"), std::string::npos) << none.err;
+  EXPECT_NE(none.err.find("but 100 % of the response"), std::string::npos) << none.err;
 }
 
 TEST(DevelopSpectral, PartsOfASpectralFilmMerge) {
