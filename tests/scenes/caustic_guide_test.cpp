@@ -273,6 +273,9 @@ TEST(CausticGuide, MakesNoBrightRoomNoisier) {
             name, albedo, open ? "open" : "closed", with.variance / without.variance,
             with.cpu_s / without.cpu_s, with.cost() / without.cost(), with.mean, without.mean);
         EXPECT_LT(with.variance, 1.2 * without.variance) << name << " " << albedo << " " << open;
+        if (test::nightly()) {
+          EXPECT_LT(with.cost(), 1.2 * without.cost()) << name << " " << albedo << " " << open;
+        }
       }
 }
 
