@@ -18,7 +18,7 @@ namespace abbe {
 /// on the angle of incidence. Also empty if a channel receives none of the white at some position.
 [[nodiscard]] std::optional<WhiteField> white_field(const Scene& scene);
 
-/// The `neutral_shift` [CIEDE2000] of the result of `white_field`, in the colours of the scene's pictures.
+/// The `neutral_shift` (CIEDE2000) of the result of `white_field`, in the colours of the scene's pictures.
 /// Empty if that result is empty or the sensor has no pictures.
 [[nodiscard]] std::optional<double> neutral_shift(const Scene& scene);
 

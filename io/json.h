@@ -61,7 +61,7 @@ struct JsonValue::Member {
 /// one line if it fits into `width` bytes with its indentation and a comma.
 [[nodiscard]] std::string to_lines(const JsonValue& value, std::size_t width);
 
-/// Sets the value at a JSON pointer [RFC6901], such as "/render/samples", in `root`; the empty pointer
+/// Sets the value at a JSON pointer (RFC 6901), such as "/render/samples", in `root`; the empty pointer
 /// replaces `root`. `text` is JSON. Text that is not JSON, such as a bare word or path, is taken as a string.
 /// Missing objects on the path are created. The index after the last element of an array, or "-", appends.
 /// Reports errors of the code `usage`, which name the text `option_name`:

@@ -14,7 +14,7 @@ equal "data folder through a link on PATH" "$(PATH="$scratch/path:$PATH" abbe --
 for file in share/man/man1/abbe.1.gz share/bash-completion/completions/abbe share/doc/abbe/reference.md share/doc/abbe/copyright; do
   [ -s "$scratch/second place/$file" ] || fail "$file is not installed"
 done
-zcat "$scratch/second place/share/man/man1/abbe.1.gz" | grep -q '^\.TH ABBE 1 ' || fail "the manual page is none"
+contains "manual page" "$(zcat "$scratch/second place/share/man/man1/abbe.1.gz")" ".TH ABBE 1 "
 
 # Pictures other than PNGs need the module that lies beside the program; the film does not, nor does anything else.
 with_picture() { "$program" render "$data/scenes/furnace.json" --spp 2 --quiet -o "$scratch/film.exr" --display "$scratch/film.jpg"; }
