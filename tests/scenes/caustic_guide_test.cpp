@@ -248,7 +248,8 @@ Noise noise_of(const Plan& plan, std::uint64_t samples) {
   return noise;
 }
 
-// What scattering finds as well is not made noisier by looking for caustics, however deep the paths are.
+// The caustic guide does not add noise to light that scattering finds as well, however deep the paths are.
+// The ratio of CPU times is printed but not tested: other tests run at the same time.
 TEST(CausticGuide, MakesNoBrightRoomNoisier) {
   std::vector<std::pair<const char*, const char*>> balls{
       {"silver", R"({"conductor": {"ior": "Ag_Johnson"}})"}, {"glass", R"({"dielectric": {"ior": 1.5}})"}};
@@ -273,9 +274,6 @@ TEST(CausticGuide, MakesNoBrightRoomNoisier) {
             name, albedo, open ? "open" : "closed", with.variance / without.variance,
             with.cpu_s / without.cpu_s, with.cost() / without.cost(), with.mean, without.mean);
         EXPECT_LT(with.variance, 1.2 * without.variance) << name << " " << albedo << " " << open;
-        if (test::nightly()) {
-          EXPECT_LT(with.cost(), 1.2 * without.cost()) << name << " " << albedo << " " << open;
-        }
       }
 }
 
