@@ -7,9 +7,9 @@
 #include "calibration/metrics/camera_space.h"
 #include "cli/page.h"
 #include "cli/sensor_plots.h"
-#include "validation/picture/display_color.h"
-#include "validation/plot/line_plot.h"
-#include "validation/plot/svg.h"
+#include "report/display_color.h"
+#include "report/line_plot.h"
+#include "report/svg.h"
 
 namespace abbe::cli {
 namespace {

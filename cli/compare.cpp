@@ -9,15 +9,15 @@
 #include "cli/answer.h"
 #include "cli/output_files.h"
 #include "description/load.h"
-#include "film/white.h"
 #include "io/atomic_file.h"
 #include "io/exr.h"
 #include "io/picture.h"
+#include "report/chart_difference.h"
+#include "report/common_areas.h"
+#include "report/difference_maps.h"
+#include "report/polarisation_difference.h"
+#include "results/white.h"
 #include "sensor/film/recorded_white.h"
-#include "validation/picture/difference_maps.h"
-#include "validation/statistics/chart_difference.h"
-#include "validation/statistics/common_areas.h"
-#include "validation/statistics/polarisation_difference.h"
 
 namespace abbe::cli {
 namespace {

@@ -8,8 +8,8 @@
 
 #include "cli/answer.h"
 #include "cli/output_files.h"
-#include "description/convert.h"
-#include "description/importers/importers.h"
+#include "description/load.h"
+#include "importers/importers.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/extension.h"

@@ -18,18 +18,18 @@
 #include "develop/polarisation.h"
 #include "develop/polarisation_camera.h"
 #include "develop/radiance.h"
-#include "film/relit_white.h"
-#include "film/spectral.h"
-#include "film/white.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/exr.h"
 #include "io/extension.h"
 #include "io/file_lock.h"
 #include "io/picture.h"
+#include "report/polarisation_maps.h"
+#include "results/relit_white.h"
+#include "results/spectral.h"
+#include "results/white.h"
 #include "sensor/film/recorded_white.h"
 #include "sensor/readout/speed.h"
-#include "validation/picture/polarisation_maps.h"
 
 namespace abbe::cli {
 namespace {

@@ -10,8 +10,8 @@
 #include "io/atomic_file.h"
 #include "io/extension.h"
 #include "io/standard_stream.h"
-#include "validation/layout/layout.h"
-#include "validation/layout/light_rays.h"
+#include "report/layout.h"
+#include "report/light_rays.h"
 
 namespace abbe::cli {
 namespace {

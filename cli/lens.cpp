@@ -10,7 +10,7 @@
 #include "description/load_lens.h"
 #include "io/atomic_file.h"
 #include "io/extension.h"
-#include "validation/lens/drawing.h"
+#include "report/lens_drawing.h"
 
 namespace abbe::cli {
 namespace {

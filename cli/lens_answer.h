@@ -3,7 +3,7 @@
 #include <string>
 
 #include "cli/answer.h"
-#include "validation/lens/figures.h"
+#include "report/lens_figures.h"
 
 namespace abbe::cli {
 

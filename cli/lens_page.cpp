@@ -2,9 +2,9 @@
 
 #include "cli/lens_answer.h"
 #include "cli/page.h"
-#include "validation/lens/drawing.h"
-#include "validation/lens/plots.h"
-#include "validation/plot/svg.h"
+#include "report/lens_drawing.h"
+#include "report/lens_plots.h"
+#include "report/svg.h"
 
 namespace abbe::cli {
 namespace {

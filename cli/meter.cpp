@@ -14,10 +14,10 @@
 #include "cli/output_files.h"
 #include "cli/progress.h"
 #include "cli/warnings.h"
-#include "film/measure_meter.h"
-#include "film/rendered_film.h"
 #include "io/atomic_file.h"
 #include "io/extension.h"
+#include "results/measure_meter.h"
+#include "results/rendered_film.h"
 #include "validation/statistics/students_interval.h"
 
 namespace abbe::cli {

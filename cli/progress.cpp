@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
-#include "film/scene_warnings.h"
+#include "results/scene_warnings.h"
 
 namespace abbe::cli {
 namespace {

@@ -16,12 +16,12 @@
 #include "io/extension.h"
 #include "io/spectral_exr.h"
 #include "io/text.h"
+#include "report/color_vector.h"
 #include "sensor/response/table_range.h"
 #include "spectral/color_temperature.h"
 #include "spectral/curve_use.h"
 #include "spectral/library.h"
 #include "spectral/sources.h"
-#include "validation/plot/color_vector.h"
 
 namespace abbe::cli {
 namespace {

@@ -4,8 +4,8 @@
 
 #include "calibration/output/display.h"
 #include "cli/answer.h"
-#include "film/spectral.h"
 #include "io/data_directory.h"
+#include "results/spectral.h"
 #include "validation/statistics/students_interval.h"
 
 namespace abbe::cli {

@@ -4,8 +4,8 @@
 
 #include "io/error.h"
 #include "io/text.h"
-#include "validation/plot/line_plot.h"
-#include "validation/plot/log_plot.h"
+#include "report/line_plot.h"
+#include "report/log_plot.h"
 
 namespace abbe::cli {
 

@@ -5,7 +5,7 @@
 #include "cli/answer.h"
 #include "cli/warnings.h"
 #include "description/load.h"
-#include "validation/layout/light_rays.h"
+#include "report/light_rays.h"
 
 namespace abbe::cli {
 namespace {

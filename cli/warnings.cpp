@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
-#include "film/field_response.h"
-#include "film/scene_warnings.h"
 #include "io/error.h"
+#include "results/field_response.h"
+#include "results/scene_warnings.h"
 
 namespace abbe::cli {
 namespace {

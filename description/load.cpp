@@ -9,14 +9,17 @@
 #include <fmt/format.h>
 
 #include "description/scene.h"
+#include "description/scene_schema.h"
 #include "description/sensor_model.h"
 #include "io/schema/read.h"
+#include "io/schema/write.h"
 #include "io/standard_stream.h"
 #include "io/table.h"
 #include "io/text.h"
 #include "materials/index/library.h"
 
 namespace abbe {
+
 namespace description {
 namespace {
 
@@ -151,6 +154,19 @@ std::optional<Scene> scene_of(const MeteredScene& scene, const Meter& meter, Dia
   if (diagnostics.has_errors()) return std::nullopt;
   built.commit();
   return built;
+}
+
+std::optional<std::string> canonical_scene(const std::filesystem::path& path,
+                                           std::span<const Override> overrides, Diagnostics& diagnostics,
+                                           Inputs* inputs) {
+  spec::Scene spec;
+  if (!load_scene(path, overrides, diagnostics, inputs, &spec)) return std::nullopt;
+  std::string text = to_lines(schema::write(spec), kJsonWidth);
+  // Overrides may nest JSON deeper than a file may be.
+  const auto source = std::make_shared<const SourceText>(SourceText{path.string(), text});
+  MemoryReservation tree_memory(inputs, 0);
+  if (!parse_json(source, diagnostics, &tree_memory)) return std::nullopt;
+  return text;
 }
 
 }  // namespace abbe

@@ -2,8 +2,8 @@
 
 #include <cstdint>
 
-#include "film/film_attributes.h"
 #include "io/image.h"
+#include "results/film_attributes.h"
 #include "scene/scene.h"
 #include "sensor/film/crop.h"
 #include "transport/render/part.h"

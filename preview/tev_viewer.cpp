@@ -12,9 +12,9 @@
 
 #include <fmt/format.h>
 
-#include "film/film_attributes.h"
 #include "io/error.h"
 #include "preview/tev_packets.h"
+#include "results/film_attributes.h"
 
 namespace abbe {
 namespace {

@@ -4,10 +4,10 @@
 #include <chrono>
 #include <cmath>
 
-#include "film/film_attributes.h"
 #include "io/error.h"
 #include "io/picture.h"
 #include "io/spectral_exr.h"
+#include "results/film_attributes.h"
 
 namespace abbe {
 namespace {

@@ -13,10 +13,10 @@
 #include "python/errors.h"
 #include "python/query.h"
 #include "python/text.h"
+#include "report/image_difference.h"
 #include "sensor/response/channel.h"
 #include "spectral/curve_use.h"
 #include "spectral/library.h"
-#include "validation/statistics/image_difference.h"
 
 namespace abbe::python {
 namespace {

@@ -5,8 +5,6 @@
 
 #include "develop/film_file.h"
 #include "develop/radiance.h"
-#include "film/spectral.h"
-#include "film/white.h"
 #include "io/extension.h"
 #include "python/arguments.h"
 #include "python/develop.h"
@@ -18,6 +16,8 @@
 #include "python/picture.h"
 #include "python/request.h"
 #include "python/scene.h"
+#include "results/spectral.h"
+#include "results/white.h"
 #include "sensor/film/recorded_white.h"
 
 namespace abbe::python {

@@ -7,8 +7,6 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "develop/film_file.h"
-#include "film/film_attributes.h"
-#include "film/rendered_film.h"
 #include "io/exr.h"
 #include "io/extension.h"
 #include "io/picture.h"
@@ -20,6 +18,8 @@
 #include "python/numbers.h"
 #include "python/picture.h"
 #include "python/text.h"
+#include "results/film_attributes.h"
+#include "results/rendered_film.h"
 #include "sensor/film/film_planes.h"
 #include "sensor/film/recorded_error.h"
 #include "sensor/film/variance_name.h"

@@ -8,9 +8,6 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
-#include "film/measure_meter.h"
-#include "film/rendered_film.h"
-#include "film/scene_warnings.h"
 #include "python/arguments.h"
 #include "python/arrays.h"
 #include "python/errors.h"
@@ -22,6 +19,9 @@
 #include "python/request.h"
 #include "python/scene.h"
 #include "python/text.h"
+#include "results/measure_meter.h"
+#include "results/rendered_film.h"
+#include "results/scene_warnings.h"
 #include "validation/statistics/students_interval.h"
 
 namespace abbe::python {

@@ -5,8 +5,6 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include "film/rendered_film.h"
-#include "film/scene_warnings.h"
 #include "python/arguments.h"
 #include "python/errors.h"
 #include "python/film.h"
@@ -17,6 +15,8 @@
 #include "python/request.h"
 #include "python/sample_range.h"
 #include "python/scene.h"
+#include "results/rendered_film.h"
+#include "results/scene_warnings.h"
 #include "transport/render/light_subpaths.h"
 
 namespace abbe::python {

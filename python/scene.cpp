@@ -9,7 +9,6 @@
 
 #include "description/load.h"
 #include "description/scene_schema.h"
-#include "film/white.h"
 #include "io/schema/help.h"
 #include "io/schema/keys.h"
 #include "io/schema/write.h"
@@ -18,6 +17,7 @@
 #include "python/gil.h"
 #include "python/json.h"
 #include "python/text.h"
+#include "results/white.h"
 #include "transport/render/choose_integrator.h"
 #include "transport/render/threads.h"
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "film/rendered_film.h"
+#include "results/rendered_film.h"
 #include "tests/scenes/film_of_plan.h"
 #include "tests/scenes/margin.h"
 #include "tests/scenes/scene_fixture.h"

@@ -1,4 +1,4 @@
-#include "validation/picture/color_map.h"
+#include "report/color_map.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "validation/statistics/image_difference.h"
+#include "report/image_difference.h"
 
 #include <array>
 #include <cmath>

@@ -6,13 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "report/image_difference.h"
 #include "transport/plan/techniques.h"
 #include "transport/render/choose_integrator.h"
 #include "transport/render/cost.h"
 #include "transport/render/render.h"
 #include "transport/render/threads.h"
 #include "validation/bench/reference.h"
-#include "validation/statistics/image_difference.h"
 
 namespace abbe {
 namespace {

@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 
 #include "io/data_directory.h"
+#include "report/color_map.h"
 #include "transport/plan/techniques.h"
 #include "transport/render/cost.h"
 #include "transport/render/render.h"
 #include "validation/cases/suites.h"
-#include "validation/picture/color_map.h"
 
 namespace abbe {
 namespace {

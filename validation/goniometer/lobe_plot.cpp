@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "report/display_color.h"
+#include "report/svg.h"
 #include "sampling/angle.h"
-#include "validation/picture/display_color.h"
-#include "validation/plot/svg.h"
 
 namespace abbe {
 namespace {

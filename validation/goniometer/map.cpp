@@ -5,8 +5,8 @@
 #include <optional>
 
 #include "materials/bsdf/warp.h"
+#include "report/display_color.h"
 #include "spectral/rgb.h"
-#include "validation/picture/display_color.h"
 
 namespace abbe {
 namespace {

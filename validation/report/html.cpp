@@ -6,7 +6,7 @@
 
 #include "io/picture.h"
 #include "io/text.h"
-#include "validation/plot/svg.h"
+#include "report/svg.h"
 #include "validation/report/matrix.h"
 #include "validation/report/report.h"
 #include "validation/statistics/equivalence.h"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "validation/plot/svg.h"
+#include "report/svg.h"
 
 namespace abbe {
 namespace {

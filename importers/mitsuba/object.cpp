@@ -1,0 +1,214 @@
+#include "importers/mitsuba/object.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "importers/shared/placement.h"
+#include "io/text.h"
+
+namespace abbe::importers::mitsuba {
+namespace {
+
+using Imath::M44d;
+using Imath::V3d;
+
+double number_attribute(const Element& element, std::string_view name, double fallback,
+                        const ImportState& state) {
+  const std::string& text = element[name];
+  if (text.empty()) return fallback;
+  const auto number = parse_number(split(text, '\n').front());
+  if (!number)
+    state.importer.diagnostics.error(
+        element.where,
+        fmt::format("expected a number as \"{}\" of <{}> (got \"{}\")", name, element.tag, text));
+  return number.value_or(fallback);
+}
+
+// The camera-to-world matrix of <lookat>, with x to the left, y up and z forward.
+std::optional<M44d> look_at(const Element& element, const ImportState& state) {
+  const auto three = [&](std::string_view name, const V3d& fallback) {
+    const auto numbers = numbers_of(element[name]);
+    if (!numbers || (numbers->size() != 3 && !element[name].empty()))
+      state.importer.diagnostics.error(element.where,
+                                       fmt::format("expected three numbers as \"{}\" of <lookat> (got "
+                                                   "\"{}\")",
+                                                   name, element[name]));
+    return numbers && numbers->size() == 3 ? V3d((*numbers)[0], (*numbers)[1], (*numbers)[2]) : fallback;
+  };
+  const V3d from = three("origin", {0, 0, 0});
+  const V3d z = (three("target", {0, 0, 1}) - from).normalized();
+  V3d x = three("up", {0, 1, 0}).cross(z);
+  if (z.length2() == 0 || x.length2() < 1e-24) {
+    state.importer.diagnostics.error(element.where, "the view direction is zero or parallel to up");
+    return std::nullopt;
+  }
+  x.normalize();
+  const V3d y = z.cross(x);
+  return M44d(x.x, x.y, x.z, 0, y.x, y.y, y.z, 0, z.x, z.y, z.z, 0, from.x, from.y, from.z, 1);
+}
+
+std::optional<M44d> matrix(const Element& element, const ImportState& state) {
+  auto numbers = numbers_of(element["value"]);
+  if (numbers && numbers->size() == 9) {  // A two-dimensional transform, with three rows and columns.
+    const std::vector<double>& n = *numbers;
+    return from_rows({n[0], n[1], 0, n[2], n[3], n[4], 0, n[5], 0, 0, 1, 0, 0, 0, 0, 1});
+  }
+  if (numbers && numbers->size() == 16) return from_rows(*numbers);
+  state.importer.diagnostics.error(element.where, "a matrix takes 9 or 16 numbers");
+  return std::nullopt;
+}
+
+// The matrix of one step of a transform.
+std::optional<M44d> transform_step(const Element& step, const ImportState& state) {
+  if (step.tag == "translate") return translation(vector_of(step, {0, 0, 0}, state));
+  if (step.tag == "lookat" || step.tag == "look_at") return look_at(step, state);
+  if (step.tag == "matrix") return matrix(step, state);
+  if (step.tag == "scale") {
+    const V3d by = vector_of(step, {1, 1, 1}, state);
+    if (by.x * by.y * by.z != 0) return scaling(by);
+    state.importer.diagnostics.error(step.where, "a scale factor must not be 0");
+    return std::nullopt;
+  }
+  if (step.tag == "rotate") {
+    const V3d axis = vector_of(step, {0, 0, 0}, state);
+    if (axis.length2() > 0) return rotation(axis, number_attribute(step, "angle", 0, state));
+    state.importer.diagnostics.error(step.where, "the axis of a rotation must not be 0");
+    return std::nullopt;
+  }
+  state.importer.diagnostics.error(
+      step.where, unknown_name("step of a transform", step.tag,
+                               std::vector<std::string>{"lookat", "matrix", "rotate", "scale", "translate"}));
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<std::vector<double>> numbers_of(const std::string& text) {
+  std::string spaced = text;
+  std::ranges::replace_if(
+      spaced, [](char c) { return c == ',' || c == '\n' || c == '\t' || c == '\r'; }, ' ');
+  std::vector<double> numbers;
+  for (const std::string& word : split(spaced, ' ')) {
+    if (word.empty()) continue;
+    const auto number = parse_number(word);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+V3d vector_of(const Element& element, const V3d& fallback, const ImportState& state) {
+  const std::string& value = element["value"];
+  if (value.empty())
+    return {number_attribute(element, "x", fallback.x, state),
+            number_attribute(element, "y", fallback.y, state),
+            number_attribute(element, "z", fallback.z, state)};
+  const auto numbers = numbers_of(value);
+  if (numbers && numbers->size() == 1) return V3d(numbers->front());
+  if (numbers && numbers->size() == 3) return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};
+  state.importer.diagnostics.error(
+      element.where, fmt::format("expected one number or three of <{}> (got \"{}\")", element.tag, value));
+  return fallback;
+}
+
+const Element* resolve(const Element& element, const ImportState& state) {
+  if (element.tag != "ref") return &element;
+  const auto found = state.ids.find(element["id"]);
+  if (found != state.ids.end() && found->second->last_index < element.first_index) return found->second;
+  std::vector<std::string> names;
+  for (const auto& [id, target] : state.ids)
+    if (target->last_index < element.first_index) names.push_back(id);
+  state.importer.diagnostics.error(element.where, unknown_name("reference", element["id"], names));
+  return nullptr;
+}
+
+const Element* Object::find(std::string_view name, std::initializer_list<std::string_view> tags) const {
+  for (const Element& child : element_->children) {
+    if (child["name"] != name) continue;
+    child.used = true;
+    const Element* found = resolve(child, *import_);
+    if (found == nullptr || std::ranges::find(tags, found->tag) != tags.end()) return found;
+    import_->importer.diagnostics.error(
+        child.where, fmt::format("\"{}\" has a wrong type (got <{}>, allowed {})", name, found->tag,
+                                 fmt::join(tags, ", ")));
+    return nullptr;
+  }
+  return nullptr;
+}
+
+bool Object::has(std::string_view name) const {
+  return std::ranges::any_of(element_->children, [&](const Element& child) { return child["name"] == name; });
+}
+
+const SourcePosition& Object::position_of(std::string_view name) const {
+  const auto child = std::ranges::find_if(element_->children,
+                                          [&](const Element& property) { return property["name"] == name; });
+  return child == element_->children.end() ? where() : child->where;
+}
+
+double Object::number(std::string_view name, double fallback) const {
+  const Element* found = find(name, {"float", "integer"});
+  return found ? number_attribute(*found, "value", fallback, *import_) : fallback;
+}
+
+bool Object::boolean(std::string_view name, bool fallback) const {
+  const Element* found = find(name, {"boolean"});
+  if (found == nullptr) return fallback;
+  const std::string& value = (*found)["value"];
+  if (value == "true" || value == "false") return value == "true";
+  import_->importer.diagnostics.error(found->where,
+                                      fmt::format("expected true or false (got \"{}\")", value));
+  return fallback;
+}
+
+std::string Object::text(std::string_view name, const std::string& fallback) const {
+  const Element* found = find(name, {"string"});
+  return found ? (*found)["value"] : fallback;
+}
+
+V3d Object::point(std::string_view name, const V3d& fallback) const {
+  const Element* found = find(name, {"point", "vector"});
+  return found ? vector_of(*found, V3d(0), *import_) : fallback;
+}
+
+M44d Object::transform(std::string_view name) const {
+  M44d all;
+  const Element* found = find(name, {"transform"});
+  if (found == nullptr) return all;
+  for (const Element& step : found->children)
+    if (const auto by = transform_step(step, *import_)) all = all * *by;
+  if (all.determinant() != 0) return all;
+  import_->importer.diagnostics.error(found->where, "a transform is singular");
+  return M44d();
+}
+
+std::vector<const Element*> Object::all(std::string_view tag) const {
+  std::vector<const Element*> found;
+  for (const Element& child : element_->children) {
+    if (child.tag != tag && child.tag != "ref") continue;
+    const Element* target = resolve(child, *import_);
+    const bool matches = target != nullptr && target->tag == tag;
+    child.used = child.used || matches || target == nullptr;
+    if (matches) found.push_back(target);
+  }
+  return found;
+}
+
+void Object::ignore(std::initializer_list<std::string_view> names) const {
+  for (const Element& child : element_->children)
+    child.used = child.used || std::ranges::find(names, child["name"]) != names.end();
+}
+
+void Object::note_unused() const {
+  for (const Element& child : element_->children) {
+    if (child.used) continue;
+    const std::string name = child["name"].empty() ? fmt::format("<{}>", child.tag) : child["name"];
+    import_->importer.note(child.where, fmt::format("\"{}\" of {} \"{}\" is not supported: dropped", name,
+                                                    element_->tag, type()));
+  }
+}
+
+}  // namespace abbe::importers::mitsuba

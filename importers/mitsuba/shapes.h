@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "importers/mitsuba/materials.h"
+#include "importers/shared/placement.h"
+
+namespace abbe::importers::mitsuba {
+
+/// Converts a <shape>:
+/// - A shape group becomes an object of `state.importer.scene`.
+/// - An instance is added to the shapes of that scene.
+/// - Any other shape is added to `shapes`, or becomes an object and an instance; see `append_shape`.
+/// - A shape with neither a surface nor a medium nor an emitter is left out.
+/// `owner` is the kind of the owner of `shapes`. Reports unknown types, missing files and an instance without
+/// one shape group. A supported type without a counterpart and properties that Abbe cannot represent are
+/// noted and dropped. Throws Error{resource} if the memory limit of `state.importer.inputs` is exceeded.
+void add_shape(const Object& shape, ShapeOwner owner, std::vector<spec::Shape>& shapes, Materials& materials,
+               const ImportState& state);
+
+}  // namespace abbe::importers::mitsuba

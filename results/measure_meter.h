@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "description/load.h"
+#include "io/inputs.h"
+#include "results/meter_reading.h"
+#include "transport/render/render.h"
+
+namespace abbe {
+
+/// A meter's reading, with the integrator and the seed that produced it.
+struct MeterMeasurement {
+  Meter meter;
+  Integrator integrator;  ///< The integrator that rendered, also if the scene leaves the choice to Abbe.
+  std::uint64_t seed;
+  MeterReading reading;
+  RenderStats stats;
+};
+
+/// Functions and settings of a caller of `measure_meter`.
+struct MeterCallbacks {
+  /// Renders the scene, with the caller's progress report and interruption.
+  std::function<RenderResult(const Scene& scene, const RenderOptions& options)> render;
+  /// Reports a warning about a reading.
+  std::function<void(const std::string& warning)> warn;
+  /// The caller's name for the target error, such as an option, for messages.
+  const char* error_name;
+  bool strict = false;  ///< True if missing light is an error instead of a warning.
+};
+
+/// The meters with these names in the scene's order, or all meters if `names` is empty. They refer to the
+/// scene, which must outlive them. Throws Error{usage}, which names `option`, for an unknown name.
+[[nodiscard]] std::vector<const Meter*> chosen_meters(const MeteredScene& scene,
+                                                      const std::vector<std::string>& names,
+                                                      const std::string& option);
+
+/// Renders the scene as built by `scene_of` for the meter, and reads the meter. A target error applies to the
+/// meter's three figures. `inputs` counts the memory of the render. Throws Error{resource} if that exceeds
+/// the rest of its limit.
+/// If the caller is strict, throws Error{scene}
+/// - for a `dark_camera_warning`;
+/// - for an `unsampled_light_warning` about an integrator that the scene names.
+/// The caller reports `hidden_sheet_warning` and `hidden_light_warning`, which are the same for all meters of
+/// a scene.
+[[nodiscard]] MeterMeasurement measure_meter(Scene scene, const Meter& meter, RenderOptions options,
+                                             const MeterCallbacks& caller, Inputs& inputs);
+
+}  // namespace abbe
