@@ -8,7 +8,7 @@
 #include <ImathVec.h>
 
 #include "description/curve.h"
-#include "scene/lights/polarisation.h"
+#include "scene/lights/light.h"
 #include "spectral/scaled_curve.h"
 
 namespace abbe::spec {

@@ -11,7 +11,7 @@
 #include "description/load_context.h"
 #include "description/motion.h"
 #include "description/surface.h"
-#include "scene/lights/environment_image.h"
+#include "scene/lights/infinite_light.h"
 #include "scene/scene.h"
 
 // Lights as scene files describe them. Lengths and positions are in the scene file's unit; directions are in

@@ -17,7 +17,6 @@ namespace {
 
 using V3d = Imath::V3d;
 
-constexpr double kSurfaceFan = std::numbers::pi / 3;
 // Offset of a ray's origin from the light's surface as a fraction of the scene's size; positions are in
 // double.
 constexpr double kSurfaceOffset = 1e-12;
@@ -58,41 +57,6 @@ SurfaceCenter surface_center(const AreaLight& light, const Shape& shape) {
   return hit ? SurfaceCenter{hit->point, hit->normal} : SurfaceCenter{point, normal};
 }
 
-struct CentralRay {
-  const Scene& scene;
-
-  std::optional<BasicRay<double>> operator()(const AreaLight& light) const {
-    const auto [point, normal] = surface_center(light, scene.shapes[light.shape].shape);
-    return BasicRay<double>{point + kSurfaceOffset * (scene_radius(scene.bounds) + point.length()) * normal,
-                            normal};
-  }
-  std::optional<BasicRay<double>> operator()(const PointLight& light) const {
-    const V3d towards = scene_center(scene) - light.position;
-    return BasicRay<double>{light.position, towards.length() > 0 ? towards.normalized() : V3d(1, 0, 0)};
-  }
-  std::optional<BasicRay<double>> operator()(const SpotLight& light) const {
-    return BasicRay<double>{light.position, light.axis};
-  }
-  std::optional<BasicRay<double>> operator()(const DirectionalLight& light) const {
-    return from_infinity(light.towards);
-  }
-  std::optional<BasicRay<double>> operator()(const SunLight& light) const {
-    return from_infinity(light.towards);
-  }
-  std::optional<BasicRay<double>> operator()(const EnvironmentLight&) const { return std::nullopt; }
-
-  [[nodiscard]] BasicRay<double> from_infinity(const V3d& towards) const {
-    return {scene_center(scene) + 1.5 * scene_radius(scene.bounds) * towards, -towards};
-  }
-};
-
-// Half the angle of the fan.
-double fan_of(const Light& light) {
-  if (const auto* spot = std::get_if<SpotLight>(&light.kind))
-    return 2 * std::asin(std::sqrt(std::min(1.0, static_cast<double>(spot->cap) / 2)));
-  return light.is<PointLight>() ? std::numbers::pi : kSurfaceFan;
-}
-
 }  // namespace
 
 const Light& light_named(const Scene& scene, const std::string& name, const std::string& option) {
@@ -106,7 +70,12 @@ const Light& light_named(const Scene& scene, const std::string& name, const std:
 }
 
 std::optional<BasicRay<double>> central_ray(const Scene& scene, const Light& light) {
-  return std::visit(CentralRay{scene}, light.kind);
+  const auto* area = std::get_if<AreaLight>(&light.kind);
+  if (area == nullptr)
+    return central_ray(light, SceneSphere{scene_center(scene), scene_radius(scene.bounds)});
+  const auto [point, normal] = surface_center(*area, scene.shapes[area->shape].shape);
+  return BasicRay<double>{point + kSurfaceOffset * (scene_radius(scene.bounds) + point.length()) * normal,
+                          normal};
 }
 
 bool is_omitted(const Scene& scene, const Light& light) {
@@ -123,7 +92,7 @@ std::vector<BasicRay<double>> light_rays(const Scene& scene, const Light& light,
   for (const V3d& of : {side, up})
     for (int i = 0; i < count; ++i) {
       // t runs from -1 to 1. A full circle omits the end, which is its start.
-      const double t = count == 1 ? 0 : 2.0 * i / (light.is<PointLight>() ? count : count - 1) - 1;
+      const double t = count == 1 ? 0 : 2.0 * i / (fan < std::numbers::pi ? count - 1 : count) - 1;
       if (light.at_infinity())
         rays.push_back({central->origin + t * scene_radius(scene.bounds) * of, axis});
       else

@@ -9,8 +9,7 @@
 #include "scene/dark_enclosure.h"
 #include "sensor/response/stokes_channels.h"
 #include "transport/path/roulette.h"
-#include "transport/plan/emissions.h"
-#include "transport/plan/photon_settings.h"
+#include "transport/plan/plan.h"
 #include "transport/plan/techniques.h"
 
 namespace abbe {

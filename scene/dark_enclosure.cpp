@@ -41,9 +41,7 @@ bool is_illuminated(const Scene& scene, std::uint32_t enclosure) {
     const auto* area = std::get_if<AreaLight>(&light.kind);
     if (area != nullptr && area->shape == enclosure) return area->two_sided;
     if (motion_of(light, scene.shapes) != nullptr) return true;  // it may enter
-    if (area == nullptr && !std::holds_alternative<PointLight>(light.kind) &&
-        !std::holds_alternative<SpotLight>(light.kind))
-      return false;  // at infinity
+    if (light.at_infinity()) return false;
     return std::ranges::any_of(kRepresentativePoints, [&](const std::array<float, 2>& u) {
       const EmissionPoint from = sample_emission_point(light, scene.shapes, {u[0], u[1]}, 0);
       return encloses(scene.shapes[enclosure].shape, Imath::V3d(from.point));

@@ -84,7 +84,7 @@ void add_of_light_tracing(const Scene& scene, Classes& classes) {
   classes.add([&](std::size_t i) { return lights[i].is_environment(); }, "E (S|D)* L",
               "all light of an environment light");
   if (probe) return;
-  classes.add([&](std::size_t i) { return lights[i].is<AreaLight, SunLight>(); }, "E L",
+  classes.add([&](std::size_t i) { return !lights[i].is_delta() && !lights[i].is_environment(); }, "E L",
               "lights seen directly");
   if (traits(scene.camera).ghosts)
     classes.add([&](std::size_t i) { return lights[i].is_delta() && emits(lights[i]); }, "E L",

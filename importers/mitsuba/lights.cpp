@@ -11,7 +11,7 @@
 #include "importers/mitsuba/spectra.h"
 #include "importers/shared/lights.h"
 #include "importers/shared/placement.h"
-#include "scene/lights/environment_image.h"
+#include "scene/lights/infinite_light.h"
 
 namespace abbe::importers::mitsuba {
 namespace {

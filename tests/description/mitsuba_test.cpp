@@ -3,7 +3,7 @@
 
 #include "io/exr.h"
 #include "mitsuba_scenes.h"
-#include "scene/lights/environment_image.h"
+#include "scene/lights/infinite_light.h"
 
 namespace abbe {
 namespace {

@@ -1,4 +1,4 @@
-#include "scene/lights/emission.h"
+#include "scene/lights/light.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "scene/lights/spherical_rectangle.h"
+#include "scene/lights/area_light.h"
 #include "scene/shapes/basis.h"
 #include "scenes.h"
 #include "tests/angles.h"

@@ -2,7 +2,7 @@
 #include "tests/scenes/film_of_plan.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
-#include "transport/plan/emissions.h"
+#include "transport/plan/plan.h"
 #include "transport/render/replay.h"
 #include "transport/render/trained_plan.h"
 #include "transport/technique/caustic_photons.h"

@@ -5,7 +5,7 @@
 #include <cfenv>
 #include <span>
 
-#include "scene/lights/emission.h"
+#include "scene/lights/light.h"
 #include "spectral/sources.h"
 #include "tests/tier.h"
 #include "transport/path/path_recorder.h"

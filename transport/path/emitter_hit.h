@@ -15,11 +15,9 @@ template <typename Visit>
 void visit_escaped_lights(const Scene& scene, PathState& path, Visit visit) {
   if (scene.background().empty()) return;
   path.media.medium.attenuate(path.packet.throughput, std::numeric_limits<float>::infinity());
-  for (const std::uint32_t light : scene.background()) {
-    const auto* sun = std::get_if<SunLight>(&scene.lights[light].kind);
-    if (sun == nullptr || sun->contains(path.ray.direction))
+  for (const std::uint32_t light : scene.background())
+    if (is_visible_along(scene.lights[light], path.ray.direction))
       visit(LightVertex{light, path.ray.direction, Imath::V3f(0), true});
-  }
 }
 
 /// Light vertex of the surface that a ray with the unit direction `direction` hits; nothing if it is no

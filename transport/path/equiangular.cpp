@@ -49,18 +49,16 @@ Equiangular::Equiangular(double from, double to, double foot, double height)
       high_(std::atan2(to - foot, height)) {}
 
 std::optional<Equiangular> Equiangular::along(const Ray& ray, float length, const Light& light) {
-  const auto* point = std::get_if<PointLight>(&light.kind);
-  const auto* spot = std::get_if<SpotLight>(&light.kind);
-  if (point == nullptr && spot == nullptr) return std::nullopt;
-  const Imath::V3d position(point != nullptr ? position_at(*point, ray.time) : position_at(*spot, ray.time));
-  const Imath::V3d m = Imath::V3d(ray.origin) - position;
+  const std::optional<Imath::V3f> position = position_at(light, ray.time);
+  if (!position) return std::nullopt;
+  const Imath::V3d m = Imath::V3d(ray.origin) - Imath::V3d(*position);
   const Imath::V3d d(ray.direction);
   Interval part{0, length};
-  if (spot != nullptr && spot->cap < 1) {
-    const double cap = spot->cap;
-    const auto cone = within_cone(m, d, Imath::V3d(spot->axis_at(ray.time)), cap * (2 - cap));
-    if (!cone) return std::nullopt;
-    part = {std::max(part.from, cone->from), std::min(part.to, cone->to)};
+  if (const std::optional<DirectionCone> cone = cone_at(light, ray.time); cone && cone->cap < 1) {
+    const double cap = cone->cap;
+    const auto inside = within_cone(m, d, Imath::V3d(cone->axis), cap * (2 - cap));
+    if (!inside) return std::nullopt;
+    part = {std::max(part.from, inside->from), std::min(part.to, inside->to)};
   }
   if (!(part.from < part.to)) return std::nullopt;
   const double foot = -m.dot(d);

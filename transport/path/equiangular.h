@@ -7,7 +7,7 @@
 
 namespace abbe {
 
-/// Equiangular sampling of a distance along a ray in a medium, for a point or spot light [Kulla2012]. The
+/// Equiangular sampling of a distance along a ray in a medium, for a light at a point [Kulla2012]. The
 /// range is the part of the ray within the light's cone, if the cone is narrower than a half space. The pdf
 /// is uniform in the angle at which the light sees the point. Let D be the light's distance from the ray, t
 /// the signed distance along the ray from its point nearest to the light, and theta = atan(t/D):
@@ -15,8 +15,8 @@ namespace abbe {
 /// theta_a and theta_b being the angles at both ends of the range. The factor 1/d^2 of the light cancels.
 class Equiangular {
  public:
-  /// Sampler for the first `length` [m] of a ray, which may be infinite. Returns nothing for lights of other
-  /// kinds, for a light that illuminates no part of it, and for a light at the ray's origin.
+  /// Sampler for the first `length` [m] of a ray, which may be infinite. Returns nothing for other
+  /// lights, for a light that illuminates no part of it, and for a light at the ray's origin.
   [[nodiscard]] static std::optional<Equiangular> along(const Ray& ray, float length, const Light& light);
 
   /// Samples a distance from the ray's origin [m], within the range, with `u` in [0, 1).

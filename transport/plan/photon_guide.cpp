@@ -11,7 +11,7 @@
 
 #include "materials/bsdf/warp.h"
 #include "sampling/discrete.h"
-#include "scene/lights/emission.h"
+#include "scene/lights/light.h"
 #include "scene/shapes/basis.h"
 
 namespace abbe {

@@ -71,4 +71,24 @@ std::string owned_paths(Technique technique, std::span<const Technique> active, 
   return alone ? "E (S|D)* L" : "E (S|D)* L, except paths owned by light";
 }
 
+bool scene_sets_photon_count(std::span<const Technique> techniques) {
+  return uses(techniques, Technique::photon_brute) ||
+         std::any_of(techniques.begin(), techniques.end(), gathers_photons);
+}
+
+std::vector<std::string_view> unused_photon_settings(const Scene& scene) {
+  const PhotonSettings& spec = scene.render.photons;
+  const PhotonSettings defaults;
+  const std::vector<Technique> techniques = chosen_techniques(scene);
+  const bool by_number = uses(techniques, Technique::photon_map);
+  const bool by_radius = uses(techniques, Technique::ppm) || uses(techniques, Technique::sppm) ||
+                         uses(techniques, Technique::vcm) || scene.render.consistent;
+  std::vector<std::string_view> unused;
+  if (spec.per_sample && !scene_sets_photon_count(techniques)) unused.emplace_back("per_sample");
+  if (spec.radius_m && !by_radius) unused.emplace_back("radius");
+  if (spec.nearest != defaults.nearest && !by_number) unused.emplace_back("nearest");
+  if (spec.final_gather != defaults.final_gather && !by_number) unused.emplace_back("final_gather");
+  return unused;
+}
+
 }  // namespace abbe

@@ -58,4 +58,13 @@ enum class Technique : std::uint8_t {
 [[nodiscard]] std::string owned_paths(Technique technique, std::span<const Technique> active,
                                       const Camera& camera);
 
+/// True if the scene file may set the number of photons per sample, because a technique traces them
+/// separately from the camera paths: brute-force photons and all that gather photons.
+[[nodiscard]] bool scene_sets_photon_count(std::span<const Technique> techniques);
+
+/// Keys of `render/photons` in the scene file, such as "radius", that the scene's integrator does not use
+/// although the scene sets them to other values than the defaults. With Integrator::automatic the radius
+/// counts as used if Integrator::vcm may be chosen.
+[[nodiscard]] std::vector<std::string_view> unused_photon_settings(const Scene& scene);
+
 }  // namespace abbe

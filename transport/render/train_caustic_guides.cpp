@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "transport/plan/emissions.h"
+#include "transport/plan/plan.h"
 #include "transport/render/pilot_photons.h"
 #include "transport/render/train_photon_guides.h"
 #include "transport/technique/caustic_photons.h"
@@ -63,8 +63,8 @@ std::vector<bool> caustic_lights(const Plan& plan) {
   const bool sees_through_specular = is_probe(scene.camera) || sees_specular(scene);
   std::vector<bool> selected;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    selected.push_back(scene.lights[i].is<AreaLight, SunLight>() && scene.lights[i].emission.max() > 0 &&
-                       (sees_through_specular || !plan.traced[i]));
+    selected.push_back(!scene.lights[i].is_delta() && !scene.lights[i].is_environment() &&
+                       scene.lights[i].emission.max() > 0 && (sees_through_specular || !plan.traced[i]));
   return selected;
 }
 

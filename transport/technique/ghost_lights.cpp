@@ -4,7 +4,7 @@
 #include <cmath>
 #include <optional>
 
-#include "scene/lights/emission.h"
+#include "scene/lights/light.h"
 #include "scene/polarisation_cause.h"
 #include "transport/path/dimensions.h"
 #include "transport/path/free_path.h"

@@ -28,23 +28,18 @@ struct PhotonRandom {
   float time;        // fraction of the exposure
 };
 
-bool emits_in_direction(const Light& light, const EmissionPoint& from, const Imath::V3f& wi, float time) {
-  if (const auto* spot = std::get_if<SpotLight>(&light.kind)) return spot->illuminates(wi, time);
-  return emits_towards(light, from.normal, wi);
-}
-
-// Photon of a nearby light, in a direction of its guide: L_e |cos| / (q p_area p_direction), q being the
-// probability of the light.
+// Photon of a nearby light, in a direction of its guide: L_e f / (q p_area p_direction), f being the
+// `emission_factor` and q the probability of the light.
 PhotonRay start_near(const Plan& plan, const PowerLightSampler::SampledLight& pick, const PhotonRandom& u) {
   const Light& light = plan.scene.lights[pick.light];
   const EmissionPoint from = sample_emission_point(light, plan.scene.shapes, u.start, u.time);
   const GuidedDirection guided =
       plan.guides.photon_guides[pick.light].sample(light, from, u.choice, u.guide, u.time);
-  if (!emits_in_direction(light, from, guided.wi, u.time)) return {};
-  const bool area = light.is<AreaLight>();
-  const float cosine = area ? std::abs(from.normal.dot(guided.wi)) : 1.0F;
-  return {area ? spawn(from.point, from.normal, guided.wi, u.time) : ray_at(from.point, guided.wi, u.time),
-          cosine / (pick.probability * from.pdf_area * guided.pdf)};
+  const float factor = emission_factor(light, from.normal, guided.wi, u.time);
+  if (!(factor > 0)) return {};
+  return {light.is<AreaLight>() ? spawn(from.point, from.normal, guided.wi, u.time)
+                                : ray_at(from.point, guided.wi, u.time),
+          factor / (pick.probability * from.pdf_area * guided.pdf)};
 }
 
 // Ray through a point of the target, from outside the target's sphere.
@@ -53,8 +48,8 @@ Ray ray_through_target(const PhotonGuide& guide, const GuidedPoint& at, const Im
   return ray_at(at.point - direction * (2 * guide.half_size()), direction, time);
 }
 
-// Photon of a distant light, through a point of the target at the distance d: L_e |cos_light cos_target| / (q
-// p_light p_target d^2).
+// Photon of a distant light, through a point of the target at the distance d: L_e f |cos_target| / (q p_light
+// p_target d^2), f being the `emission_factor`.
 PhotonRay start_distant(const Plan& plan, RayCaster& caster, const PowerLightSampler::SampledLight& pick,
                         const PhotonRandom& u) {
   const Light& light = plan.scene.lights[pick.light];
@@ -65,12 +60,13 @@ PhotonRay start_distant(const Plan& plan, RayCaster& caster, const PowerLightSam
   const double distance = to_target.length();
   const Imath::V3f wi(to_target * (1 / distance));
   const Ray ray = ray_through_target(guide, at, wi, u.time);
-  if (!emits_in_direction(light, from, wi, u.time)) return {ray};
-  const bool area = light.is<AreaLight>();
+  const float factor = emission_factor(light, from.normal, wi, u.time);
+  if (!(factor > 0)) return {ray};
   if (caster.occluded(shadow_ray_between(
-          ray.origin, area ? offset_point(from.point, from.normal, wi) : from.point, u.time)))
+          ray.origin, light.is<AreaLight>() ? offset_point(from.point, from.normal, wi) : from.point,
+          u.time)))
     return {ray};
-  const float cosines = (area ? std::abs(from.normal.dot(wi)) : 1.0F) * std::abs(guide.axis().dot(wi));
+  const float cosines = factor * std::abs(guide.axis().dot(wi));
   const double density = static_cast<double>(pick.probability * from.pdf_area) * static_cast<double>(at.pdf) *
                          distance * distance;
   return {ray, static_cast<float>(static_cast<double>(cosines) / density)};

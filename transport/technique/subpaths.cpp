@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "scene/lights/emission.h"
+#include "scene/lights/light.h"
 #include "scene/polarisation_cause.h"
 #include "scene/shapes/basis.h"
 #include "scene/working_range.h"
