@@ -12,6 +12,7 @@
 #include "scene/lights/area_light.h"
 #include "scene/lights/infinite_light.h"
 #include "scene/lights/model.h"
+#include "scene/lights/photometric_light.h"
 #include "scene/lights/point_light.h"
 #include "spectral/scaled_curve.h"
 
@@ -52,11 +53,14 @@ struct PolarisationState {
 /// A light: its model with its position, and its emission spectrum. The emission is
 /// - spectral radiance [W m^-2 sr^-1 nm^-1] for an area light, environment light or sun. For an environment
 ///   image it is the radiance of a texel (1, 1, 1);
-/// - spectral intensity [W sr^-1 nm^-1] for a point or spot light;
+/// - spectral intensity [W sr^-1 nm^-1] for a point or spot light, for a photometric one averaged over all
+///   directions;
 /// - spectral irradiance [W m^-2 nm^-1] of a perpendicular surface for a directional light.
 struct Light {
   std::string name;
-  std::variant<AreaLight, PointLight, SpotLight, EnvironmentLight, DirectionalLight, SunLight> kind;
+  std::variant<AreaLight, PointLight, SpotLight, EnvironmentLight, DirectionalLight, SunLight,
+               PhotometricLight>
+      kind;
   ScaledCurve emission;
   std::optional<LightPolarisation> polarisation = {};  ///< Nothing for unpolarised light.
 
@@ -111,9 +115,11 @@ inline bool Light::at_infinity() const {
 /// `emission_factor` are left out.
 [[nodiscard]] SampledSpectrum emission_from(const Light& light, const Imath::V3f& wi,
                                             const SampledSpectrum& wavelengths_nm);
-/// Factor from the emission to that along the unit direction `wo`, away from the light, at that time: the
-/// cosine with the outward `normal` on the emitting sides of an area light, 1 or 0 within and outside the
-/// cone of a spot light. Always 1 for point lights and lights at infinity.
+/// Factor from the emission to that along the unit direction `wo`, away from the light, at that time. It is
+/// - for an area light the cosine with its outward `normal`, and 0 on the sides that do not emit;
+/// - for a spot light 1 within its cone and 0 outside;
+/// - for a photometric light its relative intensity;
+/// - for all others 1.
 [[nodiscard]] float emission_factor(const Light& light, const Imath::V3f& normal, const Imath::V3f& wo,
                                     float time);
 /// True if the light emits from a surface point with outward `normal` in the direction `wo`, which points
@@ -172,7 +178,7 @@ inline constexpr std::array<std::array<float, 2>, 5> kRepresentativePoints{
 
 /// Central ray of a light without a shape at time 0, for drawings: infinite, with a unit direction away from
 /// the light. Light at infinity starts 1.5 times the sphere's radius before its center. A point light's ray
-/// leads to that center, or along +x if it is there. Nothing for an environment light and for area lights.
+/// points to that center, or along +x if it is there. Nothing for an environment light and for area lights.
 [[nodiscard]] std::optional<BasicRay<double>> central_ray(const Light& light, const SceneSphere& sphere);
 /// Half the angle [rad] of the rays around the central ray that a drawing shows: pi for a point light, the
 /// half angle of a spot light, 60 degrees for an area light.
