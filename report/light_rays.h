@@ -15,7 +15,7 @@ namespace abbe {
 
 /// Central ray of a light in render coordinates [m] at time 0: infinite, with a unit direction away from the
 /// light. It is empty for an environment light.
-/// - Spot light: its axis.
+/// - Spot or photometric light: its axis.
 /// - Area light: the outward normal at the center of its surface, from just off the surface. The center of
 /// a mesh is that of its median triangle by cumulative area.
 /// - Point light: the ray to the center of the scene's bounds, or along +x if the light is there.
@@ -31,7 +31,7 @@ namespace abbe {
 /// planes through the central ray, first those of one plane. That plane contains the horizontal direction,
 /// perpendicular to z and to the central ray; for a vertical ray it is x. A single ray per plane is the
 /// central ray. More are spread evenly from edge to edge, and need not include the central ray.
-/// - Spot light: a fan over its cone.
+/// - Spot light: a fan over its cone; photometric light: over its range of vertical angles.
 /// - Area light: a fan of 60 degrees to both sides of the normal.
 /// - Point light: a full circle.
 /// - Sun or directional light: parallel rays across the bounds.

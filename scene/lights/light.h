@@ -79,8 +79,9 @@ struct Light {
 /// Flags of the alternatives of `Light::kind`, in their order.
 template <typename Kinds>
 struct LightFlags;
-template <LightModel... Models>
+template <typename... Models>
 struct LightFlags<std::variant<Models...>> {
+  static_assert((LightModel<Models> && ...));
   static constexpr std::array<bool, sizeof...(Models)> kIsDelta{Models::kIsDelta...};
   static constexpr std::array<bool, sizeof...(Models)> kAtInfinity{Models::kAtInfinity...};
 };
