@@ -250,10 +250,6 @@ float AreaLight::pdf(const Shapes& shapes, const LightHit& at) const {
   return static_cast<float>(density_by_area(*this, d, d.length(), Imath::V3d(at.normal)));
 }
 
-float AreaLight::emission_factor(const Imath::V3f& normal, const Imath::V3f& wo, float /*time*/) const {
-  return emits_towards(normal, wo) ? std::abs(normal.dot(wo)) : 0.0F;
-}
-
 EmissionPoint AreaLight::sample_emission_point(const Shapes& shapes, Imath::V2f u, float time) const {
   const Shape& own = shapes[shape].shape;
   SurfacePoint at = sample_area(*this, own, u);
@@ -276,10 +272,6 @@ EmissionDensity AreaLight::emission_density(const Imath::V3f& normal, const Imat
   return {static_cast<float>(1 / area), pdf};
 }
 
-double AreaLight::etendue(double /*across*/) const {
-  return std::numbers::pi * area * (two_sided ? 2 : 1);
-}
-
 LightBounds AreaLight::bounds(const Shapes& shapes, double emission) const {
   const Shape& own = shapes[shape].shape;
   EmittingFace face = std::visit([&](const auto& s) { return face_of(s, area); }, own);
@@ -298,10 +290,6 @@ Imath::Box3d AreaLight::box(const Shapes& shapes) const {
 
 const Motion* AreaLight::motion_in(const Shapes& shapes) const {
   return motion_of(shapes[shape].shape);
-}
-
-std::size_t AreaLight::memory_bytes() const {
-  return triangle_cdf.size() * sizeof(float) + (flat ? sizeof(EmittingQuad) : 0);
 }
 
 }  // namespace abbe

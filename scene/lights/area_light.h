@@ -1,8 +1,10 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -88,16 +90,22 @@ struct AreaLight {
   [[nodiscard]] bool emits_towards(const Imath::V3f& normal, const Imath::V3f& wo) const {
     return two_sided || normal.dot(wo) > 0;
   }
-  [[nodiscard]] float emission_factor(const Imath::V3f& normal, const Imath::V3f& wo, float time) const;
+  [[nodiscard]] float emission_factor(const Imath::V3f& normal, const Imath::V3f& wo, float /*time*/) const {
+    return emits_towards(normal, wo) ? std::abs(normal.dot(wo)) : 0.0F;
+  }
   [[nodiscard]] EmissionPoint sample_emission_point(const Shapes& shapes, Imath::V2f u, float time) const;
   [[nodiscard]] Imath::V3f emission_direction(const Imath::V3f& normal, Imath::V2f u, float time) const;
   [[nodiscard]] EmissionDensity emission_density(const Imath::V3f& normal, const Imath::V3f& wo,
                                                  float scene_radius_m, float time) const;
-  [[nodiscard]] double etendue(double across) const;
+  [[nodiscard]] double etendue(double /*across*/) const {
+    return std::numbers::pi * area * (two_sided ? 2 : 1);
+  }
   [[nodiscard]] LightBounds bounds(const Shapes& shapes, double emission) const;
   [[nodiscard]] Imath::Box3d box(const Shapes& shapes) const;
   [[nodiscard]] const Motion* motion_in(const Shapes& shapes) const;
-  [[nodiscard]] std::size_t memory_bytes() const;
+  [[nodiscard]] std::size_t memory_bytes() const {
+    return triangle_cdf.size() * sizeof(float) + (flat ? sizeof(EmittingQuad) : 0);
+  }
 };
 
 }  // namespace abbe

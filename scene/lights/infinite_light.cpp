@@ -181,17 +181,9 @@ SampledSpectrum EnvironmentLight::emission_from(const ScaledCurve& emission, con
   return image ? image->radiance(wi, wavelengths_nm) : emission(wavelengths_nm);
 }
 
-ScaledCurve EnvironmentLight::mean_emission(const ScaledCurve& emission) const {
-  return image ? ScaledCurve(image->mean_radiance()) : emission;
-}
-
 EmissionDensity EnvironmentLight::emission_density(const Imath::V3f& /*normal*/, const Imath::V3f& wo,
                                                    float scene_radius_m, float /*time*/) const {
   return {disc_pdf(scene_radius_m), pdf({}, -wo)};
-}
-
-double EnvironmentLight::etendue(double across) const {
-  return 4 * std::numbers::pi * across;
 }
 
 LightBounds EnvironmentLight::bounds(const Shapes& /*shapes*/, double emission) const {
@@ -200,14 +192,6 @@ LightBounds EnvironmentLight::bounds(const Shapes& /*shapes*/, double emission) 
   bounds.box = Imath::Box3d(Imath::V3d(0));
   bounds.ambient = image == nullptr;
   return bounds;
-}
-
-double EnvironmentLight::solid_angle() const {
-  return 4 * std::numbers::pi;
-}
-
-std::size_t EnvironmentLight::memory_bytes() const {
-  return image ? image->memory_bytes() : 0;
 }
 
 std::optional<LightSample> DirectionalLight::sample(const Shapes& /*shapes*/,
@@ -221,16 +205,8 @@ EmissionDensity DirectionalLight::emission_density(const Imath::V3f& /*normal*/,
   return {disc_pdf(scene_radius_m), 1};
 }
 
-double DirectionalLight::etendue(double across) const {
-  return across;
-}
-
 LightBounds DirectionalLight::bounds(const Shapes& /*shapes*/, double emission) const {
   return bounds_at_infinity(towards, 0, emission, emission);
-}
-
-std::optional<DirectionCone> DirectionalLight::beam() const {
-  return DirectionCone{towards, 0};
 }
 
 std::optional<BasicRay<double>> DirectionalLight::central_ray(const SceneSphere& sphere) const {
@@ -257,21 +233,9 @@ EmissionDensity SunLight::emission_density(const Imath::V3f& /*normal*/, const I
   return {disc_pdf(scene_radius_m), contains(-wo) ? cone_pdf(cap) : 0.0F};
 }
 
-double SunLight::etendue(double across) const {
-  return projected_solid_angle() * across;
-}
-
 LightBounds SunLight::bounds(const Shapes& /*shapes*/, double emission) const {
   const double irradiance = emission * projected_solid_angle();
   return bounds_at_infinity(towards, static_cast<double>(cap), irradiance, irradiance);
-}
-
-std::optional<DirectionCone> SunLight::beam() const {
-  return DirectionCone{towards, cap};
-}
-
-double SunLight::solid_angle() const {
-  return 2 * std::numbers::pi * static_cast<double>(cap);
 }
 
 std::optional<BasicRay<double>> SunLight::central_ray(const SceneSphere& sphere) const {

@@ -3,6 +3,7 @@
 #include <array>
 #include <cstddef>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <span>
 #include <vector>
@@ -89,13 +90,15 @@ struct EnvironmentLight {
   [[nodiscard]] float pdf(const Shapes& shapes, const LightHit& at) const;
   [[nodiscard]] SampledSpectrum emission_from(const ScaledCurve& emission, const Imath::V3f& wi,
                                               const SampledSpectrum& wavelengths_nm) const;
-  [[nodiscard]] ScaledCurve mean_emission(const ScaledCurve& emission) const;
+  [[nodiscard]] ScaledCurve mean_emission(const ScaledCurve& emission) const {
+    return image ? ScaledCurve(image->mean_radiance()) : emission;
+  }
   [[nodiscard]] EmissionDensity emission_density(const Imath::V3f& normal, const Imath::V3f& wo,
                                                  float scene_radius_m, float time) const;
-  [[nodiscard]] double etendue(double across) const;
+  [[nodiscard]] double etendue(double across) const { return 4 * std::numbers::pi * across; }
   [[nodiscard]] LightBounds bounds(const Shapes& shapes, double emission) const;
-  [[nodiscard]] double solid_angle() const;
-  [[nodiscard]] std::size_t memory_bytes() const;
+  [[nodiscard]] double solid_angle() const { return 4 * std::numbers::pi; }
+  [[nodiscard]] std::size_t memory_bytes() const { return image ? image->memory_bytes() : 0; }
 };
 
 /// Parallel light from infinity. `towards` is the unit direction from the scene towards the source.
@@ -110,9 +113,9 @@ struct DirectionalLight {
                                                   Imath::V2f u, float time) const;
   [[nodiscard]] EmissionDensity emission_density(const Imath::V3f& normal, const Imath::V3f& wo,
                                                  float scene_radius_m, float time) const;
-  [[nodiscard]] double etendue(double across) const;
+  [[nodiscard]] double etendue(double across) const { return across; }
   [[nodiscard]] LightBounds bounds(const Shapes& shapes, double emission) const;
-  [[nodiscard]] std::optional<DirectionCone> beam() const;
+  [[nodiscard]] std::optional<DirectionCone> beam() const { return DirectionCone{towards, 0}; }
   [[nodiscard]] std::optional<BasicRay<double>> central_ray(const SceneSphere& sphere) const;
 };
 
@@ -136,11 +139,11 @@ struct SunLight {
   [[nodiscard]] float pdf(const Shapes& shapes, const LightHit& at) const;
   [[nodiscard]] EmissionDensity emission_density(const Imath::V3f& normal, const Imath::V3f& wo,
                                                  float scene_radius_m, float time) const;
-  [[nodiscard]] double etendue(double across) const;
+  [[nodiscard]] double etendue(double across) const { return projected_solid_angle() * across; }
   [[nodiscard]] LightBounds bounds(const Shapes& shapes, double emission) const;
-  [[nodiscard]] std::optional<DirectionCone> beam() const;
+  [[nodiscard]] std::optional<DirectionCone> beam() const { return DirectionCone{towards, cap}; }
   [[nodiscard]] bool is_visible_along(const Imath::V3f& wi) const { return contains(wi); }
-  [[nodiscard]] double solid_angle() const;
+  [[nodiscard]] double solid_angle() const { return 2 * std::numbers::pi * static_cast<double>(cap); }
   [[nodiscard]] std::optional<BasicRay<double>> central_ray(const SceneSphere& sphere) const;
 };
 

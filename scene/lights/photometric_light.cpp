@@ -141,26 +141,10 @@ EmissionDensity PhotometricLight::emission_density(const Imath::V3f& /*normal*/,
   return {1, distribution->pdf(LuminaireFrame(*this, time).to_local(wo))};
 }
 
-double PhotometricLight::etendue(double /*across*/) const {
-  return 4 * std::numbers::pi;
-}
-
 LightBounds PhotometricLight::bounds(const Shapes& /*shapes*/, double emission) const {
   EmissionCone cone = kEverywhere;
   if (!motion) cone = {Imath::V3d(axis), distribution->max_gamma(), 0};
   return bounds_of_point(position, motion.get(), cone, emission * distribution->max_relative_intensity());
-}
-
-std::optional<BasicRay<double>> PhotometricLight::central_ray(const SceneSphere& /*sphere*/) const {
-  return BasicRay<double>{position, axis};
-}
-
-double PhotometricLight::fan() const {
-  return distribution->max_gamma();
-}
-
-std::size_t PhotometricLight::memory_bytes() const {
-  return distribution->memory_bytes();
 }
 
 }  // namespace abbe

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -89,11 +90,13 @@ struct PhotometricLight {
   [[nodiscard]] Imath::V3f emission_direction(const Imath::V3f& normal, Imath::V2f u, float time) const;
   [[nodiscard]] EmissionDensity emission_density(const Imath::V3f& normal, const Imath::V3f& wo,
                                                  float scene_radius_m, float time) const;
-  [[nodiscard]] double etendue(double across) const;
+  [[nodiscard]] double etendue(double /*across*/) const { return 4 * std::numbers::pi; }
   [[nodiscard]] LightBounds bounds(const Shapes& shapes, double emission) const;
-  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const SceneSphere& sphere) const;
-  [[nodiscard]] double fan() const;
-  [[nodiscard]] std::size_t memory_bytes() const;
+  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const SceneSphere& /*sphere*/) const {
+    return BasicRay<double>{position, axis};
+  }
+  [[nodiscard]] double fan() const { return distribution->max_gamma(); }
+  [[nodiscard]] std::size_t memory_bytes() const { return distribution->memory_bytes(); }
 };
 
 }  // namespace abbe

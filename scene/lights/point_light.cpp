@@ -55,25 +55,9 @@ EmissionDensity PointLight::emission_density(const Imath::V3f& /*normal*/, const
   return {1, 1 / (4 * std::numbers::pi_v<float>)};
 }
 
-double PointLight::etendue(double /*across*/) const {
-  return 4 * std::numbers::pi;
-}
-
-LightBounds PointLight::bounds(const Shapes& /*shapes*/, double emission) const {
-  return bounds_of_point(position, motion.get(), kEverywhere, emission);
-}
-
 std::optional<BasicRay<double>> PointLight::central_ray(const SceneSphere& sphere) const {
   const Imath::V3d towards = sphere.center - position;
   return BasicRay<double>{position, towards.length() > 0 ? towards.normalized() : Imath::V3d(1, 0, 0)};
-}
-
-double PointLight::fan() const {
-  return std::numbers::pi;
-}
-
-Imath::V3f SpotLight::axis_at(float time) const {
-  return moved_direction(axis, motion.get(), time);
 }
 
 std::optional<LightSample> SpotLight::sample(const Shapes& /*shapes*/, const LightSampleContext& context,
@@ -82,10 +66,6 @@ std::optional<LightSample> SpotLight::sample(const Shapes& /*shapes*/, const Lig
       sample_towards_point(moved_position(position, motion.get(), time), context.point);
   if (!sample || !illuminates(-sample->wi, time)) return std::nullopt;
   return sample;
-}
-
-float SpotLight::emission_factor(const Imath::V3f& /*normal*/, const Imath::V3f& wo, float time) const {
-  return illuminates(wo, time) ? 1.0F : 0.0F;
 }
 
 Imath::V3f SpotLight::emission_direction(const Imath::V3f& /*normal*/, Imath::V2f u, float time) const {
@@ -98,22 +78,10 @@ EmissionDensity SpotLight::emission_density(const Imath::V3f& /*normal*/, const 
   return {1, illuminates(wo, time) ? cone_pdf(cap) : 0.0F};
 }
 
-double SpotLight::etendue(double /*across*/) const {
-  return 2 * std::numbers::pi * static_cast<double>(cap);
-}
-
 LightBounds SpotLight::bounds(const Shapes& /*shapes*/, double emission) const {
   EmissionCone cone = kEverywhere;
   if (!motion) cone = {Imath::V3d(axis), std::acos(1 - static_cast<double>(cap)), 0};
   return bounds_of_point(position, motion.get(), cone, emission);
-}
-
-std::optional<DirectionCone> SpotLight::cone_at(float time) const {
-  return DirectionCone{time > 0 ? axis_at(time) : axis, cap};
-}
-
-std::optional<BasicRay<double>> SpotLight::central_ray(const SceneSphere& /*sphere*/) const {
-  return BasicRay<double>{position, axis};
 }
 
 double SpotLight::fan() const {

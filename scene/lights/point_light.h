@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <numbers>
 #include <optional>
 
 #include <ImathBox.h>
@@ -37,10 +38,12 @@ struct PointLight {
   [[nodiscard]] Imath::V3f emission_direction(const Imath::V3f& normal, Imath::V2f u, float time) const;
   [[nodiscard]] EmissionDensity emission_density(const Imath::V3f& normal, const Imath::V3f& wo,
                                                  float scene_radius_m, float time) const;
-  [[nodiscard]] double etendue(double across) const;
-  [[nodiscard]] LightBounds bounds(const Shapes& shapes, double emission) const;
+  [[nodiscard]] double etendue(double /*across*/) const { return 4 * std::numbers::pi; }
+  [[nodiscard]] LightBounds bounds(const Shapes& /*shapes*/, double emission) const {
+    return bounds_of_point(position, motion.get(), kEverywhere, emission);
+  }
   [[nodiscard]] std::optional<BasicRay<double>> central_ray(const SceneSphere& sphere) const;
-  [[nodiscard]] double fan() const;
+  [[nodiscard]] double fan() const { return std::numbers::pi; }
 };
 
 /// A point that emits equally within a cone around `axis`.
@@ -54,7 +57,7 @@ struct SpotLight {
   std::shared_ptr<const Motion> motion = nullptr;  ///< Null if it does not move.
 
   /// The axis at that time of the exposure.
-  [[nodiscard]] Imath::V3f axis_at(float time) const;
+  [[nodiscard]] Imath::V3f axis_at(float time) const { return moved_direction(axis, motion.get(), time); }
   /// True if the unit propagation direction `wi`, away from the light, lies in the cone: |wi - axis|^2 <= 2
   /// (1 - cos).
   [[nodiscard]] bool illuminates(const Imath::V3f& wi, float time) const {
@@ -64,14 +67,22 @@ struct SpotLight {
   // Functions of `LightModel`.
   [[nodiscard]] std::optional<LightSample> sample(const Shapes& shapes, const LightSampleContext& context,
                                                   Imath::V2f u, float time) const;
-  [[nodiscard]] float emission_factor(const Imath::V3f& normal, const Imath::V3f& wo, float time) const;
+  [[nodiscard]] float emission_factor(const Imath::V3f& /*normal*/, const Imath::V3f& wo, float time) const {
+    return illuminates(wo, time) ? 1.0F : 0.0F;
+  }
   [[nodiscard]] Imath::V3f emission_direction(const Imath::V3f& normal, Imath::V2f u, float time) const;
   [[nodiscard]] EmissionDensity emission_density(const Imath::V3f& normal, const Imath::V3f& wo,
                                                  float scene_radius_m, float time) const;
-  [[nodiscard]] double etendue(double across) const;
+  [[nodiscard]] double etendue(double /*across*/) const {
+    return 2 * std::numbers::pi * static_cast<double>(cap);
+  }
   [[nodiscard]] LightBounds bounds(const Shapes& shapes, double emission) const;
-  [[nodiscard]] std::optional<DirectionCone> cone_at(float time) const;
-  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const SceneSphere& sphere) const;
+  [[nodiscard]] std::optional<DirectionCone> cone_at(float time) const {
+    return DirectionCone{time > 0 ? axis_at(time) : axis, cap};
+  }
+  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const SceneSphere& /*sphere*/) const {
+    return BasicRay<double>{position, axis};
+  }
   [[nodiscard]] double fan() const;
 };
 
