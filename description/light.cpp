@@ -9,7 +9,7 @@
 
 #include "description/material.h"
 #include "description/shape.h"
-#include "scene/shapes/quad.h"
+#include "scene/shapes/basic.h"
 
 namespace abbe::spec {
 namespace {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "description/shape.h"
-#include "scene/shapes/placed.h"
+#include "scene/shapes/shape.h"
 
 namespace abbe::description {
 namespace {

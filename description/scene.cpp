@@ -7,7 +7,7 @@
 #include "description/checks.h"
 #include "io/schema/write.h"
 #include "scene/colors.h"
-#include "scene/shapes/placed.h"
+#include "scene/shapes/shape.h"
 #include "scene/working_range.h"
 #include "sensor/response/table_range.h"
 

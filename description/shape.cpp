@@ -10,8 +10,7 @@
 #include "description/light.h"
 #include "description/material.h"
 #include "description/meshes/mesh_file.h"
-#include "scene/shapes/mesh.h"
-#include "scene/shapes/placed.h"
+#include "scene/shapes/shape.h"
 
 namespace abbe::spec {
 namespace {
@@ -100,32 +99,6 @@ Fields fields(Tag<Object>) {
 
 namespace abbe::description {
 namespace {
-
-Imath::V3d moved_direction(const Imath::V3d& v, const Transform& by) {
-  Imath::V3d result;
-  by.matrix.multDirMatrix(v, result);
-  return result;
-}
-void move(Mesh& mesh, const Transform& by) {
-  for (Imath::V3d& vertex : mesh.vertices) vertex *= by.matrix;
-  for (std::array<Imath::V3f, 3>& corners : mesh.normals)
-    for (Imath::V3f& normal : corners)
-      normal = Imath::V3f(moved_direction(Imath::V3d(normal), by).normalized());
-}
-void move(Sphere& sphere, const Transform& by) {
-  sphere.center *= by.matrix;
-  sphere.radius *= by.scale;
-}
-void move(Disc& disc, const Transform& by) {
-  disc.center *= by.matrix;
-  disc.normal = moved_direction(disc.normal, by).normalized();
-  disc.radius *= by.scale;
-}
-void move(Quad& quad, const Transform& by) {
-  quad.corner *= by.matrix;
-  quad.edge_u = moved_direction(quad.edge_u, by);
-  quad.edge_v = moved_direction(quad.edge_v, by);
-}
 
 std::optional<Mesh> scaled(std::optional<Mesh> mesh, double factor) {
   if (mesh)
@@ -293,7 +266,8 @@ void add_shape(const spec::Shape& shape, const std::string& name, LoadContext& c
 bool loses_axes(const PlainShape& shape, const Material& material, const Imath::M44d& to) {
   const Medium* medium = abbe::medium(material);
   if (medium != nullptr && medium->grid) return to != Imath::M44d();
-  const bool round = std::holds_alternative<Sphere>(shape) || std::holds_alternative<Disc>(shape);
+  const bool round =
+      std::visit([](const auto& s) { return !Triangulated<std::decay_t<decltype(s)>>; }, shape);
   return round && to != Imath::M44d().setTranslation(to.translation());
 }
 
@@ -305,7 +279,7 @@ abbe::Shape shape_at_opening(PlainShape shape, bool emits, const Material& mater
                              const PoseAndMotion& moving, LoadContext& context) {
   if (!moving.motion && (emits || !loses_axes(shape, material, moving.pose_at_opening))) {
     if (moving.pose_at_opening != Imath::M44d())
-      std::visit([&](auto& s) { move(s, Transform{moving.pose_at_opening}); }, shape);
+      std::visit([&](auto& s) { transform(s, moving.pose_at_opening, 1); }, shape);
     return std::visit([](auto& s) { return abbe::Shape(std::move(s)); }, shape);
   }
   const Imath::V3d center = std::visit([](const auto& s) { return bounds(s); }, shape).center();
@@ -317,20 +291,6 @@ abbe::Shape shape_at_opening(PlainShape shape, bool emits, const Material& mater
   context.placements.push_back(at);
   return PlacedShape{make_prototype(std::move(shape)), at};
 }
-
-void shift(Mesh& mesh, const Imath::V3d& by) {
-  for (Imath::V3d& vertex : mesh.vertices) vertex += by;
-}
-void shift(Sphere& sphere, const Imath::V3d& by) {
-  sphere.center += by;
-}
-void shift(Disc& disc, const Imath::V3d& by) {
-  disc.center += by;
-}
-void shift(Quad& quad, const Imath::V3d& by) {
-  quad.corner += by;
-}
-void shift(PlacedShape&, const Imath::V3d&) {}
 
 const spec::Emission* emission_of(const spec::Shape& shape) {
   const auto emission = [](const auto& kind) -> const spec::Emission* {
@@ -348,8 +308,9 @@ std::vector<NamedShape> build_parts(const spec::Shape& shape, const std::string&
   const auto apply_transform = [&](const auto& kind) {
     if constexpr (requires { build(kind.transform, context).scale; }) {
       if (kind.transform.empty()) return;
-      const Transform transform = build(kind.transform, context);
-      for (NamedShape& part : parts) std::visit([&](auto& s) { move(s, transform); }, part.shape);
+      const Transform by = build(kind.transform, context);
+      for (NamedShape& part : parts)
+        std::visit([&](auto& s) { transform(s, by.matrix, by.scale); }, part.shape);
     }
   };
   std::visit(apply_transform, shape.kind);

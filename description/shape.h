@@ -129,12 +129,4 @@ void add_instance(const spec::Instance& instance, const PoseAndMotion& moving, c
 [[nodiscard]] abbe::Shape shape_at_opening(PlainShape shape, bool emits, const Material& material,
                                            const PoseAndMotion& moving, LoadContext& context);
 
-// Each translates a shape by a vector [m].
-void shift(Mesh& mesh, const Imath::V3d& by);
-void shift(Sphere& sphere, const Imath::V3d& by);
-void shift(Disc& disc, const Imath::V3d& by);
-void shift(Quad& quad, const Imath::V3d& by);
-/// Does nothing: instances may have a placement in common, and each placement is translated once elsewhere.
-void shift(PlacedShape& placed, const Imath::V3d& by);
-
 }  // namespace abbe::description

@@ -11,8 +11,8 @@
 
 #include "report/display_color.h"
 #include "report/light_rays.h"
-#include "report/outline.h"
 #include "report/svg.h"
+#include "scene/shapes/shape.h"
 #include "scene/working_range.h"
 #include "spectral/colorimetry.h"
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include "io/error.h"
-#include "scene/shapes/placed.h"
+#include "scene/shapes/shape.h"
 #include "scene/working_range.h"
 
 namespace abbe {

@@ -136,8 +136,8 @@ bool ellipsoid_is_tangent(const Shape& shape, const Shape& other, double toleran
 // Faces that certainly belong to the shape: for a disc the inscribed square.
 std::vector<Face> certain_faces(const Shape& shape, const Box3d& near, FaceFinder& faces) {
   std::vector<Face> found = faces.near(shape, near);
-  if (plain<Disc>(shape) == nullptr) return found;
   for (Face& face : found) {
+    if (!face.round) continue;
     const V3d center = (face.corners[0] + face.corners[3]) / 2;
     face.box.makeEmpty();
     for (V3d& corner : face.corners) {
@@ -180,6 +180,8 @@ bool may_coincide(const Shape& a, const Shape& b, double tolerance, FaceFinder& 
   const Box3d box_b = faces.box_of(b);
   if (!near_a.intersects(box_b)) return false;
   if (motion_of(a) != nullptr || motion_of(b) != nullptr) return true;
+  const auto is_known = [](const Shape& shape) { return has_faces(shape) || ellipsoid_of(shape); };
+  if (!is_known(a) || !is_known(b)) return true;
   if (ellipsoid_of(a) || ellipsoid_of(b))
     return ellipsoid_is_tangent(a, b, tolerance, faces) || ellipsoid_is_tangent(b, a, tolerance, faces);
   return any_pair(
@@ -203,7 +205,7 @@ bool overlaps(const Shape& a, const Shape& b, double tolerance, FaceFinder& face
 
 bool coats(const Shape& coat, const Shape& body, double tolerance, FaceFinder& faces) {
   if (ellipsoid_of(coat) || ellipsoid_of(body)) return overlaps(coat, body, tolerance, faces);
-  if (motion_of(coat) != nullptr || motion_of(body) != nullptr) return false;
+  if (motion_of(coat) != nullptr || motion_of(body) != nullptr || !has_faces(coat)) return false;
   const std::vector<Face> of_coat = certain_faces(coat, faces.box_of(coat), faces);
   const std::vector<Face> of_body = certain_faces(body, faces.box_of(body), faces);
   std::vector<bool> covered(of_coat.size(), false);

@@ -18,7 +18,7 @@ inline constexpr std::size_t kMaxPairs = 50'000'000;
 /// - two faces meet all conditions below;
 /// - a sphere or ellipsoid is tangent to a face, or a sphere to another sphere, within `tolerance`;
 /// - both are spheres or ellipsoids, and at least one is no sphere;
-/// - either shape moves;
+/// - either shape moves, or is curved and no ellipsoid;
 /// - more than `kMaxPairs` pairs of faces would have to be compared.
 ///
 /// Conditions for two faces:

@@ -110,9 +110,10 @@ class RegionFinder {
 
   void add_self(ShapeRegion& of) {
     const Shape& shape = shape_of(of);
-    if (plain<Quad>(shape) != nullptr || plain<Disc>(shape) != nullptr) return;
-    const auto* ball = std::get_if<Sphere>(&shape);
-    if (ball != nullptr && ball->radius > of.tolerance) return;
+    if (is_flat(shape)) return;
+    if (!std::holds_alternative<PlacedShape>(shape) &&
+        visit_plain([](const auto& s) { return thickness(s); }, shape) > of.tolerance)
+      return;
     const bool flat = motion_of(shape) == nullptr && has_faces(shape);
     const auto faces = flat ? faces_near(shape, of.near) : std::nullopt;
     if (!faces || !add_faces(of, *faces, of, *faces, [](double cosine) { return cosine < -kNearlyParallel; }))

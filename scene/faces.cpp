@@ -7,8 +7,6 @@
 
 #include <ImathBoxAlgo.h>
 
-#include "scene/shapes/basis.h"
-
 namespace abbe {
 namespace {
 
@@ -39,7 +37,7 @@ struct FaceCollector {
   BoxesOfMeshes& boxes_of_meshes;
   std::vector<Face>& faces;
 
-  void add(std::array<V3d, 4> corners) const {
+  void add(std::array<V3d, 4> corners, bool round = false) const {
     Box3d box;
     for (V3d& corner : corners) {
       corner = corner * to_world;
@@ -47,7 +45,7 @@ struct FaceCollector {
     }
     if (!box.intersects(within)) return;
     const V3d across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
-    faces.push_back({corners, box, across.normalized() * handedness});
+    faces.push_back({corners, box, across.normalized() * handedness, round});
   }
   void operator()(const Mesh& mesh) const {
     const std::vector<Box3d>& runs = boxes_of(mesh, boxes_of_meshes).runs;
@@ -61,18 +59,10 @@ struct FaceCollector {
       }
     }
   }
-  void operator()(const Quad& quad) const {
-    const V3d& at = quad.corner;
-    add({at, at + quad.edge_u, at + quad.edge_v, at + quad.edge_u + quad.edge_v});
+  template <typename S>
+  void operator()(const S& shape) const {
+    if (const std::optional<FlatFace> flat = flat_face(shape)) add(flat->corners, flat->round);
   }
-  void operator()(const Disc& disc) const {
-    const Basis<double> frame(disc.normal);
-    const V3d across = frame.x * disc.radius;
-    const V3d up = frame.y * disc.radius;
-    const V3d at = disc.center - across - up;
-    add({at, at + across * 2.0, at + up * 2.0, disc.center + across + up});
-  }
-  void operator()(const Sphere&) const {}
   void operator()(const PlacedShape& placed) const {
     const M44d& at = placed.at->to_world;
     std::visit(FaceCollector{at, std::copysign(1.0, at.determinant()), within, boxes_of_meshes, faces},
@@ -81,12 +71,6 @@ struct FaceCollector {
 };
 
 }  // namespace
-
-bool has_faces(const Shape& shape) {
-  if (const auto* placed = std::get_if<PlacedShape>(&shape))
-    return !std::holds_alternative<Sphere>(placed->of->shape);
-  return !std::holds_alternative<Sphere>(shape);
-}
 
 std::vector<Face> FaceFinder::near(const Shape& shape, const Box3d& box) {
   std::vector<Face> faces;

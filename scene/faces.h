@@ -18,19 +18,17 @@ namespace abbe {
 struct Face {
   /// A triangle repeats its last corner. In a parallelogram the last corner is opposite to the first.
   std::array<Imath::V3d, 4> corners;
-  Imath::Box3d box;   ///< Bounding box of the corners.
-  Imath::V3d normal;  ///< Unit normal to the shape's outer side.
+  Imath::Box3d box;    ///< Bounding box of the corners.
+  Imath::V3d normal;   ///< Unit normal to the shape's outer side.
+  bool round = false;  ///< True if the shape is the disc in a square.
 };
-
-/// True if a shape or the prototype of an instance consists of flat faces: all except spheres and ellipsoids.
-[[nodiscard]] bool has_faces(const Shape& shape);
 
 /// Finds the flat faces of shapes near a box. It caches the bounding boxes of each mesh and of runs of its
 /// triangles, so that a query skips most triangles. Meshes must outlive it and not change. One per thread.
 class FaceFinder {
  public:
-  /// Faces of a shape whose boxes intersect `box`, in order of the boxes' minimum x. Empty for spheres and
-  /// ellipsoids. A moving shape is taken at the opening of the shutter.
+  /// Faces of a shape whose boxes intersect `box`, in order of the boxes' minimum x. Empty without flat
+  /// faces. A moving shape is taken at the opening of the shutter.
   [[nodiscard]] std::vector<Face> near(const Shape& shape, const Imath::Box3d& box);
   /// Bounding box of a shape as by `bounds`, for a moving shape over all times; of a mesh that of its
   /// triangles.

@@ -53,7 +53,7 @@ int events_in_a_row(const Scene& scene, const ShapeInstance& instance) {
     return 2;
   if (!polarises(material)) return 0;
   if (plain<Mesh>(instance.shape) != nullptr) return 2;
-  if (plain<Sphere>(instance.shape) == nullptr) return 1;
+  if (is_flat(instance.shape)) return 1;
   const auto* plain_sphere = std::get_if<Sphere>(&instance.shape);
   return opaque(material) && plain_sphere != nullptr && !holds_camera(*plain_sphere, scene) ? 1 : 2;
 }

@@ -129,8 +129,7 @@ void Scene::measure_working_range() {
   max_rounding_ = 0;
   for (ShapeInstance& instance : shapes) {
     const Imath::Box3d box = abbe::bounds(instance.shape);
-    const bool vertices = plain<Mesh>(instance.shape) != nullptr || plain<Quad>(instance.shape) != nullptr;
-    instance.rounding = vertices ? largest_coordinate(box) : 0;
+    instance.rounding = is_triangulated(instance.shape) ? largest_coordinate(box) : 0;
     instance.distant = distance_to(box, position(camera)) > far_threshold_m;
     if (instance.distant) continue;
     bounds.extendBy(box);

@@ -20,7 +20,6 @@
 #include "scene/scene_features.h"
 #include "scene/shapes/ray.h"
 #include "scene/shapes/shape.h"
-#include "scene/shapes/shape_instance.h"
 #include "scene/shutter.h"
 #include "scene/white.h"
 #include "sensor/film/spectral_film.h"

@@ -14,7 +14,7 @@
 #include "scene/coincident_shapes.h"
 #include "scene/polarisation_cause.h"
 #include "scene/scene.h"
-#include "scene/shapes/placed.h"
+#include "scene/shapes/shape.h"
 #include "scene/small_light.h"
 #include "scene/working_range.h"
 

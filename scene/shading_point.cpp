@@ -1,6 +1,6 @@
 #include "scene/shading_point.h"
 
-#include "scene/shapes/coordinates.h"
+#include "scene/shapes/shape.h"
 
 namespace abbe {
 

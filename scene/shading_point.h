@@ -3,7 +3,7 @@
 #include <ImathVec.h>
 
 #include "scene/scene.h"
-#include "scene/shapes/basis.h"
+#include "scene/shapes/ray.h"
 
 namespace abbe {
 

@@ -6,9 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "scene/shapes/basis.h"
-#include "scene/shapes/placed.h"
 #include "scene/shapes/ray.h"
+#include "scene/shapes/shape.h"
 
 namespace abbe {
 namespace {

@@ -22,7 +22,7 @@
 #include "description/meshes/mesh_formats.h"
 #include "io/json.h"
 #include "io/text.h"
-#include "scene/shapes/placed.h"
+#include "scene/shapes/shape.h"
 
 namespace abbe {
 namespace {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/shapes/sphere.h"
+#include "scene/shapes/basic.h"
 
 namespace abbe {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "io/error.h"
-#include "scene/shapes/basis.h"
+#include "scene/shapes/ray.h"
 
 namespace abbe {
 namespace {

@@ -8,10 +8,8 @@
 
 #include "io/error.h"
 #include "materials/bsdf/warp.h"
-#include "scene/shapes/basis.h"
-#include "scene/shapes/placed.h"
-#include "scene/shapes/shape_instance.h"
-#include "scene/shapes/sphere.h"
+#include "scene/shapes/ray.h"
+#include "scene/shapes/shape.h"
 
 namespace abbe {
 namespace {

@@ -14,7 +14,6 @@
 #include "scene/lights/environment_image.h"
 #include "scene/lights/polarisation.h"
 #include "scene/lights/spherical_rectangle.h"
-#include "scene/shapes/quad.h"
 #include "scene/shapes/ray.h"
 #include "scene/shapes/shape.h"
 #include "spectral/scaled_curve.h"

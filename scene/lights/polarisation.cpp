@@ -1,7 +1,7 @@
 #include "scene/lights/polarisation.h"
 
 #include "scene/lights/light.h"
-#include "scene/shapes/basis.h"
+#include "scene/shapes/ray.h"
 
 namespace abbe {
 

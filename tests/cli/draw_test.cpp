@@ -11,7 +11,7 @@
 #include "io/data_directory.h"
 #include "report/layout.h"
 #include "report/light_rays.h"
-#include "report/outline.h"
+#include "scene/shapes/shape.h"
 #include "tests/angles.h"
 #include "tests/cli/json_output.h"
 #include "tests/cli/program.h"

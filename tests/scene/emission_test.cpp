@@ -5,7 +5,7 @@
 #include <set>
 
 #include "light_kinds.h"
-#include "scene/shapes/basis.h"
+#include "scene/shapes/ray.h"
 #include "tests/angles.h"
 
 namespace abbe {

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/shapes/placed.h"
+#include "scene/shapes/shape.h"
 #include "scene/unsampled_paths.h"
 #include "scenes.h"
 

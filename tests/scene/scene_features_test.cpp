@@ -5,7 +5,7 @@
 #include "floor_scenes.h"
 #include "meshes.h"
 #include "scene/coincident_shapes.h"
-#include "scene/shapes/placed.h"
+#include "scene/shapes/shape.h"
 #include "scene/working_range.h"
 #include "spectral/sources.h"
 

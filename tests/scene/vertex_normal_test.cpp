@@ -4,7 +4,7 @@
 
 #include "meshes.h"
 #include "scene/shading_point.h"
-#include "scene/shapes/placed.h"
+#include "scene/shapes/shape.h"
 #include "scenes.h"
 #include "tests/description/gltf_asset.h"
 #include "tests/description/mesh_files.h"

@@ -1,6 +1,6 @@
 #include "transport/path/medium_at.h"
 
-#include "scene/shapes/placed.h"
+#include "scene/shapes/shape.h"
 
 namespace abbe {
 

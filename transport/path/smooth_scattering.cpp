@@ -3,8 +3,8 @@
 #include "materials/interface/snell.h"
 #include "materials/interface/thin_element.h"
 #include "materials/smooth_power.h"
-#include "scene/shapes/basis.h"
-#include "scene/shapes/coordinates.h"
+#include "scene/shapes/ray.h"
+#include "scene/shapes/shape.h"
 
 namespace abbe {
 namespace {
@@ -13,10 +13,7 @@ using Kind = TraceEvent::Kind;
 
 // Surface coordinates at a point; nothing on meshes, because a hit does not identify their triangle.
 std::optional<SurfaceCoordinates> coordinates_at(const Shape& shape, const Imath::V3d& point) {
-  const auto* placed = std::get_if<PlacedShape>(&shape);
-  if (std::holds_alternative<Mesh>(shape) ||
-      (placed != nullptr && std::holds_alternative<Mesh>(placed->of->shape)))
-    return std::nullopt;
+  if (plain<Mesh>(shape) != nullptr) return std::nullopt;
   return coordinates(shape, point, 0, 0);
 }
 

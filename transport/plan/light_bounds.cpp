@@ -4,56 +4,28 @@
 #include <cmath>
 #include <numbers>
 
+#include "scene/shapes/basic.h"
 #include "scene/shapes/mesh.h"
-#include "scene/shapes/quad.h"
 
 namespace abbe {
 namespace {
 
 constexpr EmissionCone kEverywhere{{0, 0, 1}, std::numbers::pi, 0};
 
-// Outer side of a shape: its maximum projected area from afar [m^2], and the cone of its normals.
-struct Face {
-  double area;
-  EmissionCone normals;
-};
-
-Face face_of(const Sphere& sphere, double) {
-  return {std::numbers::pi * sphere.radius * sphere.radius, kEverywhere};
-}
-Face face_of(const Disc& disc, double area) {
-  return {area, {disc.normal, 0, std::numbers::pi / 2}};
-}
-Face face_of(const Quad& quad, double area) {
-  return {area, {normal_of(quad), 0, std::numbers::pi / 2}};
-}
-// A flat mesh shows all of its area along its axis; a closed convex mesh shows a quarter of its area on
-// average.
-Face face_of(const Mesh& mesh, double area) {
-  Imath::V3d sum(0);
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) sum += area_vector(mesh, i);
-  const double flatness = std::min(1.0, sum.length() / area);
-  const Imath::V3d axis = sum.normalized();
-  double cosine = flatness > 0 ? 1 : -1;
-  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
-    cosine = std::min(cosine, area_vector(mesh, i).normalized().dot(axis));
-  return {area * (1 + 3 * flatness) / 4,
-          {axis, std::acos(std::clamp(cosine, -1.0, 1.0)), std::numbers::pi / 2}};
-}
-Face face_of(const PlacedShape&, double area) {
-  return {area, kEverywhere};
-}
-
 LightBounds area_light_bounds(const AreaLight& light, const Scene& scene, double emission) {
   const Shape& shape = scene.shapes[light.shape].shape;
-  Face face = std::visit([&](const auto& s) { return face_of(s, light.area); }, shape);
-  if (light.two_sided) face.normals = kEverywhere;
+  const OuterSide side = outer_side(shape);
+  const EmissionCone normals =
+      side.normals && !light.two_sided
+          ? EmissionCone{side.normals->axis, side.normals->spread, std::numbers::pi / 2}
+          : kEverywhere;
   const Imath::Box3d box = bounds(shape);
   const auto* sphere = std::get_if<Sphere>(&shape);
   const double radius = sphere != nullptr ? sphere->radius : box.size().length() / 2;
-  const double nearest = std::sqrt(face.area / std::numbers::pi);  // irradiance is at most pi times radiance
-  const double intensity = emission * face.area;
-  return {box, radius, nearest, face.normals, intensity, intensity};
+  const double nearest =
+      std::sqrt(side.projected_area / std::numbers::pi);  // irradiance is at most pi times radiance
+  const double intensity = emission * side.projected_area;
+  return {box, radius, nearest, normals, intensity, intensity};
 }
 
 LightBounds bounds_at_infinity(const Imath::V3f& towards, double cap, double facing, double all_sides) {

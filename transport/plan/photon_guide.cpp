@@ -12,7 +12,7 @@
 #include "materials/bsdf/warp.h"
 #include "sampling/discrete.h"
 #include "scene/lights/emission.h"
-#include "scene/shapes/basis.h"
+#include "scene/shapes/ray.h"
 
 namespace abbe {
 namespace {

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "scene/polarisation_cause.h"
-#include "scene/shapes/basis.h"
+#include "scene/shapes/ray.h"
 #include "transport/path/dimensions.h"
 #include "transport/path/polarised_ends.h"
 #include "transport/technique/start_media.h"

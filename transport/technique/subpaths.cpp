@@ -4,7 +4,7 @@
 
 #include "scene/lights/emission.h"
 #include "scene/polarisation_cause.h"
-#include "scene/shapes/basis.h"
+#include "scene/shapes/ray.h"
 #include "scene/working_range.h"
 #include "transport/path/dimensions.h"
 #include "transport/path/polarised_ends.h"

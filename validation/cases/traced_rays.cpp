@@ -8,7 +8,7 @@
 #include "io/reference_table.h"
 #include "materials/interface/snell.h"
 #include "sampling/angle.h"
-#include "scene/shapes/sphere.h"
+#include "scene/shapes/basic.h"
 #include "transport/path/ray_trace.h"
 #include "validation/cases/figures.h"
 #include "validation/cases/suites.h"
