@@ -17,7 +17,7 @@
 #include "results/rendered_film.h"
 #include "results/white.h"
 #include "scene/camera/lens_optics.h"
-#include "scene/unsampled_paths.h"
+#include "scene/lost_light.h"
 #include "transport/render/choose_path_splitting.h"
 #include "transport/render/light_subpaths.h"
 #include "transport/render/technique_balance.h"

@@ -4,7 +4,7 @@
 #include "io/error.h"
 #include "results/film_attributes.h"
 #include "scene/camera/incidence.h"
-#include "scene/colors.h"
+#include "scene/white.h"
 #include "sensor/response/stokes_channels.h"
 #include "transport/render/white.h"
 

@@ -12,7 +12,7 @@
 #include "results/field_response.h"
 #include "results/spectral.h"
 #include "results/white.h"
-#include "scene/colors.h"
+#include "scene/white.h"
 #include "sensor/film/recorded_film_observer.h"
 #include "sensor/film/recorded_white.h"
 #include "sensor/film/variance_name.h"

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "scene/coincident_shapes.h"
-#include "scene/dark_enclosure.h"
+#include "scene/lost_light.h"
 #include "sensor/response/stokes_channels.h"
 #include "transport/path/roulette.h"
 #include "transport/plan/emissions.h"

@@ -10,7 +10,7 @@
 #include "calibration/output/color_spaces.h"
 #include "description/white.h"
 #include "io/standard_stream.h"
-#include "scene/colors.h"
+#include "scene/white.h"
 #include "sensor/film/recorded_film_observer.h"
 #include "sensor/film/recorded_white.h"
 #include "sensor/response/stokes_channels.h"

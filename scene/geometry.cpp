@@ -11,8 +11,8 @@
 #include <embree3/rtcore.h>
 
 #include "io/error.h"
+#include "scene/coincidence.h"
 #include "scene/exact_query.h"
-#include "scene/faces.h"
 #include "scene/shapes/ray.h"
 #include "scene/shapes/shape.h"
 

@@ -8,7 +8,7 @@
 
 #include "floor_scenes.h"
 #include "meshes.h"
-#include "scene/faces.h"
+#include "scene/coincidence.h"
 #include "scene/shapes/shape.h"
 
 namespace abbe::test {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/shading_point.h"
+#include "scene/scene.h"
 #include "scene/shapes/shape.h"
 #include "scenes.h"
 #include "tests/scene/expect_near.h"

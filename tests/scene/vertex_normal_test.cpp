@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "meshes.h"
-#include "scene/shading_point.h"
+#include "scene/scene.h"
 #include "scene/shapes/shape.h"
 #include "scenes.h"
 #include "tests/description/gltf_asset.h"

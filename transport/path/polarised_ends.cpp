@@ -1,6 +1,6 @@
 #include "transport/path/polarised_ends.h"
 
-#include "scene/polarisation_cause.h"
+#include "scene/scene_features.h"
 #include "sensor/response/stokes_channels.h"
 
 namespace abbe {

@@ -9,7 +9,6 @@
 #include "materials/bsdf/polarisation.h"
 #include "materials/material.h"
 #include "scene/scene.h"
-#include "scene/shading_point.h"
 #include "transport/path/interface.h"
 #include "transport/path/path_state.h"
 

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "scene/lost_light.h"
 #include "scene/scene.h"
-#include "scene/unsampled_paths.h"
 
 namespace abbe {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "scene/polarisation_cause.h"
+#include "scene/scene_features.h"
 #include "transport/render/threads.h"
 #include "transport/technique/subpaths.h"
 

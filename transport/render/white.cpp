@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "scene/colors.h"
+#include "scene/white.h"
 #include "scene/working_range.h"
 #include "sensor/response/stokes_channels.h"
 #include "transport/path/film_response.h"

@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "scene/lights/emission.h"
-#include "scene/polarisation_cause.h"
+#include "scene/scene_features.h"
 #include "transport/path/dimensions.h"
 #include "transport/path/free_path.h"
 #include "transport/path/mis_weight.h"

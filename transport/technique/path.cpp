@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scene/polarisation_cause.h"
+#include "scene/scene_features.h"
 #include "transport/path/polarised_ends.h"
 
 namespace abbe {

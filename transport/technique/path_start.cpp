@@ -1,5 +1,5 @@
 #include "materials/bsdf/warp.h"
-#include "scene/polarisation_cause.h"
+#include "scene/scene_features.h"
 #include "transport/path/polarised_ends.h"
 #include "transport/technique/path.h"
 #include "transport/technique/start_media.h"

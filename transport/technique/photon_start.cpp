@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "scene/polarisation_cause.h"
+#include "scene/scene_features.h"
 #include "scene/shapes/ray.h"
 #include "transport/path/dimensions.h"
 #include "transport/path/polarised_ends.h"

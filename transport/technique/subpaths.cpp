@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "scene/lights/emission.h"
-#include "scene/polarisation_cause.h"
+#include "scene/scene_features.h"
 #include "scene/shapes/ray.h"
 #include "scene/working_range.h"
 #include "transport/path/dimensions.h"

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scene/unsampled_paths.h"
+#include "scene/lost_light.h"
 #include "sensor/film/relative_error.h"
 #include "validation/bench/suite.h"
 

@@ -11,7 +11,7 @@
 
 #include "description/load.h"
 #include "io/image.h"
-#include "scene/unsampled_paths.h"
+#include "scene/lost_light.h"
 #include "validation/statistics/equivalence.h"
 
 namespace abbe {
