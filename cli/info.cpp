@@ -208,8 +208,7 @@ int info(const InfoOptions& options) {
   warn_of_ignored_polarisation(scene, false);
   warn_of_tinted_corners(scene);
   warn_of_dark_camera(scene, false);
-  warn_of_hidden_sheet(scene, false);
-  warn_of_hidden_light(scene, false);
+  warn_of_coincidence(scene, false);
   warn_of_unused_settings(scene);
   note_polarisation(scene);
   return 0;

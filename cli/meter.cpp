@@ -185,8 +185,7 @@ std::vector<MeterMeasurement> measure_all(const MeteredScene& metered,
     if (all.empty() || !scene) scene = accepted(std::move(scene), diagnostics);
     if (all.empty()) {
       require_distinct(std::array{options.spectra}, inputs.files());
-      warn_of_hidden_sheet(*scene, options.strict);
-      warn_of_hidden_light(*scene, options.strict);
+      warn_of_coincidence(*scene, options.strict);
     }
     all.push_back(measure(*std::move(scene), *meter, options, watch, inputs));
     if (!options.json) print_text(all.back());

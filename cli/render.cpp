@@ -417,8 +417,7 @@ int render(const RenderOptions& options) {
   if (!options.quiet) note_polarisation(scene);
   warn_of_ignored_polarisation(scene, options.strict);
   warn_of_dark_camera(scene, options.strict);
-  warn_of_hidden_sheet(scene, options.strict);
-  warn_of_hidden_light(scene, options.strict);
+  warn_of_coincidence(scene, options.strict);
   warn_of_unsampled_light(scene, options.strict && !chooses_integrator);
   warn_of_undertrained_guides(choice.guides.get());
   warn_of_unused_settings(scene);

@@ -59,12 +59,8 @@ std::optional<std::string> extrapolated_index_warning(const Scene& scene, const 
   return std::nullopt;
 }
 
-void warn_of_hidden_sheet(const Scene& scene, bool strict) {
-  if (const auto warning = hidden_sheet_warning(scene)) warn(*warning, strict);
-}
-
-void warn_of_hidden_light(const Scene& scene, bool strict) {
-  if (const auto warning = hidden_light_warning(scene)) warn(*warning, strict);
+void warn_of_coincidence(const Scene& scene, bool strict) {
+  if (const auto warning = coincidence_warning(scene)) warn(*warning, strict);
 }
 
 void warn_of_undertrained_guides(const GuidingData* guides) {

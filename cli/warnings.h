@@ -30,13 +30,9 @@ void warn_of_dark_camera(const Scene& scene, bool strict);
 /// CIEDE2000 of 1.
 void warn_of_tinted_corners(const Scene& scene);
 
-/// Warns of a thin sheet that is ineffective because it coincides with another surface. Throws Error{scene}
-/// instead if `strict`.
-void warn_of_hidden_sheet(const Scene& scene, bool strict);
-
-/// Warns of a light whose emission is partly lost where it coincides with an opaque surface. Throws
+/// Warns of a sheet or light that is ineffective because it coincides with another surface. Throws
 /// Error{scene} instead if `strict`.
-void warn_of_hidden_light(const Scene& scene, bool strict);
+void warn_of_coincidence(const Scene& scene, bool strict);
 
 /// Warns if the pilot photons were too few to train the guiding data. Nothing happens without guiding data.
 void warn_of_undertrained_guides(const GuidingData* guides);

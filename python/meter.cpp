@@ -154,8 +154,7 @@ std::vector<MeterMeasurement> measure(const SceneSource& source, const std::vect
     std::optional<abbe::Scene> scene = scene_of(metered, *one, diagnostics, all.empty() ? &inputs : nullptr);
     if (all.empty() || !scene) scene = accepted(std::move(scene), diagnostics);
     if (all.empty())
-      for (const auto& hidden : {hidden_sheet_warning(*scene), hidden_light_warning(*scene)})
-        if (hidden) warn(*hidden);
+      if (const auto hidden = coincidence_warning(*scene)) warn(*hidden);
     all.push_back(measure_meter(*std::move(scene), *one, how, caller, inputs));
   }
   return all;

@@ -60,10 +60,9 @@ FilmHandle render_scene(SceneHandle& handle, const Request& request, const py::o
   inputs.reserve_memory("the film", film_bytes(scene, how));
   inputs.reserve_memory("the paths from lights of a sample", bytes_of_light_paths(scene));
   FilmIdentity identity = identity_of(scene, handle.name(), how);
-  for (const auto& warning :
-       {ignored_polarisation_warning(scene), dark_camera_warning(scene), hidden_sheet_warning(scene),
-        hidden_light_warning(scene), unsampled_light_warning(scene), undertrained_warning(how.guides.get()),
-        unused_settings_warning(scene)})
+  for (const auto& warning : {ignored_polarisation_warning(scene), dark_camera_warning(scene),
+                              coincidence_warning(scene), unsampled_light_warning(scene),
+                              undertrained_warning(how.guides.get()), unused_settings_warning(scene)})
     if (warning) warn(*warning);
   RenderResult result = render_listening(scene, how, progress);
   if (how.target_error && !how.time_limit_s && !std::isfinite(result.stats.error.median))

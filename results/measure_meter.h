@@ -44,8 +44,7 @@ struct MeterCallbacks {
 /// If the caller is strict, throws Error{scene}
 /// - for a `dark_camera_warning`;
 /// - for an `unsampled_light_warning` about an integrator that the scene names.
-/// The caller reports `hidden_sheet_warning` and `hidden_light_warning`, which are the same for all meters of
-/// a scene.
+/// The caller reports `coincidence_warning`, which is the same for all meters of a scene.
 [[nodiscard]] MeterMeasurement measure_meter(Scene scene, const Meter& meter, RenderOptions options,
                                              const MeterCallbacks& caller, Inputs& inputs);
 

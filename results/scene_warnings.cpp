@@ -52,39 +52,16 @@ std::optional<std::string> dark_camera_warning(const Scene& scene) {
                      scene.shapes[*shape].name);
 }
 
-std::optional<std::string> hidden_sheet_warning(const Scene& scene) {
-  if (const auto sheet = find_hidden_sheet(scene))
-    return fmt::format("the thin sheet \"{}\" coincides with \"{}\", which rays hit instead: separate them",
-                       scene.shapes[sheet->shape].name, scene.shapes[sheet->on].name);
-  const auto coat = find_ineffective_coat(scene);
-  if (!coat) return std::nullopt;
-  const std::string size = coat->reflectance
-                               ? fmt::format(" (a thin coat would change a reflectance of {} to {:.3g})",
-                                             IneffectiveCoat::kBaseReflectance, *coat->reflectance)
-                               : "";
+std::optional<std::string> coincidence_warning(const Scene& scene) {
+  const auto lost = find_lost_surfaces(scene);
+  if (!lost) return std::nullopt;
+  const std::string others =
+      lost->others > 0 ? fmt::format(" (and {} other pair{})", lost->others, lost->others == 1 ? "" : "s")
+                       : "";
   return fmt::format(
-      "\"{}\" coincides with all of the opaque \"{}\" and has no effect{}: separate them, or give the "
-      "latter a coated material",
-      scene.shapes[coat->shape].name, scene.shapes[coat->on].name, size);
-}
-
-std::optional<std::string> hidden_light_warning(const Scene& scene) {
-  const auto contact = find_hidden_light(scene);
-  if (!contact) return std::nullopt;
-  const Light& light = scene.lights[contact->light];
-  const std::string& on = scene.shapes[contact->on].name;
-  const auto* emitter = std::get_if<AreaLight>(&light.kind);
-  if (emitter == nullptr)
-    return fmt::format(
-        "the light \"{}\" lies on the surface of \"{}\", on either side by rounding: separate them",
-        light.name, on);
-  if (emitter->shape == contact->on)
-    return fmt::format(
-        "triangles of the light \"{}\" coincide, so that all emit but rays hit only one: keep one, "
-        "with two_sided if both sides emit",
-        light.name);
-  return fmt::format("the light \"{}\" coincides with \"{}\", which rays may hit instead: separate them",
-                     light.name, on);
+      "\"{}\" and \"{}\" coincide within single precision{}: rays hit only one of the two surfaces, so that "
+      "the other has no effect or its light is lost; separate them",
+      scene.shapes[lost->shape].name, scene.shapes[lost->on].name, others);
 }
 
 std::optional<std::string> ignored_polarisation_warning(const Scene& scene) {

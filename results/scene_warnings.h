@@ -18,13 +18,9 @@ namespace abbe {
 /// whose emission it does not receive. Empty otherwise.
 [[nodiscard]] std::optional<std::string> dark_camera_warning(const Scene& scene);
 
-/// A warning if a thin sheet, or the whole surface of a medium, coincides with a shape that rays hit instead.
-/// It names the first pair of shapes. Empty otherwise.
-[[nodiscard]] std::optional<std::string> hidden_sheet_warning(const Scene& scene);
-
-/// A warning if a light coincides with a shape that rays may hit instead, so that its emission is lost. It
-/// names the first such light. Empty otherwise.
-[[nodiscard]] std::optional<std::string> hidden_light_warning(const Scene& scene);
+/// A warning if a thin sheet, a light, or the whole surface of a medium coincides with a shape that rays hit
+/// instead. It names the first pair of shapes and counts the others. Empty otherwise.
+[[nodiscard]] std::optional<std::string> coincidence_warning(const Scene& scene);
 
 /// A warning if the sensor measures polarisation but the scene disables it. Empty otherwise.
 [[nodiscard]] std::optional<std::string> ignored_polarisation_warning(const Scene& scene);

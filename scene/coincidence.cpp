@@ -208,22 +208,6 @@ std::vector<Face> certain_faces(const Shape& shape, const Box3d& near, FaceFinde
   return found;
 }
 
-// Maximum distance by which float rounding moves a point of a face off its plane.
-double rounding_across(const Face& face) {
-  double sum = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    sum += std::abs(face.normal[axis]) *
-           float_step(std::max(std::abs(face.box.min[axis]), std::abs(face.box.max[axis])));
-  return sum;
-}
-
-bool is_on_ball(const V3d& point, const Ellipsoid& ball, const Box3d& box) {
-  const V3d out = point - ball.center;
-  const double rounding = rounding_across({{point, point, point, point}, box, out.normalized()});
-  const std::optional<double> radius = ball.radius_of_ball(rounding);
-  return radius && std::abs(out.length() - *radius) <= rounding;
-}
-
 // True if `matches` accepts a pair of faces that are near each other along x. Nothing if there are too many
 // pairs.
 template <typename Matches>
@@ -289,26 +273,6 @@ bool coats(const Shape& coat, const Shape& body, double tolerance, FaceFinder& f
     return false;
   };
   return any_pair(of_coat, of_body, tolerance, cover) && std::ranges::all_of(covered, std::identity());
-}
-
-bool overlaps_itself(const Shape& shape, double tolerance, FaceFinder& faces) {
-  const std::vector<Face> all = faces.near(shape, grown(faces.box_of(shape), tolerance));
-  const auto matches = [&](const Face& one, const Face& other) {
-    return &one < &other && lies_in(one, other, tolerance);
-  };
-  return any_pair(all, all, tolerance, matches).value_or(false);
-}
-
-bool is_on_surface(const V3d& point, const Shape& shape, FaceFinder& faces) {
-  if (motion_of(shape) != nullptr) return false;
-  if (const std::optional<Ellipsoid> ball = ellipsoid_of(shape))
-    return is_on_ball(point, *ball, bounds(shape));
-  const double max_step = 2 * float_step(largest_coordinate(faces.box_of(shape)));  // of all faces
-  const std::vector<Face> near = certain_faces(shape, grown(Box3d(point), max_step), faces);
-  return std::ranges::any_of(near, [&](const Face& face) {
-    const Face at{{point, point, point, point}, Box3d(point), face.normal};
-    return coincide(at, face, rounding_across(face), -max_step);
-  });
 }
 
 }  // namespace abbe

@@ -105,12 +105,4 @@ enum class Facing { any, same };
 /// False if either shape moves, or if there are more than `kMaxPairs` pairs of faces.
 [[nodiscard]] bool coats(const Shape& coat, const Shape& body, double tolerance, FaceFinder& faces);
 
-/// True if two faces of one shape coincide, with `tolerance` [m] as in `overlaps` and any orientation. False
-/// if there are more than `kMaxPairs` pairs of faces.
-[[nodiscard]] bool overlaps_itself(const Shape& shape, double tolerance, FaceFinder& faces);
-
-/// True if a point [m] lies on a face or sphere that does not move: so near that floats cannot resolve the
-/// side of the point. A disc counts as the square inscribed in it. False for ellipsoids that are not spheres.
-[[nodiscard]] bool is_on_surface(const Imath::V3d& point, const Shape& shape, FaceFinder& faces);
-
 }  // namespace abbe

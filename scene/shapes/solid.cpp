@@ -414,16 +414,6 @@ SolidReport make_solid(Mesh& mesh) {
   return report;
 }
 
-bool has_duplicate_triangles(const Mesh& mesh) {
-  bool doubled = false;
-  EdgeTable(mesh).for_each([&](std::span<const EdgeSide> sides) {
-    for (std::size_t i = 1; i < sides.size(); ++i)
-      doubled = doubled || (sides[i].opposite == sides[i - 1].opposite &&
-                            std::max(sides[i].triangle, sides[i - 1].triangle) < mesh.triangles.size());
-  });
-  return doubled;
-}
-
 double enclosed_volume(const Mesh& mesh) {
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size() + mesh.slivers.size());
   double largest = 0;

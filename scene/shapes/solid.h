@@ -36,8 +36,4 @@ struct SolidReport {
 /// inside a flipped component are flipped with it.
 [[nodiscard]] SolidReport make_solid(Mesh& mesh);
 
-/// True if two triangles of a mesh have the same corners, whatever their windings. Vertices at the same
-/// position count as one.
-[[nodiscard]] bool has_duplicate_triangles(const Mesh& mesh);
-
 }  // namespace abbe
