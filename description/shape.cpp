@@ -3,7 +3,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -11,6 +13,7 @@
 #include "description/material.h"
 #include "description/meshes/mesh_file.h"
 #include "scene/shapes/shape.h"
+#include "scene/shapes/solid.h"
 
 namespace abbe::spec {
 namespace {
@@ -271,6 +274,74 @@ bool loses_axes(const PlainShape& shape, const Material& material, const Imath::
   return round && to != Imath::M44d().setTranslation(to.translation());
 }
 
+using Counts = std::vector<std::pair<std::size_t, const char*>>;
+
+// Text such as "2 open edges, 1 triangle back to back with another". "(s)" in a text marks the plural ending.
+std::string counted(const Counts& counts) {
+  std::vector<std::string> words;
+  for (const auto& [count, what] : counts) {
+    if (count == 0) continue;
+    std::string named = what;
+    const std::size_t plural = named.find("(s)");
+    named.replace(plural, 3, count == 1 ? "" : "s");
+    words.push_back(fmt::format("{} {}", count, named));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+// Repairs a mesh around a medium as far as possible, and reports the rest.
+void enclose_medium(Mesh& mesh, const std::string& name, const Material& material,
+                    const SourcePosition& where, const LoadContext& context) {
+  Diagnostics& diagnostics = context.diagnostics;
+  const std::string within = fmt::format("{} around medium \"{}\"", name, material.name);
+  const SolidReport solid = make_solid(mesh);
+  if (solid.repaired())
+    diagnostics.warning(where, fmt::format("{}: repaired: {}", within,
+                                           counted({{solid.repeated, "repeated triangle(s)"},
+                                                    {solid.rewound, "triangle(s) wound against the rest"},
+                                                    {solid.inverted, "component(s) facing inward"}})));
+  if (!solid.encloses())
+    diagnostics.error_if_strict(
+        where, fmt::format(
+                   "{} is not a closed surface: {}", within,
+                   counted({{solid.open_edges, "open edge(s)"},
+                            {solid.crowded_edges, "edge(s) of more than two triangles that cannot be paired"},
+                            {solid.clashing_edges, "edge(s) with opposite windings"},
+                            {solid.back_to_back, "triangle(s) back to back with another"},
+                            {solid.buried, "component(s) facing outward inside the medium"}})));
+  if (!mesh.normals.empty() && !is_boundary(material))
+    diagnostics.error_if_strict(
+        where, fmt::format("{}: vertex normals are ignored, because light is refracted at the flat triangles",
+                           within));
+  mesh.normals = {};
+}
+
+void build_object_shape(const spec::Shape& shape, const std::string& name, LoadContext& context, Scene& scene,
+                        std::vector<NamedShape>& parts) {
+  if (const auto* instance = std::get_if<spec::Instance>(&shape.kind))
+    return context.diagnostics.error(instance->where, "an object holds shapes, not instances");
+  if (const auto* chart = std::get_if<spec::ChartShape>(&shape.kind))
+    return context.diagnostics.error(chart->chart.where, "an object holds shapes, not charts");
+  if (const spec::Emission* emission = emission_of(shape))
+    context.diagnostics.error(emission->where, "a shape of an object cannot emit");
+  if (shape.motion)
+    context.diagnostics.error(shape.motion->where, "a shape of an object cannot move, but its instances can");
+  for (NamedShape& part : build_parts(shape, name, context, scene)) parts.push_back(std::move(part));
+}
+
+// Prototypes of the parts, shifted to the center of the object, where single precision resolves best.
+Object centred(std::vector<NamedShape> parts) {
+  Imath::Box3d box;
+  for (const NamedShape& part : parts)
+    std::visit([&](const auto& shape) { box.extendBy(bounds(shape)); }, part.shape);
+  Object object{{}, box.isEmpty() ? Imath::V3d(0) : box.center()};
+  for (NamedShape& part : parts) {
+    std::visit([&](auto& shape) { shift(shape, -object.center); }, part.shape);
+    object.parts.push_back({std::move(part.name), part.material, make_prototype(std::move(part.shape))});
+  }
+  return object;
+}
+
 }  // namespace
 
 // A moving shape becomes a prototype around its center, where single precision resolves best. So does a
@@ -322,6 +393,47 @@ void build_shapes(const std::vector<spec::Shape>& shapes, LoadContext& context, 
     add_shape(shapes[i], shapes[i].name.value_or(fmt::format("shape {}", i)), context, scene);
     context.shape_positions.resize(scene.shapes.size(), shapes[i].where);
   }
+}
+
+void prepare_for_medium(Mesh& mesh, const std::string& name, const Material& material,
+                        const SourcePosition& where, const LoadContext& context) {
+  if (encloses_medium(material))
+    enclose_medium(mesh, name, material, where, context);
+  else
+    mesh.slivers = {};  // Only closed meshes need their zero-area triangles.
+}
+
+void build_objects(const std::vector<schema::Named<spec::Object>>& objects, LoadContext& context,
+                   Scene& scene) {
+  for (const auto& [name, object, where] : objects) {
+    std::vector<NamedShape> parts;
+    for (std::size_t i = 0; i < object.shapes.size(); ++i)
+      build_object_shape(object.shapes[i], object.shapes[i].name.value_or(fmt::format("shape {}", i)),
+                         context, scene, parts);
+    context.objects.emplace(name, centred(std::move(parts)));
+  }
+}
+
+void add_instance(const spec::Instance& instance, const PoseAndMotion& moving, const std::string& name,
+                  LoadContext& context, Scene& scene) {
+  const auto matrix = build(instance.transform.value, instance.transform.where, context);
+  if (!matrix) return;
+  const auto found = context.objects.find(instance.of.value);
+  if (found == context.objects.end()) {
+    std::vector<std::string> names;
+    for (const auto& [known, object] : context.objects) names.push_back(known);
+    context.diagnostics.error(instance.of.where, unknown_name("object", instance.of.value, names));
+    return;
+  }
+  const Object& object = found->second;
+  const auto at = std::make_shared<Placement>(
+      placement(Imath::M44d().setTranslation(object.center) * *matrix * moving.pose_at_opening));
+  at->motion = moving.motion;
+  at->described_origin = object.center;
+  context.placements.push_back(at);
+  for (const Object::Member& member : object.parts)
+    scene.shapes.push_back({object.parts.size() == 1 ? name : name + "/" + member.name,
+                            PlacedShape{member.prototype, at}, member.material});
 }
 
 }  // namespace abbe::description

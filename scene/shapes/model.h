@@ -14,8 +14,8 @@
 
 namespace abbe {
 
-// What a shape answers to the rest of the program; `ShapeModel` lists the questions. The functions of a shape
-// are in the header of its struct. Lengths are in metres.
+// A shape answers the questions of the rest of the program, which `ShapeModel` lists. Its functions are in the
+// header of its struct. Lengths are in metres.
 
 /// The intersection of a ray and a shape. The normal is the outward geometric unit normal, whatever the ray's
 /// direction.
