@@ -88,7 +88,9 @@ Fields fields(Tag<Shape>) {
       {field("name", &Shape::name, "Name for messages, and for references to it as a white if it emits."),
        one_of(&Shape::kind, inlined_by<MeshBody>("mesh"), inlined_by<PlainBody<Sphere>>("sphere"),
               inlined_by<PlainBody<Disc>>("disc"), inlined_by<PlainBody<Quad>>("quad"),
-              inlined_by<PrismBody>("prism"), inlined_by<ChartShape>("chart"), under<Instance>("instance")),
+              inlined_by<SolidBody<Cylinder>>("cylinder"), inlined_by<SolidBody<Cone>>("cone"),
+              inlined_by<SolidBody<Paraboloid>>("paraboloid"), inlined_by<SolidBody<Prism>>("prism"),
+              inlined_by<ChartShape>("chart"), under<Instance>("instance")),
        field("motion", &Shape::motion, "Motion relative to the described pose; a chart cannot move.")});
 }
 

@@ -7,7 +7,6 @@
 #include <string>
 #include <utility>
 
-#include <ImathMatrixAlgo.h>
 #include <fmt/format.h>
 
 #include "description/meshes/mesh_file.h"
@@ -58,18 +57,6 @@ spec::InlineMesh cube() {
     mesh.triangles.push_back({first, first + 2, first + 3});
   }
   return mesh;
-}
-
-// The unit cylinder around z from 0 to 1, mapped to the axis from p0 to p1.
-LocalSurface cylinder(const Object& shape, const ImportState& state) {
-  const V3d from = shape.point("p0", {0, 0, 0});
-  const V3d to = shape.point("p1", {0, 0, 1});
-  const double radius = shape.number("radius", 1);
-  const V3d axis = to - from;
-  state.importer.note(shape.where(), "a cylinder is replaced by triangles");
-  const M44d matrix = scaling({radius, radius, axis.length()}) *
-                      Imath::rotationMatrix(V3d(0, 0, 1), axis.normalized()) * translation(from);
-  return {swept({{1, 0}, {1, 1}}, 360), matrix};
 }
 
 // True if triangles that share a vertex are in different planes.
@@ -126,7 +113,9 @@ std::optional<LocalSurface> surface_of(const Object& shape, const ImportState& s
                         {},
                         VDirection::up};  // Image rows run down from +z in both renderers.
   if (type == "disk") return LocalSurface{spec::Disc{{0, 0, 0}, {0, 0, 1}, 1}};
-  if (type == "cylinder") return cylinder(shape, state);
+  if (type == "cylinder")
+    return LocalSurface{spec::Cylinder{shape.point("p0", {0, 0, 0}), shape.point("p1", {0, 0, 1}),
+                                       shape.number("radius", 1), false, shape.where()}};
   if (type == "obj" || type == "ply") return mesh_file(shape, state);
   if (std::ranges::find(kShapeTypes, type) == kShapeTypes.end())
     state.importer.diagnostics.error(shape.where(), unknown_name("shape", type, kShapeTypes));

@@ -198,8 +198,10 @@ std::optional<Surface> cylinder(const Directive& directive, ImportState& state) 
   const double radius = p.number("radius", 1, state.importer);
   const double low = p.number("zmin", -1, state.importer);
   const double high = p.number("zmax", 1, state.importer);
-  return note_tessellated(swept({{radius, low}, {radius, high}}, p.number("phimax", 360, state.importer)),
-                          directive, state);
+  const double phi = p.number("phimax", 360, state.importer);
+  if (low < high && phi >= 360)
+    return spec::Cylinder{{0, 0, low}, {0, 0, high}, radius, false, directive.where};
+  return note_tessellated(swept({{radius, low}, {radius, high}}, phi), directive, state);
 }
 
 std::optional<Surface> surface_of(const Directive& directive, ImportState& state) {

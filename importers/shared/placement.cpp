@@ -93,8 +93,9 @@ void describe(Body& body, const ImportedShape& shape) {
 template <typename Surface>
 spec::Shape shape_of(Surface surface, const ImportedShape& shape,
                      const std::vector<spec::Similarity>& transform = {}) {
-  using Body =
-      std::conditional_t<std::is_same_v<Surface, spec::Mesh>, spec::MeshBody, spec::PlainBody<Surface>>;
+  using AnalyticBody = std::conditional_t<std::is_same_v<Surface, spec::Cylinder>, spec::SolidBody<Surface>,
+                                          spec::PlainBody<Surface>>;
+  using Body = std::conditional_t<std::is_same_v<Surface, spec::Mesh>, spec::MeshBody, AnalyticBody>;
   Body body;
   body.surface = std::move(surface);
   body.transform = transform;
@@ -120,7 +121,8 @@ spec::InlineMesh moved(spec::InlineMesh mesh, const M44d& m, bool reversed) {
 }
 
 /// Adds each kind of surface unchanged. Returns false if the matrix does not allow that. Textures are
-/// preserved on spheres whose axes are preserved and on quads that are not reversed, but not on discs.
+/// preserved on spheres whose axes are preserved and on quads that are not reversed, but not on discs and
+/// cylinders.
 struct ShapeAppender {
   const ImportedShape& shape;
   bool textured;
@@ -151,6 +153,14 @@ struct ShapeAppender {
       std::swap(u, v);
     }
     shapes.push_back(shape_of(spec::Quad{moved_point(quad.corner, m), u, v, shape.where}, shape));
+    return true;
+  }
+  bool operator()(const spec::Cylinder& cylinder) const {
+    const auto scale = uniform_scale(m);
+    if (!scale || textured || (shape.reversed && shape.emission)) return false;
+    shapes.push_back(shape_of(spec::Cylinder{moved_point(cylinder.from, m), moved_point(cylinder.to, m),
+                                             cylinder.radius * *scale, cylinder.caps, shape.where},
+                              shape));
     return true;
   }
   bool operator()(const spec::InlineMesh& mesh) const {
@@ -208,6 +218,12 @@ struct Triangulator {
     return moved(std::move(mesh), turn * translation(disc.center), false);
   }
   std::optional<spec::InlineMesh> operator()(const spec::Quad& quad) const { return triangles_of(quad); }
+  std::optional<spec::InlineMesh> operator()(const spec::Cylinder& cylinder) const {
+    const V3d axis = cylinder.to - cylinder.from;
+    const M44d turn = Imath::rotationMatrix(V3d(0, 0, 1), axis.normalized());
+    spec::InlineMesh mesh = swept({{cylinder.radius, 0}, {cylinder.radius, axis.length()}}, 360);
+    return moved(std::move(mesh), turn * translation(cylinder.from), false);
+  }
   std::optional<spec::InlineMesh> operator()(const spec::InlineMesh& mesh) const { return mesh; }
   std::optional<spec::InlineMesh> operator()(const MeshFileSurface& mesh) const {
     const auto read = load_mesh_file(mesh.file, FileMaterials::ignored, shape.where, importer.diagnostics,

@@ -35,7 +35,8 @@ struct MeshFileSurface {
 /// A shape of the source scene.
 struct ImportedShape {
   /// The surface in its own coordinates, before `to_world`.
-  std::variant<spec::Sphere, spec::Disc, spec::Quad, spec::InlineMesh, MeshFileSurface> surface;
+  std::variant<spec::Sphere, spec::Disc, spec::Quad, spec::Cylinder, spec::InlineMesh, MeshFileSurface>
+      surface;
   Imath::M44d to_world;   ///< Matrix to the written scene, or to the object that contains it.
   bool reversed = false;  ///< True if its front is the back of `surface`.
   /// Texture coordinates of a disc that is replaced by triangles. True: u is the distance from the center as

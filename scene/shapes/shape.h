@@ -22,6 +22,7 @@
 #include "scene/shapes/mesh.h"
 #include "scene/shapes/model.h"
 #include "scene/shapes/motion.h"
+#include "scene/shapes/quadric.h"
 
 namespace abbe {
 
@@ -40,7 +41,7 @@ concept Triangulated = requires(const S& shape) {
   triangles_of(shape);
 };
 /// Shapes whose own formula in double precision decides where a ray hits them.
-using CurvedShape = std::variant<Sphere, Disc>;
+using CurvedShape = std::variant<Sphere, Disc, Quadric>;
 /// The closed list of shapes that are not instances.
 using PlainShape = Joined<TriangulatedShape, CurvedShape>::type;
 
@@ -280,9 +281,9 @@ inline void shift(PlacedShape& /*placed*/, const Imath::V3d& /*by*/) {}
 /// allowed.
 [[nodiscard]] Imath::V3d triangle_normal(const PlainShape& shape, std::size_t triangle);
 /// Outline of a shape viewed from far away, at time 0: the circumference of spheres and discs, the edges of
-/// quads, and the creases of meshes. Creases are edges of one triangle, or of two whose normals differ by
-/// more than one degree. A mesh of more than 4000 triangles is replaced by the rectangle around its bounding
-/// box in the drawing.
+/// quads, rims and two meridians of quadrics, and the creases of meshes. Creases are edges of one triangle,
+/// or of two whose normals differ by more than one degree. A mesh of more than 4000 triangles is replaced by
+/// the rectangle around its bounding box in the drawing.
 [[nodiscard]] Outline outline(const Shape& shape, const DrawingPlane& plane);
 
 /// Texture coordinates of a point [m] on the shape; `triangle` is the index of its triangle in a mesh and has
@@ -293,6 +294,8 @@ inline void shift(PlacedShape& /*placed*/, const Imath::V3d& /*by*/) {}
 /// within 26 degrees of z. u is perpendicular to both, to the right as seen from the front;
 /// - sphere: u is the longitude from +x over +y divided by 2 pi; v is 0 at the pole at -z and 1 at the pole
 /// at +z;
+/// - quadric: u is the azimuth around its axis divided by 2 pi, counted from x of `Basis`; v is 0 at its
+/// lower end and 1 at the upper one. On caps v is the distance from the axis divided by the cap's radius;
 /// - mesh: the coordinates of its file, interpolated over each triangle; for a prism those of `make_prism`.
 /// An instance has the coordinates of its prototype. A moving shape is evaluated at `time`, a fraction of
 /// the exposure.
