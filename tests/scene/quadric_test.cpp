@@ -111,9 +111,10 @@ TEST(Quadric, IsHitWhereASearchFindsIt) {
       }
       if (!hit) continue;
       ++hits;
-      if (!expected || hit->t < *expected - 1e-9)
+      if (!expected || hit->t < *expected - 1e-9) {
         EXPECT_TRUE(std::abs(hit->normal.dot(ray.direction)) < 0.2 || distance_at(quadric, hit->point) < 0.02)
             << "two crossings within a step";
+      }
       expect_near(hit->point, ray.origin + ray.direction * hit->t, 1e-12);
     }
     EXPECT_GT(hits, 50);
