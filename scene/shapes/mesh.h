@@ -41,6 +41,8 @@ template <typename T>
 /// Area of one side of all triangles [m^2].
 [[nodiscard]] double area(const Mesh& mesh);
 [[nodiscard]] Imath::Box3d bounds(const Mesh& mesh);
+/// Cumulative fraction of the area over the triangles, ending in 1.
+[[nodiscard]] std::vector<float> triangle_cdf(const Mesh& mesh);
 /// Samples a point uniformly by area, by `u` in [0, 1)^2; `triangle_cdf` is that function's result for the
 /// mesh.
 [[nodiscard]] SurfacePoint sample_area(const Mesh& mesh, const std::vector<float>& triangle_cdf,
