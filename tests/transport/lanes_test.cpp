@@ -7,7 +7,7 @@
 #include "spectral/sources.h"
 #include "spectral/wavelength_distribution.h"
 #include "transport/path/film_response.h"
-#include "transport/path/packet.h"
+#include "transport/path/path_state.h"
 #include "transport/path/roulette.h"
 #include "transport/path/vertex.h"
 

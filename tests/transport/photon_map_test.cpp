@@ -9,8 +9,8 @@
 
 #include "sampling/sampler.h"
 #include "tests/scenes/scene_fixture.h"
-#include "transport/path/photon_map.h"
-#include "transport/technique/photon_gathering.h"
+#include "transport/technique/photon_map.h"
+#include "transport/technique/photon_mapping.h"
 
 namespace abbe {
 namespace {

@@ -12,7 +12,7 @@
 #include "transport/plan/plan.h"
 #include "transport/technique/bidirectional.h"
 #include "transport/technique/path.h"
-#include "transport/technique/subpaths.h"
+#include "transport/technique/path_starts.h"
 
 namespace abbe {
 namespace {

@@ -1,4 +1,4 @@
-#include "transport/path/surface_directions.h"
+#include "transport/path/vertex.h"
 
 #include <gtest/gtest.h>
 

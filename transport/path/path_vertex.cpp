@@ -5,7 +5,7 @@
 
 #include "scene/lights/emission.h"
 #include "scene/working_range.h"
-#include "transport/path/polarised_ends.h"
+#include "transport/path/polarised_paths.h"
 
 namespace abbe {
 namespace {

@@ -1,14 +1,51 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include <ImathVec.h>
+
+#include "materials/interface/mueller.h"
 #include "scene/scene.h"
-#include "transport/path/ray_polarisation.h"
 
 namespace abbe {
+
+/// Stokes vector (I, Q, U, V) at one wavelength. `docs/physics/conventions.md` defines the signs.
+using StokesVector = std::array<double, 4>;
+
+/// Full Mueller matrix, for column vectors.
+struct FullMueller {
+  std::array<StokesVector, 4> rows;
+
+  [[nodiscard]] static FullMueller identity();
+  /// Matrix of an event that passes on the fraction `power` of unpolarised light, in the frame of the event's
+  /// axis: `power` times the normalised `elements`.
+  [[nodiscard]] static FullMueller of(const MuellerElements<double>& elements, double power);
+
+  /// Stokes vector of `light` after the event.
+  [[nodiscard]] StokesVector operator*(const StokesVector& light) const;
+  /// Matrix of the event `before` followed by this one.
+  [[nodiscard]] FullMueller operator*(const FullMueller& before) const;
+  FullMueller& operator*=(double power);
+};
+
+/// Effect of a ray's events so far on the polarisation of its light.
+struct RayPolarisation {
+  FullMueller mueller = FullMueller::identity();  ///< From the first frame to the last one.
+  Imath::V3d first_axis, last_axis;  ///< First axes of both frames: unit vectors perpendicular to the ray.
+
+  /// State of a ray that starts along the unit vector `direction`. The first axis is horizontal,
+  /// perpendicular to the ray and to z; for a ray along z it is x.
+  explicit RayPolarisation(const Imath::V3d& direction)
+      : first_axis(across(direction, {0, 0, 1})), last_axis(first_axis) {}
+
+  /// Rotates the last frame to `axis`, which is perpendicular to the unit vector `direction` along which the
+  /// light travels.
+  void turn_to(const Imath::V3d& axis, const Imath::V3d& direction);
+};
 
 /// Reflection or refraction at a smooth surface. Indices are relative to air; n_to is that of the other side,
 /// even for a reflected ray.
@@ -107,5 +144,32 @@ struct RayTree {
 
 /// Angle between two vectors of any positive length [degrees], in [0, 180]; accurate for small angles.
 [[nodiscard]] double angle_deg(const Imath::V3d& a, const Imath::V3d& b);
+
+/// Ray that leaves a smooth surface.
+struct OutgoingRay {
+  TraceEvent::Kind kind;  ///< refract, reflect or total_reflection
+  Imath::V3d direction;   ///< Unit vector.
+  double angle_deg;       ///< Angle with the normal on the side of the ray, in [0, 90].
+  /// Mueller matrix of the event, including the power of unpolarised light, with `SmoothScattering::axis` as
+  /// axis.
+  FullMueller mueller;
+};
+
+/// Light that a surface sends in single directions. `OutgoingRay::mueller` has the fractions of its power.
+struct SmoothScattering {
+  /// Specular reflection, and refraction or straight transmission; empty if it carries no power.
+  std::optional<OutgoingRay> reflected, through;
+  Imath::V3d axis = {};  ///< First axis of the event's frames, perpendicular to the ray before and after.
+  Passage passage = {};  ///< Complete except for `angle_out_deg`, which depends on the ray that is followed.
+  /// True if the surface also scatters light into other directions, or if no outgoing ray is known.
+  bool ends = true;
+};
+
+/// Outgoing rays of a ray that arrives at `at`; the unit vector `wo` points back to where it came from.
+/// `outside` is the index of the medium outside the shape, relative to air. No rays leave a surface without a
+/// specular lobe, or a mesh whose material needs surface coordinates, because a hit does not have them.
+[[nodiscard]] SmoothScattering smooth_scattering_at(const Scene& scene, const ExactHit& at,
+                                                    const Imath::V3d& wo, double wavelength_nm,
+                                                    double outside);
 
 }  // namespace abbe

@@ -7,7 +7,7 @@
 #include "io/error.h"
 #include "scene/scene.h"
 #include "spectral/wavelength_distribution.h"
-#include "transport/path/medium_stack.h"
+#include "transport/path/media.h"
 #include "transport/plan/caustic_guide.h"
 #include "transport/plan/emissions.h"
 #include "transport/plan/light_sampler.h"

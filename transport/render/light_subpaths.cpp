@@ -8,7 +8,7 @@
 
 #include "scene/polarisation_cause.h"
 #include "transport/render/threads.h"
-#include "transport/technique/subpaths.h"
+#include "transport/technique/path_starts.h"
 
 namespace abbe {
 namespace {

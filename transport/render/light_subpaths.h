@@ -6,7 +6,7 @@
 
 #include "transport/render/pass.h"
 #include "transport/technique/bidirectional.h"
-#include "transport/technique/photons.h"
+#include "transport/technique/photon_mapping.h"
 
 namespace abbe {
 

@@ -17,7 +17,7 @@
 #include "transport/technique/features.h"
 #include "transport/technique/light.h"
 #include "transport/technique/path.h"
-#include "transport/technique/photon_gathering.h"
+#include "transport/technique/photon_mapping.h"
 
 namespace abbe {
 

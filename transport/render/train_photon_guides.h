@@ -3,7 +3,7 @@
 #include <span>
 
 #include "transport/plan/plan.h"
-#include "transport/technique/photon_start.h"
+#include "transport/technique/path_starts.h"
 
 namespace abbe {
 

@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "transport/path/dimensions.h"
-#include "transport/path/emitter_hit.h"
 #include "transport/path/free_path.h"
-#include "transport/path/polarised_ends.h"
-#include "transport/technique/subpaths.h"
+#include "transport/path/path_vertex.h"
+#include "transport/path/polarised_paths.h"
+#include "transport/technique/path_starts.h"
 
 namespace abbe {
 

@@ -8,7 +8,6 @@
 
 #include "transport/path/film_response.h"
 #include "transport/path/path_batch.h"
-#include "transport/path/path_radiance.h"
 #include "transport/path/path_recorder.h"
 #include "transport/plan/plan.h"
 #include "transport/technique/path.h"

@@ -11,7 +11,7 @@
 #include "transport/path/dimensions.h"
 #include "transport/path/roulette.h"
 #include "transport/path/vertex.h"
-#include "transport/technique/start_media.h"
+#include "transport/technique/path_starts.h"
 
 namespace abbe {
 namespace {

@@ -12,7 +12,7 @@
 #include "transport/path/path_batch.h"
 #include "transport/path/ray_caster.h"
 #include "transport/plan/plan.h"
-#include "transport/technique/photon_start.h"
+#include "transport/technique/path_starts.h"
 
 namespace abbe {
 

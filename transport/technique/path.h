@@ -10,12 +10,12 @@
 
 #include "sampling/sampler.h"
 #include "scene/camera/camera_rays.h"
-#include "transport/path/emitter_hit.h"
 #include "transport/path/film_response.h"
 #include "transport/path/mis_weight.h"
 #include "transport/path/path_batch.h"
+#include "transport/path/path_vertex.h"
 #include "transport/path/ray_caster.h"
-#include "transport/path/surface_directions.h"
+#include "transport/path/vertex.h"
 #include "transport/plan/plan.h"
 #include "transport/technique/ghost_lights.h"
 

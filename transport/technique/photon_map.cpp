@@ -1,4 +1,4 @@
-#include "transport/path/photon_map.h"
+#include "transport/technique/photon_map.h"
 
 #include <algorithm>
 #include <utility>
