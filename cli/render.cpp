@@ -33,7 +33,7 @@
 #include "results/scene_warnings.h"
 #include "results/white.h"
 #include "transport/render/choose_integrator.h"
-#include "transport/render/light_subpaths.h"
+#include "transport/render/pass.h"
 #include "transport/render/threads.h"
 
 namespace abbe::cli {

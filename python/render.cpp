@@ -17,7 +17,7 @@
 #include "python/scene.h"
 #include "results/rendered_film.h"
 #include "results/scene_warnings.h"
-#include "transport/render/light_subpaths.h"
+#include "transport/render/pass.h"
 
 namespace abbe::python {
 namespace {

@@ -11,7 +11,7 @@
 #include "results/rendered_film.h"
 #include "results/scene_warnings.h"
 #include "transport/render/choose_integrator.h"
-#include "transport/render/light_subpaths.h"
+#include "transport/render/pass.h"
 #include "transport/render/threads.h"
 
 namespace abbe {

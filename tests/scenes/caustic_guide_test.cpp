@@ -3,7 +3,7 @@
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
 #include "transport/plan/emissions.h"
-#include "transport/render/replay.h"
+#include "transport/render/cost.h"
 #include "transport/render/trained_plan.h"
 #include "transport/technique/caustic_photons.h"
 

@@ -12,7 +12,7 @@
 
 #include "transport/plan/plan.h"
 #include "transport/render/pilot.h"
-#include "transport/render/technique_pilots.h"
+#include "transport/render/technique_balance.h"
 #include "transport/render/trained_plan.h"
 
 namespace abbe {

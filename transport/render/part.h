@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "transport/render/render.h"
-#include "transport/render/sampled_areas.h"
+#include "transport/render/sample_ranges.h"
 
 namespace abbe {
 

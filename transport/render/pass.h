@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -188,5 +189,9 @@ class Pass {
   std::uint32_t path_interval_;
   std::atomic<std::uint32_t> next_;
 };
+
+/// Memory [bytes] for the light subpaths of one sample, if each has four vertices, as is usual; 0 if the
+/// scene's integrator stores none.
+[[nodiscard]] std::size_t bytes_of_light_paths(const Scene& scene);
 
 }  // namespace abbe

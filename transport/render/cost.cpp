@@ -1,10 +1,10 @@
-#include "transport/render/replay.h"
-
-#include <time.h>
+#include "transport/render/cost.h"
 
 #include <algorithm>
 #include <limits>
 #include <vector>
+
+#include <time.h>
 
 #include "transport/technique/bidirectional.h"
 #include "transport/technique/light.h"
