@@ -61,10 +61,11 @@ struct RecordedPath : PathState {
 /// Here dw_light/dw_camera = (n_c^2 |cos_c|)/(n_l^2 |cos_l|) is the ratio of solid angles that refraction
 /// relates. With it the pdfs of all strategies are in one measure.
 template <TransportMode mode>
-class PathRecorder {
+class PathRecorder : public PathCallbacks<mode> {
  public:
   using Path = RecordedPath;
-  static constexpr TransportMode kMode = mode;
+  static constexpr bool kSamplesPolarised = false;
+  static constexpr float kRouletteExponent = kJoinedRouletteExponent;
 
   /// Scene and caster must outlive the recorder.
   PathRecorder(const Scene& scene, RayCaster& caster)
@@ -97,7 +98,7 @@ class PathRecorder {
       return {density * (eta2 / cosines), density};
   }
 
-  // Interface of PathTechnique.
+  // Callbacks (`PathCallbacks`).
   void on_escape(RecordedPath& path) {
     if (mode == TransportMode::power) return;
     visit_escaped_lights(scene_, path, [&](const LightVertex& light) { record_emitter(path, light); });
@@ -114,15 +115,10 @@ class PathRecorder {
     here.media_behind = vertex.media_behind(scene_, path.media.stack);
     path.vertices.push_back(vertex_at(path, std::move(here)));
   }
-  void connect(RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/, const std::array<float, 4>& /*u*/) {}
   void connect_in_medium(RecordedPath& path, const PhaseFunction& phase, const std::array<float, 4>& /*u*/) {
     path.vertices.push_back(vertex_at(path, {.at = MediumVertex{path.ray.origin, path.ray.direction, phase},
                                              .media_behind = path.media.stack,
                                              .event_pdf = path.media.medium.extinction_per_m}));
-  }
-  [[nodiscard]] std::optional<BsdfSample> scatter(const RecordedPath& path, const SurfaceVertex& vertex,
-                                                  const BsdfRandom& u) const {
-    return vertex.scatter(u, path.packet.hero, mode);
   }
   [[nodiscard]] bool continues_after(const RecordedPath& path, const BsdfSample& /*event*/) const {
     return !path.is_stuck;
@@ -138,17 +134,13 @@ class PathRecorder {
     // positions.
     set_pdfs(path, event.delta ? single_direction(vertex, event, path.packet.hero)
                                : DirectionPdfs{event.lane_pdf * event.pdf, reverse_direction_pdf(path)});
-    return throughput_estimate(path);
+    return path.throughput_estimate();
   }
   [[nodiscard]] float survival_weight_in_medium(RecordedPath& path) {
     set_pdfs(path, {direction_pdf(scene_, path.vertices.back(), direction_back(path), path.ray.direction),
                     reverse_direction_pdf(path)});
-    return throughput_estimate(path);
-  }
-  [[nodiscard]] float throughput_estimate(const RecordedPath& path) const {
     return path.throughput_estimate();
   }
-  void resolve_connections() {}
 
  private:
   // Two vertices at one position have no pdf of directions per area.
@@ -197,12 +189,6 @@ class PathRecorder {
   RayCaster& caster_;
   PathBatch<PathRecorder> batch_;
 };
-
-template <TransportMode mode>
-inline constexpr bool kSamplesPolarised<PathRecorder<mode>> = false;
-
-template <TransportMode mode>
-inline constexpr float kRouletteExponent<PathRecorder<mode>> = kJoinedRouletteExponent;
 
 /// Sums of the contributions of several paths to the film, per wavelength: power, or Stokes vectors if the
 /// sensor distinguishes polarisation. Paths are numbered from 0.

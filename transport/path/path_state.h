@@ -111,6 +111,9 @@ struct PathState {
   MediumSegment segment;
 
   [[nodiscard]] const SampledSpectrum& lambda_nm() const { return packet.wavelengths.lambda_nm; }
+  /// Throughput for the count of truncated paths. Paths that do not start with 1 hide it by their throughput
+  /// relative to that at the start.
+  [[nodiscard]] float throughput_estimate() const { return packet.throughput_estimate(); }
 };
 
 /// Direction in which the light travels if a path that carries `mode` travels along `along`: against it for

@@ -17,29 +17,16 @@ namespace abbe {
 /// Common part of both brute-force techniques [Marschner2021, ch. 14]. Paths have one wavelength each and are
 /// never connected. An event preserves the throughput or absorbs the path at random.
 template <TransportMode mode>
-class BruteForceTechnique {
+class BruteForceTechnique : public PathCallbacks<mode> {
  public:
   using Path = RecordedPath;
-  static constexpr TransportMode kMode = mode;
 
   /// Sets throughput and pdf of all wavelengths but the hero to 0.
   static void keep_hero_only(PathPacket& packet);
 
-  // Interface of PathTechnique.
-  void prepare_scatter(RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/) {}
-  void connect(RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/, const std::array<float, 4>& /*u*/) {}
-  void connect_in_medium(RecordedPath& /*path*/, const PhaseFunction& /*phase*/,
-                         const std::array<float, 4>& /*u*/) {}
+  // Callbacks (`PathCallbacks`).
   [[nodiscard]] std::optional<BsdfSample> scatter(RecordedPath& path, const SurfaceVertex& vertex,
                                                   const BsdfRandom& u) const;
-  [[nodiscard]] bool continues_after(RecordedPath& /*path*/, const BsdfSample& /*event*/) const {
-    return true;
-  }
-  [[nodiscard]] bool continues_in_medium(const RecordedPath& /*path*/) const { return true; }
-  [[nodiscard]] float throughput_estimate(const RecordedPath& path) const {
-    return path.throughput_estimate();
-  }
-  void resolve_connections() {}
 };
 
 /// Brute-force photon tracing: photons of one wavelength each that enter the camera's opening, or hit its
@@ -61,9 +48,7 @@ class BrutePhotonTracer : public BruteForceTechnique<TransportMode::power> {
   /// `photons`. Throws Error{resource} if more than `MediumStack::kMaxShapes` media nest.
   void trace(std::span<const Sampler> photons, const Deposit& deposit);
 
-  // Remaining interface of PathTechnique.
-  void on_escape(RecordedPath& /*path*/) {}
-  void on_hit(RecordedPath& /*path*/, const SurfaceHit& /*hit*/) {}
+  // Callbacks (`PathCallbacks`).
   [[nodiscard]] float survival_weight(RecordedPath& path, const SurfaceVertex& /*vertex*/,
                                       const BsdfSample& /*event*/) {
     return record_camera_hit(path, path.depth + 1), 1.0F;
@@ -106,14 +91,13 @@ class AdjointBruteTracer : public BruteForceTechnique<TransportMode::radiance> {
   /// `PixelSample::weight`. Throws Error{resource} if more than `MediumStack::kMaxShapes` media nest.
   void trace(std::span<const PixelSample> samples, const Deposit& deposit);
 
-  // Remaining interface of PathTechnique.
+  // Callbacks (`PathCallbacks`).
   void on_escape(RecordedPath& path);
   void on_hit(RecordedPath& path, const SurfaceHit& hit);
   [[nodiscard]] float survival_weight(RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/,
                                       const BsdfSample& /*event*/) const {
     return 1;
   }
-  [[nodiscard]] float survival_weight_in_medium(const RecordedPath& /*path*/) const { return 1; }
 
  private:
   void add_emission(const RecordedPath& path, std::uint32_t light);

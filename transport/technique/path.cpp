@@ -149,7 +149,7 @@ bool PathTracer::continues_after(CameraPath& path, const BsdfSample& event) cons
 float PathTracer::survival_weight(CameraPath& path, const SurfaceVertex& vertex,
                                   const BsdfSample& event) const {
   path.eta_scale *= vertex.squared_eta(event, path.packet.hero);
-  return path.rr_scale * roulette_throughput(path);
+  return path.rr_scale * path.roulette_throughput();
 }
 
 // Traces the queued shadow rays and adds the unoccluded connections.
@@ -285,7 +285,7 @@ void PathTracer::prepare_scatter(CameraPath& path, const SurfaceVertex& vertex) 
   const CausticGuide& guide =
       includes_traced ? plan_.guides.caustics_through_specular : plan_.guides.path_caustics;
   if (guide.empty() || !scatters(vertex.bsdf)) return;
-  path.caustics = guide.at(vertex.hit.point).scaled(std::min(1.0F, roulette_throughput(path)));
+  path.caustics = guide.at(vertex.hit.point).scaled(std::min(1.0F, path.roulette_throughput()));
 }
 
 std::optional<float> PathTracer::adds_path(const CameraPath& path) const {

@@ -46,6 +46,12 @@ struct CameraPath : PathState {
   GuidedScattering guided;  ///< Its lobes are empty if the guide could not have sampled the last direction.
   bool seeks_caustic = false;  ///< True if the guide sampled its direction: only specular events continue it.
   LensRoute route = 0;         ///< Route of the path through the lens; above 0 for a ghost.
+
+  /// Throughput without the loss of radiance by refraction into glass.
+  [[nodiscard]] float roulette_throughput() const { return packet.throughput_estimate() * eta_scale; }
+  /// `roulette_throughput`, but 0 for a path sampled from the guide, because BSDF sampling finds the same
+  /// light.
+  [[nodiscard]] float throughput_estimate() const { return seeks_caustic ? 0 : roulette_throughput(); }
 };
 
 /// Sample of a pixel.
@@ -71,10 +77,9 @@ struct PixelSample {
 /// to a traced light whose neighbouring vertex is specular. Of these, camera paths are owned only if their
 /// first vertex is specular too, and probe paths only if their first vertex scatters. Deposited values are
 /// those of one sample per pixel.
-class PathTracer {
+class PathTracer : public PathCallbacks<TransportMode::radiance> {
  public:
   using Path = CameraPath;
-  static constexpr TransportMode kMode = TransportMode::radiance;
 
   /// Plan and caster must outlive the tracer.
   PathTracer(const Plan& plan, RayCaster& caster);
@@ -87,7 +92,7 @@ class PathTracer {
   /// per sample. Throws Error{resource} if more than `MediumStack::kMaxShapes` media nest.
   void trace(std::span<const PixelSample> samples, const Deposit& deposit);
 
-  // Interface of PathTechnique.
+  // Callbacks (`PathCallbacks`).
   void on_escape(CameraPath& path);
   void on_hit(CameraPath& path, const SurfaceHit& hit);
   void prepare_scatter(CameraPath& path, const SurfaceVertex& vertex) const;
@@ -116,7 +121,7 @@ class PathTracer {
   [[nodiscard]] float survival_weight(CameraPath& path, const SurfaceVertex& vertex,
                                       const BsdfSample& event) const;
   [[nodiscard]] float survival_weight_in_medium(const CameraPath& path) const {
-    return path.rr_scale * roulette_throughput(path);
+    return path.rr_scale * path.roulette_throughput();
   }
   [[nodiscard]] bool reuses_spare_dimensions(const CameraPath& path) const { return !path.seeks_caustic; }
   // A path splits once, at a surface.
@@ -130,17 +135,9 @@ class PathTracer {
     child.is_split_child = true;
     child.rr_scale *= std::exp2(0.75F * static_cast<float>(log2_count));
   }
-  // A path sampled from the guide is not counted when it is truncated: BSDF sampling finds the same light.
-  [[nodiscard]] float throughput_estimate(const CameraPath& path) const {
-    return path.seeks_caustic ? 0 : roulette_throughput(path);
-  }
   void resolve_connections();
 
  private:
-  // Throughput without the loss of radiance by refraction into glass.
-  [[nodiscard]] static float roulette_throughput(const CameraPath& path) {
-    return path.packet.throughput_estimate() * path.eta_scale;
-  }
   // Light sampled for a point: its index, a direction to it unless it is invisible, and the joint pdf.
   struct ChosenLight {
     std::uint32_t index;

@@ -33,10 +33,9 @@ struct Photon {
 
 /// Light paths that store photons at every scattering surface except the first, where camera paths connect to
 /// the light themselves [Jensen1996]. One instance per thread.
-class PhotonTracer {
+class PhotonTracer : public PathCallbacks<TransportMode::power> {
  public:
   using Path = RecordedPath;
-  static constexpr TransportMode kMode = TransportMode::power;
 
   /// Plan and caster must outlive the tracer.
   PhotonTracer(const Plan& plan, RayCaster& caster);
@@ -47,31 +46,13 @@ class PhotonTracer {
   void trace(std::span<const Sampler> samplers, const PathPacket& packet, float time,
              std::vector<Photon>& photons);
 
-  // Interface of PathTechnique.
-  void on_escape(RecordedPath& /*path*/) {}
-  void on_hit(RecordedPath& /*path*/, const SurfaceHit& /*hit*/) {}
-  void prepare_scatter(RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/) {}
+  // Callbacks (`PathCallbacks`).
   void connect(RecordedPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u);
   void connect_in_medium(RecordedPath& path, const PhaseFunction& phase, const std::array<float, 4>& u);
-  [[nodiscard]] std::optional<BsdfSample> scatter(const RecordedPath& path, const SurfaceVertex& vertex,
-                                                  const BsdfRandom& u) const {
-    return vertex.scatter(u, path.packet.hero, kMode);
-  }
   [[nodiscard]] bool continues_after(RecordedPath& path, const BsdfSample& event) {
     if (!event.delta) scattered_[path.index] = true;
     return true;
   }
-  [[nodiscard]] bool continues_in_medium(const RecordedPath& /*path*/) const { return true; }
-  // Roulette uses the throughput of the event, as in light tracing.
-  [[nodiscard]] float survival_weight(const RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/,
-                                      const BsdfSample& event) const {
-    return event_throughput(event);
-  }
-  [[nodiscard]] float survival_weight_in_medium(const RecordedPath& /*path*/) const { return 1; }
-  [[nodiscard]] float throughput_estimate(const RecordedPath& path) const {
-    return path.throughput_estimate();
-  }
-  void resolve_connections() {}
 
  private:
   struct PathPhoton {
@@ -128,10 +109,9 @@ struct GatherPath : RecordedPath {
 ///
 /// Path classes owned: all, except light of point, spot and directional lights that arrives by delta events
 /// alone. The kernel blurs the estimate: it is consistent, not unbiased, if radii decrease.
-class PhotonGatherer {
+class PhotonGatherer : public PathCallbacks<TransportMode::radiance> {
  public:
   using Path = GatherPath;
-  static constexpr TransportMode kMode = TransportMode::radiance;
 
   /// Plan and caster must outlive the gatherer.
   PhotonGatherer(const Plan& plan, RayCaster& caster);
@@ -146,16 +126,11 @@ class PhotonGatherer {
   void trace(std::span<const PixelSample> samples, const PhotonCloud& cloud, const GatherKernel& kernel,
              const Deposit& deposit);
 
-  // Interface of PathTechnique.
+  // Callbacks (`PathCallbacks`).
   void on_escape(GatherPath& path);
   void on_hit(GatherPath& path, const SurfaceHit& hit);
-  void prepare_scatter(GatherPath& /*path*/, const SurfaceVertex& /*vertex*/) {}
   void connect(GatherPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u);
   void connect_in_medium(GatherPath& path, const PhaseFunction& phase, const std::array<float, 4>& u);
-  [[nodiscard]] std::optional<BsdfSample> scatter(const GatherPath& path, const SurfaceVertex& vertex,
-                                                  const BsdfRandom& u) const {
-    return vertex.scatter(u, path.packet.hero, kMode);
-  }
   [[nodiscard]] bool continues_after(GatherPath& path, const BsdfSample& event) const;
   [[nodiscard]] bool continues_in_medium(GatherPath& path) const {
     path.seeks_photons = false;
@@ -164,13 +139,11 @@ class PhotonGatherer {
   [[nodiscard]] float survival_weight(GatherPath& path, const SurfaceVertex& vertex,
                                       const BsdfSample& event) const {
     path.eta_scale *= vertex.squared_eta(event, path.packet.hero);
-    return throughput_estimate(path);
+    return path.throughput_estimate();
   }
   [[nodiscard]] float survival_weight_in_medium(const GatherPath& path) const {
-    return throughput_estimate(path);
+    return path.throughput_estimate();
   }
-  [[nodiscard]] float throughput_estimate(const GatherPath& path) const { return path.throughput_estimate(); }
-  void resolve_connections() {}
 
  private:
   void trace_batch(std::span<const PixelSample> samples);
