@@ -98,8 +98,8 @@ Json answer_for(const Scene& scene, const IntegratorChoice& choice) {
   answer["techniques"] = Json::array();
   answer["owned"] = Json::object();
   for (const Technique technique : render.techniques) {
-    answer["techniques"].push_back(name_of(technique));
-    answer["owned"][name_of(technique)] = owned_paths(technique, render.techniques, scene.camera);
+    answer["techniques"].push_back(integrator_name(technique));
+    answer["owned"][integrator_name(technique)] = owned_paths(technique, render.techniques, scene.camera);
   }
   answer["bias"] = nullptr;
   for (const Technique technique : render.techniques)

@@ -16,6 +16,7 @@
 
 #include "materials/material.h"
 #include "scene/camera/camera.h"
+#include "scene/integrators.h"
 #include "scene/lights/light.h"
 #include "scene/scene_features.h"
 #include "scene/shapes/ray.h"
@@ -37,33 +38,12 @@ struct ChartInstance {
   std::uint32_t patches;
 };
 
-/// The integrator that renders the scene.
-enum class Integrator {
-  automatic,     ///< `path` with photons for caustics, or another one that the render finds to be cheaper.
-  path,          ///< Path tracing with next-event estimation [Kajiya1986].
-  light,         ///< Light tracing: photons connected to the camera [Arvo1986].
-  bdpt,          ///< Bidirectional path tracing [Lafortune1993].
-  photon_map,    ///< Photon mapping [Jensen1996]; biased.
-  ppm,           ///< Progressive photon mapping [Hachisuka2008]; biased, consistent.
-  sppm,          ///< Stochastic progressive photon mapping [Hachisuka2009]; biased, consistent.
-  vcm,           ///< Vertex connection and merging [Georgiev2012]; biased, consistent.
-  photon_brute,  ///< Photons that enter the camera's opening or hit the probe by chance.
-  adjoint_brute  ///< Camera paths of one wavelength each that hit lights by chance.
-};
-/// Names of the integrators in scenes, commands and films, in the order of the enumeration.
-inline constexpr std::array kIntegratorNames{"auto", "path", "light", "bdpt",         "photon-map",
-                                             "ppm",  "sppm", "vcm",   "photon-brute", "adjoint-brute"};
-/// Name of an integrator in `kIntegratorNames`.
-[[nodiscard]] constexpr const char* integrator_name(Integrator integrator) {
-  return kIntegratorNames.at(static_cast<std::size_t>(integrator));
-}
-
 /// Settings of the integrators that use photons.
 struct PhotonSettings {
   std::optional<std::uint64_t> per_sample = {};  ///< Photons per sample; absent: as many as pixels.
   std::optional<double> radius_m = {};  ///< Initial gathering radius [m]; absent: from the scene's size.
-  int nearest = 50;           ///< Number of nearest photons in an estimate of Integrator::photon_map.
-  bool final_gather = false;  ///< True if Integrator::photon_map evaluates the map one bounce later.
+  int nearest = 50;           ///< Number of photons in an estimate with `Merging::nearest`.
+  bool final_gather = false;  ///< True if such an estimate is made one bounce later.
 };
 
 /// The density with which Integrator::path samples directions after a non-specular event at a surface or

@@ -123,47 +123,57 @@ void add_of_path_tracing(const Scene& scene, const SceneFeatures& features, bool
               "caustics of a tiny light that no pilot photon found");
 }
 
+void add_of_merging(const Scene& scene, const SceneFeatures& features, Classes& classes) {
+  if (!has_specular_shapes(scene)) return;
+  const auto delta = [&](std::size_t i) { return scene.lights[i].is_delta() && emits(scene.lights[i]); };
+  classes.add(delta, "E S+ L", "a point, spot or directional light seen in mirrors or through glass");
+  if (features.scattering)
+    classes.add(delta, "E S* (D S+)+ L",
+                "a point, spot or directional light, by paths that scatter only in media and never twice in "
+                "succession");
+  add_tiny_lights_of_probe(scene, any, classes);
+}
+
+void add_of_bidirectional(const Scene& scene, Classes& classes) {
+  const auto delta = [&](std::size_t i) { return scene.lights[i].is_delta() && emits(scene.lights[i]); };
+  if (has_specular_shapes(scene))
+    classes.add(delta, "E S+ (D S+)* L",
+                "a point, spot or directional light, by paths without two consecutive scattering vertices");
+  add_tiny_lights_of_probe(scene, any, classes);
+}
+
+void add_of_photons_by_chance(const Scene& scene, Classes& classes) {
+  if (traits(scene.camera).ghosts) classes.add(any, "E (S|D)* L", "the ghosts of the lens");
+  if (!traits(scene.camera).opening)
+    classes.add(any, "E (S|D)* L", "everything: photons cannot enter through a point");
+}
+
 }  // namespace
 
 std::vector<PathClass> unsampled_paths(const Scene& scene, const SceneFeatures& features,
                                        bool light_tracing_active) {
   Classes classes(scene);
-  const auto delta = [&](std::size_t i) { return scene.lights[i].is_delta() && emits(scene.lights[i]); };
-  const bool specular = has_specular_shapes(scene);
-  switch (scene.render.integrator) {
-    case Integrator::light:
+  const IntegratorTraits& integrator = traits(scene.render.integrator);
+  switch (integrator.traces) {
+    case TracedPaths::camera:
+      add_of_path_tracing(scene, features, light_tracing_active, classes);
+      break;
+    case TracedPaths::light:
       add_of_light_tracing(scene, classes);
       break;
-    case Integrator::bdpt:
-      if (specular)
-        classes.add(
-            delta, "E S+ (D S+)* L",
-            "a point, spot or directional light, by paths without two consecutive scattering vertices");
-      add_tiny_lights_of_probe(scene, any, classes);
+    case TracedPaths::both:
+    case TracedPaths::photons:
+      if (integrator.merging == Merging::none)
+        add_of_bidirectional(scene, classes);
+      else
+        add_of_merging(scene, features, classes);
       break;
-    case Integrator::photon_map:
-    case Integrator::ppm:
-    case Integrator::sppm:
-    case Integrator::vcm:
-      if (!specular) break;
-      classes.add(delta, "E S+ L", "a point, spot or directional light seen in mirrors or through glass");
-      if (features.scattering)
-        classes.add(delta, "E S* (D S+)+ L",
-                    "a point, spot or directional light, by paths that scatter only in media and never twice "
-                    "in succession");
-      add_tiny_lights_of_probe(scene, any, classes);
+    case TracedPaths::light_by_chance:
+      add_of_photons_by_chance(scene, classes);
       break;
-    case Integrator::photon_brute:
-      if (traits(scene.camera).ghosts) classes.add(any, "E (S|D)* L", "the ghosts of the lens");
-      if (!traits(scene.camera).opening)
-        classes.add(any, "E (S|D)* L", "everything: photons cannot enter through a point");
-      break;
-    case Integrator::adjoint_brute:
-      classes.add(delta, "E (S|D)* L", "all light of a point, spot or directional light");
-      break;
-    case Integrator::automatic:
-    case Integrator::path:
-      add_of_path_tracing(scene, features, light_tracing_active, classes);
+    case TracedPaths::camera_by_chance:
+      classes.add([&](std::size_t i) { return scene.lights[i].is_delta() && emits(scene.lights[i]); },
+                  "E (S|D)* L", "all light of a point, spot or directional light");
   }
   return std::move(classes).result();
 }

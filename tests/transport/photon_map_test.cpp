@@ -153,9 +153,9 @@ TEST(GatherRadius, ShrinksAsItsProduct) {
 TEST(Techniques, TellTheirBias) {
   for (const Technique technique : {Technique::path, Technique::light, Technique::bdpt,
                                     Technique::photon_brute, Technique::adjoint_brute})
-    EXPECT_EQ(bias_of(technique), "") << name_of(technique);
+    EXPECT_EQ(bias_of(technique), "") << integrator_name(technique);
   for (const Technique technique : {Technique::ppm, Technique::sppm, Technique::vcm})
-    EXPECT_NE(bias_of(technique).find("consistent"), std::string_view::npos) << name_of(technique);
+    EXPECT_NE(bias_of(technique).find("consistent"), std::string_view::npos) << integrator_name(technique);
   EXPECT_EQ(bias_of(Technique::photon_map).find("consistent"), std::string_view::npos);
 }
 

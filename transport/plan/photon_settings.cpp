@@ -5,17 +5,18 @@
 namespace abbe {
 
 bool scene_sets_photon_count(std::span<const Technique> techniques) {
-  return uses(techniques, Technique::photon_brute) ||
-         std::any_of(techniques.begin(), techniques.end(), gathers_photons);
+  return std::any_of(techniques.begin(), techniques.end(), [](Technique technique) {
+    return gathers_photons(technique) || traits(technique).traces == TracedPaths::light_by_chance;
+  });
 }
 
 std::vector<std::string_view> unused_photon_settings(const Scene& scene) {
   const PhotonSettings& spec = scene.render.photons;
   const PhotonSettings defaults;
   const std::vector<Technique> techniques = chosen_techniques(scene);
-  const bool by_number = uses(techniques, Technique::photon_map);
-  const bool by_radius = uses(techniques, Technique::ppm) || uses(techniques, Technique::sppm) ||
-                         uses(techniques, Technique::vcm) || scene.render.consistent;
+  const Merging merging = traits(scene.render.integrator).merging;
+  const bool by_number = merging == Merging::nearest;
+  const bool by_radius = merging == Merging::radius || scene.render.consistent;
   std::vector<std::string_view> unused;
   if (spec.per_sample && !scene_sets_photon_count(techniques)) unused.emplace_back("per_sample");
   if (spec.radius_m && !by_radius) unused.emplace_back("radius");

@@ -15,7 +15,7 @@ namespace abbe {
 
 /// Keys of `render/photons` in the scene file, such as "radius", that the scene's integrator does not use
 /// although the scene sets them to other values than the defaults. With Integrator::automatic the radius
-/// counts as used if Integrator::vcm may be chosen.
+/// counts as used if an integrator that merges paths may be chosen.
 [[nodiscard]] std::vector<std::string_view> unused_photon_settings(const Scene& scene);
 
 }  // namespace abbe

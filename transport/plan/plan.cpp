@@ -19,8 +19,8 @@ std::vector<bool> traced_lights(const Scene& scene) {
   std::vector<bool> traced(scene.lights.size(), false);
   const std::vector<Technique> techniques = chosen_techniques(scene);
   if (!starts_at_lights(techniques)) return traced;
-  const bool all = !uses(techniques, Technique::path);
-  const bool with_environment = !uses(techniques, Technique::light) && !uses(techniques, Technique::bdpt);
+  const bool all = techniques.size() == 1;
+  const bool with_environment = traits(techniques.back()).traces_environment;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     traced[i] =
         (with_environment || !scene.lights[i].is_environment()) && (all || scene.features.light_is_traced[i]);
@@ -158,20 +158,20 @@ void find_varying_media(Plan& plan) {
 
 // True if NEE of camera paths is balanced with emitter hits by BSDF sampling.
 bool balances_lights(const Scene& scene, const std::vector<Technique>& techniques) {
-  return uses(techniques, Technique::path)
-             ? scene.render.sampling.lights == LightStrategy::mis &&
-                   scene.render.sampling.directions == DirectionSampling::bsdf
-             : uses(techniques, Technique::bdpt) || uses(techniques, Technique::vcm);
+  const TracedPaths traced = traits(techniques.front()).traces;
+  return traced == TracedPaths::camera ? scene.render.sampling.lights == LightStrategy::mis &&
+                                             scene.render.sampling.directions == DirectionSampling::bsdf
+                                       : traced == TracedPaths::both;
 }
 
 // Makes a plan without the checks of `refusal`.
 Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissions& emissions,
              const std::vector<bool>& traced) {
-  const bool light_only = techniques == std::vector{Technique::light};
+  const bool light_only = techniques.size() == 1;  // if photons are guided
   const bool traces_light = starts_at_lights(techniques);
   const std::vector<Curve> equal_energy{Curve(1.0)};
   const std::span<const Curve> emission_curves =
-      uses(techniques, Technique::adjoint_brute) ? equal_energy : emissions.distinct;
+      traits(techniques.front()).traces == TracedPaths::camera_by_chance ? equal_energy : emissions.distinct;
   const std::uint64_t photons = photons_of(scene, techniques);
   std::vector<double> traced_powers = sensor_weighted_powers(scene, emissions);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)

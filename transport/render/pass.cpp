@@ -24,11 +24,6 @@ constexpr std::uint32_t ceil_div(std::uint64_t whole, std::uint32_t piece) {
   return static_cast<std::uint32_t>((whole + piece - 1) / piece);
 }
 
-// True if the work items of a technique are tiles, false if they are batches of photons.
-bool uses_tiles(Technique technique) {
-  return technique != Technique::light && technique != Technique::photon_brute;
-}
-
 // Returns the sampler of random numbers of one light subpath of a sample, by the index of the subpath.
 using LightPathSampler = std::function<Sampler(std::uint64_t path)>;
 
@@ -146,13 +141,14 @@ Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleR
   tiles_ = tiles_x_ * ceil_div(static_cast<std::uint64_t>(film.height()), kTile);
   photons_ = plan.photons;
   path_interval_ = plan.path_interval;
-  sample_by_sample_ = uses(plan.techniques, Technique::vcm) ||
-                      std::any_of(plan.techniques.begin(), plan.techniques.end(), gathers_photons);
+  sample_by_sample_ = std::ranges::any_of(
+      plan.techniques, [](Technique technique) { return traits(technique).merging != Merging::none; });
+  repeats_paths_ = std::ranges::any_of(plan.techniques,
+                                       [](Technique technique) { return traits(technique).repeats_paths; });
   for (const Technique technique : plan.techniques) stages_.push_back(stage_of(technique));
   // Tiles trace the features of their pixels themselves, so that both have the same finished pixels. Without
   // tiles, features need a stage of their own.
-  if (auxiliary_.features != nullptr &&
-      std::none_of(plan.techniques.begin(), plan.techniques.end(), uses_tiles))
+  if (auxiliary_.features != nullptr && std::ranges::none_of(plan.techniques, starts_at_camera))
     stages_.push_back({tiles_, &Pass::trace_tile_features});
   for (const Stage& stage : stages_) items_ += stage.items;
 }
@@ -160,22 +156,19 @@ Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleR
 Pass::Stage Pass::stage_of(Technique technique) const {
   const std::uint32_t batches = ceil_div(photons_, kPhotonBatch);
   const std::uint32_t all_tiles = tiles_ * static_cast<std::uint32_t>(last_ - first_);
-  switch (technique) {
-    case Technique::path:
+  switch (traits(technique).traces) {
+    case TracedPaths::camera:
       return {tiles_, &Pass::render_tile};
-    case Technique::light:
+    case TracedPaths::light:
       return {batches, &Pass::trace_batch};
-    case Technique::bdpt:
-      return {tiles_, &Pass::connect_tile};
-    case Technique::photon_map:
-    case Technique::ppm:
-    case Technique::sppm:
+    case TracedPaths::both:
+      return traits(technique).merging == Merging::none ? Stage{tiles_, &Pass::connect_tile}
+                                                        : Stage{all_tiles, &Pass::merge_tile};
+    case TracedPaths::photons:
       return {all_tiles, &Pass::gather_tile};
-    case Technique::vcm:
-      return {all_tiles, &Pass::merge_tile};
-    case Technique::photon_brute:
+    case TracedPaths::light_by_chance:
       return {batches, &Pass::trace_batch_brutely};
-    case Technique::adjoint_brute:
+    case TracedPaths::camera_by_chance:
       return {tiles_, &Pass::render_tile_brutely};
   }
   throw Error(ErrorCode::internal, "", "no such technique");
@@ -212,7 +205,7 @@ void Pass::trace_sample_subpaths(std::uint64_t sample, int threads, PassCounts& 
   const LightPathSampler samplers = [&](std::uint64_t path) { return photon_sampler(sample, path); };
   const std::array<float, 4> shared = sample_random_numbers(sample);
   const PathPacket packet = draw_packet(plan_.wavelengths, shared[0]);
-  if (uses(plan_.techniques, Technique::vcm)) {
+  if (!gathers_photons(plan_.techniques.front())) {
     trace_light_subpaths(plan_, packet, shared[1], gather_radius(plan_.gather_radius, sample), samplers,
                          threads, light_paths_, counts);
     return;
@@ -273,8 +266,7 @@ std::array<float, 4> Pass::sample_random_numbers(std::uint64_t sample) const {
 // Index of the camera path of a sample at a pixel; empty if the pixel skips the sample. A random phase for
 // each pixel and replicate selects the skipped samples, so that the mean over any samples is unbiased.
 std::optional<std::uint32_t> Pass::path_index(std::uint64_t sample, int x, int y) const {
-  // Progressive photon mapping repeats the same camera paths in all samples.
-  if (uses(plan_.techniques, Technique::ppm)) return 0;
+  if (repeats_paths_) return 0;
   if (path_interval_ == 1) return sequence_index(sample);
   const float u =
       Sampler(seed_, Purpose::camera, 0, pixel_index(x, y), 0, replicate(sample)).group(kPhaseGroup)[0];
@@ -424,7 +416,7 @@ void Pass::render_tile_brutely(std::uint32_t number, Worker& worker) {
 void Pass::gather_tile(std::uint32_t item, Worker& worker) {
   const std::uint64_t sample = first_ + item / tiles_;
   GatherKernel kernel{gather_radius(plan_.gather_radius, sample)};
-  if (uses(plan_.techniques, Technique::photon_map)) {
+  if (traits(plan_.techniques.front()).merging == Merging::nearest) {
     kernel.nearest = static_cast<std::size_t>(scene_.render.photons.nearest);
     kernel.final_gather = scene_.render.photons.final_gather;
   }
@@ -478,15 +470,13 @@ void Pass::trace_batch_brutely(std::uint32_t batch, Worker& worker) {
 
 std::size_t bytes_of_light_paths(const Scene& scene) {
   constexpr std::size_t kTypicalVertices = 4;
-  const std::vector<Technique> techniques = chosen_techniques(scene);
+  if (traits(scene.render.integrator).merging == Merging::none) return 0;
   const std::size_t paths = photons_of_sample(scene);
   const std::size_t polarisation_bytes = carries_polarisation(scene) ? sizeof(Polarisation) : 0;
-  if (uses(techniques, Technique::vcm))
-    return paths * (LightSubpaths::kBytesOfPath +
-                    kTypicalVertices * (LightSubpaths::kBytesOfVertex + polarisation_bytes));
-  if (std::any_of(techniques.begin(), techniques.end(), gathers_photons))
+  if (gathers_photons(scene.render.integrator))
     return paths * kTypicalVertices * (sizeof(Photon) + PhotonMap::kBytesOfPoint + polarisation_bytes);
-  return 0;
+  return paths * (LightSubpaths::kBytesOfPath +
+                  kTypicalVertices * (LightSubpaths::kBytesOfVertex + polarisation_bytes));
 }
 
 }  // namespace abbe

@@ -181,6 +181,7 @@ class Pass {
   std::vector<Stage> stages_;
   std::uint32_t items_ = 0;  // of all stages
   bool sample_by_sample_;
+  bool repeats_paths_;  // all samples have the same camera paths
   // sample of the pass to which `cloud_` or `light_paths_` belongs
   std::optional<std::uint32_t> sample_of_cloud_;
   std::optional<PhotonCloud> cloud_;
