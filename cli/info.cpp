@@ -107,7 +107,7 @@ Json answer_for(const Scene& scene, const IntegratorChoice& choice) {
   answer["shares"] = render.technique_costs;
   answer["path_splitting"] = render.path_splitting;
   answer["lens"] = lens_answer(scene.camera);
-  answer["unreached"] = unsampled_paths(scene, scene.features, uses(render.techniques, Technique::light));
+  answer["unreached"] = unsampled_paths(scene, scene.features, traces(render.techniques, TracedPaths::light));
   if (scene.mosaic) answer["mosaic"] = pattern(scene);
   if (scene.output.white)
     answer["white"] = {{"name", scene.output.white->name},

@@ -177,7 +177,7 @@ Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissi
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (!traced[i]) traced_powers[i] = 0;
   const WavelengthDistribution wavelengths = make_wavelengths(scene, emission_curves);
-  const bool guides_photons = uses(techniques, Technique::light);
+  const bool guides_photons = traces(techniques, TracedPaths::light);
   Plan plan{
       scene,
       wavelengths,
@@ -196,7 +196,7 @@ Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissi
   plan.gather_radius = static_cast<float>(first_gather_radius(scene, photons));
   plan.camera_media_vary = camera_media_vary(scene);
   if (scene.features.motion) find_varying_media(plan);
-  if (uses(plan.techniques, Technique::path))
+  if (traces(plan.techniques, TracedPaths::camera))
     plan.equiangular_lights = equiangular_light_sampler(scene, emissions);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (traced[i]) plan.light_media[i] = media_at_light(scene, scene.lights[i]).value();
@@ -222,7 +222,7 @@ std::optional<Error> refusal_of(const Scene& scene, const Emissions& emissions) 
   if (auto error = float_range_error(nominal_spectral, " J/(m^2 nm)")) return error;
   std::vector<bool> traced = traced_lights(scene);
   if (auto refused = photon_start_error(scene, traced)) return refused;
-  const bool guides_photons = uses(chosen_techniques(scene), Technique::light);
+  const bool guides_photons = traces(chosen_techniques(scene), TracedPaths::light);
   for (std::size_t i = 0; i < traced.size(); ++i)
     traced[i] = traced[i] && (guides_photons || scene.lights[i].at_infinity());  // other lights emit unguided
   return refusal(scene, traced, scene.render.integrator != Integrator::automatic);

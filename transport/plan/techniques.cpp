@@ -11,11 +11,12 @@ std::vector<Technique> chosen_techniques(const Scene& scene) {
 }
 
 std::vector<PathClass> unreached(const Scene& scene) {
-  return unsampled_paths(scene, scene.features, uses(chosen_techniques(scene), Technique::light));
+  return unsampled_paths(scene, scene.features, traces(chosen_techniques(scene), TracedPaths::light));
 }
 
-bool uses(std::span<const Technique> techniques, Technique technique) {
-  return std::find(techniques.begin(), techniques.end(), technique) != techniques.end();
+bool traces(std::span<const Technique> techniques, TracedPaths paths) {
+  return std::any_of(techniques.begin(), techniques.end(),
+                     [paths](Technique technique) { return traits(technique).traces == paths; });
 }
 
 bool starts_at_camera(Technique technique) {
@@ -47,13 +48,14 @@ std::string_view bias_of(Technique technique) {
 }
 
 std::string owned_paths(Technique technique, std::span<const Technique> active, const Camera& camera) {
+  const IntegratorTraits& owner = traits(technique);
   const bool alone = active.size() == 1;
-  if (technique == Technique::light && is_probe(camera))
+  if (owner.traces == TracedPaths::light && is_probe(camera))
     return alone ? "E (S|D)* L"
                  : "E S L and E S (S|D)* S L of traced lights, E (S|D)* S L of lights without area";
-  if (alone) return std::string(traits(technique).owned);
-  return technique == Technique::light ? "E D (S|D)* S L of traced lights"
-                                       : "E (S|D)* L, except paths owned by light";
+  if (alone) return std::string(owner.owned);
+  return owner.traces == TracedPaths::light ? "E D (S|D)* S L of traced lights"
+                                            : "E (S|D)* L, except paths owned by light";
 }
 
 }  // namespace abbe

@@ -21,8 +21,8 @@ using Technique = Integrator;
 /// Classes of light paths of a scene that none of its `chosen_techniques` can sample.
 [[nodiscard]] std::vector<PathClass> unreached(const Scene& scene);
 
-/// True if `techniques` contains `technique`.
-[[nodiscard]] bool uses(std::span<const Technique> techniques, Technique technique);
+/// True if one of the techniques traces such paths.
+[[nodiscard]] bool traces(std::span<const Technique> techniques, TracedPaths paths);
 
 /// True if a technique traces camera paths.
 [[nodiscard]] bool starts_at_camera(Technique technique);

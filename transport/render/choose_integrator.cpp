@@ -106,7 +106,7 @@ std::optional<double> cost_ratio(const Plan& unidirectional, const Scene& altern
 // Bidirectional path tracing would not sample light that photons add by hitting a probe. Photons alone may
 // suffice.
 AlternativeIntegrator choose_alternative(const Plan& plan) {
-  if (is_probe(plan.scene.camera) && uses(plan.techniques, Technique::light))
+  if (is_probe(plan.scene.camera) && traces(plan.techniques, TracedPaths::light))
     return {integrator_for(AutomaticChoice::probes), photon_cost, kProbeRayBudget};
   return {integrator_for(AutomaticChoice::films), bidirectional_cost, pilot_ray_budget(plan.scene.camera)};
 }

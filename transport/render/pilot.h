@@ -149,4 +149,10 @@ template <typename MakeTracer, typename Trace>
   return batches;
 }
 
+/// Time that Embree alone takes for a render's rays, divided by the time to trace their paths. Some paths are
+/// traced with their rays logged: path and light tracing as in the plan, bidirectional paths for all other
+/// techniques. Then the rays are replayed. Each time is CPU time of the calling thread, the shortest of
+/// three.
+[[nodiscard]] double measure_replay_fraction(const Plan& plan);
+
 }  // namespace abbe

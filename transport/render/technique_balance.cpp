@@ -200,17 +200,17 @@ PilotSums measure_batch(const Plan& plan, const std::optional<Plan>& split_plan,
   PilotSums sums;
   RayCaster path_caster(plan.scene);
   RayCaster photon_caster(plan.scene);
-  if (uses(plan.techniques, Technique::bdpt)) {
+  if (traces(plan.techniques, TracedPaths::both)) {
     BidirectionalTracer tracer(plan, path_caster);
     for (std::uint32_t i = batch; i < pixels; i += kTechniqueBatches)
       measure_bidirectional(tracer, plan, i, sums);
   }
-  if (uses(plan.techniques, Technique::path)) {
+  if (traces(plan.techniques, TracedPaths::camera)) {
     PathTracer tracer(plan, path_caster);
     for (std::uint32_t i = batch; i < pixels; i += kTechniqueBatches)
       measure_paths(tracer, plan.scene.camera, i, sums);
   }
-  if (uses(plan.techniques, Technique::light)) {
+  if (traces(plan.techniques, TracedPaths::light)) {
     LightTracer tracer(plan, photon_caster, 1);
     measure_photons(tracer, plan.scene.camera, batch, pixels * kPhotonsPerPixel, sums);
   }
@@ -229,7 +229,7 @@ PilotSums measure_batch(const Plan& plan, const std::optional<Plan>& split_plan,
 // Sums of all batches of pilots; if light tracing has dispersion, also of photons that split.
 PilotSums measure_all(const Plan& plan, int threads, std::uint32_t pixels) {
   std::optional<Plan> split_plan;
-  if (plan.scene.features.dispersion && uses(plan.techniques, Technique::light)) {
+  if (plan.scene.features.dispersion && traces(plan.techniques, TracedPaths::light)) {
     split_plan.emplace(plan);
     split_plan->photons_split_wavelengths = true;
   }
@@ -423,8 +423,8 @@ TechniqueStatistics measure_techniques(const Plan& plan, int threads, std::uint3
 
 void choose_path_splitting(Plan& plan, int threads) {
   const Camera& camera = plan.scene.camera;
-  if (plan.scene.render.integrator != Integrator::automatic || !uses(plan.techniques, Technique::path) ||
-      1.0 * camera.width * camera.height < kMinFilmPixels)
+  if (plan.scene.render.integrator != Integrator::automatic ||
+      !traces(plan.techniques, TracedPaths::camera) || 1.0 * camera.width * camera.height < kMinFilmPixels)
     return;
   double remaining_rays = pilot_ray_budget(camera);
   // Doubling the directions at most doubles the rays.

@@ -461,7 +461,7 @@ void train_caustic_guides(Plan& plan, int threads) {
   constexpr PilotPhotons kFirst{PilotStage::caustic_photon_guides, 1U << 16};
   constexpr std::size_t kMinHits = 8;
   constexpr PilotPhotons kSecond{PilotStage::caustics, 1U << 20, 1U << 15};
-  if (!plan.scene.features.caustics || !uses(plan.techniques, Technique::path)) return;
+  if (!plan.scene.features.caustics || !traces(plan.techniques, TracedPaths::camera)) return;
   const std::vector<bool> lights = caustic_lights(plan);
   if (std::ranges::find(lights, true) == lights.end()) return;
   const Emissions emissions = emissions_of(plan.scene);

@@ -37,7 +37,7 @@ LightTracer::LightTracer(const Plan& plan, RayCaster& caster, double sample_frac
       scene_(plan.scene),
       caster_(caster),
       scale_(static_cast<float>(sample_fraction * plan.scene.exposure_s)),
-      sole_technique_(!uses(plan.techniques, Technique::path)),
+      sole_technique_(!traces(plan.techniques, TracedPaths::camera)),
       probe_opening_(probe_opening(plan.scene.camera)),
       ball_(ball_around(plan.scene.camera, ball_radius)),
       response_(film_response_of(plan.scene)),
