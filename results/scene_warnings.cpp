@@ -32,7 +32,7 @@ bool received_no_light(const Scene& scene, const RenderResult& result) {
 }  // namespace
 
 std::optional<std::string> unsampled_light_warning(const Scene& scene) {
-  const std::vector<PathClass> lost = unreached(scene);
+  const std::vector<PathClass> lost = unsampled_paths(scene);
   if (lost.empty()) return std::nullopt;
   const std::string by =
       scene.render.integrator != Integrator::automatic

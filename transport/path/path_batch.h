@@ -20,16 +20,16 @@
 
 namespace abbe {
 
-/// Callbacks by which a technique takes part in the steps of its paths, with their defaults. `PathBatch`
-/// calls them in this order:
+/// Callbacks by which a technique takes part in the steps of its paths, with their defaults. This is the loop
+/// of `PathBatch::run`:
 ///
-///     until all paths have ended, for each path:
-///       find the end of its segment: at a surface, in a medium, or out of the scene
-///       out of the scene  on_escape; the path ends
-///       at a surface      on_hit; prepare_scatter, connect, scatter, continues_after, survival_weight
-///       in a medium       continues_in_medium, connect_in_medium, survival_weight_in_medium
-///       roulette with the survival weight
-///     after each step of all paths: resolve_connections
+///     while paths are active:
+///       each path finds its next event.
+///         Out of the scene: on_escape.
+///         At a surface: on_hit, prepare_scatter, connect, scatter, continues_after, survival_weight.
+///         In a medium: continues_in_medium, connect_in_medium, survival_weight_in_medium.
+///       Roulette ends paths by their survival weights.
+///       resolve_connections.
 ///
 /// A technique derives from this class and hides the callbacks that it needs; none is virtual. Its `Path` is
 /// a `PathState`, and `mode` is the quantity that paths carry. `u` are random numbers in [0, 1). No path

@@ -10,7 +10,7 @@ std::vector<Technique> chosen_techniques(const Scene& scene) {
   return {Technique::path};
 }
 
-std::vector<PathClass> unreached(const Scene& scene) {
+std::vector<PathClass> unsampled_paths(const Scene& scene) {
   return unsampled_paths(scene, scene.features, traces(chosen_techniques(scene), TracedPaths::light));
 }
 

@@ -19,7 +19,7 @@ using Technique = Integrator;
 [[nodiscard]] std::vector<Technique> chosen_techniques(const Scene& scene);
 
 /// Classes of light paths of a scene that none of its `chosen_techniques` can sample.
-[[nodiscard]] std::vector<PathClass> unreached(const Scene& scene);
+[[nodiscard]] std::vector<PathClass> unsampled_paths(const Scene& scene);
 
 /// True if one of the techniques traces such paths.
 [[nodiscard]] bool traces(std::span<const Technique> techniques, TracedPaths paths);

@@ -34,8 +34,8 @@ constexpr double kProbeRayBudget = 1 << 21;
 
 // Light paths that only photon merging samples.
 std::vector<PathClass> paths_found_by_merging(const Scene& scene, const Scene& merging) {
-  std::vector<PathClass> merging_only = unreached(scene);
-  const std::vector<PathClass> unsampled_by_merging = unreached(merging);
+  std::vector<PathClass> merging_only = unsampled_paths(scene);
+  const std::vector<PathClass> unsampled_by_merging = unsampled_paths(merging);
   std::erase_if(merging_only, [&](const PathClass& path_class) {
     return std::find(unsampled_by_merging.begin(), unsampled_by_merging.end(), path_class) !=
            unsampled_by_merging.end();
@@ -138,7 +138,7 @@ IntegratorChoice choose_integrator(const Scene& scene, int threads) {
   const Integrator candidate = alternative.integrator;
   const Scene alternative_scene = with_integrator(scene, candidate);
   const bool samples_all_light =
-      candidate != integrator_for(AutomaticChoice::probes) || unreached(alternative_scene).empty();
+      candidate != integrator_for(AutomaticChoice::probes) || unsampled_paths(alternative_scene).empty();
   std::optional<double> ratio;
   if (is_automatic && !refusal(alternative_scene) && samples_all_light)
     ratio = cost_ratio(plan, alternative_scene, alternative, threads);

@@ -75,7 +75,8 @@ std::vector<BenchIntegrator> integrators_on(Scene& scene, const std::vector<Inte
   std::vector<BenchIntegrator> all;
   for (const Integrator integrator : integrators) {
     scene.render.integrator = integrator;
-    all.push_back({integrator, unreached(scene), std::string(bias_of(chosen_techniques(scene).front()))});
+    all.push_back(
+        {integrator, unsampled_paths(scene), std::string(bias_of(chosen_techniques(scene).front()))});
   }
   return all;
 }

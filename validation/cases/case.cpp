@@ -73,7 +73,7 @@ CaseResult measure(const Case& item, const FilmMean&, const CaseSettings& settin
 
 // Path classes with light for this film that the scene's integrator cannot sample.
 std::vector<PathClass> missing_path_classes(const Scene& scene, const FilmMean& film) {
-  std::vector<PathClass> classes = unreached(scene);
+  std::vector<PathClass> classes = unsampled_paths(scene);
   std::erase_if(classes, [&](const PathClass& path_class) {
     const std::string expression = path_class.substr(0, path_class.find(':'));
     return std::find(film.absent.begin(), film.absent.end(), expression) != film.absent.end();
