@@ -158,7 +158,7 @@ Pass::Stage Pass::stage_of(Technique technique) const {
   const std::uint32_t all_tiles = tiles_ * static_cast<std::uint32_t>(last_ - first_);
   switch (traits(technique).traces) {
     case TracedPaths::camera:
-      return {tiles_, &Pass::render_tile};
+      return {tiles_, &Pass::render_tile<&Worker::path_tracer>};
     case TracedPaths::light:
       return {batches, &Pass::trace_batch};
     case TracedPaths::both:
@@ -169,7 +169,7 @@ Pass::Stage Pass::stage_of(Technique technique) const {
     case TracedPaths::light_by_chance:
       return {batches, &Pass::trace_batch_brutely};
     case TracedPaths::camera_by_chance:
-      return {tiles_, &Pass::render_tile_brutely};
+      return {tiles_, &Pass::render_tile<&Worker::adjoint_brute_tracer>};
   }
   throw Error(ErrorCode::internal, "", "no such technique");
 }
@@ -395,21 +395,13 @@ void Pass::trace_tile_features(std::uint32_t number, Worker& worker) {
   for (std::uint64_t s = first_; s < last_; ++s) trace_features(tile(number), s, worker);
 }
 
+template <auto tracer>
 void Pass::render_tile(std::uint32_t number, Worker& worker) {
   for (std::uint64_t s = first_; s < last_; ++s) {
     trace_features(tile(number), s, worker);
     select_pixels(tile(number), s, worker);
-    worker.path_tracer.set_layer_sink(pixel_layer_deposit(s, worker));
-    worker.path_tracer.trace(worker.pixels, pixel_deposit(s, worker));
-  }
-}
-
-void Pass::render_tile_brutely(std::uint32_t number, Worker& worker) {
-  for (std::uint64_t s = first_; s < last_; ++s) {
-    trace_features(tile(number), s, worker);
-    select_pixels(tile(number), s, worker);
-    worker.adjoint_brute_tracer.set_layer_sink(pixel_layer_deposit(s, worker));
-    worker.adjoint_brute_tracer.trace(worker.pixels, pixel_deposit(s, worker));
+    (worker.*tracer).set_layer_sink(pixel_layer_deposit(s, worker));
+    (worker.*tracer).trace(worker.pixels, pixel_deposit(s, worker));
   }
 }
 

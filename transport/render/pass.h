@@ -124,8 +124,8 @@ class Pass {
   PassCounts work(std::uint32_t end, const std::function<bool()>& pause);
   void trace_sample_subpaths(std::uint64_t sample, int threads, PassCounts& counts);
   void do_item(std::uint32_t item, Worker& worker);
+  template <auto tracer>  // member of `Worker`
   void render_tile(std::uint32_t tile, Worker& worker);
-  void render_tile_brutely(std::uint32_t tile, Worker& worker);
   void gather_tile(std::uint32_t item, Worker& worker);
   void connect_tile(std::uint32_t tile, Worker& worker);
   void merge_tile(std::uint32_t item, Worker& worker);

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "sampling/sampler.h"
@@ -99,14 +98,10 @@ struct PixelPair {
 /// - with merging, which blurs, also those with a single vertex without a delta distribution, on a surface.
 ///
 /// Deposited values are those of one sample per pixel.
-class BidirectionalTracer {
+class BidirectionalTracer : public LayerSource {
  public:
   /// Plan and caster must outlive the tracer.
   BidirectionalTracer(const Plan& plan, RayCaster& caster);
-
-  /// Sets a callback that receives every contribution separately, in addition to the deposited sums. An empty
-  /// function removes it.
-  void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
   /// Traces the subpaths of all samples. Deposits each sum at its pixel, and connections to the camera at any
   /// pixel, all under the sample's index in `samples`. Throws Error{resource} if more than
@@ -151,7 +146,6 @@ class BidirectionalTracer {
   GhostLights ghosts_;
   const LightSubpaths* shared_subpaths_ = nullptr;  // nullptr if each sample traces its own
   const Deposit* deposit_ = nullptr;
-  ContributionDeposit layer_sink_;        // may be empty
   std::span<const PixelPair> samples_;    // samples of the current batch
   std::uint32_t first_ = 0;               // index of the first of them
   std::vector<FilmPoint> film_points_;    // film point of each sample

@@ -34,15 +34,11 @@ class BruteForceTechnique : public PathCallbacks<mode> {
 ///
 /// Path classes owned: all, except light to a camera without an opening, and light from a directional or
 /// point light to a probe that is a point. Deposited values are those of one sample per pixel.
-class BrutePhotonTracer : public BruteForceTechnique<TransportMode::power> {
+class BrutePhotonTracer : public BruteForceTechnique<TransportMode::power>, public LayerSource {
  public:
   /// `sample_fraction` is the fraction of a sample per pixel that one photon represents: one over the number
   /// of photons per sample. Plan and caster must outlive the tracer.
   BrutePhotonTracer(const Plan& plan, RayCaster& caster, double sample_fraction);
-
-  /// Sets a callback that receives every contribution separately, in addition to the deposited sums. An empty
-  /// function removes it.
-  void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
   /// Traces a photon for each sampler and deposits those that the camera records, under the photon's index in
   /// `photons`. Throws Error{resource} if more than `MediumStack::kMaxShapes` media nest.
@@ -70,7 +66,6 @@ class BrutePhotonTracer : public BruteForceTechnique<TransportMode::power> {
   FilmResponse response_;
   PathBatch<BrutePhotonTracer> batch_;
   const Deposit* deposit_ = nullptr;
-  ContributionDeposit layer_sink_;  // may be empty
 };
 
 /// Brute-force adjoint tracing: paths of one wavelength each from the pixels that hit lights by chance. One
@@ -78,14 +73,10 @@ class BrutePhotonTracer : public BruteForceTechnique<TransportMode::power> {
 ///
 /// Path classes owned: all that end on an area, environment or sun light. Deposited values are those of one
 /// sample per pixel.
-class AdjointBruteTracer : public BruteForceTechnique<TransportMode::radiance> {
+class AdjointBruteTracer : public BruteForceTechnique<TransportMode::radiance>, public LayerSource {
  public:
   /// Plan and caster must outlive the tracer.
   AdjointBruteTracer(const Plan& plan, RayCaster& caster);
-
-  /// Sets a callback that receives every contribution separately, in addition to the deposited sums. An empty
-  /// function removes it.
-  void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
   /// Traces a path for each sample and deposits each sum under its sample's index in `samples`, without
   /// `PixelSample::weight`. Throws Error{resource} if more than `MediumStack::kMaxShapes` media nest.
@@ -111,7 +102,6 @@ class AdjointBruteTracer : public BruteForceTechnique<TransportMode::radiance> {
   std::vector<FilmPoint> film_points_;    // film point of each path
   std::vector<WavelengthImages> images_;  // film position per wavelength, for lenses that disperse them
   PathRadiance radiance_;                 // sums of each path
-  ContributionDeposit layer_sink_;        // may be empty
 };
 
 }  // namespace abbe

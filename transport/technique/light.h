@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "sampling/sampler.h"
@@ -41,7 +40,7 @@ struct LightPath : PathState {
 /// tracing, otherwise those whose last vertex is specular, and all of lights without area. If the plan
 /// selects it, photons split into their wavelengths at dispersive glass. Deposited values are those of one
 /// sample per pixel. One instance per thread.
-class LightTracer : public PathCallbacks<TransportMode::power> {
+class LightTracer : public PathCallbacks<TransportMode::power>, public LayerSource {
  public:
   using Path = LightPath;
 
@@ -51,10 +50,6 @@ class LightTracer : public PathCallbacks<TransportMode::power> {
   /// near the probe. Plan and caster must outlive the tracer.
   LightTracer(const Plan& plan, RayCaster& caster, double sample_fraction,
               std::optional<double> ball_radius = {});
-
-  /// Sets a callback that receives every contribution with its light, depth and branch, in addition to the
-  /// deposits. An empty function removes it.
-  void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
   /// Traces a photon for each sampler and deposits its contributions under the photon's index in `photons`.
   /// The plan must have a light to trace. Throws Error{resource} if more than `MediumStack::kMaxShapes` media
@@ -129,7 +124,6 @@ class LightTracer : public PathCallbacks<TransportMode::power> {
   bool measures_polarisation_;
   PathBatch<LightTracer> batch_;
   const Deposit* deposit_ = nullptr;
-  ContributionDeposit layer_sink_;  // may be empty
   std::vector<PhotonStart> starts_;
   std::vector<Connection> connections_;          // connections of the current step
   std::vector<StokesSpectrum> measured_stokes_;  // measured polarisation of each, if carried

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "sampling/sampler.h"
@@ -77,16 +76,12 @@ struct PixelSample {
 /// to a traced light whose neighbouring vertex is specular. Of these, camera paths are owned only if their
 /// first vertex is specular too, and probe paths only if their first vertex scatters. Deposited values are
 /// those of one sample per pixel.
-class PathTracer : public PathCallbacks<TransportMode::radiance> {
+class PathTracer : public PathCallbacks<TransportMode::radiance>, public LayerSource {
  public:
   using Path = CameraPath;
 
   /// Plan and caster must outlive the tracer.
   PathTracer(const Plan& plan, RayCaster& caster);
-
-  /// Sets a callback that receives every contribution separately, in addition to the deposited sums. An empty
-  /// function removes it.
-  void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
   /// Traces a path for each sample and deposits each sum under its sample's index in `samples`, at least once
   /// per sample. Throws Error{resource} if more than `MediumStack::kMaxShapes` media nest.
@@ -237,7 +232,6 @@ class PathTracer : public PathCallbacks<TransportMode::radiance> {
   std::vector<CameraSample> camera_samples_;  // camera samples, for lenses that disperse wavelengths
   std::vector<CameraRay> rays_;               // their camera rays
   std::vector<WavelengthImages> images_;      // their film positions per wavelength
-  ContributionDeposit layer_sink_;            // may be empty
   std::vector<StokesSpectrum> stokes_;        // sums of each path, if the sensor distinguishes polarisation
   std::vector<Connection> connections_;       // connections of the current step
   std::vector<StokesSpectrum> measured_stokes_;  // measured polarisation of each, if carried

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "sampling/sampler.h"
@@ -109,16 +108,12 @@ struct GatherPath : RecordedPath {
 ///
 /// Path classes owned: all, except light of point, spot and directional lights that arrives by delta events
 /// alone. The kernel blurs the estimate: it is consistent, not unbiased, if radii decrease.
-class PhotonGatherer : public PathCallbacks<TransportMode::radiance> {
+class PhotonGatherer : public PathCallbacks<TransportMode::radiance>, public LayerSource {
  public:
   using Path = GatherPath;
 
   /// Plan and caster must outlive the gatherer.
   PhotonGatherer(const Plan& plan, RayCaster& caster);
-
-  /// Sets a callback that receives every contribution separately, in addition to the deposited sums. An empty
-  /// function removes it.
-  void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
   /// Traces a path for each sample, with packet and time of the photons. Deposits each sum under its sample's
   /// index in `samples`, as the value of one sample per pixel, without `PixelSample::weight`. Throws
@@ -175,7 +170,6 @@ class PhotonGatherer : public PathCallbacks<TransportMode::radiance> {
   const PhotonCloud* cloud_ = nullptr;
   GatherKernel kernel_;
   const Deposit* deposit_ = nullptr;
-  ContributionDeposit layer_sink_;        // may be empty
   std::uint32_t first_ = 0;               // index of the first sample of the batch
   std::vector<FilmPoint> film_points_;    // film point of each sample
   std::vector<WavelengthImages> images_;  // film position per wavelength, for lenses that disperse them
