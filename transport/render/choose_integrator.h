@@ -27,8 +27,7 @@ struct IntegratorChoice {
 ///
 /// - `AutomaticChoice::consistent` if the scene allows consistent estimators (biased, converging) and photon
 ///   merging samples light paths that cannot be sampled otherwise.
-/// - `AutomaticChoice::probes` for a probe that photons can hit, if it samples all light paths and costs
-/// less.
+/// - `AutomaticChoice::probes` for a probe that photons can hit, if it samples all light and is cheaper.
 /// - `AutomaticChoice::films` for all other sensors, if it is cheaper.
 /// - Integrator::automatic otherwise, and for films so small that pilots would cost more than they save.
 ///
