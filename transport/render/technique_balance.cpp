@@ -37,11 +37,11 @@ int halvings(double wanted, double whole) {
 constexpr std::uint32_t kPhotonsPerPixel = 2 * kPilotPathsPerPixel;
 constexpr std::uint32_t kSplitPhotonRatio = 16;  // times fewer photons that split into their wavelengths
 constexpr std::uint32_t kTechniqueBatches = 64;
-constexpr int kGrid = 16;
+constexpr int kFilmRegions = 16;
 
 // Number of regions along an edge of the film. A probe is read as one mean.
 int regions_along(const Camera& camera) {
-  return is_probe(camera) ? 1 : kGrid;
+  return is_probe(camera) ? 1 : kFilmRegions;
 }
 
 // Sums of the pilots in one region. A value is the sum of |film value| over the channels.
@@ -58,7 +58,7 @@ struct Region {
 };
 
 struct PilotSums {
-  std::array<Region, static_cast<std::size_t>(kGrid) * kGrid> regions;
+  std::array<Region, static_cast<std::size_t>(kFilmRegions) * kFilmRegions> regions;
   double photons_traced = 0;
   double split_photons = 0;
   std::uint64_t path_rays = 0;
@@ -334,7 +334,7 @@ constexpr std::uint32_t kTrialReplicates = 4;
 constexpr std::uint32_t kPathsPerReplicate = 8;
 constexpr std::uint32_t kTrialPaths = kTrialReplicates * kPathsPerReplicate;
 constexpr int kMaxSplitBits = 3;
-constexpr double kMinGain = 1.02;
+constexpr double kMinSplittingGain = 1.02;
 
 // Films of fewer pixels cost too little for trials to pay off.
 constexpr double kMinFilmPixels = 1 << 13;
@@ -439,8 +439,8 @@ void choose_path_splitting(Plan& plan, int threads) {
     split.log2_splits = bits;
     const Trial trial = trace_pilots(split, threads);
     const double trial_cost = cost(trial, whole);
-    if (!(trial_cost < best_cost * kMinGain)) return;
-    if (trial_cost * kMinGain < best_cost) {
+    if (!(trial_cost < best_cost * kMinSplittingGain)) return;
+    if (trial_cost * kMinSplittingGain < best_cost) {
       best_cost = trial_cost;
       plan.log2_splits = bits;
     }
