@@ -20,7 +20,7 @@ void set_sampling(const SamplingOptions& options, RenderSettings& render) {
     throw Error(ErrorCode::usage, "--integrator",
                 fmt::format("render/consistent of the scene applies to auto only (got {}, allowed auto)",
                             integrator_name(render.integrator)));
-  if (render.sampling != PathSampling{} && render.integrator != Integrator::path)
+  if (render.sampling != PathSampling{} && !traits(render.integrator).sampling_options)
     throw Error(ErrorCode::usage, "--integrator",
                 fmt::format("the sampling settings of the scene apply to path only (got {}, allowed path)",
                             integrator_name(render.integrator)));

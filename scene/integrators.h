@@ -59,19 +59,24 @@ struct IntegratorTraits {
   Merging merging = Merging::none;
   bool repeats_paths = false;       ///< True if all samples have the same camera paths.
   bool traces_environment = false;  ///< True if light paths start at environment lights too.
+  bool sampling_options = false;    ///< True if `PathSampling` may differ from its default.
   AutomaticChoice chosen_for = AutomaticChoice::never;
 };
 
 /// `IntegratorTraits::owned` of integrators that merge paths.
 inline constexpr std::string_view kMergedPaths = "E (S|D)* L, except E S* L of lights without area";
 
-/// All integrators, in the order of the enumeration. `automatic` has the properties of `path`.
+/// All integrators, in the order of the enumeration. `automatic` traces what `path` traces.
 inline constexpr auto kIntegrators = std::to_array<IntegratorTraits>({
     {.integrator = Integrator::automatic,
      .name = "auto",
      .traces = TracedPaths::camera,
      .owned = "E (S|D)* L"},
-    {.integrator = Integrator::path, .name = "path", .traces = TracedPaths::camera, .owned = "E (S|D)* L"},
+    {.integrator = Integrator::path,
+     .name = "path",
+     .traces = TracedPaths::camera,
+     .owned = "E (S|D)* L",
+     .sampling_options = true},
     {.integrator = Integrator::light,
      .name = "light",
      .traces = TracedPaths::light,

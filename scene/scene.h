@@ -42,16 +42,16 @@ struct ChartInstance {
 struct PhotonSettings {
   std::optional<std::uint64_t> per_sample = {};  ///< Photons per sample; absent: as many as pixels.
   std::optional<double> radius_m = {};  ///< Initial gathering radius [m]; absent: from the scene's size.
-  int nearest = 50;           ///< Number of photons in an estimate with `Merging::nearest`.
-  bool final_gather = false;  ///< True if such an estimate is made one bounce later.
+  int nearest = 50;                     ///< Number of photons in an estimate with `Merging::nearest`.
+  bool final_gather = false;            ///< True if such an estimate is made one bounce later.
 };
 
-/// The density with which Integrator::path samples directions after a non-specular event at a surface or
+/// The density with which path tracing samples directions after a non-specular event at a surface or
 /// probe [1/sr]: that of the BSDF, cos/pi, or uniform. The latter two cover the side of the incoming path.
 /// They cover both sides, with half the density, if light may be transmitted.
 enum class DirectionSampling { bsdf, cosine, uniform };
 
-/// The sampling techniques by which Integrator::path finds light after such an event or one in a medium: BSDF
+/// The sampling techniques by which path tracing finds light after such an event or one in a medium: BSDF
 /// sampling and light sampling combined by MIS, BSDF sampling alone, or light sampling alone wherever it is
 /// possible.
 enum class LightStrategy { mis, bsdf, light };
@@ -60,7 +60,7 @@ enum class LightStrategy { mis, bsdf, light };
 /// to their squares.
 enum class MisHeuristic { balance, power };
 
-/// Sampling of paths by Integrator::path. It changes the noise. It changes the expected value only by the
+/// Sampling of paths by path tracing. It changes the noise. It changes the expected value only by the
 /// paths that `unsampled_paths` reports.
 struct PathSampling {
   DirectionSampling directions = DirectionSampling::bsdf;
@@ -83,7 +83,7 @@ struct RenderSettings {
   bool consistent = false;  ///< Integrator::automatic may choose biased but consistent integrators.
   /// Paths carry polarisation if it is relevant; otherwise light counts as unpolarised at every event.
   bool polarisation = true;
-  PathSampling sampling = {};  ///< For Integrator::path; others require the default.
+  PathSampling sampling = {};  ///< See `IntegratorTraits::sampling_options`.
 };
 
 /// Output files that the scene file requests, and the appearance of the picture.

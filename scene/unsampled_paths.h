@@ -13,9 +13,8 @@ namespace abbe {
 using PathClass = std::string;
 
 /// Light paths of a committed scene that its integrator samples with probability zero, or for tiny lights
-/// practically never. Empty if all are sampled. `light_tracing_active` is true if Integrator::automatic or
-/// Integrator::path also traces photons from the lights of `features.light_is_traced`; other integrators
-/// ignore it.
+/// practically never. Empty if all are sampled. `light_tracing_active` is true if path tracing is
+/// combined with photons from the lights of `features.light_is_traced`; other integrators ignore it.
 [[nodiscard]] std::vector<PathClass> unsampled_paths(const Scene& scene, const SceneFeatures& features,
                                                      bool light_tracing_active);
 

@@ -19,7 +19,7 @@ namespace abbe {
 
 /// Distributions that guide photons and camera paths; uniform until pilots have trained them.
 struct GuidingData {
-  /// One per light of the scene if the plan uses `Technique::light`, otherwise empty.
+  /// One per light of the scene if the plan has light tracing, otherwise empty.
   std::vector<PhotonGuide> photon_guides;
   /// Wavelengths of photons whose packet is not that of camera paths.
   WavelengthDistribution photon_wavelengths;

@@ -37,7 +37,7 @@ struct IntegratorChoice {
 ///
 /// The result depends on the scene alone, not on its seed, its samples or `threads`, which is at least 1. A
 /// scene that `make_plan` rejects with Error{scene} throws nothing here. The result is then the scene's own
-/// integrator, or Integrator::path for a probe if that is possible. Throws Error{resource} if more than
+/// integrator, or path tracing for a probe if that is possible. Throws Error{resource} if more than
 /// `MediumStack::kMaxShapes` media nest.
 [[nodiscard]] IntegratorChoice choose_integrator(const Scene& scene, int threads);
 

@@ -78,7 +78,8 @@ inline constexpr std::uint32_t kPilotPathsPerPixel = 8;
 
 /// Sets `Plan::log2_splits`, the path splitting [Arvo1990] of Integrator::automatic: the base-2 logarithm of
 /// the number of directions, 1, 2, 4 or 8, in which a camera path continues from its first scattering
-/// surface. Integrator::path does not split, because its sampling techniques are compared with one another.
+/// surface. Path tracing that the scene requests does not split, because its techniques are compared with one
+/// another.
 ///
 /// Splitting saves rays if the noise of a pixel comes from later vertices, and not from film, lens and first
 /// surface. For each number, pilots trace 32 paths through each of 512 pixels, in four replicates, with
