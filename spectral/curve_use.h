@@ -17,7 +17,7 @@ namespace abbe {
 /// - `per_metre`: an absorption or scattering coefficient for powers of e [1/m].
 /// - `unknown_response`: no check; nothing declares if the response multiplies energy, which is assumed, or
 ///   photons.
-/// - `power`: power per nm in any unit, even one that cannot be parsed, for lights that are scaled.
+/// - `power`: power per nm over any divisors and in any multiple, for lights that are scaled.
 /// - radiance, intensity, irradiance and flux: W/(m^2 sr nm), W/(sr nm), W/(m^2 nm) and W/nm.
 enum class CurveUnit {
   any,
@@ -53,17 +53,16 @@ inline constexpr CurveUse kQuantumEfficiencyUse{"camera", {0, 10}, CurveUnit::fr
 /// Quantum efficiency of a channel, which may be negative.
 inline constexpr CurveUse kQuantumResponseUse{"camera", {-10, 10}, CurveUnit::fraction};
 
-/// Explains why the table `name` with the line `# unit: <unit>` does not have the needed unit. Examples are
-/// percent or densities for fractions, 1/cm for 1/m, and photons or power per Hz for power per nm. `remedy`,
-/// which begins with its own separator, is appended to the allowed unit if a factor converts to it. Nothing
-/// if the unit is right. Prose that can mean it, such as "reflectance (0-1); wavelength in nm", is accepted,
-/// except for coefficients.
+/// Explains why the table `name` with the line `# unit: <unit>` does not have the needed unit, and lists what
+/// is allowed. Examples are percent or densities for fractions, 1/cm for 1/m, photons for power per nm, and
+/// whatever `table_unit` does not list. `remedy`, which begins with its own separator, is appended to the
+/// allowed unit if a factor may convert to it. Nothing if the unit is right.
 [[nodiscard]] std::optional<std::string> unit_fault(std::string_view name, std::string_view unit,
                                                     CurveUnit needed, std::string_view remedy = {});
 
 /// Explains why a table cannot be one factor of a product with the needed unit. The other factors cannot
 /// correct percentages, coefficients in 1/cm, and multiples of a power. Another quantity than the needed one
-/// is accepted.
+/// is accepted, and any factor of a coefficient that is itself none.
 [[nodiscard]] std::optional<std::string> factor_unit_fault(std::string_view name, std::string_view unit,
                                                            CurveUnit needed, std::string_view remedy = {});
 
@@ -72,7 +71,7 @@ inline constexpr CurveUse kQuantumResponseUse{"camera", {-10, 10}, CurveUnit::fr
 [[nodiscard]] std::optional<std::string> relative_power(std::string_view name, std::string_view unit,
                                                         CurveUnit needed);
 
-/// True if the unit of a table contains watts, such as W/nm and erg/s.
+/// True if the unit of a table is watts over any divisors, such as mW/nm.
 [[nodiscard]] bool declares_power(std::string_view unit);
 
 /// Warning for the table `name` that is read as a response to energy by default, if its unit declares quantum
