@@ -17,7 +17,7 @@
 #include "report/difference_maps.h"
 #include "report/polarisation_difference.h"
 #include "results/white.h"
-#include "sensor/film/recorded_white.h"
+#include "sensor/film/recorded_attributes.h"
 
 namespace abbe::cli {
 namespace {

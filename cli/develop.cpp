@@ -28,7 +28,7 @@
 #include "results/relit_white.h"
 #include "results/spectral.h"
 #include "results/white.h"
-#include "sensor/film/recorded_white.h"
+#include "sensor/film/recorded_attributes.h"
 #include "sensor/readout/speed.h"
 
 namespace abbe::cli {

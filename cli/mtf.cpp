@@ -18,9 +18,9 @@
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/extension.h"
-#include "sensor/film/defective_pixels.h"
 #include "sensor/film/film_planes.h"
-#include "sensor/film/recorded_mosaic.h"
+#include "sensor/film/patch.h"
+#include "sensor/film/recorded_attributes.h"
 
 namespace abbe::cli {
 namespace {

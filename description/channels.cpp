@@ -6,7 +6,7 @@
 
 #include "description/sensor.h"
 #include "description/table_coverage.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 
 namespace abbe::description {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "description/curve.h"
 #include "scene/lights/polarisation.h"
-#include "spectral/scaled_curve.h"
+#include "spectral/curve.h"
 
 namespace abbe::spec {
 

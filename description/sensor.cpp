@@ -8,7 +8,7 @@
 
 #include "io/image.h"
 #include "sensor/readout/speed.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 
 namespace abbe::spec {
 namespace {

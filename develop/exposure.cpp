@@ -9,8 +9,8 @@
 #include "io/error.h"
 #include "io/json.h"
 #include "io/text.h"
-#include "sensor/film/recorded_error.h"
-#include "sensor/film/variance_name.h"
+#include "sensor/film/film_planes.h"
+#include "sensor/film/recorded_attributes.h"
 #include "sensor/readout/speed.h"
 
 namespace abbe {

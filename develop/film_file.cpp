@@ -13,7 +13,7 @@
 #include "io/extension.h"
 #include "io/picture.h"
 #include "io/raw_picture.h"
-#include "sensor/film/variance_name.h"
+#include "sensor/film/film_planes.h"
 
 namespace abbe {
 namespace {

@@ -8,10 +8,10 @@
 #include "calibration/output/camera_matrix.h"
 #include "io/error.h"
 #include "io/text.h"
-#include "sensor/film/recorded_white.h"
-#include "sensor/film/variance_name.h"
+#include "sensor/film/film_planes.h"
+#include "sensor/film/recorded_attributes.h"
 #include "sensor/readout/readout_json.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 
 namespace abbe {
 namespace {

@@ -16,11 +16,11 @@
 #include "io/rgb_order.h"
 #include "io/spectral_exr.h"
 #include "io/text.h"
-#include "sensor/film/defective_pixels.h"
+#include "sensor/film/crop.h"
 #include "sensor/film/film_planes.h"
-#include "sensor/film/recorded_crop.h"
-#include "sensor/film/recorded_mosaic.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/film/patch.h"
+#include "sensor/film/recorded_attributes.h"
+#include "sensor/response/polarised_channels.h"
 
 namespace abbe {
 namespace {

@@ -3,7 +3,7 @@
 #include "develop/radiance.h"
 #include "io/error.h"
 #include "sensor/film/spectral_film.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 #include "spectral/matrix3.h"
 
 namespace abbe {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "sensor/film/stokes_film.h"
+#include "sensor/film/film_planes.h"
 
 namespace abbe {
 

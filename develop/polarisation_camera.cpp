@@ -8,11 +8,9 @@
 #include <fmt/format.h>
 
 #include "sensor/film/film_planes.h"
-#include "sensor/film/recorded_mosaic.h"
-#include "sensor/film/recorded_white.h"
+#include "sensor/film/recorded_attributes.h"
 #include "sensor/readout/demosaic.h"
-#include "sensor/response/polariser_group.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 #include "spectral/matrix3.h"
 
 namespace abbe {

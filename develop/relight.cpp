@@ -15,10 +15,8 @@
 #include "io/spectral_exr.h"
 #include "io/text.h"
 #include "sensor/film/film_planes.h"
-#include "sensor/film/recorded_error.h"
-#include "sensor/film/recorded_layers.h"
-#include "sensor/film/variance_name.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/film/recorded_attributes.h"
+#include "sensor/response/polarised_channels.h"
 #include "spectral/rgb.h"
 
 namespace abbe {

@@ -13,7 +13,7 @@
 #include "report/common_areas.h"
 #include "report/image_difference.h"
 #include "results/white.h"
-#include "sensor/film/recorded_white.h"
+#include "sensor/film/recorded_attributes.h"
 
 namespace abbe::python {
 namespace {

@@ -18,7 +18,7 @@
 #include "python/scene.h"
 #include "results/spectral.h"
 #include "results/white.h"
-#include "sensor/film/recorded_white.h"
+#include "sensor/film/recorded_attributes.h"
 
 namespace abbe::python {
 namespace {

@@ -21,8 +21,7 @@
 #include "results/film_attributes.h"
 #include "results/rendered_film.h"
 #include "sensor/film/film_planes.h"
-#include "sensor/film/recorded_error.h"
-#include "sensor/film/variance_name.h"
+#include "sensor/film/recorded_attributes.h"
 
 namespace abbe::python {
 namespace {

@@ -8,7 +8,7 @@
 #include "develop/radiance.h"
 #include "io/picture.h"
 #include "python/errors.h"
-#include "sensor/film/recorded_white.h"
+#include "sensor/film/recorded_attributes.h"
 
 namespace abbe::python {
 namespace {

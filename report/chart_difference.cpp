@@ -5,7 +5,7 @@
 #include "calibration/output/display.h"
 #include "report/film_colors.h"
 #include "scene/chart/readout.h"
-#include "sensor/film/recorded_film_observer.h"
+#include "sensor/film/recorded_attributes.h"
 #include "transport/render/white.h"
 
 namespace abbe {

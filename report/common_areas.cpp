@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "sensor/film/recorded_crop.h"
+#include "sensor/film/crop.h"
 
 namespace abbe {
 

@@ -4,8 +4,8 @@
 
 #include "io/text.h"
 #include "sensor/film/film_planes.h"
-#include "sensor/film/recorded_white.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/film/recorded_attributes.h"
+#include "sensor/response/polarised_channels.h"
 #include "spectral/rgb.h"
 
 namespace abbe {

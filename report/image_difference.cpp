@@ -19,9 +19,8 @@
 #include "report/common_areas.h"
 #include "report/film_colors.h"
 #include "sensor/film/film_planes.h"
-#include "sensor/film/recorded_mosaic.h"
-#include "sensor/film/variance_name.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/film/recorded_attributes.h"
+#include "sensor/response/polarised_channels.h"
 #include "spectral/colorimetry.h"
 
 namespace abbe {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sensor/film/stokes_film.h"
+#include "sensor/film/film_planes.h"
 
 namespace abbe {
 namespace {

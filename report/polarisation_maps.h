@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "io/image.h"
-#include "sensor/film/stokes_film.h"
+#include "sensor/film/film_planes.h"
 
 namespace abbe {
 

@@ -5,7 +5,7 @@
 #include "results/film_attributes.h"
 #include "scene/camera/incidence.h"
 #include "scene/colors.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 #include "transport/render/white.h"
 
 namespace abbe {

@@ -13,13 +13,11 @@
 #include "results/spectral.h"
 #include "results/white.h"
 #include "scene/colors.h"
-#include "sensor/film/recorded_film_observer.h"
-#include "sensor/film/recorded_white.h"
-#include "sensor/film/variance_name.h"
+#include "sensor/film/film_planes.h"
+#include "sensor/film/recorded_attributes.h"
 #include "sensor/readout/demosaic.h"
 #include "sensor/readout/speed.h"
-#include "sensor/response/polariser_group.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 #include "transport/render/white.h"
 
 namespace abbe {

@@ -9,7 +9,7 @@
 
 #include "io/spectral_exr.h"
 #include "results/white.h"
-#include "sensor/film/recorded_white.h"
+#include "sensor/film/recorded_attributes.h"
 #include "spectral/colorimetry.h"
 #include "transport/render/layers.h"
 

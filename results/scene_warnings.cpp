@@ -7,7 +7,7 @@
 
 #include "scene/coincident_shapes.h"
 #include "scene/dark_enclosure.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 #include "transport/path/roulette.h"
 #include "transport/plan/emissions.h"
 #include "transport/plan/photon_settings.h"

@@ -11,9 +11,8 @@
 #include "description/white.h"
 #include "io/standard_stream.h"
 #include "scene/colors.h"
-#include "sensor/film/recorded_film_observer.h"
-#include "sensor/film/recorded_white.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/film/recorded_attributes.h"
+#include "sensor/response/polarised_channels.h"
 #include "spectral/rgb.h"
 #include "transport/render/white.h"
 

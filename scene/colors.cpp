@@ -1,6 +1,6 @@
 #include "scene/colors.h"
 
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 
 namespace abbe {
 

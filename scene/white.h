@@ -4,7 +4,7 @@
 #include <string>
 
 #include "scene/lights/light.h"
-#include "spectral/film_observer.h"
+#include "spectral/colorimetry.h"
 
 namespace abbe {
 

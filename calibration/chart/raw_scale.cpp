@@ -13,8 +13,8 @@
 #include "io/picture.h"
 #include "io/picture_codec.h"
 #include "io/text.h"
-#include "sensor/film/recorded_crop.h"
-#include "sensor/film/recorded_mosaic.h"
+#include "sensor/film/crop.h"
+#include "sensor/film/recorded_attributes.h"
 #include "sensor/readout/readout_json.h"
 
 namespace abbe {

@@ -10,7 +10,7 @@
 #include "calibration/fit/correction_fit.h"
 #include "io/diagnostics.h"
 #include "io/error.h"
-#include "sensor/film/defective_pixels.h"
+#include "sensor/film/patch.h"
 
 namespace abbe {
 namespace {

@@ -18,7 +18,7 @@
 #include "calibration/fit/response_roughness.h"
 #include "calibration/fit/response_samples.h"
 #include "calibration/fit/series_checks.h"
-#include "sensor/film/defective_pixels.h"
+#include "sensor/film/patch.h"
 
 namespace abbe {
 namespace {

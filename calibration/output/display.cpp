@@ -21,8 +21,8 @@
 #include "io/exr.h"
 #include "io/picture_codec.h"
 #include "io/text.h"
-#include "sensor/film/recorded_crop.h"
-#include "spectral/film_observer.h"
+#include "sensor/film/crop.h"
+#include "spectral/colorimetry.h"
 
 namespace abbe {
 namespace {

@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "scene/camera/camera.h"
-#include "sensor/response/incidence.h"
+#include "sensor/response/channel.h"
 
 namespace abbe {
 

@@ -17,7 +17,7 @@
 #include "scene/shapes/quad.h"
 #include "scene/shapes/ray.h"
 #include "scene/shapes/shape.h"
-#include "spectral/scaled_curve.h"
+#include "spectral/curve.h"
 
 namespace abbe {
 

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "sensor/film/stokes_film.h"
+#include "sensor/film/film_planes.h"
 #include "sensor/readout/demosaic.h"
-#include "sensor/response/polariser_group.h"
+#include "sensor/response/polarised_channels.h"
 
 namespace abbe {
 namespace {

@@ -1,4 +1,4 @@
-#include "sensor/response/camera_json.h"
+#include "sensor/response/channel.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -6,7 +6,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "sensor/response/channel.h"
 
 namespace abbe {
 namespace {

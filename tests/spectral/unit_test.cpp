@@ -1,4 +1,4 @@
-#include "spectral/unit.h"
+#include "spectral/curve_use.h"
 
 #include <string>
 

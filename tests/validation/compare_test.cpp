@@ -16,7 +16,7 @@
 #include "report/film_colors.h"
 #include "results/film_attributes.h"
 #include "sensor/film/crop.h"
-#include "sensor/film/recorded_white.h"
+#include "sensor/film/recorded_attributes.h"
 #include "spectral/rgb.h"
 #include "tests/cli/json_output.h"
 #include "tests/cli/program.h"

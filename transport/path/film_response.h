@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "scene/scene.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 #include "spectral/sampled_spectrum.h"
 #include "spectral/stokes.h"
 

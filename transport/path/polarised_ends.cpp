@@ -1,7 +1,7 @@
 #include "transport/path/polarised_ends.h"
 
 #include "scene/polarisation_cause.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 
 namespace abbe {
 namespace {

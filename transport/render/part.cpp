@@ -15,8 +15,7 @@
 
 #include "io/part_file.h"
 #include "io/text.h"
-#include "sensor/film/recorded_error.h"
-#include "sensor/film/recorded_white.h"
+#include "sensor/film/recorded_attributes.h"
 #include "transport/render/layers.h"
 #include "transport/render/part_films.h"
 #include "transport/render/pass.h"

@@ -6,7 +6,7 @@
 
 #include "io/text.h"
 #include "sensor/film/relative_error.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 #include "transport/render/layers.h"
 
 namespace abbe {

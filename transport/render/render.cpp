@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "io/error.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 #include "transport/render/choose_path_splitting.h"
 #include "transport/render/part_films.h"
 #include "transport/render/pass.h"

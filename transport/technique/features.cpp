@@ -7,7 +7,7 @@
 
 #include "materials/bsdf/bsdf.h"
 #include "sampling/discrete.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 #include "transport/path/dimensions.h"
 #include "transport/path/roulette.h"
 #include "transport/path/vertex.h"

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -37,5 +38,26 @@ struct StokesPlane {
 [[nodiscard]] std::vector<std::string> intensities(std::span<const std::string> planes);
 /// True if some channel depends on polarisation.
 [[nodiscard]] bool any_analyser(std::span<const Channel> channels);
+
+/// Row of a channel behind a polariser for light (I, Q, U) of constant spectrum: weight (I + q Q + u U), in
+/// the frame of the film.
+struct PolariserRow {
+  std::string group;  ///< Name of the first channel with a proportional response.
+  double weight = 1;  ///< Integral of the weight relative to that channel.
+  double q = 0;       ///< cos 2a for a polariser at the angle a, times the mean contrast.
+  double u = 0;       ///< sin 2a, times the mean contrast.
+};
+
+/// Row of each channel behind a polariser, in the order of the channels. Nothing for other channels, and for
+/// a channel whose weight has an integral of 0.
+[[nodiscard]] std::vector<std::optional<PolariserRow>> polariser_rows(std::span<const Channel> channels);
+
+/// Prefix of the attribute with the row of a channel; the name of the channel follows.
+inline constexpr const char* kAnalyserKey = "analyser.";
+
+/// Text of a row, such as "I0 1 0.99 0": the group, which has no blanks, and the numbers.
+[[nodiscard]] std::string to_text(const PolariserRow& row);
+/// Parses such a text; nothing if it is malformed.
+[[nodiscard]] std::optional<PolariserRow> parse_polariser_row(std::string_view text);
 
 }  // namespace abbe
