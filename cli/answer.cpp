@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "io/invalid_input.h"
+#include "io/diagnostics.h"
 
 namespace abbe::cli {
 namespace {

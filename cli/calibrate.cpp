@@ -15,8 +15,8 @@
 #include "cli/output_files.h"
 #include "cli/sensor_plots.h"
 #include "io/atomic_file.h"
+#include "io/diagnostics.h"
 #include "io/error.h"
-#include "io/invalid_input.h"
 #include "io/text.h"
 #include "spectral/library.h"
 

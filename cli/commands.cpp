@@ -25,7 +25,7 @@
 #include "cli/validate.h"
 #include "cli/version.h"
 #include "description/scene.h"
-#include "io/schema/help.h"
+#include "io/schema/documentation.h"
 
 namespace abbe::cli {
 namespace {

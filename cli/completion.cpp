@@ -6,7 +6,7 @@
 #include "cli/query.h"
 #include "cli/reference.h"
 #include "description/scene.h"
-#include "io/schema/help.h"
+#include "io/schema/documentation.h"
 #include "io/text.h"
 
 namespace abbe::cli {

@@ -12,7 +12,7 @@
 #include "importers/importers.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
-#include "io/extension.h"
+#include "io/text.h"
 
 namespace abbe::cli {
 namespace {

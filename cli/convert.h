@@ -6,7 +6,7 @@
 
 #include "description/load.h"
 #include "io/inputs.h"
-#include "io/standard_stream.h"
+#include "io/text.h"
 
 namespace abbe::cli {
 

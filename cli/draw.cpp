@@ -8,8 +8,7 @@
 #include "cli/warnings.h"
 #include "description/load.h"
 #include "io/atomic_file.h"
-#include "io/extension.h"
-#include "io/standard_stream.h"
+#include "io/text.h"
 #include "report/layout.h"
 #include "report/light_rays.h"
 

@@ -9,7 +9,7 @@
 #include "cli/output_files.h"
 #include "description/load_lens.h"
 #include "io/atomic_file.h"
-#include "io/extension.h"
+#include "io/text.h"
 #include "report/lens_drawing.h"
 
 namespace abbe::cli {

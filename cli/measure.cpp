@@ -14,8 +14,7 @@
 #include "develop/linear_image.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
-#include "io/extension.h"
-#include "io/file_lock.h"
+#include "io/text.h"
 #include "scene/chart/readout.h"
 
 namespace abbe::cli {

@@ -18,7 +18,6 @@
 #include "develop/radiance.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
-#include "io/file_lock.h"
 #include "results/film_attributes.h"
 #include "results/rendered_film.h"
 #include "transport/render/part_films.h"

@@ -15,7 +15,7 @@
 #include "cli/progress.h"
 #include "cli/warnings.h"
 #include "io/atomic_file.h"
-#include "io/extension.h"
+#include "io/text.h"
 #include "results/measure_meter.h"
 #include "results/rendered_film.h"
 #include "validation/statistics/students_interval.h"

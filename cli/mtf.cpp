@@ -17,7 +17,7 @@
 #include "cli/sensor_plots.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
-#include "io/extension.h"
+#include "io/text.h"
 #include "sensor/film/film_planes.h"
 #include "sensor/film/patch.h"
 #include "sensor/film/recorded_attributes.h"

@@ -12,8 +12,8 @@
 #include "io/atomic_file.h"
 #include "io/data_directory.h"
 #include "io/error.h"
-#include "io/extension.h"
 #include "io/table.h"
+#include "io/text.h"
 #include "results/rendered_film.h"
 
 namespace abbe::cli {

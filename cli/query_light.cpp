@@ -13,7 +13,6 @@
 #include "develop/radiance.h"
 #include "io/atomic_file.h"
 #include "io/exr.h"
-#include "io/extension.h"
 #include "io/spectral_exr.h"
 #include "io/text.h"
 #include "report/color_vector.h"

@@ -13,7 +13,7 @@
 #include "cli/sensor_measurements.h"
 #include "cli/sensor_plots.h"
 #include "io/atomic_file.h"
-#include "io/extension.h"
+#include "io/text.h"
 
 namespace abbe::cli {
 namespace {

@@ -13,7 +13,6 @@
 #include "description/sensor_model.h"
 #include "io/schema/read.h"
 #include "io/schema/write.h"
-#include "io/standard_stream.h"
 #include "io/table.h"
 #include "io/text.h"
 #include "materials/index/library.h"

@@ -7,7 +7,6 @@
 #include "description/pbrt_table.h"
 #include "description/zemax.h"
 #include "io/data_directory.h"
-#include "io/extension.h"
 #include "io/schema/read.h"
 #include "io/text.h"
 

@@ -1,8 +1,8 @@
 #include "description/scene_schema.h"
 
 #include "description/scene.h"
-#include "io/schema/guide.h"
-#include "io/schema/json_schema.h"
+#include "io/schema/documentation.h"
+#include "io/schema/write.h"
 
 namespace abbe {
 

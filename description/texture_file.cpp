@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "io/orientation.h"
 #include "io/picture.h"
 
 namespace abbe::description {

@@ -27,7 +27,7 @@ std::vector<std::string> lights_of(const Image& film) {
   std::vector<std::string> lights;
   const auto recorded = film.metadata.find(kLayersKey);
   if (recorded != film.metadata.end())
-    for (const std::string& layer : parse_layers(recorded->second))
+    for (const std::string& layer : split(recorded->second, ','))
       if (layer.starts_with(kLightLayer))
         lights.push_back(layer.substr(std::string_view(kLightLayer).size()));
   if (lights.empty())

@@ -14,8 +14,8 @@
 #include "importers/pbrt/reader.h"
 #include "importers/shared/materials.h"
 #include "importers/shared/scene_importer.h"
-#include "io/extension.h"
 #include "io/schema/write.h"
+#include "io/text.h"
 
 namespace abbe {
 namespace {

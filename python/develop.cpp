@@ -5,7 +5,7 @@
 
 #include "develop/film_file.h"
 #include "develop/radiance.h"
-#include "io/extension.h"
+#include "io/text.h"
 #include "python/arguments.h"
 #include "python/develop.h"
 #include "python/errors.h"

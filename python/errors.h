@@ -7,7 +7,6 @@
 #include <pybind11/pybind11.h>
 
 #include "io/diagnostics.h"
-#include "io/invalid_input.h"
 
 namespace abbe::python {
 

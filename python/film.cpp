@@ -8,7 +8,6 @@
 
 #include "develop/film_file.h"
 #include "io/exr.h"
-#include "io/extension.h"
 #include "io/picture.h"
 #include "io/text.h"
 #include "python/arguments.h"

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "io/invalid_input.h"
+#include "io/diagnostics.h"
+#include "io/json.h"
 #include "io/json_values.h"
-#include "io/value_tree.h"
 #include "python/numbers.h"
 #include "python/text.h"
 

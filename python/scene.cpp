@@ -9,8 +9,7 @@
 
 #include "description/load.h"
 #include "description/scene_schema.h"
-#include "io/schema/help.h"
-#include "io/schema/keys.h"
+#include "io/schema/documentation.h"
 #include "io/schema/write.h"
 #include "python/arguments.h"
 #include "python/errors.h"

@@ -9,7 +9,7 @@
 
 #include "io/data_directory.h"
 #include "io/exr.h"
-#include "io/extension.h"
+#include "io/text.h"
 #include "results/build_id.h"
 #include "results/film_attributes.h"
 #include "transport/plan/techniques.h"

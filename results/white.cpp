@@ -9,7 +9,7 @@
 #include "calibration/chart/patches.h"
 #include "calibration/output/color_spaces.h"
 #include "description/white.h"
-#include "io/standard_stream.h"
+#include "io/text.h"
 #include "scene/colors.h"
 #include "sensor/film/recorded_attributes.h"
 #include "sensor/response/polarised_channels.h"

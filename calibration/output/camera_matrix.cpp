@@ -10,7 +10,7 @@
 
 #include "calibration/output/ocio.h"
 #include "io/error.h"
-#include "io/rgb_order.h"
+#include "io/image.h"
 #include "spectral/library.h"
 #include "spectral/rgb.h"
 

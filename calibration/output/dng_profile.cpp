@@ -5,7 +5,7 @@
 
 #include "calibration/output/color_spaces.h"
 #include "calibration/output/exif_light.h"
-#include "io/rgb_order.h"
+#include "io/image.h"
 #include "spectral/color_temperature.h"
 
 namespace abbe {

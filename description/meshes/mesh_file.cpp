@@ -12,7 +12,6 @@
 
 #include "description/meshes/gzip.h"
 #include "description/meshes/mesh_formats.h"
-#include "io/extension.h"
 #include "io/text.h"
 #include "scene/shapes/mesh.h"
 

@@ -10,7 +10,7 @@
 #include "importers/pbrt/named_spectra.h"
 #include "importers/shared/camera.h"
 #include "importers/shared/placement.h"
-#include "io/extension.h"
+#include "io/text.h"
 #include "sampling/angle.h"
 
 namespace abbe::importers::pbrt {

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "io/extension.h"
 #include "io/picture.h"
+#include "io/text.h"
 
 namespace abbe::importers {
 namespace {

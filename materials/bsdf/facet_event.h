@@ -7,7 +7,7 @@
 #include "materials/bsdf/event.h"
 #include "materials/interface/fresnel.h"
 #include "materials/interface/microfacet.h"
-#include "sampling/mix.h"
+#include "sampling/sampler.h"
 
 namespace abbe {
 

@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "io/image.h"
-#include "io/text.h"
 
 namespace abbe {
 
@@ -30,11 +29,6 @@ namespace abbe {
 inline constexpr const char* kLayersKey = "layers";
 /// Prefix of the names of light-group layers.
 inline constexpr const char* kLightLayer = "light.";
-
-/// Parses the value of `kLayersKey`: the names of the layers in order.
-[[nodiscard]] inline std::vector<std::string> parse_layers(const std::string& text) {
-  return split(text, ',');
-}
 
 /// Stokes vector (I, Q, U, V) in the unit of the film. The x axis of its frame points to the right of the
 /// picture (`StokesSpectrum` states the signs).

@@ -5,7 +5,7 @@
 #include <regex>
 #include <set>
 
-#include "io/reference_table.h"
+#include "io/table.h"
 #include "tests/validation/cases_run.h"
 
 namespace abbe {

@@ -373,7 +373,7 @@ Image image_of(const RenderPart& part) {
 
 std::vector<LayerImage> layer_images(const RenderPart& part) {
   if (!part.result.layers) return {};
-  const std::vector<std::string> names = parse_layers(part.identity.at(kLayersKey));
+  const std::vector<std::string> names = split(part.identity.at(kLayersKey), ',');
   const std::vector<std::string> planes = film_planes(part.identity);
   std::vector<std::string> repeated;
   for (std::size_t i = 0; i < names.size(); ++i)

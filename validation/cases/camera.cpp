@@ -2,7 +2,7 @@
 
 #include "calibration/chart/patches.h"
 #include "calibration/fit/correction_fit.h"
-#include "io/reference_table.h"
+#include "io/table.h"
 #include "validation/cases/figures.h"
 #include "validation/cases/suites.h"
 #include "validation/cases/tables.h"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "calibration/chart/delta_e.h"
-#include "io/reference_table.h"
+#include "io/table.h"
 #include "spectral/astm_e308.h"
 #include "validation/cases/charts.h"
 #include "validation/cases/figures.h"

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "io/reference_table.h"
+#include "io/table.h"
 #include "materials/interface/fresnel.h"
 #include "sampling/angle.h"
 #include "spectral/colorimetry.h"

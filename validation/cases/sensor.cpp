@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "io/reference_table.h"
+#include "io/table.h"
 #include "sensor/readout/photon_transfer.h"
 #include "sensor/readout/readout.h"
 #include "sensor/response/channel.h"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "io/reference_table.h"
+#include "io/table.h"
 #include "materials/interface/snell.h"
 #include "sampling/angle.h"
 #include "scene/shapes/sphere.h"

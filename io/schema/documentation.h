@@ -57,4 +57,22 @@ struct StructPath {
 /// Label above the keys of a group: "one of" or "at most one of".
 [[nodiscard]] std::string_view group_label(const OneOf& group);
 
+/// The Markdown text `guide` with its tables of keys regenerated. A table is between the lines `<!-- keys:
+/// NAME, NAME -->` and `<!-- end -->`, below a heading. The names are those (`Fields::name`) of `root` or of
+/// structs inside it. A struct that no table names is described in the first table that contains it; other
+/// tables link to that heading. Throws Error{internal} for an unknown name and for a table without an end.
+[[nodiscard]] std::string with_tables(const std::string& guide, const Fields& root);
+
+/// Help for a key, as lines for a terminal: its meaning, type, range and default, and the keys of objects in
+/// it. `key` is one of:
+/// - a path from the root with '/', through lists and names ("lights/sun/towards"). Numbers of elements and
+///   names that the user chose may be included, as in a JSON pointer.
+/// - a key, which is described at every position where it occurs;
+/// - empty, for the keys of the root.
+/// Throws Error{usage}, with the nearest known key, if a key is unknown.
+[[nodiscard]] std::string help(const Fields& root, const std::string& key);
+
+/// Every key of the file and its structs, without paths, each once, in byte order.
+[[nodiscard]] std::vector<std::string> all_keys(const Fields& root);
+
 }  // namespace abbe::schema

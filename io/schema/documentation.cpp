@@ -1,15 +1,21 @@
-#include "io/schema/keys.h"
+#include "io/schema/documentation.h"
 
 #include <algorithm>
+#include <cctype>
 #include <numeric>
+#include <set>
+#include <sstream>
+#include <utility>
 
 #include <fmt/format.h>
 
+#include "io/error.h"
 #include "io/schema/write.h"
+#include "io/text.h"
 
 namespace abbe::schema {
-namespace {
 
+namespace {
 std::string type_text(const ValueType& type, const Links& links);
 
 // "number in (0, 1e+12] nm", or the number itself if the range is a single value.
@@ -189,6 +195,174 @@ struct CollectStructs {
   void operator()(const auto&) const {}
 };
 
+constexpr std::string_view kBegin = "<!-- keys: ";
+constexpr std::string_view kBeginEnd = " -->";
+constexpr std::string_view kEnd = "<!-- end -->";
+
+/// Keys of some structs, under the path that leads to them from the structs of the table.
+struct Section {
+  std::string path;
+  std::vector<const Fields*> structs;
+};
+struct Table {
+  std::string anchor;  ///< Anchor of the preceding heading.
+  std::vector<Section> sections;
+};
+
+// Markdown anchor of a heading: its words in lower case, joined by hyphens.
+std::string anchor_of(std::string_view heading) {
+  std::string anchor;
+  for (const char c : heading.substr(heading.find(' ') + 1)) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == ' ' || c == '-') anchor += '-';
+    if (std::isalnum(byte) != 0 || c == '_') anchor += static_cast<char>(std::tolower(byte));
+  }
+  return anchor;
+}
+
+// The structs of a comma-separated list of names. Throws Error{internal} for an unknown name.
+Section named_section(std::string_view names, const std::vector<StructPath>& paths) {
+  Section section;
+  for (const std::string& name : split(names, ',')) {
+    const auto path_entry =
+        std::find_if(paths.begin(), paths.end(), [&](const StructPath& p) { return p.fields->name == name; });
+    if (path_entry == paths.end())
+      throw Error(ErrorCode::internal, "", fmt::format("the guide names the unknown struct \"{}\"", name));
+    section.structs.push_back(path_entry->fields);
+  }
+  return section;
+}
+
+// Adds sections for structs inside those of the first section that have no anchor yet.
+void add_sections(Table& table, Links& links) {
+  for (std::size_t i = 0; i < table.sections.size(); ++i)
+    for (const Key& key : keys_of(table.sections[i].structs)) {
+      Section below{joined(table.sections[i].path, key.name), {}};
+      for (const Fields* fields : structs_in(key.types))
+        if (links.emplace(fields, table.anchor).second) below.structs.push_back(fields);
+      if (!below.structs.empty()) table.sections.push_back(std::move(below));
+    }
+}
+
+/// The tables of a guide, and the anchor of each struct.
+struct Plan {
+  std::vector<Table> tables;
+  Links links;
+};
+
+// Finds the tables of the guide, and decides in which table each struct is described.
+Plan plan_of(const std::string& guide, const Fields& root) {
+  const std::vector<StructPath> paths = structs_below(root);
+  Plan plan;
+  std::string anchor;
+  std::istringstream lines(guide);
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#')) anchor = anchor_of(line);
+    if (!line.starts_with(kBegin)) continue;
+    const std::size_t size = line.size() - kBegin.size() - kBeginEnd.size();
+    Table& table = plan.tables.emplace_back();
+    table = {anchor, {named_section(line.substr(kBegin.size(), size), paths)}};
+    for (const Fields* fields : table.sections.front().structs) plan.links.emplace(fields, anchor);
+  }
+  for (Table& table : plan.tables) add_sections(table, plan.links);
+  return plan;
+}
+
+// Escapes the text for a table cell, where '|' would end the cell and '<' begin an element.
+std::string cell(std::string_view text) {
+  std::string safe;
+  for (const char c : text) {
+    if (c == '|' || c == '<') safe += '\\';
+    safe += c;
+  }
+  return safe;
+}
+
+// Adds a row for each key of a section, and a row above each group of keys.
+void add_rows(const Section& section, const Links& links, std::string& page) {
+  int group = 0;
+  const std::string under = section.path.empty() ? "" : fmt::format("`{}`: ", section.path);
+  for (const Key& key : keys_of(section.structs)) {
+    if (key.group != nullptr && key.group_number != group)
+      page += fmt::format("| {}{} | | |\n", under, group_label(*key.group));
+    group = key.group_number;
+    page += fmt::format("| {}`{}` | {} | {} |\n", group == 0 ? "" : "– ", joined(section.path, key.name),
+                        cell(key.meaning()), cell(key.allowed(links)));
+  }
+}
+
+std::string page_of(const Table& table, Links links) {
+  for (auto below = table.sections.begin() + 1; below != table.sections.end(); ++below)
+    for (const Fields* fields : below->structs) links.erase(fields);
+  std::string page = "| key | meaning | type, range, default |\n| --- | --- | --- |\n";
+  for (const Section& section : table.sections) add_rows(section, links, page);
+  return page;
+}
+
+// The keys of these structs as indented lines, with a label above each group.
+std::string keys_text(const std::vector<const Fields*>& structs) {
+  std::string text;
+  int group = 0;
+  for (const Key& key : keys_of(structs)) {
+    if (key.group != nullptr && key.group_number != group)
+      text += fmt::format("\n  {}\n", group_label(*key.group));
+    const char* indent = key.group != nullptr ? "    " : "  ";
+    if (key.group == nullptr && group != 0) text += '\n';
+    group = key.group_number;
+    text += fmt::format("{0}{1}\n{0}    {2}\n{0}    {3}\n", indent, key.name, key.meaning(), key.allowed());
+  }
+  return text;
+}
+
+std::string entry(const std::string& path, const Key& key) {
+  std::string text = fmt::format("{}\n  {}\n  {}\n", path, key.meaning(), key.allowed());
+  const std::vector<const Fields*> structs = structs_in(key.types);
+  return structs.empty() ? text : text + '\n' + keys_text(structs);
+}
+
+[[noreturn]] void refuse(const std::string& key, const std::vector<std::string>& known) {
+  throw Error(ErrorCode::usage, "", unknown_name("key", key, known));
+}
+
+// True if values of these types have an element that the step of a path names: a number in lists, or a name
+// that the user chose.
+bool hold_element(const std::vector<const ValueType*>& types, const std::string& step) {
+  const bool is_number = step.find_first_not_of("0123456789") == std::string::npos;
+  return std::any_of(types.begin(), types.end(), [is_number](const ValueType* type) {
+    return std::holds_alternative<ByName>(type->variant) ||
+           (is_number && std::holds_alternative<List>(type->variant));
+  });
+}
+
+// Help for a path of keys, or for a JSON pointer as in error messages, with numbers and names of elements.
+std::string entry_at(const Fields& root, const std::string& path) {
+  std::vector<const Fields*> structs{&root};
+  std::vector<std::string> steps = split(path, '/');
+  std::erase(steps, "");
+  std::string text;
+  std::string keys;
+  std::vector<const ValueType*> holders;
+  for (const std::string& step : steps) {
+    std::vector<std::string> known;
+    std::string found;
+    std::vector<const Fields*> below;
+    std::vector<const ValueType*> types;
+    for (const Key& key : keys_of(structs)) {
+      known.emplace_back(key.name);
+      if (key.name != step) continue;
+      found += entry(joined(keys, step), key);
+      types.insert(types.end(), key.types.begin(), key.types.end());
+      for (const Fields* fields : structs_in(key.types)) below.push_back(fields);
+    }
+    if (found.empty() && !hold_element(holders, step)) refuse(step, known);
+    holders = std::move(types);
+    if (found.empty()) continue;
+    text = std::move(found);
+    keys = joined(keys, step);
+    structs = std::move(below);
+  }
+  return text;
+}
 }  // namespace
 
 std::string Key::meaning() const {
@@ -238,6 +412,39 @@ std::string joined(std::string_view path, std::string_view key) {
 
 std::string_view group_label(const OneOf& group) {
   return group.required ? "one of" : "at most one of";
+}
+
+std::string with_tables(const std::string& guide, const Fields& root) {
+  const Plan plan = plan_of(guide, root);
+  std::string page;
+  std::size_t at = 0;
+  for (const Table& table : plan.tables) {
+    const std::size_t rows = guide.find('\n', guide.find(kBegin, at)) + 1;
+    const std::size_t end = guide.find(kEnd, rows);
+    if (end == std::string::npos)
+      throw Error(ErrorCode::internal, "", fmt::format("a table of the guide has no end line {}", kEnd));
+    page += guide.substr(at, rows - at) + page_of(table, plan.links);
+    at = end;
+  }
+  return page + guide.substr(at);
+}
+
+std::string help(const Fields& root, const std::string& key) {
+  if (key.empty()) return keys_text({&root});
+  if (key.find('/') != std::string::npos) return entry_at(root, key);
+  std::string text;
+  for (const StructPath& path_entry : structs_below(root))
+    for (const Key& known : keys_of(std::vector{path_entry.fields}))
+      if (known.name == key) text += (text.empty() ? "" : "\n") + entry(joined(path_entry.path, key), known);
+  if (text.empty()) refuse(key, all_keys(root));
+  return text;
+}
+
+std::vector<std::string> all_keys(const Fields& root) {
+  std::set<std::string> keys;
+  for (const StructPath& path_entry : structs_below(root))
+    for (const Key& key : keys_of(std::vector{path_entry.fields})) keys.emplace(key.name);
+  return {keys.begin(), keys.end()};
 }
 
 }  // namespace abbe::schema
