@@ -47,9 +47,6 @@ std::optional<QuantityUnit> quantity_unit(CurveUnit quantity) {
   }
 }
 
-/// `factor`: other factors of a product can convert from another quantity, but not from a multiple.
-enum class UnitRole { whole, factor };
-
 std::optional<UnitMismatch> fraction_mismatch(const TableUnit& unit, UnitRole role) {
   switch (unit.kind) {
     case TableUnit::Kind::fraction:
@@ -118,14 +115,6 @@ std::optional<UnitMismatch> unit_mismatch(const TableUnit& unit, CurveUnit neede
     default:
       return power_mismatch(unit, needed, role);
   }
-}
-
-std::optional<std::string> describe_mismatch(UnitRole role, std::string_view name, std::string_view unit,
-                                             CurveUnit needed, std::string_view remedy) {
-  const auto mismatch = unit_mismatch(table_unit(unit), needed, role);
-  if (!mismatch) return std::nullopt;
-  return fmt::format("\"{}\" has the wrong unit (got \"{}\", allowed {}{})", name, unit, mismatch->allowed,
-                     mismatch->by_factor ? remedy : std::string_view());
 }
 
 using Kind = TableUnit::Kind;
@@ -289,13 +278,11 @@ TableUnit unit_of_names(const std::vector<std::string>& parts) {
 }  // namespace
 
 std::optional<std::string> unit_fault(std::string_view name, std::string_view unit, CurveUnit needed,
-                                      std::string_view remedy) {
-  return describe_mismatch(UnitRole::whole, name, unit, needed, remedy);
-}
-
-std::optional<std::string> factor_unit_fault(std::string_view name, std::string_view unit, CurveUnit needed,
-                                             std::string_view remedy) {
-  return describe_mismatch(UnitRole::factor, name, unit, needed, remedy);
+                                      std::string_view remedy, UnitRole role) {
+  const auto mismatch = unit_mismatch(table_unit(unit), needed, role);
+  if (!mismatch) return std::nullopt;
+  return fmt::format("\"{}\" has the wrong unit (got \"{}\", allowed {}{})", name, unit, mismatch->allowed,
+                     mismatch->by_factor ? remedy : std::string_view());
 }
 
 std::optional<std::string> relative_power(std::string_view name, std::string_view unit, CurveUnit needed) {

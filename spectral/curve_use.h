@@ -83,18 +83,18 @@ inline constexpr CurveUse kQuantumEfficiencyUse{"camera", {0, 10}, CurveUnit::fr
 /// Quantum efficiency of a channel, which may be negative.
 inline constexpr CurveUse kQuantumResponseUse{"camera", {-10, 10}, CurveUnit::fraction};
 
+/// Role of a table in a curve. The other factors of a product can convert from another quantity, but correct
+/// neither percentages nor coefficients in 1/cm nor multiples of a power.
+enum class UnitRole { whole, factor };
+
 /// Explains why the table `name` with the line `# unit: <unit>` does not have the needed unit, and lists what
 /// is allowed. Examples are percent or densities for fractions, 1/cm for 1/m, photons for power per nm, and
 /// whatever `table_unit` does not list. `remedy`, which begins with its own separator, is appended to the
-/// allowed unit if a factor may convert to it. Nothing if the unit is right.
+/// allowed unit if a factor may convert to it. Nothing if the unit is right. A factor may have another
+/// quantity than the needed one, and as a factor of a coefficient any unit.
 [[nodiscard]] std::optional<std::string> unit_fault(std::string_view name, std::string_view unit,
-                                                    CurveUnit needed, std::string_view remedy = {});
-
-/// Explains why a table cannot be one factor of a product with the needed unit. The other factors cannot
-/// correct percentages, coefficients in 1/cm, and multiples of a power. Another quantity than the needed one
-/// is accepted, and any factor of a coefficient that is itself none.
-[[nodiscard]] std::optional<std::string> factor_unit_fault(std::string_view name, std::string_view unit,
-                                                           CurveUnit needed, std::string_view remedy = {});
+                                                    CurveUnit needed, std::string_view remedy = {},
+                                                    UnitRole role = UnitRole::whole);
 
 /// Warning for the table `name` if a radiance, intensity, irradiance or flux is needed but its unit is
 /// relative, counts or percent; otherwise nothing.

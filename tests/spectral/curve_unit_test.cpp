@@ -140,7 +140,7 @@ TEST(CurveUnit, FactorsMayBeOtherQuantitiesButNoPartsOfThem) {
                            {"W/(m2 nm)", CurveUnit::spectral_radiance, true},
                            {"photons/(s cm2 sr nm)", CurveUnit::spectral_radiance, true},
                            {"mW/nm", CurveUnit::power, true}})
-    EXPECT_EQ(!factor_unit_fault("t.csv", told.unit, told.needed), told.fits) << told.unit;
+    EXPECT_EQ(!unit_fault("t.csv", told.unit, told.needed, {}, UnitRole::factor), told.fits) << told.unit;
 }
 
 TEST(CurveUnit, NamesOfFractionsNeedNoUnit) {
@@ -166,7 +166,7 @@ TEST(CurveUnit, UnknownUnitsAreRefusedWithAllThatAreAllowed) {
             "W/(sr nm), W/(m^2 sr nm) or multiples, 1 or relative)");
   for (const CurveUnit needed : {CurveUnit::fraction, CurveUnit::power, CurveUnit::spectral_irradiance}) {
     EXPECT_TRUE(unit_fault("t.csv", "W/m2/mum", needed));
-    EXPECT_TRUE(factor_unit_fault("t.csv", "W/m2/mum", needed));
+    EXPECT_TRUE(unit_fault("t.csv", "W/m2/mum", needed, {}, UnitRole::factor));
   }
   EXPECT_FALSE(unit_fault("t.csv", "W/m2/mum", CurveUnit::any));
   EXPECT_FALSE(unit_fault("t.csv", "mW/(m2 nm)", CurveUnit::power)) << "of any scale";
