@@ -20,8 +20,8 @@ std::shared_ptr<const Material> mixable_material(const schema::Located<std::stri
   if (std::holds_alternative<MixtureMaterial>(material.model)) fault = "a mixture within a mixture";
   if (interior_index(material) != nullptr || medium(material) != nullptr)
     fault = "it has a medium inside, which a mixture cannot have";
-  if (std::holds_alternative<PolariserMaterial>(material.model) ||
-      std::holds_alternative<WavePlateMaterial>(material.model))
+  const auto delta_lobe = smooth_mueller(material, {550, 1, false});
+  if (delta_lobe && delta_lobe->axis)
     fault = "its axis would be lost, because a mixture has one axis for all components";
   if (material.relief != nullptr) fault = "its relief would be lost; give the relief to the mixture";
   if (fault == nullptr) return std::make_shared<const Material>(material);

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "materials/interface/fresnel.h"
-#include "materials/interface/hemispherical.h"
 #include "scene/coincidence.h"
 #include "scene/shapes/solid.h"
 #include "scene/small_light.h"

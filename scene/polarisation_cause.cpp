@@ -8,38 +8,6 @@
 namespace abbe {
 namespace {
 
-// A bare metal with n = 0 absorbs nothing and reflects s and p alike. A coating may absorb one more than the
-// other.
-bool is_perfect(const ConductorMaterial& metal) {
-  if (!metal.coating.layers.empty()) return false;
-  for (double lambda_nm = kMinWavelengthNm; lambda_nm <= kMaxWavelengthNm; ++lambda_nm)
-    if (metal.index.n(lambda_nm) > 0) return false;
-  return true;
-}
-
-// True if a surface may preserve the polarisation of polarised light although it leaves unpolarised light
-// unpolarised. It may return light to where that has been polarised.
-bool preserves_polarisation(const Material& material) {
-  const auto& model = material.model;
-  if (const auto* mixture = std::get_if<MixtureMaterial>(&model))
-    return std::any_of(mixture->components.begin(), mixture->components.end(),
-                       [](const auto& component) { return preserves_polarisation(*component.material); });
-  const auto* metal = std::get_if<ConductorMaterial>(&model);
-  return std::holds_alternative<MirrorMaterial>(model) || std::holds_alternative<SchlickMaterial>(model) ||
-         (metal != nullptr && is_perfect(*metal));
-}
-
-// True if a surface may polarise unpolarised light.
-bool polarises(const Material& material) {
-  const auto& model = material.model;
-  if (const auto* mixture = std::get_if<MixtureMaterial>(&model))
-    return std::any_of(mixture->components.begin(), mixture->components.end(),
-                       [](const auto& component) { return polarises(*component.material); });
-  if (preserves_polarisation(material) || std::holds_alternative<MediumMaterial>(model)) return false;
-  return lobes(material).delta || std::holds_alternative<RoughDielectricMaterial>(model) ||
-         std::holds_alternative<RoughConductorMaterial>(model);
-}
-
 bool holds_camera(const Sphere& sphere, const Scene& scene) {
   return (center(scene.camera) - sphere.center).length() <= sphere.radius;
 }

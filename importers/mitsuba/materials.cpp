@@ -13,7 +13,7 @@
 #include "importers/shared/materials.h"
 #include "importers/shared/picture.h"
 #include "io/text.h"
-#include "materials/interface/hemispherical.h"
+#include "materials/interface/fresnel.h"
 
 namespace abbe::importers::mitsuba {
 namespace {

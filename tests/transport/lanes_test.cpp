@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "materials/bsdf/bsdf.h"
+#include "materials/bsdf.h"
 #include "materials/interface/fresnel.h"
 #include "spectral/sources.h"
 #include "spectral/wavelength_distribution.h"

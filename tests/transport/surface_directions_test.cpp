@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "materials/bsdf/warp.h"
-#include "materials/interface/hemispherical.h"
+#include "materials/interface/fresnel.h"
 
 namespace abbe {
 namespace {

@@ -84,11 +84,7 @@ inline constexpr bool kSamplesPolarised = true;
 template <typename Technique>
 inline constexpr float kRouletteExponent = kPathRouletteExponent;
 
-/// True if a smooth dispersive model refracts each wavelength separately. With the random number `kRefracted`
-/// such a model reflects only at total reflection.
-[[nodiscard]] inline bool refracts_each_lane(const Bsdf& bsdf) {
-  return is_any_of<DielectricBsdf, CoatedDielectricBsdf>(bsdf);
-}
+/// With this random number, a model that `refracts_smoothly` reflects only at total reflection.
 inline constexpr BsdfRandom kRefracted{0x1.fffffep-1F, {0, 0}};
 
 /// Batch of paths that take each step together: their rays are traced as a stream, then each path is updated
@@ -150,7 +146,7 @@ class PathBatch {
     const auto event = technique.scatter(path, vertex, BsdfRandom{choice, {u[0], u[1]}});
     if (!event || !technique.continues_after(path, *event)) return false;
     if constexpr (requires { technique.splits_wavelengths(); })
-      if (event->dispersive && technique.splits_wavelengths() && refracts_each_lane(vertex.bsdf) &&
+      if (event->dispersive && technique.splits_wavelengths() && refracts_smoothly(vertex.bsdf) &&
           !path.packet.lone_lane()) {
         split_wavelengths(technique, path, vertex, drawn, u[3]);
         return false;

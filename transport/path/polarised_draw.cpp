@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "materials/bsdf/mirror.h"
+#include "materials/bsdf/event.h"
 #include "scene/shapes/basis.h"
 
 namespace abbe {

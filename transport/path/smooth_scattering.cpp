@@ -1,8 +1,8 @@
 #include "transport/path/smooth_scattering.h"
 
+#include "materials/interface/mueller.h"
 #include "materials/interface/snell.h"
-#include "materials/interface/thin_element.h"
-#include "materials/smooth_power.h"
+#include "materials/material.h"
 #include "scene/shapes/basis.h"
 #include "scene/shapes/coordinates.h"
 
@@ -31,8 +31,8 @@ Imath::V3d axis_of(const SmoothMueller& mueller, const Imath::V3d& wo, const Ima
 // Sets the indices of refraction of both sides.
 void set_other_side(const Material& material, double wavelength_nm, bool entering, double outside,
                     Passage& passage) {
-  if (const auto* glass = std::get_if<DielectricMaterial>(&material.model)) {
-    const double inside = glass->index.n(wavelength_nm);
+  if (const RefractiveIndex* glass = interior_index(material)) {
+    const double inside = glass->n(wavelength_nm);
     passage.n_from = entering ? outside : inside;
     passage.n_to = entering ? inside : outside;
   } else if (const auto* metal = std::get_if<ConductorMaterial>(&material.model)) {
@@ -66,9 +66,9 @@ SmoothScattering smooth_scattering_at(const Scene& scene, const ExactHit& at, co
                               lobes(material).spread};
   set_other_side(material, wavelength_nm, entering, outside, scattering.passage);
   if (power->transmitted() > 0) {
-    const bool bends = std::holds_alternative<DielectricMaterial>(material.model);
-    const auto through =
-        bends ? refract(wo, normal, scattering.passage.n_to / scattering.passage.n_from) : std::optional(-wo);
+    const auto through = interior_index(material) != nullptr
+                             ? refract(wo, normal, scattering.passage.n_to / scattering.passage.n_from)
+                             : std::optional(-wo);
     if (through)
       scattering.through = OutgoingRay{Kind::refract, through->normalized(), angle_deg(*through, -normal),
                                        FullMueller::of(mueller.matrices.through, power->transmitted())};

@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "materials/bsdf/polarisation.h"
+#include "materials/bsdf.h"
 #include "materials/material.h"
 #include "scene/scene.h"
 #include "scene/shading_point.h"
@@ -59,10 +59,8 @@ struct SurfaceVertex {
   /// Context for light sampling: position, and the shading normal on the path's side unless the model
   /// scatters to both sides. Glossy if all lobes are glossy; mixtures count as not glossy.
   [[nodiscard]] LightSampleContext light_context() const {
-    const bool both = std::holds_alternative<RoughDielectricBsdf>(bsdf);
-    const bool glossy = is_any_of<RoughDielectricBsdf, RoughConductorBsdf, CosinePowerBsdf<false>,
-                                  CosinePowerBsdf<true>, PhongBsdf, RetroreflectorBsdf>(bsdf);
-    return {hit.point, both ? std::nullopt : std::optional(wo.z > 0 ? frame.z : -frame.z), glossy};
+    const bool both = scatters_to_both_sides(bsdf);
+    return {hit.point, both ? std::nullopt : std::optional(wo.z > 0 ? frame.z : -frame.z), glossy(bsdf)};
   }
 
   /// Infinite ray that leaves in the unit world direction `w` at the time `time`, a fraction of the exposure.

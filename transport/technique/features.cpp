@@ -5,7 +5,7 @@
 #include <numeric>
 #include <variant>
 
-#include "materials/bsdf/bsdf.h"
+#include "materials/bsdf.h"
 #include "sampling/discrete.h"
 #include "sensor/response/stokes_channels.h"
 #include "transport/path/dimensions.h"

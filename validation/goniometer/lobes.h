@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "materials/bsdf/bsdf.h"
+#include "materials/bsdf.h"
 #include "validation/goniometer/sphere_cells.h"
 #include "validation/statistics/equivalence.h"
 

@@ -4,12 +4,12 @@
 
 #include <benchmark/benchmark.h>
 
-#include "materials/bsdf/bsdf.h"
+#include "materials/bsdf.h"
+#include "materials/bsdf/rough.h"
 #include "materials/bsdf/warp.h"
 #include "materials/index/library.h"
 #include "materials/interface/fresnel.h"
 #include "materials/material.h"
-#include "materials/model/rough.h"
 #include "validation/bench/micro/inputs.h"
 
 namespace abbe {

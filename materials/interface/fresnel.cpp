@@ -1,10 +1,8 @@
-#include "materials/interface/hemispherical.h"
+#include "materials/interface/fresnel.h"
 
 #include <cmath>
 
 #include <boost/math/quadrature/gauss.hpp>
-
-#include "materials/interface/fresnel.h"
 
 namespace abbe {
 

@@ -5,33 +5,32 @@
 #include <utility>
 #include <variant>
 
-#include "materials/bsdf/coated.h"
-#include "materials/bsdf/coated_diffuse.h"
-#include "materials/bsdf/comparison.h"
 #include "materials/bsdf/diffuse.h"
 #include "materials/bsdf/event.h"
-#include "materials/bsdf/mixture.h"
+#include "materials/bsdf/mirror.h"
 #include "materials/bsdf/power_lobes.h"
 #include "materials/bsdf/principled.h"
 #include "materials/bsdf/rough.h"
-#include "materials/bsdf/rough_diffuse.h"
 #include "materials/bsdf/smooth.h"
 #include "materials/bsdf/thin_element.h"
-#include "materials/bsdf/thin_glass.h"
+#include "materials/interface/mueller.h"
+#include "materials/mixture.h"
 
 namespace abbe {
 
 /// Interface of the scattering models. Directions are unit vectors in the local frame of `BsdfSample`. No
-/// function throws.
-/// - `sample`, `eval`, `pdf`, `index_inside`, `delta_probability` and `delta_power`: the free functions of
-///   these names below describe them.
-/// - `kScatters`: true if the model scatters into more than single directions. It then has `eval` and `pdf`.
-/// - `kDelta`: true if the model scatters into single directions. It then has `delta_probability` and
-///   `delta_power`.
+/// function throws. The free functions of these names below describe the functions.
+/// - Required: `sample` and two constants. `kScatters` is true if the model scatters into more than single
+///   directions; it then has `eval` and `pdf`. `kDelta` is true if it scatters into single directions; it
+///   then has `delta_power` and `mueller`.
+/// - Optional functions, with defaults: `index_inside` (1), `delta_probability` (1 if `kDelta`, else 0) and
+///   `mueller` (depolarises).
+/// - Optional constants, declared only if true: `kGlossy` if all lobes are glossy, `kBothSides` if it
+/// scatters
+///   to both sides, and `kAbsorbingFilms` if its delta lobes may cross absorbing films.
 template <typename Model>
 concept BsdfModel = requires(const Model& model, const Imath::V3f& w, const BsdfRandom& u) {
   { model.sample(w, u, 0, TransportMode::radiance) } -> std::same_as<std::optional<BsdfSample>>;
-  { model.index_inside(0) } -> std::same_as<float>;
   { Model::kScatters } -> std::same_as<const bool&>;
   { Model::kDelta } -> std::same_as<const bool&>;
 }
@@ -41,13 +40,13 @@ concept BsdfModel = requires(const Model& model, const Imath::V3f& w, const Bsdf
        { model.eval(w, w, TransportMode::radiance) } -> std::same_as<SampledSpectrum>;
        { model.pdf(w, w) } -> std::same_as<SampledSpectrum>;
      }) &&
-    (!Model::kDelta || requires(const Model& model, const Imath::V3f& w) {
-      { model.delta_probability(w) } -> std::same_as<SampledSpectrum>;
+    (!Model::kDelta || requires(const Model& model, const Imath::V3f& w, std::optional<int> lane) {
       { model.delta_power(w, true) } -> std::same_as<SampledSpectrum>;
+      { model.mueller(w, w, true, lane) } -> std::same_as<std::optional<MuellerMatrix>>;
     });
 
-/// The closed list of scattering models, evaluated at a packet of wavelengths. A new model is a file pair and
-/// an entry here; the statistical tests iterate the list.
+/// The closed list of scattering models, evaluated at a packet of wavelengths. A new model is a struct in
+/// `materials/bsdf/` and an entry here; the statistical tests iterate the list.
 using Bsdf = std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, CoatedDielectricBsdf,
                           CoatedConductorBsdf, RoughDielectricBsdf, RoughConductorBsdf, CoatedDiffuseBsdf,
                           ThinGlassBsdf, MixtureBsdf, MirrorBsdf, SchlickBsdf, OrenNayarBsdf, PrincipledBsdf,
@@ -61,12 +60,6 @@ inline constexpr bool kAllBsdfModels = false;
 template <typename... Models>
 inline constexpr bool kAllBsdfModels<std::variant<Models...>> = (BsdfModel<Models> && ...);
 static_assert(kAllBsdfModels<Bsdf>);
-
-/// True if the model of `bsdf` is one of `Models`.
-template <typename... Models>
-[[nodiscard]] bool is_any_of(const Bsdf& bsdf) {
-  return (std::holds_alternative<Models>(bsdf) || ...);
-}
 
 /// Calls `visitor` with the model. The most frequent model is tested first, inline.
 template <typename Visitor>
@@ -116,10 +109,10 @@ template <typename Visitor>
 [[nodiscard]] inline SampledSpectrum delta_probability(const Bsdf& bsdf, const Imath::V3f& wo) {
   return visit_model(
       [&]<typename Model>(const Model& model) {
-        if constexpr (Model::kDelta)
+        if constexpr (requires { model.delta_probability(wo); })
           return model.delta_probability(wo);
         else
-          return SampledSpectrum();
+          return SampledSpectrum(Model::kDelta ? 1.0F : 0.0F);
       },
       bsdf);
 }
@@ -145,9 +138,13 @@ template <typename Visitor>
 /// `mode` is that of `sample`.
 [[nodiscard]] inline SampledSpectrum delta_density(const Bsdf& bsdf, const BsdfSample& event,
                                                    float squared_eta, TransportMode mode) {
-  const bool may_be_film =
-      std::holds_alternative<CoatedDielectricBsdf>(bsdf) || std::holds_alternative<MixtureBsdf>(bsdf);
-  if (event.transmitted && may_be_film)
+  if (event.transmitted && visit_model(
+                               []<typename Model>(const Model&) {
+                                 return requires {
+                                   Model::kAbsorbingFilms;
+                                 };
+                               },
+                               bsdf))
     return event.weight * (event.pdf * (mode == TransportMode::radiance ? squared_eta : 1));
   return event.lane_pdf * event.pdf;
 }
@@ -160,7 +157,47 @@ template <typename Visitor>
 /// Index behind a surface that light enters, relative to the outside, at wavelength sample `lane`; 1 for
 /// other surfaces.
 [[nodiscard]] inline float index_inside(const Bsdf& bsdf, int lane) {
-  return visit_model([lane](const auto& model) { return model.index_inside(lane); }, bsdf);
+  return visit_model(
+      [lane]<typename Model>(const Model& model) {
+        if constexpr (requires { model.index_inside(lane); })
+          return model.index_inside(lane);
+        else
+          return 1.0F;
+      },
+      bsdf);
+}
+
+/// True if the model refracts light in a single direction, each wavelength by its own index.
+[[nodiscard]] inline bool refracts_smoothly(const Bsdf& bsdf) {
+  return visit_model(
+      []<typename Model>(const Model&) {
+        return Model::kDelta && requires(const Model& model) {
+          model.index_inside(0);
+        };
+      },
+      bsdf);
+}
+
+/// True if all lobes of the model are glossy. A mixture counts as not glossy.
+[[nodiscard]] inline bool glossy(const Bsdf& bsdf) {
+  return visit_model(
+      []<typename Model>(const Model&) {
+        return requires {
+          Model::kGlossy;
+        };
+      },
+      bsdf);
+}
+
+/// True if the model scatters to both sides of the surface, other than in single directions.
+[[nodiscard]] inline bool scatters_to_both_sides(const Bsdf& bsdf) {
+  return visit_model(
+      []<typename Model>(const Model&) {
+        return requires {
+          Model::kBothSides;
+        };
+      },
+      bsdf);
 }
 
 /// True if the model is `DiffuseBsdf` with reflectance 0 at all wavelengths. False for every other model,
@@ -168,6 +205,23 @@ template <typename Visitor>
 [[nodiscard]] inline bool is_black(const Bsdf& bsdf) {
   const auto* diffuse = std::get_if<DiffuseBsdf>(&bsdf);
   return diffuse != nullptr && diffuse->reflectance.is_zero();
+}
+
+/// Mueller matrix of scattering between the local directions `wo` and `wi`, both pointing away from the
+/// surface, about an axis in the same local frame. It is that of the delta lobe if `delta` is true, else that
+/// of all other lobes. Empty if that lobe depolarises. The power is not included: it is in the event's weight
+/// or in `eval`. If `lane` is given, only the elements of that wavelength sample are valid.
+[[nodiscard]] inline std::optional<MuellerMatrix> mueller(const Bsdf& bsdf, const Imath::V3f& wo,
+                                                          const Imath::V3f& wi, bool delta,
+                                                          std::optional<int> lane = {}) {
+  return visit_model(
+      [&]<typename Model>(const Model& model) -> std::optional<MuellerMatrix> {
+        if constexpr (requires { model.mueller(wo, wi, delta, lane); })
+          return model.mueller(wo, wi, delta, lane);
+        else
+          return std::nullopt;
+      },
+      bsdf);
 }
 
 }  // namespace abbe
