@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "materials/index/library.h"
-#include "materials/interface/film_thickness.h"
+#include "materials/interface/coating.h"
 
 namespace abbe::spec {
 namespace {

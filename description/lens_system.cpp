@@ -13,8 +13,8 @@
 #include "io/error.h"
 #include "lens/beam.h"
 #include "lens/field.h"
-#include "lens/focus.h"
 #include "lens/paraxial.h"
+#include "lens/spot.h"
 #include "scene/camera/lens_optics.h"
 
 namespace abbe::spec {

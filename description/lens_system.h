@@ -9,8 +9,8 @@
 #include "description/load_context.h"
 #include "description/sensor.h"
 #include "io/schema/fields.h"
-#include "scene/camera/frame.h"
 #include "scene/camera/lens_system.h"
+#include "scene/camera/model.h"
 
 namespace abbe::spec {
 

@@ -7,7 +7,6 @@
 #include "io/text.h"
 #include "materials/index/library.h"
 #include "materials/interface/coating.h"
-#include "materials/interface/film_thickness.h"
 #include "materials/interface/prism.h"
 #include "python/arrays.h"
 #include "python/errors.h"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "lens/focus.h"
+#include "lens/spot.h"
 
 namespace abbe {
 namespace {

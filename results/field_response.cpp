@@ -3,7 +3,7 @@
 #include "calibration/chart/patches.h"
 #include "io/error.h"
 #include "results/film_attributes.h"
-#include "scene/camera/incidence.h"
+#include "scene/camera/camera.h"
 #include "scene/colors.h"
 #include "sensor/response/stokes_channels.h"
 #include "transport/render/white.h"

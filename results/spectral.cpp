@@ -10,7 +10,7 @@
 #include "io/error.h"
 #include "io/text.h"
 #include "results/film_attributes.h"
-#include "scene/camera/mean_weight.h"
+#include "scene/camera/camera.h"
 #include "sensor/film/spectral_film.h"
 
 namespace abbe {

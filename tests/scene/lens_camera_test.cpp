@@ -240,6 +240,29 @@ TEST(LensCamera, TellsHowFarItsFilmIsFromThePrincipalPlane) {
   EXPECT_NEAR(*told.pinhole_distance, image / object * 149 * 1e-3, 1e-8);
 }
 
+// No surface of this lens has a clear aperture, and its entrance pupil is behind the first one.
+TEST(LensCamera, TakesInItsRaysWithoutClearApertures) {
+  const lens::System lens = lens_named("double_gauss");
+  ASSERT_FALSE(lens.surfaces.front().semi_aperture_mm);
+  const Camera camera = looking_through(lens, lens::stop_radius(lens));
+  const lens::ExitPupil& pupil = std::get<LensSystem>(camera.kind).optics->pupil;
+  ASSERT_GT(pupil.entrance().z, 0);
+  const Opening opening = traits(camera).opening.value();
+  EXPECT_NEAR(std::get<FlatOpening>(opening).u.length(), pupil.front_radius() * 1e-3, 1e-12);
+  EXPECT_LT(pupil.front_radius(), 60);
+  Random random(7);
+  int through = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const V2f film = random.pair() * 400;
+    const CameraRay out = sample_ray(camera, film, random.pair(), SampledSpectrum(550), 0, 0);
+    if (!(out.weight[0] > 0)) continue;
+    ++through;
+    const Ray light = ray_at(out.ray.origin + out.ray.direction, -out.ray.direction, 0);
+    EXPECT_TRUE(crossing(opening, light)) << film.x << " " << film.y;
+  }
+  EXPECT_GT(through, 1000);
+}
+
 TEST(LensCamera, TellsOfItself) {
   const lens::System lens = lens_named("double_gauss");
   const Camera camera = looking_through(lens, lens::stop_radius(lens));

@@ -4,7 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "description/meshes/mesh_file.h"
-#include "scene/camera/camera_rays.h"
+#include "scene/camera/camera.h"
 #include "scene/shapes/mesh.h"
 #include "spectral/colorimetry.h"
 #include "tests/validation/bench_runs.h"

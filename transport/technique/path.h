@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "sampling/sampler.h"
-#include "scene/camera/camera_rays.h"
+#include "scene/camera/camera.h"
 #include "transport/path/emitter_hit.h"
 #include "transport/path/film_response.h"
 #include "transport/path/mis_weight.h"

@@ -1,4 +1,4 @@
-#include "scene/camera/opening.h"
+#include "scene/camera/model.h"
 
 #include <cmath>
 #include <limits>
