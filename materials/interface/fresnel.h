@@ -17,7 +17,7 @@ struct FresnelPower {
   T Ts, Tp;
   /// Cosine between the normal and the transmitted ray; 0 if no ray is transmitted, as by total internal
   /// reflection or a conductor.
-  T cos_t;  ///< Cosine of the refracted angle; 0 for total internal reflection and for a conductor.
+  T cos_t;
 
   /// Reflectance for unpolarised light.
   [[nodiscard]] T R() const { return (Rs + Rp) * T(0.5); }

@@ -135,8 +135,8 @@ TEST(RoughDielectric, LosesNothingInAnyMedium) {
         const RefractiveIndex medium(medium_index);
         RoughDielectricMaterial material("n", cavity ? medium : glass, {FacetShape::ggx, alpha, alpha});
         material.tabulate_in(cavity ? glass : medium);
-        const auto bsdf = std::get<RoughDielectricBsdf>(
-            material.bsdf({.wavelengths_nm = packet(), .outside = cavity ? &glass : &medium}));
+        const RoughDielectricBsdf bsdf =
+            material.bsdf({.wavelengths_nm = packet(), .outside = cavity ? &glass : &medium});
         for (const double cos : {1.0, 0.6, 0.15, -1.0, -0.6, -0.15}) {
           const double albedo = evaluated_albedo(bsdf, direction_at(cos, 0.5 + cos), 3);
           worst = std::max(worst, std::abs(albedo - 1));

@@ -84,7 +84,7 @@ inline constexpr bool kSamplesPolarised = true;
 template <typename Technique>
 inline constexpr float kRouletteExponent = kPathRouletteExponent;
 
-/// With this random number, a model that `refracts_smoothly` reflects only at total reflection.
+/// A model that `refracts_smoothly` reflects with this random number only at total reflection.
 inline constexpr BsdfRandom kRefracted{0x1.fffffep-1F, {0, 0}};
 
 /// Batch of paths that take each step together: their rays are traced as a stream, then each path is updated
