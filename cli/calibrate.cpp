@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "calibration/output/camera_profile.h"
 #include "calibration/output/ocio.h"
-#include "calibration/output/sensitivities.h"
 #include "cli/calibrate_folder.h"
 #include "cli/calibrate_page.h"
 #include "cli/calibrate_report.h"

@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "calibration/metrics/camera_space.h"
+#include "calibration/metrics/camera_quality.h"
 #include "cli/page.h"
 #include "cli/sensor_plots.h"
 #include "report/display_color.h"

@@ -5,8 +5,8 @@
 
 #include <fmt/format.h>
 
-#include "calibration/fit/median.h"
-#include "calibration/output/dng_profile.h"
+#include "calibration/fit/resampling.h"
+#include "calibration/output/camera_profile.h"
 
 namespace abbe::cli {
 namespace {

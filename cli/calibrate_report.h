@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "calibration/calibration_case.h"
-#include "calibration/characterisation.h"
+#include "calibration/camera_calibration.h"
+#include "calibration/metrics/camera_quality.h"
 #include "cli/answer.h"
 
 namespace abbe::cli {

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "calibration/output/dng_profile.h"
+#include "calibration/output/camera_profile.h"
 #include "cli/answer.h"
 #include "cli/output_files.h"
 #include "develop/develop.h"

@@ -8,7 +8,6 @@
 
 #include "calibration/chart/measured_patches.h"
 #include "calibration/chart/raw_scale.h"
-#include "calibration/chart/white_level.h"
 #include "calibration/metrics/slanted_edge.h"
 #include "cli/answer.h"
 #include "cli/arguments.h"

@@ -4,10 +4,9 @@
 
 #include <fmt/format.h>
 
-#include "calibration/characterisation.h"
 #include "calibration/chart/delta_e.h"
 #include "calibration/chart/patches.h"
-#include "calibration/metrics/camera_space.h"
+#include "calibration/metrics/camera_quality.h"
 #include "cli/answer.h"
 #include "cli/query.h"
 #include "io/table.h"

@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "calibration/metrics/color_rendering.h"
-#include "calibration/metrics/metamerism.h"
 #include "cli/answer.h"
 #include "cli/arguments.h"
 #include "cli/output_files.h"

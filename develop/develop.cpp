@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "calibration/output/white_clip.h"
+#include "calibration/output/display.h"
 #include "develop/radiance.h"
 #include "io/text.h"
 #include "sensor/film/recorded_crop.h"

@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include "calibration/output/dng_profile.h"
-#include "calibration/output/exif_light.h"
+#include "calibration/output/camera_profile.h"
 #include "sensor/readout/speed.h"
 
 namespace abbe {

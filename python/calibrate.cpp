@@ -7,7 +7,7 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include "calibration/calibration_case.h"
+#include "calibration/camera_calibration.h"
 #include "python/develop.h"
 #include "python/errors.h"
 #include "python/gil.h"

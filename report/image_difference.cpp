@@ -13,7 +13,6 @@
 
 #include "calibration/chart/delta_e.h"
 #include "calibration/metrics/appearance.h"
-#include "calibration/metrics/itp.h"
 #include "calibration/output/display.h"
 #include "io/spectral_exr.h"
 #include "report/common_areas.h"

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "calibration/output/camera_matrix.h"
+#include "calibration/output/display.h"
 #include "develop/radiance.h"
 #include "io/error.h"
 #include "io/text.h"

@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "calibration/chart/raw_scale.h"
-#include "calibration/chart/white_level.h"
 #include "io/error.h"
 #include "sensor/film/recorded_crop.h"
 

@@ -12,7 +12,6 @@
 
 #include "calibration/chart/delta_e.h"
 #include "calibration/output/color_spaces.h"
-#include "calibration/output/gamut.h"
 #include "calibration/output/ocio.h"
 #include "sensor/film/recorded_crop.h"
 #include "spectral/rgb.h"

@@ -1,7 +1,7 @@
 #include <fmt/format.h>
 
 #include "calibration/chart/patches.h"
-#include "calibration/fit/correction_fit.h"
+#include "calibration/fit/correction.h"
 #include "io/reference_table.h"
 #include "validation/cases/figures.h"
 #include "validation/cases/suites.h"

@@ -4,7 +4,6 @@
 
 #include "calibration/metrics/appearance.h"
 #include "calibration/metrics/color_rendering.h"
-#include "calibration/metrics/itp.h"
 #include "io/reference_table.h"
 #include "spectral/color_temperature.h"
 #include "spectral/interpolation.h"
