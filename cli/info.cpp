@@ -13,7 +13,6 @@
 #include "description/load.h"
 #include "io/inputs.h"
 #include "lens/paraxial.h"
-#include "results/field_response.h"
 #include "results/rendered_film.h"
 #include "results/white.h"
 #include "scene/camera/lens_optics.h"

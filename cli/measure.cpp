@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "calibration/chart/chart_corners.h"
 #include "calibration/chart/measured_patches.h"
 #include "cli/answer.h"
 #include "cli/output_files.h"

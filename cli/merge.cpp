@@ -19,7 +19,6 @@
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/file_lock.h"
-#include "results/film_attributes.h"
 #include "results/rendered_film.h"
 #include "transport/render/part_films.h"
 

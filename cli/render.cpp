@@ -28,7 +28,6 @@
 #include "io/standard_stream.h"
 #include "preview/preview.h"
 #include "preview/tev_viewer.h"
-#include "results/film_attributes.h"
 #include "results/rendered_film.h"
 #include "results/scene_warnings.h"
 #include "results/white.h"

@@ -7,8 +7,8 @@
 
 #include "cli/answer.h"
 #include "io/error.h"
-#include "results/field_response.h"
 #include "results/scene_warnings.h"
+#include "results/white.h"
 
 namespace abbe::cli {
 namespace {

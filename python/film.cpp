@@ -18,7 +18,6 @@
 #include "python/numbers.h"
 #include "python/picture.h"
 #include "python/text.h"
-#include "results/film_attributes.h"
 #include "results/rendered_film.h"
 #include "sensor/film/film_planes.h"
 #include "sensor/film/recorded_error.h"

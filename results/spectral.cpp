@@ -9,7 +9,7 @@
 #include "develop/radiance.h"
 #include "io/error.h"
 #include "io/text.h"
-#include "results/film_attributes.h"
+#include "results/rendered_film.h"
 #include "scene/camera/mean_weight.h"
 #include "sensor/film/spectral_film.h"
 

@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "calibration/chart/chart_corners.h"
+#include "develop/find_chart.h"
 #include "io/error.h"
 #include "io/exr.h"
 #include "io/picture.h"

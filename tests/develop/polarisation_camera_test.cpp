@@ -1,4 +1,4 @@
-#include "develop/polarisation_camera.h"
+#include "develop/polarisation.h"
 
 #include <gtest/gtest.h>
 

@@ -14,7 +14,7 @@
 #include "report/color_map.h"
 #include "report/difference_maps.h"
 #include "report/film_colors.h"
-#include "results/film_attributes.h"
+#include "results/rendered_film.h"
 #include "sensor/film/crop.h"
 #include "sensor/film/recorded_white.h"
 #include "spectral/rgb.h"
