@@ -1,5 +1,10 @@
 #include "preview/tev_viewer.h"
 
+#include <netdb.h>
+#include <sys/socket.h>
+#include <sys/time.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <bit>
 #include <cstdint>
@@ -9,10 +14,6 @@
 #include <vector>
 
 #include <fmt/format.h>
-#include <netdb.h>
-#include <sys/socket.h>
-#include <sys/time.h>
-#include <unistd.h>
 
 #include "io/error.h"
 #include "results/rendered_film.h"

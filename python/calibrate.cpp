@@ -8,11 +8,11 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "calibration/camera_calibration.h"
-#include "python/develop.h"
+#include "python/arguments.h"
 #include "python/errors.h"
 #include "python/gil.h"
+#include "python/module.h"
 #include "python/numbers.h"
-#include "python/query.h"
 
 namespace abbe::python {
 namespace {

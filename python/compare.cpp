@@ -4,10 +4,10 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include "python/develop.h"
 #include "python/errors.h"
 #include "python/film.h"
 #include "python/json.h"
+#include "python/module.h"
 #include "python/scene.h"
 #include "report/chart_difference.h"
 #include "report/common_areas.h"

@@ -27,8 +27,4 @@ template <typename T>
   return *std::move(value);
 }
 
-/// Adds the class of diagnostics. Registers a translator of exceptions: Error{usage} becomes abbe.UsageError,
-/// and so on for each code, with the diagnostics of an InvalidInput.
-void add_errors(pybind11::module_& module);
-
 }  // namespace abbe::python

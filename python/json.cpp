@@ -7,8 +7,8 @@
 #include "io/invalid_input.h"
 #include "io/json_values.h"
 #include "io/value_tree.h"
+#include "python/arguments.h"
 #include "python/numbers.h"
-#include "python/text.h"
 
 namespace abbe::python {
 namespace {

@@ -9,16 +9,13 @@
 #include <pybind11/stl.h>
 
 #include "python/arguments.h"
-#include "python/arrays.h"
 #include "python/errors.h"
 #include "python/gil.h"
 #include "python/job.h"
 #include "python/json.h"
+#include "python/module.h"
 #include "python/numbers.h"
-#include "python/render.h"
-#include "python/request.h"
 #include "python/scene.h"
-#include "python/text.h"
 #include "results/measure_meter.h"
 #include "results/rendered_film.h"
 #include "results/scene_warnings.h"

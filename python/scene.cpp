@@ -16,7 +16,7 @@
 #include "python/errors.h"
 #include "python/gil.h"
 #include "python/json.h"
-#include "python/text.h"
+#include "python/module.h"
 #include "results/white.h"
 #include "transport/render/choose_integrator.h"
 #include "transport/render/threads.h"

@@ -1,5 +1,7 @@
 #include "results/rendered_film.h"
 
+#include <link.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +11,6 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <link.h>
 #include <nlohmann/json.hpp>
 
 #include "calibration/output/display.h"
