@@ -304,11 +304,13 @@ void merge(PartHeader& sum, const PartHeader& part, const fs::path& path) {
   require_same_film(path, without_crop(part.identity), without_crop(sum.identity));
   if (without_crop(part.shape) != without_crop(sum.shape))
     throw Error(ErrorCode::input, path.string(), "has a film of another shape");
+  SampledAreas areas = sum.areas;
   for (const SampledArea& area : part.areas)
-    if (const auto overlap = add(sum.areas, area))
+    if (const auto overlap = add(areas, area))
       throw Error(ErrorCode::input, path.string(),
                   fmt::format("has samples that are already included (got {}{})", to_text(overlap->samples),
                               of_pixels(overlap->pixels, part.shape)));
+  sum.areas = std::move(areas);
   if (stated_samples(part.identity) > stated_samples(sum.identity))
     sum.identity[kStatedSamplesKey] = part.identity.at(kStatedSamplesKey);
   set_crop(sum, bounds(sum.areas));
