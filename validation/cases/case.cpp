@@ -111,7 +111,7 @@ void set_verdict(CaseResult& result) {
     if (const Verdict verdict = verdict_of(figure, result.allowed(figure)); verdict != Verdict::pass)
       result.verdict = verdict;
     const double deviation = std::abs(figure.deviation()) / result.allowed(figure);
-    if (deviation <= worst) continue;  // NaN counts as the worst deviation
+    if (deviation <= worst || std::isnan(worst)) continue;  // NaN counts as the worst deviation
     worst = deviation;
     result.worst = i;
   }
