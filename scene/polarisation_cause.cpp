@@ -66,13 +66,17 @@ std::optional<PolarisationCause> polarisation_cause(const Scene& scene) {
   const auto analysing = std::find_if(scene.channels.begin(), scene.channels.end(),
                                       [](const Channel& channel) { return channel.analyser.has_value(); });
   if (analysing != scene.channels.end()) return PolarisationCause{"channel", analysing->name};
-  const bool polarised_light = std::any_of(scene.lights.begin(), scene.lights.end(),
-                                           [](const Light& light) { return light.polarisation.has_value(); });
+  const auto polarised_light = std::find_if(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+    return light.polarisation.has_value();
+  });
+  const bool has_polarised_light = polarised_light != scene.lights.end();
+  const bool polarising_lens = traits(scene.camera).polarises;
+  if (has_polarised_light && polarising_lens) return PolarisationCause{"light", polarised_light->name};
   const bool returns_light =
       std::any_of(scene.shapes.begin(), scene.shapes.end(), [&scene](const ShapeInstance& instance) {
         return preserves_polarisation(scene.materials[instance.material]);
       });
-  int events = (polarised_light ? 1 : 0) + (traits(scene.camera).polarises ? 1 : 0);
+  int events = has_polarised_light || polarising_lens ? 1 : 0;
   for (const ShapeInstance& instance : scene.shapes) {
     const int here = events_in_a_row(scene, instance);
     events += here;

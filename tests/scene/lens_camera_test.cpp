@@ -221,6 +221,11 @@ TEST(LensCamera, IsAnEventForPolarisedLight) {
   scene.channels.push_back(energy_channel("Y", Curve(1.0)));
   scene.commit();
   EXPECT_FALSE(scene.features.polarisation_relevant);
+  scene.lights.push_back(
+      {"sky", EnvironmentLight{}, Curve(1.0), LightPolarisation{1, LinearPolarisation{{1, 0, 0}}}});
+  scene.commit();
+  EXPECT_TRUE(scene.features.polarisation_relevant) << "without shapes";
+  scene.lights.clear();
   scene.shapes = {{"pane", Quad{{-1, -1, 2}, {0, 2, 0}, {2, 0, 0}}, 0}};
   scene.commit();
   EXPECT_TRUE(scene.features.polarisation_relevant);
