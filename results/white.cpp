@@ -84,6 +84,26 @@ std::optional<White> white_of_film(const Scene& scene, const Image& film) {
   return White{name, "the film's", *xy};
 }
 
+// A light that a film records.
+struct RecordedLight {
+  std::string name;
+  std::optional<Chromaticity> xy;  // Empty if several lights have this name.
+};
+
+// The lights that a film records; empty if it records none.
+std::vector<RecordedLight> recorded_lights(const Image& film) {
+  const auto recorded = film.metadata.find(kLightsXyKey);
+  Json parsed = Json::object();
+  if (recorded != film.metadata.end()) parsed = Json::parse(recorded->second, nullptr, false);
+  std::vector<RecordedLight> lights;
+  for (const auto& [name, xy] : parsed.items())
+    if (xy.is_null())
+      lights.push_back({name, {}});
+    else if (xy.is_array() && xy.size() == 2 && xy[0].is_number() && xy[1].is_number())
+      lights.push_back({name, xy.get<Chromaticity>()});
+  return lights;
+}
+
 // The chromaticity that a film records of a light. For the light of the film's white it is that of the white,
 // which may be that of the full spectrum.
 Chromaticity recorded_color(const RecordedLight& light, const Image& film) {
@@ -240,19 +260,6 @@ void add_white(const Scene& scene, FilmIdentity& identity) {
     else if (const Chromaticity xy = white_of(light, film_observer, "").xy; std::isfinite(xy[0]))
       lights[light.name] = xy;
   if (!lights.empty()) identity[kLightsXyKey] = lights.dump();
-}
-
-std::vector<RecordedLight> recorded_lights(const Image& film) {
-  const auto recorded = film.metadata.find(kLightsXyKey);
-  Json parsed = Json::object();
-  if (recorded != film.metadata.end()) parsed = Json::parse(recorded->second, nullptr, false);
-  std::vector<RecordedLight> lights;
-  for (const auto& [name, xy] : parsed.items())
-    if (xy.is_null())
-      lights.push_back({name, {}});
-    else if (xy.is_array() && xy.size() == 2 && xy[0].is_number() && xy[1].is_number())
-      lights.push_back({name, xy.get<Chromaticity>()});
-  return lights;
 }
 
 White requested_white(const std::string& text, const Image& film, std::string_view origin) {

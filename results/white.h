@@ -30,14 +30,6 @@ void resolve_white(Scene& scene, const std::filesystem::path& path, int threads 
 /// most 256. `requested_white` can then find them. Does nothing if the film has no colours.
 void add_white(const Scene& scene, FilmIdentity& identity);
 
-/// A light that a film records.
-struct RecordedLight {
-  std::string name;
-  std::optional<Chromaticity> xy;  ///< Empty if several lights have this name.
-};
-/// The lights that a film records; empty if it records none.
-[[nodiscard]] std::vector<RecordedLight> recorded_lights(const Image& film);
-
 /// Sets the white of a scene whose sensor is exposed to the spectral film `film`. It is the requested one,
 /// else `output/white` of the scene, else the film's, else that of the scene's lights. `origin` names the
 /// option or keyword of `requested`, a text as for `requested_white`. `path` is the scene file. The film's

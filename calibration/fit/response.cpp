@@ -23,6 +23,17 @@
 namespace abbe {
 namespace {
 
+constexpr std::size_t kCoefficients = ResponseModel<double>::kCoefficients;
+constexpr double kFirstScale =
+    0.01;  // of the first pass: code errors above 1 % of full scale have less and less weight
+constexpr double kFirstRoughness = 1;
+constexpr double kCauchy = 2.385;  // in standard deviations: 95 % efficient for Gaussian errors [Holland1977]
+constexpr double kMinDeviation = 2e-5;  // of a code; a lower limit even for exact values
+constexpr std::size_t kMinSamples = 32;
+constexpr double kDeviationsOf95 = 1.96;  // half-width of a Gaussian 95 % interval
+constexpr double kMadToDeviation = 1.4826;
+constexpr std::size_t kGroups = 12;
+constexpr std::size_t kMinGroupSize = 32;  // gives the deviation to about a seventh
 constexpr double kMinSpan = 1.02;
 constexpr double kMinFall = 0.01;                 // relative fall of a code
 constexpr double kMaxUncertainty = 0.1;           // relative to the exposure of the highest code
@@ -83,6 +94,11 @@ void require_usable_times(const ExposureSeries& series) {
     if (times[order[i]] < times[order[i + 1]]) require_rise(series, order[i], order[i + 1]);
 }
 
+// Half the width of the 95 % interval of the exposure of a code in [0, 1], as a fraction of full scale.
+double half_width_95(const ResponseFit& fit, double code) {
+  return kDeviationsOf95 * linearise(fit.log_deviation, code) * linearise(fit.linear, code);
+}
+
 // Throws Error{input} unless the samples of a fit determine its curve. `samples` must not be empty; this is
 // not checked. Between their lowest and highest code, the 95 % interval must extend less than a tenth of the
 // highest code's exposure to either side. Outside, it must extend less than half of full scale.
@@ -115,10 +131,6 @@ void require_determined(const ResponseFit& fit, std::span<const ResponseSample> 
                   "scale (allowed {:.2g} %): add longer exposures, until the brightest patches clip",
                   highest->code, 100 * unknown, 100 * kMaxFullScaleUncertainty));
 }
-
-constexpr double kMadToDeviation = 1.4826;
-constexpr std::size_t kGroups = 12;
-constexpr std::size_t kMinGroupSize = 32;  // gives the deviation to about a seventh
 
 // Standard deviation of Gaussian errors with these absolute values, of which there must be at least one. It
 // is estimated from their median, which a few outliers hardly change.
@@ -173,15 +185,6 @@ double NoiseByCode::deviation(double code) const {
   const Level& below = *(above - 1);
   return std::lerp(below.deviation, above->deviation, (code - below.code) / (above->code - below.code));
 }
-
-constexpr std::size_t kCoefficients = ResponseModel<double>::kCoefficients;
-constexpr double kFirstScale =
-    0.01;  // of the first pass: code errors above 1 % of full scale have less and less weight
-constexpr double kFirstRoughness = 1;
-constexpr double kCauchy = 2.385;  // in standard deviations: 95 % efficient for Gaussian errors [Holland1977]
-constexpr double kMinDeviation = 2e-5;  // of a code; a lower limit even for exact values
-constexpr std::size_t kMinSamples = 32;
-constexpr double kDeviationsOf95 = 1.96;  // half-width of a Gaussian 95 % interval
 
 // Start of the fit: a straight line in the curve's coordinate, and the exposures of the patches that follow
 // from it.
@@ -472,10 +475,6 @@ ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions
 std::pair<double, double> bounds_95(const ResponseFit& fit, std::size_t i) {
   const double factor = std::exp(kDeviationsOf95 * fit.log_deviation[i]);
   return {fit.linear[i] / factor, fit.linear[i] * factor};
-}
-
-double half_width_95(const ResponseFit& fit, double code) {
-  return kDeviationsOf95 * linearise(fit.log_deviation, code) * linearise(fit.linear, code);
 }
 
 double largest_uncertainty(const ResponseFit& fit) {

@@ -26,6 +26,41 @@ struct SampleResidual {
   }
 };
 
+// Residuals of the smoothness term: second differences of the coefficients times `roughness`, and first
+// differences. The latter have a small weight, which only continues the slope where there are no samples.
+struct ResponseSmoothness {
+  static constexpr std::size_t kCoefficients = ResponseModel<double>::kCoefficients;
+  static constexpr int kTerms = static_cast<int>(2 * kCoefficients - 3);  // Number of residuals.
+  static constexpr double kSlopeDrift = 0.01;                             // Weight of the first differences.
+
+  double roughness;
+
+  template <typename T>
+  bool operator()(const T* theta, T* residual) const {
+    for (std::size_t k = 0; k + 2 < kCoefficients; ++k)
+      residual[k] = roughness * (theta[k] - 2.0 * theta[k + 1] + theta[k + 2]);
+    for (std::size_t k = 0; k + 1 < kCoefficients; ++k)
+      residual[kCoefficients - 2 + k] = kSlopeDrift * (theta[k + 1] - theta[k]);
+    return true;
+  }
+};
+using SmoothnessCost = ceres::AutoDiffCostFunction<ResponseSmoothness, ResponseSmoothness::kTerms,
+                                                   static_cast<int>(ResponseSmoothness::kCoefficients)>;
+
+// Least-squares problem of the samples' residuals, which refers to `unknowns`.
+std::unique_ptr<ceres::Problem> data_terms(const WeightedSamples& data, ResponseUnknowns& unknowns) {
+  auto problem = std::make_unique<ceres::Problem>();
+  for (std::size_t i = 0; i < data.samples.size(); ++i) {
+    auto residual = std::make_unique<SampleResidual>(SampleResidual{data.samples[i], data.weights[i]});
+    problem->AddResidualBlock(
+        new ceres::AutoDiffCostFunction<SampleResidual, 1, ResponseSmoothness::kCoefficients, 1>(
+            residual.release()),
+        new ceres::CauchyLoss(data.loss), unknowns.theta.data(),
+        &unknowns.log_exposure[data.samples[i].patch]);
+  }
+  return problem;
+}
+
 // The problem linearised at the unknowns, with the exposures of the patches eliminated: residuals and their
 // derivatives by the curve, at the best exposure of each patch. With h = `hat_factor`, the hat matrix of the
 // exposures alone is h h' between samples of one patch and 0 between others.
@@ -153,19 +188,6 @@ std::vector<ResponseSample> usable_samples(const ExposureSeries& series, bool wi
     }
   }
   return samples;
-}
-
-std::unique_ptr<ceres::Problem> data_terms(const WeightedSamples& data, ResponseUnknowns& unknowns) {
-  auto problem = std::make_unique<ceres::Problem>();
-  for (std::size_t i = 0; i < data.samples.size(); ++i) {
-    auto residual = std::make_unique<SampleResidual>(SampleResidual{data.samples[i], data.weights[i]});
-    problem->AddResidualBlock(
-        new ceres::AutoDiffCostFunction<SampleResidual, 1, ResponseSmoothness::kCoefficients, 1>(
-            residual.release()),
-        new ceres::CauchyLoss(data.loss), unknowns.theta.data(),
-        &unknowns.log_exposure[data.samples[i].patch]);
-  }
-  return problem;
 }
 
 std::unique_ptr<ceres::Problem> all_terms(const WeightedSamples& data, double roughness,

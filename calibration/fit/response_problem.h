@@ -127,33 +127,9 @@ struct WeightedSamples {
   double loss = 0;              ///< Width of the Cauchy loss, in units of that deviation.
 };
 
-/// Residuals of the smoothness term: second differences of the coefficients times `roughness`, and first
-/// differences. The latter have a small weight, which only continues the slope where there are no samples.
-struct ResponseSmoothness {
-  static constexpr std::size_t kCoefficients = ResponseModel<double>::kCoefficients;
-  static constexpr int kTerms = static_cast<int>(2 * kCoefficients - 3);  ///< Number of residuals.
-  static constexpr double kSlopeDrift = 0.01;  ///< Weight of the first differences.
-
-  double roughness;
-
-  template <typename T>
-  bool operator()(const T* theta, T* residual) const {
-    for (std::size_t k = 0; k + 2 < kCoefficients; ++k)
-      residual[k] = roughness * (theta[k] - 2.0 * theta[k + 1] + theta[k + 2]);
-    for (std::size_t k = 0; k + 1 < kCoefficients; ++k)
-      residual[kCoefficients - 2 + k] = kSlopeDrift * (theta[k + 1] - theta[k]);
-    return true;
-  }
-};
-using SmoothnessCost = ceres::AutoDiffCostFunction<ResponseSmoothness, ResponseSmoothness::kTerms,
-                                                   static_cast<int>(ResponseSmoothness::kCoefficients)>;
-
-/// Least-squares problem of the samples' residuals. It refers to `unknowns`, which must outlive it; a solver
-/// writes its solution there.
-[[nodiscard]] std::unique_ptr<ceres::Problem> data_terms(const WeightedSamples& data,
-                                                         ResponseUnknowns& unknowns);
-
-/// `data_terms` with the smoothness term of weight `roughness`.
+/// Least-squares problem of the samples' residuals and of the smoothness term: second differences of the
+/// coefficients times `roughness`, and first differences. It refers to `unknowns`, which must outlive it; a
+/// solver writes its solution there.
 [[nodiscard]] std::unique_ptr<ceres::Problem> all_terms(const WeightedSamples& data, double roughness,
                                                         ResponseUnknowns& unknowns);
 
