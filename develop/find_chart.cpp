@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "develop/chart_finder.h"
+#include "develop/linear_image.h"
 #include "io/error.h"
 #include "io/module.h"
 #include "sensor/readout/demosaic.h"
