@@ -7,7 +7,7 @@
 namespace abbe {
 namespace {
 
-constexpr double kRounding = 1e-5;  // relative error of single precision for a colour on the border
+constexpr double kGamutRounding = 1e-5;  // relative error of single precision for a colour on the border
 
 }  // namespace
 
@@ -54,12 +54,12 @@ MappedColor map_into(const Gamut& gamut, const std::array<double, 3>& rgb) {
   const auto [low, high] = std::minmax_element(rgb.begin(), rgb.end());
   if (!std::all_of(rgb.begin(), rgb.end(), [](double v) { return std::isfinite(v); }))
     return {{0, 0, 0}, false, true};
-  MappedColor mapped{rgb, *low < -kRounding * std::max(*high, -*low), false};
+  MappedColor mapped{rgb, *low < -kGamutRounding * std::max(*high, -*low), false};
   const double grey = std::max(0.0, std::inner_product(rgb.begin(), rgb.end(), gamut.luminance.begin(), 0.0));
   // Fraction of the distance from grey to the colour at which all primaries stay above zero.
   const double retained = *low < 0 ? grey / (grey - *low) : 1;
   const double brightest = grey + retained * (*high - grey);
-  mapped.too_bright = brightest > gamut.top * (1 + kRounding);
+  mapped.too_bright = brightest > gamut.top * (1 + kGamutRounding);
   const double dimming = brightest > gamut.top ? gamut.top / brightest : 1;
   for (double& v : mapped.rgb) v = std::max(0.0, dimming * (grey + retained * (v - grey)));
   return mapped;
