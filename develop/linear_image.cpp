@@ -175,7 +175,7 @@ void require_unsaturated(const LinearImage& flat, const std::filesystem::path& p
 }
 
 // Throws Error{input} for a pixel that is not above 0.
-void require_lit(const LinearImage& flat, const std::filesystem::path& path) {
+void require_positive(const LinearImage& flat, const std::filesystem::path& path) {
   const auto width = static_cast<std::size_t>(flat.image.width);
   for (const ImageChannel& channel : flat.image.channels)
     for (std::size_t i = 0; i < channel.values.size(); ++i)
@@ -210,7 +210,7 @@ void flat_field(LinearImage& image, const LinearImage& flat, const std::filesyst
                 fmt::format("the flat has different channels or a different mosaic (got {}, allowed {})",
                             described(flat), described(image)));
   require_unsaturated(flat, path);
-  require_lit(flat, path);
+  require_positive(flat, path);
   if (image.exposed.empty()) image.exposed = image.image.channels;
   const std::vector<double> means = channel_means(flat);
   for (std::size_t k = 0; k < image.image.channels.size(); ++k)
