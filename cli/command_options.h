@@ -14,7 +14,7 @@
 #include "cli/arguments.h"
 #include "cli/commands.h"
 #include "cli/usage.h"
-#include "description/render_limits.h"
+#include "description/render.h"
 #include "sensor/response/channel.h"
 
 namespace abbe::cli {

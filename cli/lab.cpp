@@ -11,7 +11,7 @@
 #include "cli/answer.h"
 #include "cli/output_files.h"
 #include "cli/warnings.h"
-#include "description/load_material.h"
+#include "description/load.h"
 #include "io/atomic_file.h"
 #include "io/extension.h"
 #include "io/picture.h"

@@ -7,7 +7,7 @@
 #include "cli/answer.h"
 #include "cli/lens_answer.h"
 #include "cli/output_files.h"
-#include "description/load_lens.h"
+#include "description/lens_files.h"
 #include "io/atomic_file.h"
 #include "io/extension.h"
 #include "report/lens_drawing.h"

@@ -4,8 +4,8 @@
 
 #include <fmt/format.h>
 
+#include "description/load_context.h"
 #include "description/sensor.h"
-#include "description/table_coverage.h"
 #include "sensor/response/stokes_channels.h"
 
 namespace abbe::description {

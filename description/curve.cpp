@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "description/table_coverage.h"
+#include "description/load_context.h"
 #include "spectral/library.h"
 
 namespace abbe::spec {

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "description/table_coverage.h"
+#include "description/load_context.h"
 #include "io/schema/write.h"
 #include "spectral/colorimetry.h"
 #include "spectral/library.h"

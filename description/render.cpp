@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "description/render_limits.h"
 #include "description/value_ranges.h"
 
 namespace abbe::spec {

@@ -8,10 +8,6 @@
 #include <fmt/format.h>
 
 #include "description/load.h"
-#include "description/scene_schema.h"
-#include "importers/gltf/reader.h"
-#include "importers/mitsuba/reader.h"
-#include "importers/pbrt/reader.h"
 #include "importers/shared/materials.h"
 #include "importers/shared/scene_importer.h"
 #include "io/extension.h"

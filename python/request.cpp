@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "description/render_limits.h"
+#include "description/render.h"
 #include "io/error.h"
 
 namespace abbe::python {

@@ -8,7 +8,6 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "description/load.h"
-#include "description/scene_schema.h"
 #include "io/schema/help.h"
 #include "io/schema/keys.h"
 #include "io/schema/write.h"

@@ -1,5 +1,3 @@
-#include "importers/gltf/reader.h"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -14,10 +12,10 @@
 #include <fmt/format.h>
 
 #include "description/meshes/mesh_file.h"
-#include "importers/gltf/materials.h"
+#include "importers/gltf/document.h"
 #include "importers/shared/camera.h"
-#include "importers/shared/lights.h"
 #include "importers/shared/placement.h"
+#include "importers/shared/scene_importer.h"
 #include "sampling/angle.h"
 #include "spectral/colorimetry.h"
 

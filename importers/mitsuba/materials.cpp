@@ -8,21 +8,120 @@
 
 #include <fmt/format.h>
 
-#include "importers/mitsuba/media.h"
-#include "importers/mitsuba/named_indices.h"
+#include "importers/mitsuba/spectra.h"
 #include "importers/shared/materials.h"
-#include "importers/shared/picture.h"
 #include "io/text.h"
 #include "materials/interface/hemispherical.h"
 
 namespace abbe::importers::mitsuba {
 namespace {
 
+struct NamedIndex {
+  std::string_view name;  ///< Name in Mitsuba, in lower case.
+  double n;               ///< Refractive index relative to vacuum, the same at all wavelengths.
+};
+/// Mitsuba's dielectrics. Scene files may write their names in any case, so convert them to lower case first.
+constexpr std::array<NamedIndex, 23> kDielectrics{
+    {{"vacuum", 1},        {"helium", 1.000036},        {"hydrogen", 1.000132},
+     {"air", 1.000277},    {"carbon dioxide", 1.00045}, {"water", 1.333},
+     {"acetone", 1.36},    {"ethanol", 1.361},          {"carbon tetrachloride", 1.461},
+     {"glycerol", 1.4729}, {"benzene", 1.501},          {"silicone oil", 1.52045},
+     {"bromine", 1.661},   {"water ice", 1.31},         {"fused quartz", 1.458},
+     {"pyrex", 1.47},      {"acrylic glass", 1.49},     {"polypropylene", 1.49},
+     {"bk7", 1.5046},      {"sodium chloride", 1.544},  {"amber", 1.55},
+     {"pet", 1.575},       {"diamond", 2.419}}};
+
+/// A metal of Mitsuba for which Abbe ships a table.
+struct NamedMetal {
+  std::string_view source_name;  ///< Case-sensitive name in Mitsuba.
+  std::string_view table_name;   ///< Name of the table of n and k that Abbe ships.
+};
+/// All metals of Mitsuba for which Abbe ships a table.
+constexpr std::array<NamedMetal, 14> kMetals{{{"Ag", "Ag_Johnson"},
+                                              {"Al", "Al_Rakic"},
+                                              {"Au", "Au_Johnson"},
+                                              {"Be", "Be_Rakic-BB"},
+                                              {"Cr", "Cr_Johnson"},
+                                              {"Cu", "Cu_Johnson"},
+                                              {"Hg", "Hg_Inagaki"},
+                                              {"Ir", "Ir_Roberts"},
+                                              {"Mo", "Mo_Kirillova"},
+                                              {"Rh", "Rh_Weaver"},
+                                              {"TiN", "TiN_Pfluger"},
+                                              {"TiO2", "TiO2_Sarkar"},
+                                              {"V", "V_Johnson"},
+                                              {"W", "W_Weaver"}}};
+
 const std::vector<std::string> kMaterialTypes{
     "blendbsdf",      "bumpmap",    "conductor",      "dielectric",     "diffuse",         "hair",
     "mask",           "measured",   "normalmap",      "null",           "phong",           "plastic",
     "pplastic",       "principled", "principledthin", "roughconductor", "roughdielectric", "roughplastic",
     "thindielectric", "twosided"};
+
+using Phase = decltype(spec::Scattering::phase);
+
+Phase phase_of(const Object& medium, const ImportState& state) {
+  const auto phases = medium.all("phase");
+  if (phases.empty()) return std::nullopt;
+  const Object phase(*phases.front(), state);
+  if (phase.type() == "hg") return {{{spec::HenyeyGreenstein{phase.number("g", 0.8)}}, phase.where()}};
+  if (phase.type() == "rayleigh") return {{{spec::PhaseWord::rayleigh}, phase.where()}};
+  if (phase.type() != "isotropic")
+    state.importer.note(
+        phase.where(),
+        fmt::format("a phase function \"{}\" is not supported: isotropic scattering is used", phase.type()));
+  return std::nullopt;
+}
+
+// The product of a dimensionless factor and an extinction coefficient, each a number or a spectrum.
+spec::Curve product_of(const Spectrum& fraction, const Spectrum& extinction, const SourcePosition& where,
+                       const ImportState& state) {
+  if (const auto* number = std::get_if<double>(&fraction))
+    return curve_of(scaled(extinction, *number), where, state.importer);
+  if (const auto* number = std::get_if<double>(&extinction))
+    return curve_of(scaled(fraction, *number), where, state.importer);
+  spec::Curve curve;
+  curve.where = where;
+  const std::vector<spec::Curve> factors{curve_of(fraction, where, state.importer),
+                                         curve_of(extinction, where, state.importer)};
+  curve.value = spec::CurveFormula{spec::Product{{factors}}};
+  return curve;
+}
+
+// 1 - samples. It is 1 outside the range if the samples are 0 there.
+Samples one_minus(Samples fraction) {
+  for (double& value : fraction.values) value = 1 - value;
+  return extend_constant(std::move(fraction), 1);
+}
+
+// 1 - fraction.
+Spectrum one_minus(const Spectrum& fraction) {
+  if (const auto* rgb = std::get_if<LinearRgb>(&fraction))
+    return LinearRgb{1 - (*rgb)[0], 1 - (*rgb)[1], 1 - (*rgb)[2]};
+  if (const auto* samples = std::get_if<Samples>(&fraction)) return one_minus(*samples);
+  return 1 - number_of(fraction).value_or(0);
+}
+
+// Converts a homogeneous <medium>; its "sigma_t" is in 1/m. Other types of medium are noted and become empty,
+// without absorption and scattering. Unsupported phase functions are noted and become isotropic.
+spec::Medium medium_of(const Object& medium, const ImportState& state) {
+  spec::Medium result;
+  state.importer.note_medium(medium.where());
+  if (medium.type() != "homogeneous") {
+    state.importer.note(
+        medium.where(),
+        fmt::format("a medium \"{}\" is not supported: replaced by an empty one", medium.type()));
+    return result;
+  }
+  const Spectrum albedo = spectrum(medium, "albedo", 0.75, state);
+  const Spectrum extinction = scaled(spectrum(medium, "sigma_t", 1.0, state), medium.number("scale", 1));
+  result.absorption_per_m = product_of(one_minus(albedo), extinction, medium.where(), state);
+  result.scattering.per_m = product_of(albedo, extinction, medium.where(), state);
+  result.scattering.phase = phase_of(medium, state);
+  medium.ignore({"sample_emitters", "has_spectral_extinction"});
+  medium.note_unused();
+  return result;
+}
 
 constexpr std::string_view kGlass = "bk7";  // Default of dielectrics.
 

@@ -1,5 +1,3 @@
-#include "importers/mitsuba/reader.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -8,8 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "importers/mitsuba/lights.h"
-#include "importers/mitsuba/shapes.h"
+#include "importers/mitsuba/shapes_and_lights.h"
 #include "importers/shared/camera.h"
 #include "io/text.h"
 #include "sampling/angle.h"

@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include "importers/shared/picture.h"
-#include "importers/shared/spectrum_file.h"
+#include "importers/shared/materials.h"
+#include "importers/shared/spectra.h"
 #include "io/text.h"
 #include "spectral/colorimetry.h"
 

@@ -3,7 +3,7 @@
 #include <optional>
 #include <string>
 
-#include "importers/pbrt/import_state.h"
+#include "importers/pbrt/spectra.h"
 
 namespace abbe::importers::pbrt {
 

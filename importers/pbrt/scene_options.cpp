@@ -1,13 +1,15 @@
 #include "importers/pbrt/scene_options.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "importers/pbrt/named_spectra.h"
 #include "importers/shared/camera.h"
 #include "importers/shared/placement.h"
 #include "io/extension.h"
@@ -15,6 +17,16 @@
 
 namespace abbe::importers::pbrt {
 namespace {
+
+// Cameras of pbrt, case-sensitive, and their tables in `data/camera`. pbrt's other sensors have none.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kSensors{
+    {{"canon_eos_5d", "Canon_EOS_5D"},
+     {"canon_eos_5d_mkii", "Canon_EOS_5D_Mark_II"},
+     {"canon_eos_5d_mkiii", "Canon_EOS_5D_Mark_III"},
+     {"canon_eos_5d_mkiv", "Canon_EOS_5D_Mark_IV"},
+     {"nikon_d810", "Nikon_D810"},
+     {"nikon_d850", "Nikon_D850"},
+     {"sony_ilce_7m3", "Sony_ILCE-7M3"}}};
 
 constexpr double kMaxCount = 1e9;
 
@@ -27,12 +39,12 @@ int count(const Parameters& p, std::string_view name, int fallback, SceneImporte
 void set_counts(const Directive& film, spec::Sensor& sensor, SceneImporter& importer) {
   const Parameters& p = film.parameters;
   const std::string name = p.text("sensor", "cie1931", importer);
-  const auto camera = std::ranges::find(kSensors, name, &Renamed::source_name);
+  const auto camera = std::ranges::find(kSensors, name, &decltype(kSensors)::value_type::first);
   if (film.type == "spectral")
     sensor.counts =
         spec::Bins{p.number("lambdamin", 360, importer), p.number("lambdamax", 830, importer), 0, film.where};
   else if (camera != kSensors.end())
-    sensor.counts = spec::MeasuredCamera{{{std::string(camera->table_name)}, film.where}};
+    sensor.counts = spec::MeasuredCamera{{{std::string(camera->second)}, film.where}};
   else
     sensor.counts = spec::StandardObserver{{{Observer::cie1931}, film.where}};
   if (auto* bins = std::get_if<spec::Bins>(&sensor.counts))

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "importers/pbrt/import_state.h"
+#include "importers/pbrt/spectra.h"
 
 namespace abbe::importers::pbrt {
 

@@ -101,4 +101,44 @@ class OwnedReservation {
   std::size_t bytes_ = 0;
 };
 
+/// Adds a light to `importer.scene.lights`. `light_spec` is an alternative of `spec::Light::kind`. Throws
+/// Error{resource} if the memory limit of `importer.inputs` is exceeded.
+template <typename LightSpec>
+void append_light(LightSpec light_spec, const SourcePosition& where, SceneImporter& importer) {
+  importer.reserve_values(kValuesPerItem);
+  spec::Light light;
+  light.kind = std::move(light_spec);
+  light.where = where;
+  importer.scene.lights.push_back(std::move(light));
+}
+
+/// Falloff of a spot's intensity from 1 at an inner angle to 0 at an outer angle from its axis. At the angle
+/// a between them, let t = (cos a - cos outer)/(cos inner - cos outer). The intensity is
+/// - smooth_cosine: 3t^2 - 2t^3;
+/// - squared_cosine: t^2;
+/// - linear_angle: (outer - a)/(outer - inner).
+enum class Falloff { smooth_cosine, squared_cosine, linear_angle };
+
+/// Half angle [degrees] of a cone with a hard edge and the same flux as a spot of the same axial intensity.
+/// The spot has full intensity up to `inner_deg` and none from `outer_deg` on. The replacement is noted at
+/// `where`. Returns `outer_deg`, without a note, if `inner_deg` is not smaller.
+[[nodiscard]] double hard_cone(double inner_deg, double outer_deg, Falloff falloff,
+                               const SourcePosition& where, SceneImporter& importer);
+
+// Readers of scene files, one per format. Each fills `importer.scene`. It reports malformed, unknown and
+// missing data to `importer.diagnostics`, and notes what is approximated or dropped. It returns false if the
+// diagnostics have an error.
+
+/// Reads a glTF 2.0 or GLB file, in metres:
+/// - the meshes of the default scene, or of the first scene, as one shape per material;
+/// - the first perspective camera or, without one, the first camera;
+/// - a camera that sees all meshes along -z if the file has none;
+/// - the lights of KHR_lights_punctual.
+bool read_gltf_scene(const std::filesystem::path& file, SceneImporter& importer);
+/// Reads a scene file of Mitsuba 3; its unit of length counts as a metre.
+bool read_mitsuba(const std::filesystem::path& file, SceneImporter& importer);
+/// Reads a scene file of pbrt-v4; its unit of length counts as a metre. Stops at errors after which the
+/// syntax is ambiguous.
+bool read_pbrt(const std::filesystem::path& file, SceneImporter& importer);
+
 }  // namespace abbe::importers

@@ -5,11 +5,14 @@
 #include <functional>
 #include <limits>
 #include <numeric>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "importers/shared/picture.h"
+#include "importers/shared/materials.h"
+#include "io/text.h"
 #include "spectral/colorimetry.h"
 #include "spectral/library.h"
 
@@ -116,6 +119,16 @@ ImportedLightSpectrum coloured_light(const LinearRgb& rgb, double y, const Sourc
                                          curve(table_of(samples_of(rgb), where, importer), where)};
   light.emission.spectrum = spectrum(curve(spec::CurveFormula{spec::Product{{factors}}}, where));
   return light;
+}
+
+std::vector<std::string> words_of(std::string line) {
+  line.resize(std::min(line.find('#'), line.size()));
+  std::ranges::replace_if(
+      line, [](char c) { return c == '\t' || c == '\r' || c == ','; }, ' ');
+  std::vector<std::string> words;
+  for (std::string& word : split(line, ' '))
+    if (!word.empty()) words.push_back(std::move(word));
+  return words;
 }
 
 }  // namespace
@@ -301,6 +314,30 @@ ImportedLightSpectrum absolute_light_spectrum_of(const Spectrum& given, double f
   else
     light.emission.spectrum = spectrum(curve_of(scaled(given, factor), where, importer));
   return light;
+}
+
+std::optional<Samples> read_spectrum_file(const std::filesystem::path& file, const SourcePosition& where,
+                                          SceneImporter& importer) {
+  if (!importer.check_file(file, where)) return std::nullopt;
+  const auto source = importer.read(file);
+  if (!source) return std::nullopt;
+  Samples samples;
+  for (std::size_t from = 0; from < source->text.size();) {
+    const std::size_t end = std::min(source->text.find('\n', from), source->text.size());
+    const std::vector<std::string> words = words_of(source->text.substr(from, end - from));
+    const auto nm = words.size() == 2 ? parse_number(words[0]) : std::nullopt;
+    const auto value = nm ? parse_number(words[1]) : std::nullopt;
+    if (value) {
+      samples.nm.push_back(*nm);
+      samples.values.push_back(*value);
+    } else if (!words.empty()) {
+      importer.diagnostics.error({source, from, ""}, "expected a wavelength and a value", ErrorCode::input);
+      return std::nullopt;
+    }
+    from = end + 1;
+  }
+  if (!check_samples(samples, {source, 0, ""}, importer)) return std::nullopt;
+  return samples;
 }
 
 }  // namespace abbe::importers

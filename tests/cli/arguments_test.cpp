@@ -13,7 +13,7 @@
 
 #include "cli/commands.h"
 #include "cli/usage.h"
-#include "description/render_limits.h"
+#include "description/render.h"
 
 namespace abbe::cli {
 namespace {

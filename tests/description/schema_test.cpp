@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include "description.h"
+#include "description/load.h"
 #include "description/scene.h"
-#include "description/scene_schema.h"
 #include "io/data_directory.h"
 #include "io/schema/help.h"
 #include "io/schema/keys.h"

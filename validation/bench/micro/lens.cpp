@@ -1,6 +1,6 @@
 #include <benchmark/benchmark.h>
 
-#include "description/load_lens.h"
+#include "description/lens_files.h"
 #include "lens/beam.h"
 #include "lens/spectral_system.h"
 #include "validation/bench/micro/inputs.h"
