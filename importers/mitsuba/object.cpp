@@ -150,10 +150,10 @@ class XmlReader {
 using Imath::M44d;
 using Imath::V3d;
 
+// The number of an attribute. Reports an absent, empty or malformed one, and returns `fallback`.
 double number_attribute(const Element& element, std::string_view name, double fallback,
                         const ImportState& state) {
   const std::string& text = element[name];
-  if (text.empty()) return fallback;
   const auto number = parse_number(split(text, '\n').front());
   if (!number)
     state.importer.diagnostics.error(
@@ -166,7 +166,7 @@ double number_attribute(const Element& element, std::string_view name, double fa
 std::optional<M44d> look_at(const Element& element, const ImportState& state) {
   const auto three = [&](std::string_view name, const V3d& fallback) {
     const auto numbers = numbers_of(element[name]);
-    if (!numbers || (numbers->size() != 3 && !element[name].empty()))
+    if (element.has(name) && (!numbers || numbers->size() != 3))
       state.importer.diagnostics.error(element.where,
                                        fmt::format("expected three numbers as \"{}\" of <lookat> (got "
                                                    "\"{}\")",
@@ -228,6 +228,10 @@ const std::string& Element::operator[](std::string_view name) const {
   return kEmpty;
 }
 
+bool Element::has(std::string_view name) const {
+  return std::ranges::find(attributes, name, &std::pair<std::string, std::string>::first) != attributes.end();
+}
+
 std::optional<Element> read_xml(const std::filesystem::path& file, SceneImporter& importer) {
   Element root;
   if (!XmlReader(file.parent_path(), importer).read(file, root, 0)) return std::nullopt;
@@ -249,11 +253,12 @@ std::optional<std::vector<double>> numbers_of(const std::string& text) {
 }
 
 V3d vector_of(const Element& element, const V3d& fallback, const ImportState& state) {
+  const auto coordinate = [&](std::string_view name, double otherwise) {
+    return element.has(name) ? number_attribute(element, name, otherwise, state) : otherwise;
+  };
+  if (!element.has("value"))
+    return {coordinate("x", fallback.x), coordinate("y", fallback.y), coordinate("z", fallback.z)};
   const std::string& value = element["value"];
-  if (value.empty())
-    return {number_attribute(element, "x", fallback.x, state),
-            number_attribute(element, "y", fallback.y, state),
-            number_attribute(element, "z", fallback.z, state)};
   const auto numbers = numbers_of(value);
   if (numbers && numbers->size() == 1) return V3d(numbers->front());
   if (numbers && numbers->size() == 3) return {(*numbers)[0], (*numbers)[1], (*numbers)[2]};

@@ -30,6 +30,8 @@ struct Element {
 
   /// Value of the attribute called `name`; empty if absent.
   [[nodiscard]] const std::string& operator[](std::string_view name) const;
+  /// True if there is an attribute called `name`.
+  [[nodiscard]] bool has(std::string_view name) const;
 };
 
 /// Reads a file and returns its root. Included files replace their <include>; `$name` in attributes is
@@ -77,7 +79,7 @@ class Object {
   [[nodiscard]] bool has(std::string_view name) const;
   /// Position of the property called `name`, or of the object if there is none.
   [[nodiscard]] const SourcePosition& position_of(std::string_view name) const;
-  // Properties of one type; `fallback` if absent. Malformed values and other tags are reported, and
+  // Properties of one type; `fallback` if absent. Malformed or empty values and other tags are reported, and
   // `fallback` is returned.
   /// A <float> or an <integer>.
   [[nodiscard]] double number(std::string_view name, double fallback) const;
@@ -103,8 +105,8 @@ class Object {
 };
 
 /// A vector from the attribute `value`, which has three numbers, or one for all coordinates. Without it, from
-/// the attributes x, y and z; an absent one has its coordinate of `fallback`. Malformed numbers are reported
-/// and replaced by `fallback`.
+/// the attributes x, y and z; an absent one has its coordinate of `fallback`. Malformed and empty numbers are
+/// reported and replaced by `fallback`.
 [[nodiscard]] Imath::V3d vector_of(const Element& element, const Imath::V3d& fallback,
                                    const ImportState& state);
 /// The numbers of a text, separated by blanks, line breaks or commas; empty for an empty text. Nothing,

@@ -59,6 +59,13 @@ double luminance_of(const LinearRgb& rgb) {
   return tristimulus(d65->curve, rgb_spectrum(rgb), Observer::cie1931)[1] / 100;
 }
 
+spec::Curve scaled_curve(spec::Curve given, double factor) {
+  if (factor == 1) return given;
+  const SourcePosition where = given.where;
+  return curve(spec::CurveFormula{spec::Scaled{factor, std::make_shared<spec::Curve>(std::move(given))}},
+               where);
+}
+
 spec::Spectrum spectrum(spec::Curve curve) {
   spec::Spectrum result;
   static_cast<spec::Curve&>(result) = std::move(curve);
@@ -169,13 +176,10 @@ spec::Curve curve_of(const Spectrum& given, const SourcePosition& where, SceneIm
         return curve(table_of(samples_of(rgb), where, importer), where);
       },
       [&](const Samples& samples) { return curve(table_of(samples, where, importer), where); },
-      [&](const Temperature& body) { return curve(spec::CurveFormula{spec::Blackbody{{body.K}}}, where); },
-      [&](const ShippedTable& table) {
-        spec::Curve named = curve(table.name, where);
-        if (table.factor == 1) return named;
-        return curve(spec::CurveFormula{spec::Scaled{table.factor, std::make_shared<spec::Curve>(named)}},
-                     where);
-      }};
+      [&](const Temperature& body) {
+        return scaled_curve(curve(spec::CurveFormula{spec::Blackbody{{body.K}}}, where), body.factor);
+      },
+      [&](const ShippedTable& table) { return scaled_curve(curve(table.name, where), table.factor); }};
   return std::visit(cases, given);
 }
 
@@ -248,7 +252,9 @@ Spectrum scaled(Spectrum spectrum, double factor) {
                       for (double& value : samples.values) value *= factor;
                       return samples;
                     },
-                    [&](const Temperature& body) -> Spectrum { return body; },
+                    [&](const Temperature& body) -> Spectrum {
+                      return Temperature{body.K, body.factor * factor};
+                    },
                     [&](ShippedTable table) -> Spectrum {
                       table.factor *= factor;
                       return table;
@@ -304,13 +310,8 @@ ImportedLightSpectrum absolute_light_spectrum_of(const Spectrum& given, double f
   if (std::holds_alternative<LinearRgb>(given)) return light_spectrum_of(given, y, where, importer);
   ImportedLightSpectrum light;
   const auto* body = std::get_if<Temperature>(&given);
-  if (body != nullptr && factor == 1)
+  if (body != nullptr && body->factor * factor == 1)
     light.emission.spectrum = spec::Blackbody{{body->K}};
-  else if (body != nullptr)
-    light.emission.spectrum =
-        spectrum(curve(spec::CurveFormula{spec::Scaled{
-                           factor, std::make_shared<spec::Curve>(curve_of(given, where, importer))}},
-                       where));
   else
     light.emission.spectrum = spectrum(curve_of(scaled(given, factor), where, importer));
   return light;

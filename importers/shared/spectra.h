@@ -21,9 +21,10 @@ struct Samples {
   std::vector<double> values;        ///< One value per wavelength, in the unit of the use.
   Outside outside = Outside::clamp;  ///< Values outside the wavelengths: those of the ends, or 0.
 };
-/// Temperature of a black body, whose spectrum is Planck's spectral radiance.
+/// Temperature of a black body, whose spectrum is Planck's spectral radiance times a factor.
 struct Temperature {
   double K = 0;
+  double factor = 1;
 };
 /// A shipped illuminant times a factor.
 struct ShippedTable {
@@ -46,7 +47,7 @@ using TextureValue = std::variant<Spectrum, spec::Texture>;
 [[nodiscard]] Samples samples_of(const LinearRgb& rgb);
 /// Converts a spectrum to a curve with the same values. A grey colour becomes a constant; any other colour
 /// becomes a smooth spectrum with that colour under D65 (`rgb_spectrum`), which is noted. A temperature
-/// becomes Planck's spectral radiance [W/(m2 sr nm)]. Reports no errors.
+/// becomes Planck's spectral radiance [W/(m2 sr nm)] times its factor. Reports no errors.
 [[nodiscard]] spec::Curve curve_of(const Spectrum& spectrum, const SourcePosition& where,
                                    SceneImporter& importer);
 /// The texture of a colour image. If `linear`, integer codes are taken as linear instead of sRGB: the
@@ -67,7 +68,7 @@ using TextureValue = std::variant<Spectrum, spec::Texture>;
                                                          const std::function<double(double)>& function,
                                                          const SourcePosition& where,
                                                          SceneImporter& importer);
-/// The spectrum times a factor. A temperature cannot carry a factor and is returned unchanged.
+/// The spectrum times a factor.
 [[nodiscard]] Spectrum scaled(Spectrum spectrum, double factor);
 /// A single number for a spectrum: the value at 589.3 nm for samples, the mean of the components for colours.
 /// Nothing, without an error, for a temperature or a shipped table.
@@ -92,7 +93,7 @@ struct ImportedLightSpectrum {
 /// - A colour is D65 times its smooth spectrum. `y` belongs to (1, 1, 1); other colours give their luminance
 ///   relative to it.
 /// - A number is the equal-energy spectrum E, whatever its value.
-/// - The factor of a shipped table has no effect.
+/// - The factor of a temperature or a shipped table has no effect.
 /// Throws Error{input} if the table of D65 cannot be read, for a colour that is not grey.
 [[nodiscard]] ImportedLightSpectrum light_spectrum_of(const Spectrum& spectrum, double y,
                                                       const SourcePosition& where, SceneImporter& importer);
