@@ -106,9 +106,18 @@ class Reader {
   void x_fields(const Line& line);
   void y_fields(const Line& line);
   void wavelength(const Line& line);
-  void primary(const Line& line);
+  void primary(const Line& line) {
+    if (const auto number = line.positive(1, diagnostics_)) {
+      primary_ = static_cast<int>(*number);
+      primary_line_ = line;
+    }
+  }
   void vignetting(const Line& line);
-  void configurations(const Line& line);
+  void configurations(const Line& line) {
+    if (line.numbers(1).size() > 0 && line.numbers(1)[0] > 1)
+      error(line, 1,
+            fmt::format("lenses of several configurations are not supported (got {:g})", line.numbers(1)[0]));
+  }
 
   void surface(const Line& line);
   void type(const Line& line);
@@ -124,7 +133,11 @@ class Reader {
   void diameter(const Line& line);
   void clear_aperture(const Line& line);
   void floating_aperture(const Line&) { current().fixed = true; }
-  void coating(const Line& line);
+  void coating(const Line& line) {
+    diagnostics_.warning(line.where(1),
+                         fmt::format("the coating {} is ignored, because its layers are in another file",
+                                     line.text(1).value_or("")));
+  }
 
   ReadSurface& current() { return surfaces_.back(); }
   [[nodiscard]] bool is_object() const { return surfaces_.size() == 1; }
@@ -352,13 +365,6 @@ void Reader::wavelength(const Line& line) {
   if (weight) wavelengths_[static_cast<int>(*number)] = {*um * 1000, *weight, line.where(3)};
 }
 
-void Reader::primary(const Line& line) {
-  if (const auto number = line.positive(1, diagnostics_)) {
-    primary_ = static_cast<int>(*number);
-    primary_line_ = line;
-  }
-}
-
 void Reader::vignetting(const Line& line) {
   const std::vector<double> values = line.numbers(1);
   const auto used = std::find_if(values.begin(), values.end(), [](double v) { return v != 0; });
@@ -366,12 +372,6 @@ void Reader::vignetting(const Line& line) {
     diagnostics_.warning(
         line.where(1), fmt::format("the vignetting factors of {} are ignored: only clear apertures vignette",
                                    line.keyword()));
-}
-
-void Reader::configurations(const Line& line) {
-  if (line.numbers(1).size() > 0 && line.numbers(1)[0] > 1)
-    error(line, 1,
-          fmt::format("lenses of several configurations are not supported (got {:g})", line.numbers(1)[0]));
 }
 
 void Reader::require_angles() {
@@ -575,12 +575,6 @@ void Reader::clear_aperture(const Line& line) {
   const auto outer = line.positive(2, diagnostics_);
   if (inner && *inner != 0) error(line, 1, "apertures with a hole are not supported");
   if (outer) current().surface.aperture = *outer;
-}
-
-void Reader::coating(const Line& line) {
-  diagnostics_.warning(line.where(1),
-                       fmt::format("the coating {} is ignored, because its layers are in another file",
-                                   line.text(1).value_or("")));
 }
 
 spec::LensSurface Reader::finished(const ReadSurface& read) const {
