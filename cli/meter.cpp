@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
-#include "cli/interrupt.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
 #include "cli/warnings.h"

@@ -12,7 +12,6 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/commands.h"
-#include "cli/usage.h"
 #include "description/render_limits.h"
 
 namespace abbe::cli {

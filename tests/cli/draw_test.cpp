@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/draw.h"
 #include "cli/query.h"
-#include "cli/trace.h"
+#include "cli/rays.h"
 #include "description/load.h"
 #include "io/data_directory.h"
 #include "report/layout.h"

@@ -1,8 +1,9 @@
-#include "cli/bench.h"
+#include "cli/validation.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -10,12 +11,15 @@
 #include "cli/answer.h"
 #include "cli/arguments.h"
 #include "cli/output_files.h"
+#include "io/atomic_file.h"
 #include "io/text.h"
 #include "validation/bench/report.h"
 #include "validation/bench/scale.h"
 #include "validation/bench/soak/soak.h"
+#include "validation/report/report.h"
 
 namespace abbe::cli {
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -118,6 +122,14 @@ bool is_regression(const Change& change) {
   return regressed(change.cpu_per_path) || regressed(change.rel_mse);
 }
 
+void require_folder(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  std::filesystem::create_directories(folder, ignored);
+  const std::array files{folder / "report.html", folder / "report.json"};
+  for (const std::filesystem::path& file : files) require_writable(file);
+  require_distinct(files, {});
+}
+
 }  // namespace
 
 std::vector<int> parse_sample_counts(const std::string& option, const std::string& text) {
@@ -159,6 +171,31 @@ int bench(const BenchOptions& options) {
   fmt::print("{}", options.json ? json_text(report) : readable_text(report));
   const bool regressed = std::any_of(report.changes.begin(), report.changes.end(), is_regression);
   return options.strict && regressed ? 1 : 0;
+}
+
+std::vector<Suite> parse_suites(const std::string& option, const std::string& text) {
+  const std::vector<std::string> names(kSuiteNames.begin(), kSuiteNames.end());
+  std::vector<Suite> suites;
+  for (const std::string& piece : split(text, ',')) {
+    const auto name = std::find(names.begin(), names.end(), piece);
+    if (name == names.end()) throw Error(ErrorCode::usage, option, unknown_name("suite", piece, names));
+    suites.push_back(static_cast<Suite>(name - names.begin()));
+  }
+  return suites;
+}
+
+int validate(const ValidateOptions& options) {
+  const bool written = !options.output.empty();
+  if (written) require_folder(options.output);
+  const ValidationReport report =
+      abbe::validate({options.suites, options.quick, written && options.suites.empty(), options.threads,
+                      ABBE_VERSION, print_message});
+  if (written) {
+    write_atomically(options.output / "report.html", html_text(report));
+    write_atomically(options.output / "report.json", json_text(report));
+  }
+  fmt::print("{}", options.json ? json_text(report) : readable_text(report));
+  return report.failures() > 0 ? 1 : 0;
 }
 
 }  // namespace abbe::cli

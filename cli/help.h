@@ -25,10 +25,7 @@ struct CommandUsage {
 enum class ReferenceFormat { markdown, man, bash };
 
 /// Reference of a program and all its subcommands: a page in Markdown, a manual page in troff's man macros,
-/// or a completion script for bash.
-[[nodiscard]] std::string reference(const CommandUsage& program, ReferenceFormat format);
-
-/// Completion script for bash. The placeholder of a value determines its completions:
+/// or a completion script for bash. In the script, the placeholder of a value determines its completions:
 /// - `a|b`: these words;
 /// - SCENE, FILE.ext and FILE.ext|FILE.ext: files, any number of them if followed by ...;
 /// - FOLDER: folders;
@@ -36,6 +33,14 @@ enum class ReferenceFormat { markdown, man, bash };
 /// - KEY: the keys of scene files;
 /// - KIND: the kinds of `query --list`;
 /// - a kind in capitals (MATERIAL): the names of that kind.
-[[nodiscard]] std::string bash_completion(const CommandUsage& program);
+[[nodiscard]] std::string reference(const CommandUsage& program, ReferenceFormat format);
+
+/// Text of `abbe help slurm`: all documented jobs for Slurm under their names if `name` is empty, otherwise
+/// the exact bytes of the named job. Throws Error{usage} for an unknown name.
+[[nodiscard]] std::string slurm_help(const std::string& name);
+
+/// Text of `abbe --version`, one fact per line: the version, the tables in use and their hash, the compiler,
+/// and the libraries. Throws Error{input} if there are no tables.
+[[nodiscard]] std::string version_text();
 
 }  // namespace abbe::cli
