@@ -9,11 +9,11 @@
 
 #include <fmt/format.h>
 
+#include "io/error.h"
 #include "io/invalid_input.h"
 #include "report/svg.h"
 
 namespace abbe::cli {
-
 namespace {
 
 // Text of a value. Null and numbers that are not finite become "-".
@@ -115,6 +115,12 @@ void print_message(const std::string& message) {
   print_to_stderr(fmt::format("abbe: {}\n", message));
 }
 
+void warn(const std::optional<std::string>& warning, bool strict) {
+  if (!warning) return;
+  if (strict) throw Error(ErrorCode::scene, "", *warning);
+  print_message("warning: " + *warning);
+}
+
 void check(const Diagnostics& diagnostics) {
   require_no_errors(diagnostics);
   print_to_stderr(diagnostics.text());
@@ -132,10 +138,6 @@ std::string table_cell(const Json& value) {
   return value.is_string() ? escaped(value.get<std::string>())
          : value.is_null() ? "\u2013"
                            : escaped(value.dump());
-}
-
-std::string inline_svg(const std::string& document) {
-  return document.substr(document.find("<svg"));
 }
 
 }  // namespace abbe::cli

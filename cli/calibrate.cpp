@@ -22,7 +22,6 @@
 #include "spectral/library.h"
 
 namespace abbe::cli {
-
 namespace {
 
 namespace fs = std::filesystem;

@@ -11,11 +11,10 @@
 #include "cli/answer.h"
 #include "cli/sensor_measurements.h"
 #include "report/display_color.h"
-#include "report/line_plot.h"
+#include "report/plot.h"
 #include "report/svg.h"
 
 namespace abbe::cli {
-
 namespace {
 
 Json json_of(const Interval& interval) {

@@ -24,7 +24,6 @@
 #include "io/schema/help.h"
 
 namespace abbe::cli {
-
 namespace {
 
 // Error text for an empty value.

@@ -24,7 +24,7 @@
 #include "io/extension.h"
 #include "io/file_lock.h"
 #include "io/picture.h"
-#include "report/polarisation_maps.h"
+#include "report/maps.h"
 #include "results/relit_white.h"
 #include "results/spectral.h"
 #include "results/white.h"
@@ -235,7 +235,7 @@ Json json_of(const FilmSensor& sensor, const Report& report) {
   Json answer;
   answer["planes"] = sensor.planes;
   for (const PlaneFigures& plane : planes) {
-    const Json render_error = plane.render_error ? Json(*plane.render_error) : Json();
+    const Json render_error = or_null(plane.render_error);
     if (!sensor.readout) {
       answer["mean"].push_back(plane.mean);
       answer["render_error"].push_back(render_error);
@@ -279,9 +279,8 @@ void set_field(FilmSensor& sensor, const DevelopOptions& options) {
       options.outputs.empty() ? "--field balances pictures over the field"
                               : "--field balances pictures over the field, and raw files need a flat field";
   const double shift = neutral_shift(*sensor.white_field, sensor.display->to_xyz_d65());
-  const auto warning = field_tint_warning(shift, remedy);
   const bool is_flat = options.flattens_field && options.outputs.empty();
-  if (warning && !is_flat) print_message("warning: " + *warning);
+  if (!is_flat) warn(field_tint_warning(shift, remedy));
 }
 
 // Adds the lights of --profile to the sensor of a DNG.
@@ -388,8 +387,7 @@ int develop(const DevelopOptions& options) {
   apply_exposure(exposed, options, warnings);
   if (!options.frame) check(warnings);  // calibration frames do not contain the scene
   set_field(exposed.sensor, options);
-  if (const auto dark = wants_raw ? unequal_dark_signals_warning(sensor) : std::nullopt)
-    print_message("warning: " + *dark);
+  if (wants_raw) warn(unequal_dark_signals_warning(sensor));
 
   // At most three further planes exist for each plane of the film and of its variance.
   inputs.reserve_memory("developing", 3 * exposed.film.memory_bytes());

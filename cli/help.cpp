@@ -18,7 +18,6 @@
 #include "slurm_files.h"
 
 namespace abbe::cli {
-
 namespace {
 
 constexpr std::array<std::pair<std::string_view, std::string_view>, 11> kExitCodes{{

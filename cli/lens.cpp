@@ -11,13 +11,10 @@
 #include "description/load_lens.h"
 #include "io/atomic_file.h"
 #include "io/extension.h"
-#include "report/lens_drawing.h"
-#include "report/lens_figures.h"
-#include "report/lens_plots.h"
+#include "report/lens_report.h"
 #include "report/svg.h"
 
 namespace abbe::cli {
-
 namespace {
 
 using lens::FirstOrder;
@@ -305,7 +302,7 @@ int lens(const LensOptions& options) {
   Inputs inputs;
   const lens::System system = load(options, inputs);
   require_distinct(std::array{options.html, options.drawing}, inputs.files());
-  const LensFigures figures = lens_figures(system, {.frequencies_per_mm = options.frequencies_per_mm});
+  const LensFigures figures = lens_figures(system, options.frequencies_per_mm);
   if (!options.html.empty()) write_atomically(options.html, lens_page(figures));
   if (!options.drawing.empty()) write_atomically(options.drawing, lens_drawing(figures));
   if (options.json)

@@ -114,7 +114,7 @@ Measurement measure_image(const fs::path& file, const ChartToMeasure& chart,
                           const std::optional<LinearImage>& flat, const MeasureOptions& options,
                           Inputs& inputs) {
   LinearImage linear = read_linear_image(file, &inputs);
-  for (const std::string& warning : linear.warnings) print_message("warning: " + warning);
+  for (const std::string& warning : linear.warnings) warn(warning);
   Measurement measured{file, linear.channels, linear.unit, {}, {}, linear.saturation};
   try {
     const std::vector<PatchOutline> outlines = outlines_in(linear, chart, options, measured);
@@ -199,7 +199,7 @@ Json json_of(const Measurement& measured) {
     for (const PatchChannel& channel : patch.channels) {
       answer["pixels"].push_back(channel.pixels);
       answer["mean"].push_back(channel.mean);
-      answer["deviation"].push_back(channel.deviation ? Json(*channel.deviation) : Json());
+      answer["deviation"].push_back(or_null(channel.deviation));
       answer["saturated"].push_back(channel.saturated);
     }
     patches.push_back(std::move(answer));

@@ -13,7 +13,6 @@
 #include "results/scene_warnings.h"
 
 namespace abbe::cli {
-
 namespace {
 
 constexpr std::size_t kMaxBarWidth = 30;

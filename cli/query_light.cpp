@@ -16,7 +16,7 @@
 #include "io/extension.h"
 #include "io/spectral_exr.h"
 #include "io/text.h"
-#include "report/color_vector.h"
+#include "report/plot.h"
 #include "sensor/response/table_range.h"
 #include "spectral/color_temperature.h"
 #include "spectral/curve_use.h"

@@ -1,13 +1,13 @@
 #include "cli/rays.h"
 
 #include <array>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "cli/answer.h"
 #include "cli/output_files.h"
-#include "cli/warnings.h"
 #include "description/load.h"
 #include "io/atomic_file.h"
 #include "io/extension.h"
@@ -16,7 +16,6 @@
 #include "report/light_rays.h"
 
 namespace abbe::cli {
-
 namespace {
 
 Json list(const Imath::V3d& v) {
@@ -182,7 +181,34 @@ std::vector<BasicRay<double>> rays_of(const Scene& scene, const DrawOptions& opt
   return rays;
 }
 
+// Warning for the first extrapolated index on the path of a ray of this wavelength [nm]; empty if there is
+// none.
+std::optional<std::string> extrapolated_index_warning(const Scene& scene, const RayTree& tree,
+                                                      double wavelength_nm) {
+  for (const RayBranch& branch : tree.branches)
+    for (const TraceEvent& event : branch.trace.events) {
+      if (!event.passage) continue;
+      const Material& material = material_of(scene, event.shape);
+      if (auto warning = extrapolated_index_warning(material, wavelength_nm)) return warning;
+    }
+  return std::nullopt;
+}
+
 }  // namespace
+
+std::optional<std::string> extrapolated_index_warning(const Material& material, double wavelength_nm) {
+  const auto warning = [&](std::string_view quantity, const DataRange& data) {
+    return fmt::format("the {} of material \"{}\" is extrapolated from the end of its data, [{:g}, {:g}] nm",
+                       quantity, material.name, data.low_nm, data.high_nm);
+  };
+  for (const IndexUse& use : indices(material)) {
+    const DataRange n{use.index->low_nm(), use.index->high_nm()};
+    if (!n.contains(wavelength_nm)) return warning("index", n);
+    const auto& k = use.index->k_range();
+    if (k && !k->contains(wavelength_nm)) return warning("extinction", *k);
+  }
+  return std::nullopt;
+}
 
 int trace(const TraceOptions& options) {
   Diagnostics diagnostics;
@@ -197,8 +223,7 @@ int trace(const TraceOptions& options) {
     print(answer, true);
   else
     print_readable(answer);
-  if (const auto warning = extrapolated_index_warning(scene, tree, options.wavelength_nm))
-    print_message("warning: " + *warning);
+  warn(extrapolated_index_warning(scene, tree, options.wavelength_nm));
   warn_cut(tree, options, limits);
   return 0;
 }
@@ -224,7 +249,7 @@ int draw(const DrawOptions& options) {
     }
   const std::string name = options.scene == kStandardStream ? "stdin" : options.scene.filename().string();
   write_atomically(options.output, layout_drawing(scene, drawn, name));
-  if (warning) print_message("warning: " + *warning);
+  warn(warning);
   return 0;
 }
 

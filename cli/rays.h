@@ -9,6 +9,7 @@
 
 #include "description/load.h"
 #include "io/inputs.h"
+#include "scene/scene.h"
 #include "transport/path/ray_trace.h"
 
 namespace abbe::cli {
@@ -58,5 +59,10 @@ struct DrawOptions {
 /// another extension than .svg and for a zero direction, InvalidInput for an invalid scene, Error{output} if
 /// the drawing cannot be written.
 int draw(const DrawOptions& options);
+
+/// Warning for a material whose index or extinction is extrapolated at a wavelength [nm]; empty if neither
+/// is.
+[[nodiscard]] std::optional<std::string> extrapolated_index_warning(const Material& material,
+                                                                    double wavelength_nm);
 
 }  // namespace abbe::cli

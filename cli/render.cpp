@@ -21,7 +21,6 @@
 #include "cli/output_files.h"
 #include "cli/progress.h"
 #include "cli/scene_file.h"
-#include "cli/warnings.h"
 #include "develop/film_file.h"
 #include "io/atomic_file.h"
 #include "io/data_directory.h"
@@ -45,10 +44,9 @@
 #include "transport/render/part.h"
 #include "transport/render/sample_ranges.h"
 #include "transport/render/threads.h"
-#include "validation/statistics/students_interval.h"
+#include "validation/statistics.h"
 
 namespace abbe::cli {
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -137,13 +135,13 @@ std::string stats_text(const Scene& scene, const RenderResult& result, const Cos
   answer["relative_error"] = stats.error.median;
   answer["relative_error_p95"] = stats.error.p95;
   answer["frame_mean_error"] = stats.error.frame_mean;
-  answer["half_noise_samples"] = stats.error.few_samples ? Json(*stats.error.few_samples) : Json();
+  answer["half_noise_samples"] = or_null(stats.error.few_samples);
   answer["hidden_noise"] = stats.error.hidden_noise > 0 ? Json(stats.error.hidden_noise) : Json();
   answer["nonfinite_samples"] = stats.nonfinite_samples;
   answer["cut_paths"] = stats.cut.paths;
   answer["cut_throughput"] = stats.cut.throughput();
   answer["film"] = film_figures(scene, result.film);
-  answer[kDisplayExposureKey] = display_white ? Json(*display_white) : Json();
+  answer[kDisplayExposureKey] = or_null(display_white);
   answer["version"] = ABBE_VERSION;
   answer["seed"] = scene.render.seed;
   answer["scene_sha256"] = scene.sha256;
@@ -412,7 +410,7 @@ void open_viewers(LiveViewers& viewers, const Scene& scene, const RenderOptions&
   if (options.tev) {
     inputs.reserve_memory("the viewer", bytes);
     viewers.tev.emplace(scene, identity(), *options.tev, threads,
-                        [](const std::string& warning) { print_message("warning: " + warning); });
+                        [](const std::string& warning) { warn(warning); });
   }
 }
 
@@ -500,7 +498,7 @@ void report_results(const RenderOptions& options, const fs::path& film, const Sc
   if (options.target_error && !options.time_limit_s && !stats.interrupted &&
       !std::isfinite(stats.error.median))
     print_message("warning: a pilot found no light on the film: --error has no effect");
-  for (const std::string& warning : render_warnings(scene, result)) print_message("warning: " + warning);
+  for (const std::string& warning : render_warnings(scene, result)) warn(warning);
 }
 
 }  // namespace
@@ -562,13 +560,13 @@ int render(const RenderOptions& options) {
   if (picture_settings) require_distinct(files_of(outputs, options), picture_settings->display.files());
   if (options.explain) print_to_stderr(describe(scene, choice));
   if (!options.quiet) note_polarisation(scene);
-  warn_of_ignored_polarisation(scene, options.strict);
-  warn_of_dark_camera(scene, options.strict);
-  warn_of_hidden_sheet(scene, options.strict);
-  warn_of_hidden_light(scene, options.strict);
-  warn_of_unsampled_light(scene, options.strict && !chooses_integrator);
-  warn_of_undertrained_guides(choice.guides.get());
-  warn_of_unused_settings(scene);
+  warn(ignored_polarisation_warning(scene), options.strict);
+  warn(dark_camera_warning(scene), options.strict);
+  warn(hidden_sheet_warning(scene), options.strict);
+  warn(hidden_light_warning(scene), options.strict);
+  warn(unsampled_light_warning(scene), options.strict && !chooses_integrator);
+  warn(undertrained_warning(choice.guides.get()));
+  warn(unused_settings_warning(scene));
 
   inputs.reserve_memory("the film", film_bytes(scene, make_render_options(options, scene)));
   inputs.reserve_memory("the light subpaths of a sample", bytes_of_light_paths(scene));

@@ -30,6 +30,9 @@ int info(const InfoOptions& options);
 /// `choose_integrator`. Traces pilot rays with one thread per processor.
 [[nodiscard]] std::string describe(const Scene& scene, const IntegratorChoice& choice);
 
+/// Prints a note on the error of the image if the scene turns polarisation off and has paths that it affects.
+void note_polarisation(const Scene& scene);
+
 /// Options of `abbe convert`.
 struct ConvertOptions {
   std::filesystem::path scene;  ///< Scene file; "-" is standard input.

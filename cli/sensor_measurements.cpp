@@ -22,8 +22,7 @@
 #include "io/error.h"
 #include "io/extension.h"
 #include "io/text.h"
-#include "report/line_plot.h"
-#include "report/log_plot.h"
+#include "report/plot.h"
 #include "sensor/film/defective_pixels.h"
 #include "sensor/film/film_planes.h"
 #include "sensor/film/recorded_mosaic.h"
@@ -156,7 +155,7 @@ void warn_of_saturated_edge(const RawImage& read, std::span<const double> values
 EdgeResponse measure_edge(const MtfOptions& options, Inputs& inputs) {
   inputs.add_file(options.image);
   const RawImage read = read_raw_image(options.image, &inputs);
-  for (const std::string& warning : read.warnings) print_message("warning: " + warning);
+  for (const std::string& warning : read.warnings) warn(warning);
   require_no_mosaic(read, options.image);
   const Image& image = read.image;
   Diagnostics diagnostics;
@@ -183,7 +182,7 @@ int transfer(const TransferOptions& options) {
   std::vector<std::string> warnings;
   const std::vector<ChannelTransfer> channels =
       measure_transfer(options.dark, options.flat, inputs, &warnings);
-  for (const std::string& warning : warnings) print_message("warning: " + warning);
+  for (const std::string& warning : warnings) warn(warning);
   warn_of_missing_saturation(channels);
   warn_of_nonlinearity(channels);
   Json answer;
@@ -193,18 +192,15 @@ int transfer(const TransferOptions& options) {
     answer["gain_e_per_dn"].push_back(transfer.gain_e_per_dn);
     answer["gain_standard_error"].push_back(transfer.gain_standard_error);
     answer["read_noise_e"].push_back(transfer.read_noise_e);
-    answer["read_noise_standard_error"].push_back(
-        transfer.read_noise_standard_error ? Json(*transfer.read_noise_standard_error) : Json());
+    answer["read_noise_standard_error"].push_back(or_null(transfer.read_noise_standard_error));
     answer["dark_e_per_s"].push_back(transfer.dark_e_per_s);
     answer["prnu_percent"].push_back(transfer.prnu_percent);
     answer["dsnu_e"].push_back(transfer.dsnu_e);
-    answer["full_well_e"].push_back(transfer.full_well_e ? Json(*transfer.full_well_e) : Json());
-    const std::optional<double>& range_db = one.dynamic_range_db;
-    answer["dynamic_range_db"].push_back(range_db && std::isfinite(*range_db) ? Json(*range_db) : Json());
+    answer["full_well_e"].push_back(or_null(transfer.full_well_e));
+    answer["dynamic_range_db"].push_back(or_null(one.dynamic_range_db));
     answer["snr10_e"].push_back(one.snr10_e);
-    const std::optional<double>& nonlinear = transfer.linearity_error_percent;
-    answer["linearity_error_percent"].push_back(nonlinear ? Json(*nonlinear) : Json());
-    answer["snr10_lx_s"].push_back(one.snr10_lx_s ? Json(*one.snr10_lx_s) : Json());
+    answer["linearity_error_percent"].push_back(or_null(transfer.linearity_error_percent));
+    answer["snr10_lx_s"].push_back(or_null(one.snr10_lx_s));
   }
   Json with_curves = answer;
   for (const ChannelTransfer& one : channels) {
@@ -232,7 +228,7 @@ int mtf(const MtfOptions& options) {
   Json answer;
   answer["angle_deg"] = edge.angle_deg;
   answer["edge"] = edge.is_horizontal ? "horizontal" : "vertical";
-  answer["mtf50"] = edge.mtf50 ? Json(*edge.mtf50) : Json();
+  answer["mtf50"] = or_null(edge.mtf50);
   for (std::size_t i = 0; i < edge.mtf.size(); ++i) {
     answer["frequency"].push_back(edge.frequency(i));
     answer["mtf"].push_back(edge.mtf[i]);

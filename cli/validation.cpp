@@ -19,7 +19,6 @@
 #include "validation/report/report.h"
 
 namespace abbe::cli {
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -34,14 +33,8 @@ fs::path default_cache() {
 }
 
 BenchSettings settings_of(const BenchOptions& options) {
-  BenchSettings settings;
-  settings.integrators = options.integrators;
-  settings.samples = options.samples;
-  settings.seeds = options.seeds;
-  settings.threads = options.threads;
-  settings.reference_samples = options.reference_samples;
-  settings.quick = options.quick;
-  settings.cache = options.cache.empty() ? default_cache() : options.cache;
+  BenchSettings settings = options;
+  if (settings.cache.empty()) settings.cache = default_cache();
   settings.version = ABBE_VERSION;
   settings.say = print_message;
   return settings;

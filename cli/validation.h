@@ -5,35 +5,25 @@
 #include <string>
 #include <vector>
 
-#include "scene/scene.h"
+#include "validation/bench/run.h"
 #include "validation/cases/case.h"
 
 namespace abbe::cli {
 
-/// Options of `abbe bench`.
-struct BenchOptions {
+/// Options of `abbe bench`. `cache` may be empty for `$XDG_CACHE_HOME/abbe/bench` or else
+/// `~/.cache/abbe/bench`; `bench` sets `version` and `say`.
+struct BenchOptions : BenchSettings {
   std::vector<std::string> suites;  ///< Names of suites, as `list` prints them; empty for all.
   /// Folder of the report; empty for none. For a soak test it is the folder of the failures, and empty for
   /// `<cache>/soak`.
   std::filesystem::path output;
-  /// Integrators to measure, without duplicates.
-  std::vector<Integrator> integrators{Integrator::automatic};
-  std::vector<int> samples{4, 8, 16, 32, 64};  ///< Numbers of samples per pixel, ascending.
-  int seeds = 3;    ///< Renders with different seeds per suite, integrator and number of samples.
-  int threads = 0;  ///< Number of threads; 0 for one per processor.
-  /// Samples per pixel of the reference; 0 for 64 times the largest of `samples`.
-  int reference_samples = 0;
   std::filesystem::path baseline;  ///< File bench.json of an earlier run; empty for none.
-  /// Folder for references and generated meshes; empty for `$XDG_CACHE_HOME/abbe/bench` or else
-  /// `~/.cache/abbe/bench`.
-  std::filesystem::path cache;
-  bool quick = false;            ///< Use small films without comparison with other renderers.
-  bool strict = false;           ///< Exit with 1 if a figure became worse than the baseline.
-  bool list = false;             ///< List the suites instead.
-  bool scale = false;            ///< Measure the cost of scenes of growing size instead.
-  std::uint64_t soak_paths = 0;  ///< If not 0, run a soak test with this number of paths instead.
-  std::uint64_t soak_seed = 0;   ///< Seed of the first random scene.
-  bool json = false;             ///< Print the answer as JSON instead of plain text.
+  bool strict = false;             ///< Exit with 1 if a figure became worse than the baseline.
+  bool list = false;               ///< List the suites instead.
+  bool scale = false;              ///< Measure the cost of scenes of growing size instead.
+  std::uint64_t soak_paths = 0;    ///< If not 0, run a soak test with this number of paths instead.
+  std::uint64_t soak_seed = 0;     ///< Seed of the first random scene.
+  bool json = false;               ///< Print the answer as JSON instead of plain text.
 };
 
 /// Numbers of samples per pixel, 1 to 2^20, from a list such as "4,8,16", in ascending order without
@@ -53,9 +43,8 @@ struct BenchOptions {
 /// - for a soak test with both `output` and `cache`;
 /// - if a file of the report is the same as `baseline` or a table of the data directory.
 ///
-/// Throws InvalidInput for a
-/// baseline that cannot be read or compared, Error{output} if the report or the failures cannot
-/// be written.
+/// Throws InvalidInput for a baseline that cannot be read or compared, Error{output} if the report or the
+/// failures cannot be written.
 int bench(const BenchOptions& options);
 
 /// Options of `abbe validate`.

@@ -10,7 +10,6 @@
 #include "python/json.h"
 #include "python/scene.h"
 #include "report/chart_difference.h"
-#include "report/common_areas.h"
 #include "report/image_difference.h"
 #include "results/white.h"
 #include "sensor/film/recorded_white.h"

@@ -22,7 +22,7 @@
 #include "results/measure_meter.h"
 #include "results/rendered_film.h"
 #include "results/scene_warnings.h"
-#include "validation/statistics/students_interval.h"
+#include "validation/statistics.h"
 
 namespace abbe::python {
 namespace {

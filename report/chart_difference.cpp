@@ -3,7 +3,7 @@
 #include <numeric>
 
 #include "calibration/output/display.h"
-#include "report/film_colors.h"
+#include "report/image_difference.h"
 #include "scene/chart/readout.h"
 #include "sensor/film/recorded_film_observer.h"
 #include "transport/render/white.h"

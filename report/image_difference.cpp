@@ -16,16 +16,27 @@
 #include "calibration/metrics/itp.h"
 #include "calibration/output/display.h"
 #include "io/spectral_exr.h"
-#include "report/common_areas.h"
-#include "report/film_colors.h"
+#include "io/text.h"
 #include "sensor/film/film_planes.h"
+#include "sensor/film/recorded_crop.h"
 #include "sensor/film/recorded_mosaic.h"
+#include "sensor/film/recorded_white.h"
+#include "sensor/film/stokes_film.h"
 #include "sensor/film/variance_name.h"
 #include "sensor/response/stokes_channels.h"
 #include "spectral/colorimetry.h"
+#include "spectral/rgb.h"
 
 namespace abbe {
 namespace {
+
+// Throws Error{input} if the images differ in size.
+void require_same_size(const Image& image, const Image& reference) {
+  if (image.width != reference.width || image.height != reference.height)
+    throw Error(ErrorCode::input, "",
+                fmt::format("the images differ in size (got {} x {} and {} x {})", image.width, image.height,
+                            reference.width, reference.height));
+}
 
 struct Pair {
   std::string channel;
@@ -176,6 +187,49 @@ const Appearance& booth() {
   return appearance;
 }
 
+// Colours of a film with sensor channels: the matrix that it records, in the order of the sensor's channels.
+FilmColors colors_by_matrix(const Image& image, const std::vector<std::string>& wanted) {
+  const auto white = recorded_white(image);
+  const auto matrix = image.metadata.find("to_xyz_d65");
+  const bool mosaic = image.metadata.contains("mosaic");
+  const auto names = image.metadata.find(mosaic ? "mosaic_channels" : "sensor_channels");
+  if (matrix == image.metadata.end() || names == image.metadata.end()) return {wanted, {}, false, white};
+  const std::vector<std::string> channels = intensities(split(names->second, ','));
+  if (!std::is_permutation(channels.begin(), channels.end(), wanted.begin(), wanted.end()))
+    return {wanted, {}, false, white};
+  return {channels, parse_matrix3(matrix->second), true, white};
+}
+
+// Mean and maximum of some numbers; 0 without numbers.
+struct MeanAndMax {
+  double sum = 0;
+  double max = 0;
+  double count = 0;
+
+  void add(double value) {
+    sum += value;
+    max = std::max(max, value);
+    ++count;
+  }
+  [[nodiscard]] double mean() const { return count > 0 ? sum / count : 0; }
+};
+
+double between_planes(double a_deg, double b_deg) {
+  const double difference = std::abs(a_deg - b_deg);
+  return std::min(difference, 180 - difference);
+}
+
+struct DifferenceStatistics {
+  MeanAndMax degree;
+  MeanAndMax angle_deg;
+
+  void add(const PolarisationFigures& image, const PolarisationFigures& reference) {
+    if (reference.degree > kPolarised) degree.add(std::abs(image.degree - reference.degree));
+    if (reference.linear_degree > kPolarised)
+      angle_deg.add(between_planes(image.angle_deg, reference.angle_deg));
+  }
+};
+
 }  // namespace
 
 double percentile(std::vector<double> values, double quantile) {
@@ -285,6 +339,74 @@ Comparison compare_images(const Image& image, const Image& reference, std::optio
   const double count = static_cast<double>(pairs.size() * reference.pixels());
   return {rel_mse(image, reference), std::sqrt(squares / count), mean.image / mean.reference,
           color_difference(image, reference, DeltaE::cie2000, white)};
+}
+
+std::vector<Crop> common_areas(const Image& image, const Image& reference) {
+  require_same_size(image, reference);
+  const std::vector<Crop> a = recorded_areas(image);
+  const std::vector<Crop> b = recorded_areas(reference);
+  std::vector<Crop> both;
+  for (const Crop& of_image : a)
+    for (const Crop& of_reference : b)
+      if (const auto common = common_pixels(of_image, of_reference)) both.push_back(*common);
+  if (both.empty())
+    throw Error(
+        ErrorCode::input, "",
+        fmt::format("the images have no pixel in common (got crops {} and {})", to_text(a), to_text(b)));
+  return both;
+}
+
+Image extract_areas(const Image& image, std::span<const Crop> areas) {
+  Image cut{areas.front().x1 - areas.front().x0, areas.front().y1 - areas.front().y0, {}, image.metadata};
+  if (areas.size() > 1) {
+    cut.height = 1;
+    cut.width = 0;
+    for (const Crop& area : areas) cut.width += static_cast<int>(pixel_count(area));
+  }
+  for (const char* key : {kCropKey, kAreasKey}) cut.metadata.erase(key);
+  for (const ImageChannel& channel : image.channels) {
+    std::vector<float>& values = cut.channels.emplace_back(ImageChannel{channel.name, {}}).values;
+    values.reserve(cut.pixels());
+    for (const Crop& area : areas)
+      for (int y = area.y0; y < area.y1; ++y) {
+        const auto row = channel.values.begin() + static_cast<std::ptrdiff_t>(y) * image.width;
+        values.insert(values.end(), row + area.x0, row + area.x1);
+      }
+  }
+  return cut;
+}
+
+FilmColors film_colors(const Image& image) {
+  const std::vector<std::string> observer{"X", "Y", "Z"};
+  const std::vector<std::string> rgb{"R", "G", "B"};
+  const auto white = recorded_white(image);
+  if (std::all_of(observer.begin(), observer.end(),
+                  [&](const std::string& name) { return image.find(name) != nullptr; })) {
+    if (!may_hold_tristimulus_values(image)) return colors_by_matrix(image, observer);
+    return {observer, Matrix3(), false, white};
+  }
+  if (image.metadata.contains("channel.R")) return colors_by_matrix(image, rgb);
+  const auto space = recorded_primaries(image);
+  return {rgb, rgb_to_xyz(space.value_or(kRec709)), false,
+          white || !space ? white : std::optional(space->white)};
+}
+
+std::optional<PolarisationDifference> polarisation_difference(const Image& image, const Image& reference) {
+  const std::vector<StokesPlanes> own = stokes_planes(image);
+  DifferenceStatistics statistics;
+  double compared = 0;
+  for (const StokesPlanes& planes : stokes_planes(reference)) {
+    const auto same = std::find_if(own.begin(), own.end(), [&planes](const StokesPlanes& other) {
+      return other.channel == planes.channel;
+    });
+    if (same == own.end()) continue;
+    for (std::size_t pixel = 0; pixel < reference.pixels(); ++pixel)
+      statistics.add(polarisation_of(same->at(pixel)), polarisation_of(planes.at(pixel)));
+    compared += static_cast<double>(reference.pixels());
+  }
+  if (!(compared > 0)) return std::nullopt;
+  return PolarisationDifference{statistics.degree.count / compared, statistics.degree.mean(),
+                                statistics.degree.max, statistics.angle_deg.mean(), statistics.angle_deg.max};
 }
 
 }  // namespace abbe

@@ -1,14 +1,48 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "io/image.h"
+#include "sensor/film/crop.h"
 #include "sensor/film/relative_error.h"
 #include "spectral/colorimetry.h"
+#include "spectral/matrix3.h"
 
 namespace abbe {
+
+/// Pixels that both films contain, by the crops and areas that they record, as disjoint rectangles. A film
+/// without a valid record contains all its pixels. Throws Error{input} for films of different size and for
+/// films without a common pixel.
+[[nodiscard]] std::vector<Crop> common_areas(const Image& image, const Image& reference);
+
+/// Image of the pixels inside `areas`, with the metadata of `image` except its crop and areas. A single
+/// rectangle retains its shape. The pixels of several are concatenated to one row, area by area and row by
+/// row. There must be at least one area, and all must lie inside the image.
+[[nodiscard]] Image extract_areas(const Image& image, std::span<const Crop> areas);
+
+/// Interpretation of an image's colours.
+struct FilmColors {
+  std::vector<std::string> channels;  ///< Names of the three channels; the image may lack some.
+  /// Matrix from the channels, in their order, to XYZ in the scale of the image; nothing if the colours are
+  /// unknown.
+  std::optional<Matrix3> to_xyz;
+  bool adapted = false;  ///< True if XYZ are adapted from the film's white to D65.
+  /// White that the image records, else the white of its recorded primaries. Nothing if it records neither.
+  std::optional<Chromaticity> white;
+};
+
+/// Determines how the channels of an image are converted to XYZ.
+/// - X, Y, Z are tristimulus values, unless `channel.X` records another quantity than a photometric one.
+/// - R, G, B with the attribute `channel.R`, and such other X, Y, Z, are sensor channels. The film's matrix
+///   `to_xyz_d65` applies, in the order of `sensor_channels`, or of `mosaic_channels` under a mosaic. Without
+///   a readable matrix the colours are unknown.
+/// - R, G, B of any other image are linear, with the primaries that it records (`recorded_primaries`) or
+///   those of Rec.709.
+/// Throws Error{input} if the recorded white is malformed.
+[[nodiscard]] FilmColors film_colors(const Image& image);
 
 /// Formulas of colour difference, implemented in `calibration/chart/delta_e.h` and `calibration/metrics/`.
 enum class DeltaE { cie2000, cie94, cie76, cam16_ucs, itp };
@@ -90,5 +124,23 @@ struct ErrorMeasure {
 /// the reference over all of them, and v its variance or 0. A numerator of 0 counts 0 even if the denominator
 /// is 0. Throws Error{input} as `compare_images` does, and if a required variance is missing or not finite.
 [[nodiscard]] double rel_mse(const Image& image, const Image& reference, const ErrorMeasure& measure = {});
+
+/// Difference in polarisation of two films over the pixels of their common channels. Degrees are compared
+/// where the reference's degree of polarisation exceeds `kPolarised`, angles where its degree of linear
+/// polarisation does. Means and maxima are 0 if nothing is compared.
+struct PolarisationDifference {
+  double polarised_fraction = 0;  ///< Fraction of the pixels of all channels whose degrees are compared.
+  double degree_mean = 0;         ///< Mean of |degree - reference degree|.
+  double degree_max = 0;
+  double angle_deg_mean = 0;  ///< Mean angle between the planes of vibration, in [0, 90].
+  double angle_deg_max = 0;
+};
+/// Degree of polarisation above which a pixel of the reference counts as polarised.
+inline constexpr double kPolarised = 0.05;
+
+/// Polarisation difference of two films of the same size, which is not checked. Nothing unless both record
+/// Stokes components of a common channel. Throws the errors of `stokes_planes`.
+[[nodiscard]] std::optional<PolarisationDifference> polarisation_difference(const Image& image,
+                                                                            const Image& reference);
 
 }  // namespace abbe

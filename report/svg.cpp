@@ -71,4 +71,8 @@ std::string svg_document(double width, double height, const std::string& title, 
          svg_text(10, 20, title, "font-size=\"15\" font-weight=\"bold\"") + elements + "</svg>\n";
 }
 
+std::string inline_svg(const std::string& document) {
+  return document.substr(document.find("<svg"));
+}
+
 }  // namespace abbe

@@ -35,4 +35,8 @@ using SvgPoints = std::vector<std::pair<double, double>>;
 [[nodiscard]] std::string svg_document(double width, double height, const std::string& title,
                                        const std::string& elements);
 
+/// The SVG document from its element `svg` on, without its XML declaration, for embedding in a page. It must
+/// contain that element.
+[[nodiscard]] std::string inline_svg(const std::string& document);
+
 }  // namespace abbe

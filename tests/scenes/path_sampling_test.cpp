@@ -12,7 +12,7 @@
 #include "tests/tier.h"
 #include "transport/render/trained_plan.h"
 #include "transport/technique/path.h"
-#include "validation/statistics/equivalence.h"
+#include "validation/statistics.h"
 
 namespace abbe {
 namespace {

@@ -7,7 +7,7 @@
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
 #include "transport/render/trained_plan.h"
-#include "validation/bench/reference.h"
+#include "validation/bench/run.h"
 
 namespace abbe {
 namespace {

@@ -8,8 +8,8 @@
 #include "scene/shapes/mesh.h"
 #include "spectral/colorimetry.h"
 #include "tests/validation/bench_runs.h"
-#include "validation/bench/meshes.h"
-#include "validation/bench/reference.h"
+#include "validation/bench/generated_scene.h"
+#include "validation/bench/run.h"
 
 namespace abbe {
 namespace {

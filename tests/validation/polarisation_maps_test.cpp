@@ -1,4 +1,4 @@
-#include "report/polarisation_maps.h"
+#include "report/maps.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 
 #include "io/exr.h"
 #include "io/picture.h"
-#include "report/color_map.h"
-#include "report/polarisation_difference.h"
+#include "report/display_color.h"
+#include "report/image_difference.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
 

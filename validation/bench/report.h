@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "report/log_plot.h"
+#include "report/plot.h"
 #include "validation/bench/baseline.h"
 #include "validation/bench/machine.h"
 #include "validation/bench/other_renderers.h"

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "io/data_directory.h"
-#include "report/color_map.h"
+#include "report/display_color.h"
 #include "transport/plan/techniques.h"
 #include "transport/render/cost.h"
 #include "transport/render/render.h"

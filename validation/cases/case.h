@@ -12,7 +12,7 @@
 #include "description/load.h"
 #include "io/image.h"
 #include "scene/unsampled_paths.h"
-#include "validation/statistics/equivalence.h"
+#include "validation/statistics.h"
 
 namespace abbe {
 

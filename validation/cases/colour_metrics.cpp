@@ -10,7 +10,6 @@
 #include "spectral/interpolation.h"
 #include "spectral/rgb.h"
 #include "spectral/sources.h"
-#include "validation/cases/figures.h"
 #include "validation/cases/suites.h"
 #include "validation/cases/tables.h"
 
