@@ -16,6 +16,7 @@
 #include "io/schema/help.h"
 #include "io/text.h"
 #include "slurm_files.h"
+#include "validation/bench/machine.h"
 
 namespace abbe::cli {
 namespace {
@@ -280,12 +281,6 @@ void add_kinds(const CommandUsage& command, const CommandUsage& program, std::st
   for (const CommandUsage& inner : command.commands) add_kinds(inner, program, script);
 }
 
-#ifdef __clang__
-constexpr std::string_view kCompiler = "Clang " __clang_version__;
-#else
-constexpr std::string_view kCompiler = "GCC " __VERSION__;
-#endif
-
 // Versions from the build, since this module does not include the headers of the libraries.
 constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kLibraries{{
     {"Embree", ABBE_EMBREE_VERSION},
@@ -339,7 +334,7 @@ std::string slurm_help(const std::string& name) {
 
 std::string version_text() {
   std::string lines = fmt::format("abbe {}\ndata {}\ndata_sha256 {}\ncompiler {}\n", ABBE_VERSION,
-                                  data_directory().string(), data_sha256(), kCompiler);
+                                  data_directory().string(), data_sha256(), this_machine().compiler);
   for (const auto& [name, version] : kLibraries) lines += fmt::format("{} {}\n", name, version);
   lines.pop_back();  // CLI11 ends the line
   return lines;

@@ -183,8 +183,8 @@ std::vector<BasicRay<double>> rays_of(const Scene& scene, const DrawOptions& opt
 
 // Warning for the first extrapolated index on the path of a ray of this wavelength [nm]; empty if there is
 // none.
-std::optional<std::string> extrapolated_index_warning(const Scene& scene, const RayTree& tree,
-                                                      double wavelength_nm) {
+std::optional<std::string> first_extrapolation(const Scene& scene, const RayTree& tree,
+                                               double wavelength_nm) {
   for (const RayBranch& branch : tree.branches)
     for (const TraceEvent& event : branch.trace.events) {
       if (!event.passage) continue;
@@ -223,7 +223,7 @@ int trace(const TraceOptions& options) {
     print(answer, true);
   else
     print_readable(answer);
-  warn(extrapolated_index_warning(scene, tree, options.wavelength_nm));
+  warn(first_extrapolation(scene, tree, options.wavelength_nm));
   warn_cut(tree, options, limits);
   return 0;
 }
@@ -244,7 +244,7 @@ int draw(const DrawOptions& options) {
   for (const double nm : options.wavelengths_nm)
     for (const BasicRay<double>& ray : rays_of(scene, options)) {
       const RayTree tree = follow_ray(scene, ray, nm, options.follow, limits);
-      if (!warning) warning = extrapolated_index_warning(scene, tree, nm);
+      if (!warning) warning = first_extrapolation(scene, tree, nm);
       for (DrawnRay& drawn_ray : drawn_rays(scene, tree, nm)) drawn.push_back(std::move(drawn_ray));
     }
   const std::string name = options.scene == kStandardStream ? "stdin" : options.scene.filename().string();

@@ -1,4 +1,3 @@
-// CSV and JSON of the report.
 #include "validation/bench/report.h"
 
 #include <cmath>

@@ -1,4 +1,4 @@
-// The report in plain text and as JSON.
+// A validation run, and its report in plain text and as JSON.
 #include "validation/report/report.h"
 
 #include <algorithm>
