@@ -9,7 +9,9 @@
 
 #include <fmt/format.h>
 
-#include "io/invalid_input.h"
+#include "io/diagnostics.h"
+#include "io/error.h"
+#include "report/svg.h"
 
 namespace abbe::cli {
 namespace {
@@ -65,6 +67,15 @@ std::string readable(const Json& answer) {
   return lines + table(columns);
 }
 
+constexpr const char* kStyle =
+    "body { font: 15px/1.5 system-ui, \"DejaVu Sans\", sans-serif; color: #1c2430; max-width: 1080px; "
+    "margin: 0 auto; "
+    "padding: 24px; }\nh2 { border-bottom: 2px solid; margin-top: 40px; }\n"
+    ".patches { display: grid; grid-template-columns: repeat(auto-fill, minmax(150px, 1fr)); gap: 10px; }\n"
+    ".patch { font-size: 12px; }\n.swatch { display: flex; height: 54px; }\n.swatch div { flex: 1; }\n"
+    "table { border-collapse: collapse; }\ntd, th { padding: 2px 14px 2px 0; text-align: right; }\n"
+    "td:first-child, th:first-child { text-align: left; }\n.soft { color: #5b6675; }\n";
+
 }  // namespace
 
 std::string text(const Json& answer, bool as_json) {
@@ -104,9 +115,29 @@ void print_message(const std::string& message) {
   print_to_stderr(fmt::format("abbe: {}\n", message));
 }
 
+void warn(const std::optional<std::string>& warning, bool strict) {
+  if (!warning) return;
+  if (strict) throw Error(ErrorCode::scene, "", *warning);
+  print_message("warning: " + *warning);
+}
+
 void check(const Diagnostics& diagnostics) {
   require_no_errors(diagnostics);
   print_to_stderr(diagnostics.text());
+}
+
+std::string page_head(const std::string& title) {
+  return fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\"><head><meta "
+      "charset=\"utf-8\"><title>{0}</title>\n<style>\n{1}</style></head>\n"
+      "<body>\n<h1>{0}</h1>\n",
+      escaped(title), kStyle);
+}
+
+std::string table_cell(const Json& value) {
+  return value.is_string() ? escaped(value.get<std::string>())
+         : value.is_null() ? "\u2013"
+                           : escaped(value.dump());
 }
 
 }  // namespace abbe::cli

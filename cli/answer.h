@@ -13,6 +13,12 @@ namespace abbe::cli {
 /// A JSON answer whose keys retain their order.
 using Json = nlohmann::ordered_json;
 
+/// The value, or null without one.
+template <typename T>
+[[nodiscard]] Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json();
+}
+
 /// Prints the result of `text` on stdout.
 void print(const Json& answer, bool as_json);
 
@@ -39,6 +45,9 @@ void print_to_stderr(const std::string& text);
 /// Writes one line to stderr, preceded by "abbe: ".
 void print_message(const std::string& message);
 
+/// Prints a warning to stderr, if there is one. Throws Error{scene} with it instead if `strict`.
+void warn(const std::optional<std::string>& warning, bool strict = false);
+
 /// Prints the warnings to stderr, if any. Throws InvalidInput if there are errors, which then contains all
 /// diagnostics.
 void check(const Diagnostics& diagnostics);
@@ -51,5 +60,16 @@ template <typename T>
   if (!value) throw Error(ErrorCode::internal, "", "a loader returned neither a value nor an error");
   return *std::move(value);
 }
+
+// Parts of the HTML documents that commands write.
+
+/// Start of an HTML document up to its first heading: its style, and `title` as title and heading. `title` is
+/// plain text and is escaped.
+[[nodiscard]] std::string page_head(const std::string& title);
+/// End of an HTML document that `page_head` began.
+inline constexpr const char* kPageEnd = "</body></html>\n";
+
+/// HTML of a table cell's contents: a text, escaped; any other value as JSON writes it; a dash for null.
+[[nodiscard]] std::string table_cell(const Json& value);
 
 }  // namespace abbe::cli

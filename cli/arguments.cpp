@@ -10,7 +10,7 @@
 #include "io/image.h"
 #include "io/json_values.h"
 #include "io/text.h"
-#include "sensor/film/recorded_crop.h"
+#include "sensor/film/crop.h"
 
 namespace abbe::cli {
 namespace {

@@ -14,7 +14,7 @@
 #include "io/image.h"
 #include "preview/page_server.h"
 #include "transport/render/render.h"
-#include "transport/render/sampled_areas.h"
+#include "transport/render/sample_ranges.h"
 
 namespace abbe::cli {
 

@@ -1,22 +1,23 @@
 #include "cli/calibrate.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "calibration/output/camera_profile.h"
 #include "calibration/output/ocio.h"
-#include "calibration/output/sensitivities.h"
-#include "cli/calibrate_folder.h"
-#include "cli/calibrate_page.h"
 #include "cli/calibrate_report.h"
 #include "cli/output_files.h"
-#include "cli/sensor_plots.h"
+#include "cli/sensor_measurements.h"
 #include "io/atomic_file.h"
+#include "io/diagnostics.h"
 #include "io/error.h"
-#include "io/invalid_input.h"
 #include "io/text.h"
 #include "spectral/library.h"
 
@@ -24,6 +25,63 @@ namespace abbe::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr std::array kReportFiles{"report.json", "response.csv",       "config.ocio",
+                                  "dng.json",    "sensitivities.json", "report.html"};
+constexpr std::array kCameraSuffixes{".spi1d", ".cube", ".clf", "_to_aces.clf"};
+
+// True if the calibration with this report can have written a file of this name.
+bool is_calibration_file(const std::string& report, const std::string& name) {
+  if (std::find(kReportFiles.begin(), kReportFiles.end(), name) != kReportFiles.end()) return true;
+  const std::string begin = camera_file({}, "");
+  return std::ranges::any_of(kCameraSuffixes, [&](std::string_view end) {
+    if (!name.starts_with(begin) || !name.ends_with(end) || name.size() < begin.size() + end.size())
+      return false;
+    const std::string illuminant = name.substr(begin.size(), name.size() - begin.size() - end.size());
+    return report.find('"' + illuminant + '"') != std::string::npos;
+  });
+}
+
+// All files that `abbe calibrate` may write to `folder` for these illuminants, which are separated by
+// commas. It writes only some of them, and they need not exist.
+std::vector<fs::path> calibration_files(const fs::path& folder, const std::string& illuminants) {
+  std::vector<fs::path> files;
+  for (const char* name : kReportFiles) files.push_back(folder / name);
+  for (const std::string& illuminant : split(illuminants, ',')) {
+    CameraProfile profile;
+    profile.light = illuminant;
+    for (const char* end : kCameraSuffixes) files.push_back(folder / camera_file(profile, end));
+  }
+  return files;
+}
+
+// Files in the folder that an earlier `abbe calibrate` wrote, as `folder` / name. They have the name of one
+// of its outputs; names with an illuminant count only if its `report.json` contains that illuminant. Empty
+// if that report cannot be read. Call it before the report is replaced.
+std::vector<fs::path> earlier_files(const fs::path& folder) {
+  std::error_code failure;
+  Diagnostics none;  // an unreadable report means no earlier calibration
+  const auto report = read_text(folder / kReportFiles[0], none);
+  if (!report) return {};
+  std::vector<fs::path> earlier;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, failure))
+    if (entry.is_regular_file(failure) && is_calibration_file(report->text, entry.path().filename().string()))
+      earlier.push_back(folder / entry.path().filename());
+  return earlier;
+}
+
+// Deletes the `earlier` files that are not among the `written` ones, since they may belong to another
+// camera. Paths are compared as text, so both lists must begin with the same folder. Throws Error{output} if
+// a file cannot be deleted.
+void remove_unless_written(std::span<const fs::path> earlier, std::span<const fs::path> written) {
+  for (const fs::path& file : earlier) {
+    std::error_code failure;
+    if (std::find(written.begin(), written.end(), file) == written.end()) fs::remove(file, failure);
+    if (failure)
+      throw Error(ErrorCode::output, file.string(),
+                  "cannot remove a file of an earlier calibration: " + failure.message());
+  }
+}
 
 std::vector<fs::path> output_files(const CalibrateOptions& options) {
   return options.output.empty() ? std::vector<fs::path>{}
@@ -80,7 +138,7 @@ int calibrate_all(const CalibrateOptions& options) {
   check(diagnostics);
   const std::vector<CameraQuality> all = all_camera_qualities(*chart, light->curve);
   if (options.json)
-    fmt::print("{}", text(json_of(all), true));
+    print(json_of(all), true);
   else
     fmt::print("{}", table_of(all));
   return 0;

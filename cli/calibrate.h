@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "calibration/calibration_case.h"
+#include "calibration/camera_calibration.h"
 #include "io/inputs.h"
 
 namespace abbe::cli {

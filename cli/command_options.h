@@ -13,8 +13,7 @@
 
 #include "cli/arguments.h"
 #include "cli/commands.h"
-#include "cli/usage.h"
-#include "description/render_limits.h"
+#include "description/render.h"
 #include "sensor/response/channel.h"
 
 namespace abbe::cli {
@@ -125,5 +124,26 @@ void add_overrides(CLI::App& app, const std::shared_ptr<Options>& options,
       ->allow_extra_args(false)
       ->type_name("/POINTER=VALUE");
 }
+
+// The commands that are defined outside `commands.cpp`, by file.
+
+// render_commands.cpp
+void add_render(CLI::App& app, Command& command);
+void add_meter(CLI::App& app, Command& command);
+
+// ray_commands.cpp
+void add_trace(CLI::App& app, Command& command);
+void add_draw(CLI::App& app, Command& command);
+void add_lens(CLI::App& app, Command& command);
+
+// film_commands.cpp
+void add_develop(CLI::App& app, Command& command);
+void add_measure(CLI::App& app, Command& command);
+
+// material_commands.cpp
+void add_query(CLI::App& app, Command& command);
+void add_lab(CLI::App& app, Command& command);
+void add_transfer(CLI::App& app, Command& command);
+void add_mtf(CLI::App& app, Command& command);
 
 }  // namespace abbe::cli

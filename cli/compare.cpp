@@ -9,15 +9,14 @@
 #include "cli/answer.h"
 #include "cli/output_files.h"
 #include "description/load.h"
-#include "film/white.h"
 #include "io/atomic_file.h"
 #include "io/exr.h"
 #include "io/picture.h"
-#include "sensor/film/recorded_white.h"
-#include "validation/picture/difference_maps.h"
-#include "validation/statistics/chart_difference.h"
-#include "validation/statistics/common_areas.h"
-#include "validation/statistics/polarisation_difference.h"
+#include "report/chart_difference.h"
+#include "report/image_difference.h"
+#include "report/maps.h"
+#include "results/white.h"
+#include "sensor/film/recorded_attributes.h"
 
 namespace abbe::cli {
 namespace {
@@ -59,9 +58,9 @@ Json patch_answer(const std::vector<PatchDifference>& patches, const std::string
   for (const PatchDifference& patch : patches)
     list.push_back({{"patch", patch.name},
                     {"pixels", patch.pixels},
-                    {"Lab", patch.image ? Json(*patch.image) : Json()},
-                    {"reference_Lab", patch.reference ? Json(*patch.reference) : Json()},
-                    {key, patch.delta_e ? Json(*patch.delta_e) : Json()}});
+                    {"Lab", or_null(patch.image)},
+                    {"reference_Lab", or_null(patch.reference)},
+                    {key, or_null(patch.delta_e)}});
   return list;
 }
 
@@ -130,7 +129,7 @@ void compare_pixels(const CompareOptions& options, const Image& image, const Ima
   if (const auto undeclared = channel_with_undeclared_unit(image, reference))
     print_message(
         fmt::format("warning: only one of the images declares the unit of channel {}", *undeclared));
-  if (const auto uncompared = uncompared_channels(image, reference)) print_message("warning: " + *uncompared);
+  warn(uncompared_channels(image, reference));
   answer["relMSE"] = c.rel_mse;
   answer["rmse"] = c.rmse;
   answer["mean_ratio"] = c.mean_ratio;

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "io/inputs.h"
-#include "validation/statistics/image_difference.h"
+#include "report/image_difference.h"
 
 namespace abbe::cli {
 

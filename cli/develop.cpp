@@ -9,27 +9,23 @@
 
 #include <fmt/format.h>
 
-#include "calibration/output/dng_profile.h"
+#include "calibration/output/camera_profile.h"
 #include "cli/answer.h"
 #include "cli/output_files.h"
 #include "develop/develop.h"
-#include "develop/dng_profile_file.h"
 #include "develop/film_file.h"
 #include "develop/polarisation.h"
-#include "develop/polarisation_camera.h"
 #include "develop/radiance.h"
-#include "film/relit_white.h"
-#include "film/spectral.h"
-#include "film/white.h"
+#include "develop/raw_picture.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
 #include "io/exr.h"
-#include "io/extension.h"
-#include "io/file_lock.h"
 #include "io/picture.h"
-#include "sensor/film/recorded_white.h"
+#include "report/maps.h"
+#include "results/spectral.h"
+#include "results/white.h"
+#include "sensor/film/recorded_attributes.h"
 #include "sensor/readout/speed.h"
-#include "validation/picture/polarisation_maps.h"
 
 namespace abbe::cli {
 namespace {
@@ -235,7 +231,7 @@ Json json_of(const FilmSensor& sensor, const Report& report) {
   Json answer;
   answer["planes"] = sensor.planes;
   for (const PlaneFigures& plane : planes) {
-    const Json render_error = plane.render_error ? Json(*plane.render_error) : Json();
+    const Json render_error = or_null(plane.render_error);
     if (!sensor.readout) {
       answer["mean"].push_back(plane.mean);
       answer["render_error"].push_back(render_error);
@@ -279,9 +275,8 @@ void set_field(FilmSensor& sensor, const DevelopOptions& options) {
       options.outputs.empty() ? "--field balances pictures over the field"
                               : "--field balances pictures over the field, and raw files need a flat field";
   const double shift = neutral_shift(*sensor.white_field, sensor.display->to_xyz_d65());
-  const auto warning = field_tint_warning(shift, remedy);
   const bool is_flat = options.flattens_field && options.outputs.empty();
-  if (warning && !is_flat) print_message("warning: " + *warning);
+  if (!is_flat) warn(field_tint_warning(shift, remedy));
 }
 
 // Adds the lights of --profile to the sensor of a DNG.
@@ -388,8 +383,7 @@ int develop(const DevelopOptions& options) {
   apply_exposure(exposed, options, warnings);
   if (!options.frame) check(warnings);  // calibration frames do not contain the scene
   set_field(exposed.sensor, options);
-  if (const auto dark = wants_raw ? unequal_dark_signals_warning(sensor) : std::nullopt)
-    print_message("warning: " + *dark);
+  if (wants_raw) warn(unequal_dark_signals_warning(sensor));
 
   // At most three further planes exist for each plane of the film and of its variance.
   inputs.reserve_memory("developing", 3 * exposed.film.memory_bytes());

@@ -1,4 +1,4 @@
-#include "cli/film_commands.h"
+#include "cli/command_options.h"
 
 #include <array>
 #include <cstdint>
@@ -71,6 +71,16 @@ void add_display(CLI::App& options, DevelopOptions& settings) {
       ->type_name("FILE.ocio");
 }
 
+ChartCorners parse_corners(const std::string& option, const std::string& text) {
+  if (text == "find") return FindCorners{};
+  const std::vector<double> numbers = parse_numbers(option, text, -1e6, 1e6);
+  if (numbers.size() != 8)
+    throw Error(ErrorCode::usage, option,
+                fmt::format("expected x and y of four corners (got {} numbers, allowed 8)", numbers.size()));
+  return std::array{Imath::V2d(numbers[0], numbers[1]), Imath::V2d(numbers[2], numbers[3]),
+                    Imath::V2d(numbers[4], numbers[5]), Imath::V2d(numbers[6], numbers[7])};
+}
+
 }  // namespace
 
 void add_develop(CLI::App& app, Command& command) {
@@ -110,20 +120,6 @@ void add_develop(CLI::App& app, Command& command) {
   add_max_memory(options, sub.options);
   add_json(options, sub->json);
 }
-
-namespace {
-
-ChartCorners parse_corners(const std::string& option, const std::string& text) {
-  if (text == "find") return FindCorners{};
-  const std::vector<double> numbers = parse_numbers(option, text, -1e6, 1e6);
-  if (numbers.size() != 8)
-    throw Error(ErrorCode::usage, option,
-                fmt::format("expected x and y of four corners (got {} numbers, allowed 8)", numbers.size()));
-  return std::array{Imath::V2d(numbers[0], numbers[1]), Imath::V2d(numbers[2], numbers[3]),
-                    Imath::V2d(numbers[4], numbers[5]), Imath::V2d(numbers[6], numbers[7])};
-}
-
-}  // namespace
 
 void add_measure(CLI::App& app, Command& command) {
   const Subcommand<MeasureOptions> sub(

@@ -10,16 +10,14 @@
 
 #include "cli/answer.h"
 #include "cli/output_files.h"
-#include "cli/warnings.h"
-#include "description/load_material.h"
+#include "cli/rays.h"
+#include "description/load.h"
 #include "io/atomic_file.h"
-#include "io/extension.h"
 #include "io/picture.h"
+#include "io/text.h"
 #include "sensor/response/table_range.h"
 #include "spectral/library.h"
-#include "validation/goniometer/lobe_plot.h"
-#include "validation/goniometer/map.h"
-#include "validation/goniometer/measure.h"
+#include "validation/goniometer/goniometer.h"
 
 namespace abbe::cli {
 namespace {
@@ -55,7 +53,7 @@ void check_material(const Material& material, const std::vector<double>& at_nm) 
   const auto at_requested = first_warning(material, at_nm, extrapolated_index_warning);
   const auto at_visible = first_warning(material, visible, extrapolated_index_warning);
   if (at_visible) warn_of_colors(*at_visible);
-  if (at_requested && at_requested != at_visible) print_message("warning: " + *at_requested);
+  if (at_requested && at_requested != at_visible) warn(at_requested);
 }
 
 Json means(const std::vector<Estimate>& estimates) {

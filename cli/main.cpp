@@ -17,7 +17,6 @@
 #include "cli/answer.h"
 #include "cli/commands.h"
 #include "cli/mpi_group.h"
-#include "cli/usage.h"
 
 namespace abbe::cli {
 namespace {

@@ -1,4 +1,4 @@
-#include "cli/material_commands.h"
+#include "cli/command_options.h"
 
 #include <array>
 #include <memory>

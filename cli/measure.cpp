@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "calibration/chart/chart_corners.h"
 #include "calibration/chart/measured_patches.h"
 #include "cli/answer.h"
 #include "cli/output_files.h"
@@ -14,8 +13,7 @@
 #include "develop/linear_image.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
-#include "io/extension.h"
-#include "io/file_lock.h"
+#include "io/text.h"
 #include "scene/chart/readout.h"
 
 namespace abbe::cli {
@@ -114,7 +112,7 @@ Measurement measure_image(const fs::path& file, const ChartToMeasure& chart,
                           const std::optional<LinearImage>& flat, const MeasureOptions& options,
                           Inputs& inputs) {
   LinearImage linear = read_linear_image(file, &inputs);
-  for (const std::string& warning : linear.warnings) print_message("warning: " + warning);
+  for (const std::string& warning : linear.warnings) warn(warning);
   Measurement measured{file, linear.channels, linear.unit, {}, {}, linear.saturation};
   try {
     const std::vector<PatchOutline> outlines = outlines_in(linear, chart, options, measured);
@@ -199,7 +197,7 @@ Json json_of(const Measurement& measured) {
     for (const PatchChannel& channel : patch.channels) {
       answer["pixels"].push_back(channel.pixels);
       answer["mean"].push_back(channel.mean);
-      answer["deviation"].push_back(channel.deviation ? Json(*channel.deviation) : Json());
+      answer["deviation"].push_back(or_null(channel.deviation));
       answer["saturated"].push_back(channel.saturated);
     }
     patches.push_back(std::move(answer));

@@ -16,11 +16,9 @@
 #include "cli/progress.h"
 #include "develop/film_file.h"
 #include "develop/radiance.h"
-#include "film/film_attributes.h"
-#include "film/rendered_film.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
-#include "io/file_lock.h"
+#include "results/rendered_film.h"
 #include "transport/render/part_films.h"
 
 namespace abbe::cli {

@@ -10,15 +10,14 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
-#include "cli/interrupt.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
-#include "cli/warnings.h"
-#include "film/measure_meter.h"
-#include "film/rendered_film.h"
 #include "io/atomic_file.h"
-#include "io/extension.h"
-#include "validation/statistics/students_interval.h"
+#include "io/text.h"
+#include "results/measure_meter.h"
+#include "results/rendered_film.h"
+#include "results/scene_warnings.h"
+#include "validation/statistics.h"
 
 namespace abbe::cli {
 namespace {
@@ -46,20 +45,15 @@ MeterMeasurement measure(Scene scene, const Meter& meter, const MeterOptions& op
     display.finish();
     return result;
   };
-  const auto warn = [&display](const std::string& sentence) {
+  const auto clear_and_warn = [&display](const std::string& sentence) {
     display.clear();
-    print_message("warning: " + sentence);
+    warn(sentence);
   };
   return measure_meter(std::move(scene), meter, render_options_of(options, watch, display),
-                       {render_and_finish, warn, "--error", options.strict}, inputs);
+                       {render_and_finish, clear_and_warn, "--error", options.strict}, inputs);
 }
 
-// Null if the value is not finite.
-Json number(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
-}
-
-// Half width of Student's interval; not finite without degrees of freedom.
+// Half width of Student's interval; not finite without degrees of freedom, which JSON writes as null.
 double half_interval_95(const Film::Average& value) {
   return abbe::half_interval(value.standard_error, value.degrees_of_freedom, kMeterConfidence);
 }
@@ -72,7 +66,7 @@ Json json_of(const Film::Average& value, const char* unit) {
   return {{"value", value.mean},
           {"unit", unit},
           {"standard_error", error_of(value)},
-          {"half_interval_95", number(half_interval_95(value))}};
+          {"half_interval_95", half_interval_95(value)}};
 }
 
 Json cells_json(const MeterMeasurement& measured) {
@@ -114,7 +108,7 @@ Json json_of(const MeterMeasurement& measured) {
   answer["seed"] = measured.seed;
   answer["samples"] = measured.stats.samples_per_pixel;
   const RelativeError& error = measured.stats.error;
-  answer["half_noise_samples"] = error.few_samples ? Json(*error.few_samples) : Json();
+  answer["half_noise_samples"] = or_null(error.few_samples);
   answer["hidden_noise"] = error.hidden_noise > 0 ? Json(error.hidden_noise) : Json();
   if (measured.stats.interrupted) answer["interrupted"] = true;
   answer["wall_s"] = measured.stats.wall_s;
@@ -185,8 +179,7 @@ std::vector<MeterMeasurement> measure_all(const MeteredScene& metered,
     if (all.empty() || !scene) scene = accepted(std::move(scene), diagnostics);
     if (all.empty()) {
       require_distinct(std::array{options.spectra}, inputs.files());
-      warn_of_hidden_sheet(*scene, options.strict);
-      warn_of_hidden_light(*scene, options.strict);
+      warn(coincidence_warning(*scene), options.strict);
     }
     all.push_back(measure(*std::move(scene), *meter, options, watch, inputs));
     if (!options.json) print_text(all.back());

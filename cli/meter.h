@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/sampling_options.h"
+#include "cli/render.h"
 
 namespace abbe::cli {
 

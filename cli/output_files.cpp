@@ -9,12 +9,12 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
-#include "film/rendered_film.h"
 #include "io/atomic_file.h"
 #include "io/data_directory.h"
 #include "io/error.h"
-#include "io/extension.h"
 #include "io/table.h"
+#include "io/text.h"
+#include "results/rendered_film.h"
 
 namespace abbe::cli {
 namespace {

@@ -4,20 +4,19 @@
 
 #include <fmt/format.h>
 
-#include "calibration/characterisation.h"
 #include "calibration/chart/delta_e.h"
 #include "calibration/chart/patches.h"
-#include "calibration/metrics/camera_space.h"
+#include "calibration/metrics/camera_quality.h"
 #include "cli/answer.h"
 #include "cli/query.h"
 #include "io/table.h"
 #include "materials/index/library.h"
+#include "report/image_difference.h"
 #include "sensor/response/channel.h"
 #include "sensor/response/table_range.h"
 #include "spectral/astm_e308.h"
 #include "spectral/curve_use.h"
 #include "spectral/library.h"
-#include "validation/statistics/image_difference.h"
 
 namespace abbe::cli {
 namespace {

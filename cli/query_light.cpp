@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "calibration/metrics/color_rendering.h"
-#include "calibration/metrics/metamerism.h"
 #include "cli/answer.h"
 #include "cli/arguments.h"
 #include "cli/output_files.h"
@@ -13,15 +12,14 @@
 #include "develop/radiance.h"
 #include "io/atomic_file.h"
 #include "io/exr.h"
-#include "io/extension.h"
 #include "io/spectral_exr.h"
 #include "io/text.h"
+#include "report/plot.h"
 #include "sensor/response/table_range.h"
 #include "spectral/color_temperature.h"
 #include "spectral/curve_use.h"
 #include "spectral/library.h"
 #include "spectral/sources.h"
-#include "validation/plot/color_vector.h"
 
 namespace abbe::cli {
 namespace {

@@ -9,7 +9,6 @@
 #include "io/text.h"
 #include "materials/index/library.h"
 #include "materials/interface/coating.h"
-#include "materials/interface/film_thickness.h"
 #include "materials/interface/fresnel.h"
 #include "materials/interface/prism.h"
 #include "sampling/angle.h"

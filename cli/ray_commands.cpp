@@ -1,13 +1,12 @@
-#include "cli/ray_commands.h"
+#include "cli/command_options.h"
 
 #include <cmath>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "cli/draw.h"
 #include "cli/lens.h"
-#include "cli/trace.h"
+#include "cli/rays.h"
 
 namespace abbe::cli {
 namespace {

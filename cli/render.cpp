@@ -2,44 +2,165 @@
 
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
+#include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "calibration/output/display.h"
 #include "cli/answer.h"
-#include "cli/info.h"
-#include "cli/interrupt.h"
 #include "cli/mpi_group.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
-#include "cli/render_stats.h"
-#include "cli/same_render.h"
-#include "cli/warnings.h"
+#include "cli/scene_file.h"
 #include "develop/film_file.h"
-#include "film/film_attributes.h"
-#include "film/rendered_film.h"
-#include "film/scene_warnings.h"
-#include "film/white.h"
 #include "io/atomic_file.h"
-#include "io/extension.h"
-#include "io/file_lock.h"
+#include "io/data_directory.h"
+#include "io/error.h"
 #include "io/picture.h"
-#include "io/standard_stream.h"
+#include "io/text.h"
 #include "preview/preview.h"
 #include "preview/tev_viewer.h"
+#include "results/rendered_film.h"
+#include "results/scene_warnings.h"
+#include "results/spectral.h"
+#include "results/white.h"
 #include "transport/render/choose_integrator.h"
-#include "transport/render/light_subpaths.h"
+#include "transport/render/cost.h"
+#include "transport/render/mpi_group.h"
+#include "transport/render/part.h"
+#include "transport/render/pass.h"
+#include "transport/render/sample_ranges.h"
 #include "transport/render/threads.h"
+#include "validation/statistics.h"
 
 namespace abbe::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+std::string text_of(const std::optional<double>& number) {
+  return number ? fmt::format("{}", *number) : "none";
+}
+
+std::string text_of(const std::optional<SampleRange>& range) {
+  return range ? to_text(SampleRanges{*range}) : "none";
+}
+
+// Everything that determines which passes are traced by which process, and the meaning of their sums.
+std::string render_description(const FilmIdentity& identity, const abbe::RenderOptions& render_options,
+                               const std::optional<RenderResult>& start) {
+  FilmIdentity all = distinguishing_keys(identity);
+  if (const auto stated = identity.find(kStatedSamplesKey); stated != identity.end()) all.insert(*stated);
+  std::string text;
+  for (const auto& [key, value] : all) text += fmt::format("{}: {}\n", key, value);
+  text += fmt::format("range {}\ntime {}\nerror {}\n", text_of(render_options.samples),
+                      text_of(render_options.time_limit_s), text_of(render_options.target_error));
+  if (!start) return text;
+  text += fmt::format("start {}\n", to_text(start->samples));
+  if (const auto& begun = start->unfinished)
+    text += fmt::format("begun {} {}\n", text_of(begun->samples), begun->items);
+  return text;
+}
+
+Json json_of(const Cost& cost) {
+  return {{"wall_s", cost.wall_s}, {"cpu_s", cost.cpu_s}};
+}
+
+// Mean and error of each plane over the rendered pixels. Planes of a spectral sensor are radiances, as in its
+// file.
+Json film_figures(const Scene& scene, const Film& film) {
+  const Crop crop = film.crop();
+  const std::vector<std::string> planes = scene.film_planes();
+  const std::vector<double> divisors = scene.spectral ? exposure_per_radiance(scene) : std::vector<double>();
+  Json figures;
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    const Film::Average average =
+        film.average(static_cast<int>(i), crop.x0, crop.y0, crop.x1, crop.y1, divisors);
+    const bool known = average.degrees_of_freedom > 0;
+    figures[planes[i]] = {
+        {"mean", average.mean},
+        {"standard_error", known ? Json(average.standard_error) : Json()},
+        {"degrees_of_freedom", average.degrees_of_freedom},
+        {"half_interval_95",
+         known ? Json(half_interval(average.standard_error, average.degrees_of_freedom, 0.95)) : Json()}};
+  }
+  return figures;
+}
+
+/// Cost of the command, and of its phases other than the render itself.
+struct Costs {
+  CostMeter command;  ///< The whole command so far; starts with the construction of this struct.
+  Cost load;          ///< Reading and building the scene.
+  Cost plan;     ///< Pilot rays that choose the integrator, train its guiding data and determine the white.
+  Cost display;  ///< Making and writing pictures of the film.
+  Cost write;    ///< Writing the film and the last checkpoint.
+};
+// JSON that `abbe render --stats` writes: one line with a newline. The cost of the command is that until
+// this call. `display_white` is the film value that the picture displays as white (`kDisplayExposureKey`);
+// null without a picture.
+std::string stats_text(const Scene& scene, const RenderResult& result, const Costs& costs,
+                       std::optional<double> display_white) {
+  const RenderStats& stats = result.stats;
+  Json answer;
+  answer["wall_s"] = stats.wall_s;
+  answer["cpu_s"] = stats.cpu_s;
+  answer["command"] = json_of(costs.command.spent());
+  answer["overhead"] = {{"load", json_of(costs.load)},
+                        {"plan", json_of(costs.plan)},
+                        {"display", json_of(costs.display)},
+                        {"write", json_of(costs.write)}};
+  answer["threads"] = stats.threads;
+  answer["processes"] = stats.processes;
+  answer["samples_per_pixel"] = stats.samples_per_pixel;
+  answer["samples_before"] = stats.samples_before;
+  answer["photons_per_sample"] = result.film.shape().photons;
+  answer["path_interval"] = result.film.shape().path_interval;
+  answer["path_splitting"] = stats.path_splitting;
+  answer["paths"] = stats.paths;
+  answer["rays"] = stats.rays;
+  answer["embree_replay_share"] = Json();  // measured by bench, which traces paths again
+  answer["relative_error"] = stats.error.median;
+  answer["relative_error_p95"] = stats.error.p95;
+  answer["frame_mean_error"] = stats.error.frame_mean;
+  answer["half_noise_samples"] = or_null(stats.error.few_samples);
+  answer["hidden_noise"] = stats.error.hidden_noise > 0 ? Json(stats.error.hidden_noise) : Json();
+  answer["nonfinite_samples"] = stats.nonfinite_samples;
+  answer["cut_paths"] = stats.cut.paths;
+  answer["cut_throughput"] = stats.cut.throughput();
+  answer["film"] = film_figures(scene, result.film);
+  answer[kDisplayExposureKey] = or_null(display_white);
+  answer["version"] = ABBE_VERSION;
+  answer["seed"] = scene.render.seed;
+  answer["scene_sha256"] = scene.sha256;
+  answer["data_sha256"] = data_sha256();
+  return text(answer, true);
+}
+// Checks that all processes of a group are about to render the same samples of the same film, continuing
+// from the same ones (`start`, empty for none). Otherwise their sums would be invalid. All processes must
+// call it before their first pass. Throws Error{input} in those whose render differs from that of the root.
+// Does nothing for a single process.
+void require_same_render(const MpiGroup& mpi_group, const FilmIdentity& identity,
+                         const abbe::RenderOptions& render_options,
+                         const std::optional<RenderResult>& start) {
+  if (mpi_group.size == 1) return;
+  constexpr std::size_t kDigits = 16;  // hexadecimal, of 64 bits
+  const std::string hash = sha256(render_description(identity, render_options, start)).substr(0, kDigits);
+  const std::uint64_t own_hash = std::stoull(hash, nullptr, 16);
+  if (mpi_group.broadcast(own_hash) == own_hash) return;
+  throw Error(ErrorCode::input, "mpirun",
+              fmt::format("process {} does not render the same film as the root process: give all processes "
+                          "the same command line, files, build and instruction set of the processor",
+                          mpi_group.rank));
+}
 
 Scene load(const RenderOptions& options, Inputs& inputs) {
   Diagnostics diagnostics(options.strict ? Strictness::strict : Strictness::lenient);
@@ -285,7 +406,7 @@ void open_viewers(LiveViewers& viewers, const Scene& scene, const RenderOptions&
   if (options.tev) {
     inputs.reserve_memory("the viewer", bytes);
     viewers.tev.emplace(scene, identity(), *options.tev, threads,
-                        [](const std::string& warning) { print_message("warning: " + warning); });
+                        [](const std::string& warning) { warn(warning); });
   }
 }
 
@@ -373,10 +494,30 @@ void report_results(const RenderOptions& options, const fs::path& film, const Sc
   if (options.target_error && !options.time_limit_s && !stats.interrupted &&
       !std::isfinite(stats.error.median))
     print_message("warning: a pilot found no light on the film: --error has no effect");
-  for (const std::string& warning : render_warnings(scene, result)) print_message("warning: " + warning);
+  for (const std::string& warning : render_warnings(scene, result)) warn(warning);
 }
 
 }  // namespace
+
+void set_sampling(const SamplingOptions& options, RenderSettings& render) {
+  render.samples = options.samples.value_or(render.samples);
+  render.integrator = options.integrator.value_or(render.integrator);
+  render.seed = options.seed.value_or(render.seed);
+  const bool set_by_scene = render.consistent;
+  render.consistent = set_by_scene || options.consistent;
+  if (options.consistent && render.integrator != Integrator::automatic)
+    throw Error(ErrorCode::usage, "--consistent",
+                fmt::format("applies to the integrator auto only (got --integrator {}, allowed auto)",
+                            integrator_name(render.integrator)));
+  if (set_by_scene && render.integrator != Integrator::automatic)
+    throw Error(ErrorCode::usage, "--integrator",
+                fmt::format("render/consistent of the scene applies to auto only (got {}, allowed auto)",
+                            integrator_name(render.integrator)));
+  if (render.sampling != PathSampling{} && !traits(render.integrator).sampling_options)
+    throw Error(ErrorCode::usage, "--integrator",
+                fmt::format("the sampling settings of the scene apply to path only (got {}, allowed path)",
+                            integrator_name(render.integrator)));
+}
 
 int render(const RenderOptions& options) {
   Costs costs;
@@ -415,13 +556,12 @@ int render(const RenderOptions& options) {
   if (picture_settings) require_distinct(files_of(outputs, options), picture_settings->display.files());
   if (options.explain) print_to_stderr(describe(scene, choice));
   if (!options.quiet) note_polarisation(scene);
-  warn_of_ignored_polarisation(scene, options.strict);
-  warn_of_dark_camera(scene, options.strict);
-  warn_of_hidden_sheet(scene, options.strict);
-  warn_of_hidden_light(scene, options.strict);
-  warn_of_unsampled_light(scene, options.strict && !chooses_integrator);
-  warn_of_undertrained_guides(choice.guides.get());
-  warn_of_unused_settings(scene);
+  warn(ignored_polarisation_warning(scene), options.strict);
+  warn(dark_camera_warning(scene), options.strict);
+  warn(coincidence_warning(scene), options.strict);
+  warn(unsampled_light_warning(scene), options.strict && !chooses_integrator);
+  warn(undertrained_warning(choice.guides.get()));
+  warn(unused_settings_warning(scene));
 
   inputs.reserve_memory("the film", film_bytes(scene, make_render_options(options, scene)));
   inputs.reserve_memory("the light subpaths of a sample", bytes_of_light_paths(scene));

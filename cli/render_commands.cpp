@@ -1,4 +1,4 @@
-#include "cli/render_commands.h"
+#include "cli/command_options.h"
 
 #include <cstdint>
 #include <string>

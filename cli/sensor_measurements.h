@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/answer.h"
 #include "io/inputs.h"
 #include "sensor/film/crop.h"
 
@@ -36,5 +37,23 @@ struct MtfOptions {
 /// channel, for a crop outside the recorded pixels and for a plot other than .svg. Throws Error{input} for a
 /// mosaic and as `slanted_edge`, Error{output} if the plot cannot be written.
 int mtf(const MtfOptions& options);
+
+/// Colour "#rrggbb" of a channel's line: its own for R, G and B, otherwise one of three by the index `i`.
+[[nodiscard]] std::string line_color(const std::string& channel, std::size_t i);
+
+/// Photon-transfer curves as SVG from an answer of `abbe transfer --json`: the measured variance over signal,
+/// with the line of each channel's gain. Throws Json::exception for an answer without these lists.
+[[nodiscard]] std::string transfer_plot(const Json& answer);
+
+/// Modulation transfer function as SVG from an answer of `abbe mtf --json`. Throws Json::exception for
+/// another answer.
+[[nodiscard]] std::string mtf_plot(const Json& answer);
+
+/// Function such as `transfer_plot` that draws an answer.
+using AnswerPlot = std::string (*)(const Json&);
+
+/// Reads an answer from a file, which is recorded in `inputs`. Throws Error{input} if the file cannot be read
+/// or `plot` cannot draw it.
+[[nodiscard]] Json read_answer(const std::filesystem::path& path, const AnswerPlot& plot, Inputs& inputs);
 
 }  // namespace abbe::cli

@@ -2,7 +2,7 @@
 include(CMakePackageConfigHelpers)
 set(ABBE_DATA_INSTALL_DIR "${CMAKE_INSTALL_DATADIR}/abbe/data")
 set(ABBE_PACKAGE_INSTALL_DIR "${CMAKE_INSTALL_LIBDIR}/cmake/Abbe")
-set(ABBE_PUBLIC_ROOMS io sampling spectral materials lens sensor scene description transport calibration develop film)
+set(ABBE_PUBLIC_ROOMS io sampling spectral materials lens sensor scene description importers transport calibration develop results)
 
 install(TARGETS abbe DESTINATION "${CMAKE_INSTALL_BINDIR}" COMPONENT tool)
 install(TARGETS abbe_pictures DESTINATION "${ABBE_MODULE_DIR}" COMPONENT tool)

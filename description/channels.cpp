@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "description/load_context.h"
 #include "description/sensor.h"
-#include "description/table_coverage.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 
 namespace abbe::description {
 namespace {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "description/table_coverage.h"
+#include "description/load_context.h"
 #include "spectral/library.h"
 
 namespace abbe::spec {
@@ -113,8 +113,8 @@ struct UnitWarnings {
 std::optional<std::string> unit_error(const NamedCurve& table, const CurveUse& use, TableRole role) {
   if (role == TableRole::scaled) return std::nullopt;
   const std::string remedy = fmt::format("; {{\"scale\": S, \"of\": \"{}\"}} converts", table.name);
-  return role == TableRole::factor ? factor_unit_fault(table.name, table.unit, use.unit, remedy)
-                                   : unit_fault(table.name, table.unit, use.unit, remedy);
+  return unit_fault(table.name, table.unit, use.unit, remedy,
+                    role == TableRole::factor ? UnitRole::factor : UnitRole::whole);
 }
 std::optional<std::string> unit_warning(const NamedCurve& table, const CurveUse& use, TableRole role) {
   if (role == TableRole::scaled) return std::nullopt;

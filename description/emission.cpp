@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "description/table_coverage.h"
+#include "description/load_context.h"
 #include "io/schema/write.h"
 #include "spectral/colorimetry.h"
 #include "spectral/library.h"
@@ -282,6 +282,7 @@ struct ScaleBuilder {
   [[nodiscard]] double per_unit(spec::Quantity quantity) const {
     using enum spec::Quantity;
     if (quantity == radiant_flux || quantity == luminous_flux) return kind.flux;
+    if (quantity == intensity || quantity == luminous_intensity) return kind.irradiance(1);
     return quantity == irradiance || quantity == illuminance ? kind.irradiance(0) : 1;
   }
   std::optional<Scale> operator()(std::monostate) const { return std::nullopt; }

@@ -8,8 +8,8 @@
 #include <ImathVec.h>
 
 #include "description/curve.h"
-#include "scene/lights/polarisation.h"
-#include "spectral/scaled_curve.h"
+#include "scene/lights/light.h"
+#include "spectral/curve.h"
 
 namespace abbe::spec {
 
@@ -96,7 +96,8 @@ struct LightKind {
   double flux;  ///< Flux for unit radiance [m^2 sr] or unit intensity [sr]; 0 if the light has no flux.
   /// Irradiance at a distance [m] from the center, on the axis of the light, on a surface that faces it. It
   /// is given for unit radiance [sr] or unit intensity [m^-2], and 0 inside the light. A light at infinity
-  /// has the same value at every distance. Empty for a light that no irradiance can scale.
+  /// has the same value at every distance. Empty for a light that no irradiance can scale. An intensity that
+  /// scales the light is that along the axis: the irradiance at 1 m times 1 m^2.
   std::function<double(double)> irradiance = {};
 };
 

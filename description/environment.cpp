@@ -7,9 +7,8 @@
 #include <fmt/format.h>
 
 #include "description/light.h"
-#include "io/extension.h"
-#include "io/orientation.h"
 #include "io/picture.h"
+#include "io/text.h"
 #include "spectral/rgb.h"
 
 namespace abbe::description {

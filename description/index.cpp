@@ -1,17 +1,20 @@
 #include "description/index.h"
 
+#include <algorithm>
 #include <numbers>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "materials/index/library.h"
-#include "materials/interface/film_thickness.h"
+#include "materials/interface/coating.h"
 
 namespace abbe::spec {
-namespace {
 
 using namespace schema;
+
+namespace {
 
 constexpr Range kIndex{0, 100, true, false};  // Wider than any measured index.
 constexpr Range kMetalIndex{0, 100};          // n = 0 is the perfect mirror.
@@ -138,6 +141,76 @@ Ior constant_ior(double n, double k) {
   return {k > 0 ? fmt::format("{} + {}i", n, k) : fmt::format("{}", n), RefractiveIndex(n, k)};
 }
 
+Imath::V2f widths(double alpha) {
+  return Imath::V2f(static_cast<float>(alpha));
+}
+Imath::V2f widths(const std::array<double, 2>& alpha) {
+  return {static_cast<float>(alpha[0]), static_cast<float>(alpha[1])};
+}
+Imath::V2f widths(const spec::Facets& facets) {
+  return std::visit([](const auto& alpha) { return widths(alpha); }, facets.alpha);
+}
+
+/// A coating under construction, with the first spec of each of its materials.
+struct Films {
+  Coating coating;
+  std::vector<const spec::Ior*> specs;  // One for each material.
+};
+
+// True if neither index is a table, or both are tables with the same data. The names of tables do not
+// distinguish them.
+bool same_tables(const spec::Ior& a, const spec::Ior& b) {
+  const auto* one = std::get_if<spec::TableIor>(&a.value);
+  const auto* other = std::get_if<spec::TableIor>(&b.value);
+  if (one == nullptr || other == nullptr) return one == other;
+  return std::tie(one->wavelength_nm, one->n, one->k) == std::tie(other->wavelength_nm, other->n, other->k);
+}
+
+// Index of the material of `spec` in the coating, added if it is new. Equal names, numbers or tables are the
+// same material.
+std::optional<std::uint32_t> film_material(const spec::Ior& spec, Films& films, LoadContext& context) {
+  auto ior = build(spec, context);
+  if (!ior) return std::nullopt;
+  const auto* words = std::get_if<std::string>(&spec.value);
+  const std::string name = words ? *words : ior->name;
+  std::vector<Coating::Material>& materials = films.coating.materials;
+  std::uint32_t number = 0;
+  for (; number < materials.size(); ++number)
+    if (materials[number].index_name == name && same_tables(*films.specs[number], spec)) return number;
+  if (number == Coating::kMaxMaterials) {
+    context.diagnostics.error(
+        spec.where, fmt::format("too many materials in a coating (allowed {})", Coating::kMaxMaterials));
+    return std::nullopt;
+  }
+  materials.push_back({name, std::move(ior->index)});
+  films.specs.push_back(&spec);
+  return number;
+}
+
+void add_layers(const std::vector<spec::LayerEntry>& entries, Films& films, LoadContext& context) {
+  std::vector<Coating::Layer>& layers = films.coating.layers;
+  for (const spec::LayerEntry& entry : entries) {
+    const std::size_t first = layers.size();
+    std::int64_t repeats = 1;
+    if (const auto* group = std::get_if<spec::LayerGroup>(&entry.value)) {
+      repeats = group->repeat;
+      add_layers(group->layers, films, context);
+    } else {
+      const auto& layer = std::get<spec::Layer>(entry.value);
+      if (const auto material = film_material(layer.ior, films, context))
+        layers.push_back({*material, layer.thickness_nm});
+    }
+    const std::size_t last = layers.size();
+    if (first + (last - first) * static_cast<std::size_t>(repeats) > Coating::kMaxLayers) {
+      context.diagnostics.error(entry.where,
+                                fmt::format("too many layers (allowed {})", Coating::kMaxLayers));
+      return;
+    }
+    for (; repeats > 1; --repeats)
+      for (std::size_t i = first; i < last; ++i) layers.push_back(layers[i]);
+  }
+}
+
 }  // namespace
 
 std::optional<Ior> build(const spec::Ior& spec, LoadContext& context) {
@@ -166,6 +239,29 @@ std::optional<Ior> build(const spec::TintedIor& spec, LoadContext& context) {
   if (!alpha) return std::nullopt;
   ior->index = ior->index.with_k(extinction(*alpha));
   return ior;
+}
+
+std::optional<Microfacets<float>> build(const spec::Roughness& spec, const Coating& coating,
+                                        LoadContext& context) {
+  const Imath::V2f alpha = std::visit([](const auto& form) { return widths(form); }, spec.value);
+  const auto* facets = std::get_if<spec::Facets>(&spec.value);
+  const FacetShape shape = facets ? facets->distribution : FacetShape::ggx;
+  constexpr auto min_alpha = static_cast<float>(kMinAlpha);
+  if (std::max(alpha.x, alpha.y) < min_alpha) return std::nullopt;
+  if (!coating.layers.empty()) context.diagnostics.error(spec.where, "a coating needs a smooth surface");
+  const float wide = std::max(alpha.x, alpha.y);
+  const float narrow = std::max(std::min(alpha.x, alpha.y), min_alpha);
+  if (wide > narrow * static_cast<float>(kMaxAlphaRatio))
+    context.diagnostics.error(
+        spec.where, fmt::format("the two alphas must not differ by more than a factor of {} (got {} and {})",
+                                kMaxAlphaRatio, alpha.x, alpha.y));
+  return Microfacets<float>{shape, std::max(alpha.x, min_alpha), std::max(alpha.y, min_alpha)};
+}
+
+Coating build(const std::vector<spec::LayerEntry>& layers, LoadContext& context) {
+  Films films;
+  add_layers(layers, films, context);
+  return std::move(films.coating);
 }
 
 }  // namespace abbe::description

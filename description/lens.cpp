@@ -8,8 +8,8 @@
 
 #include "io/error.h"
 #include "lens/field.h"
-#include "lens/focus.h"
 #include "lens/paraxial.h"
+#include "lens/spot.h"
 #include "sampling/angle.h"
 
 namespace abbe::spec {

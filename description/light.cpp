@@ -9,7 +9,7 @@
 
 #include "description/material.h"
 #include "description/shape.h"
-#include "scene/shapes/quad.h"
+#include "scene/shapes/basic.h"
 
 namespace abbe::spec {
 namespace {
@@ -76,6 +76,21 @@ static Fields fields(Tag<Spot>) {
                    field("half_angle_deg", &Spot::half_angle_deg, kHalfAngle, "Half-angle of the cone.")});
 }
 
+static Fields fields(Tag<Photometric>) {
+  return describe(
+      "photometric",
+      "A point with the intensity distribution of a luminaire. Without a scale, its emission has the "
+      "luminous flux of the file. An intensity that scales it is that along the axis.",
+      {field("at", &Photometric::at, kCoordinate, "Its position."),
+       field("file", &Photometric::file,
+             "An IES LM-63 file (.ies) with type C photometry, or an EULUMDAT file (.ldt)."),
+       defaulted("axis", &Photometric::axis, direction(),
+                 "Direction of the vertical angle 0: that in which a ceiling luminaire shines."),
+       defaulted("c0", &Photometric::c0, direction(),
+                 "Direction of the horizontal angle 0, made perpendicular to the axis. These angles increase "
+                 "counter-clockwise as viewed against the axis, from above a ceiling luminaire.")});
+}
+
 static Fields fields(Tag<DirectionalLight>) {
   return describe("directional", "Parallel light from infinity.",
                   {field("towards", &DirectionalLight::towards, direction(), kTowards),
@@ -111,8 +126,9 @@ Fields fields(Tag<Light>) {
       {field("name", &Light::name, "Name for messages and for references to it as a white."),
        one_of(&Light::kind, inlined_by<AreaLight<Quad>>("quad"), inlined_by<AreaLight<Sphere>>("sphere"),
               inlined_by<AreaLight<Disc>>("disc"), inlined_by<PointLightSource>("point"),
-              inlined_by<SpotLightSource>("spot"), inlined_by<DirectionalLightSource>("directional"),
-              inlined_by<SunLightSource>("sun"), inlined_by<EnvironmentLightSource>("environment")),
+              inlined_by<SpotLightSource>("spot"), inlined_by<PhotometricLightSource>("photometric"),
+              inlined_by<DirectionalLightSource>("directional"), inlined_by<SunLightSource>("sun"),
+              inlined_by<EnvironmentLightSource>("environment")),
        field("motion", &Light::motion,
              "Motion relative to the described pose; a light at infinity cannot move.")});
 }
@@ -236,6 +252,36 @@ struct LightBuilder {
     const double solid_angle = 2 * std::numbers::pi * static_cast<double>(spot.cap);
     add(spot, spec.emission,
         {schema::fields_of<spec::PointEmission>, CurveUnit::spectral_intensity, solid_angle, inverse_square});
+  }
+  void operator()(const spec::PhotometricLightSource& spec) {
+    using enum spec::Quantity;
+    const auto distribution = read_photometric_file(spec.source.file, context);
+    const Imath::V3d axis = spec.source.axis.normalized();
+    const Imath::V3d c0 = spec.source.c0.normalized() - axis * axis.dot(spec.source.c0.normalized());
+    if (!(c0.length() > 1e-6))
+      return context.diagnostics.error(where, "c0 must not be parallel to the axis of the luminaire");
+    if (!distribution) return;
+    const double on_axis = static_cast<double>(distribution->relative_intensity({0, 0, 1}));
+    spec::Emission emission = spec.emission;
+    const bool scaled = !std::holds_alternative<std::monostate>(emission.scale);
+    const bool by_flux = std::holds_alternative<spec::Amount<radiant_flux>>(emission.scale) ||
+                         std::holds_alternative<spec::Amount<luminous_flux>>(emission.scale);
+    if (scaled && !by_flux && !(on_axis > 0))
+      return context.diagnostics.error(
+          emission.where, "the luminaire emits nothing along its axis: scale its emission by a flux");
+    if (!scaled && !std::holds_alternative<spec::SpectralFlux>(emission.spectrum))
+      emission.scale = spec::Amount<luminous_flux>{{distribution->luminous_flux()}};
+    const PoseAndMotion moving = point_motion();
+    const auto posed = [&moving](const Imath::V3d& direction) {
+      Imath::V3d rotated;
+      moving.pose_at_opening.multDirMatrix(direction, rotated);
+      return Imath::V3f(rotated);
+    };
+    add(PhotometricLight{position(spec.source.at, moving), posed(axis), posed(c0.normalized()), distribution,
+                         moving.motion},
+        emission,
+        {schema::fields_of<spec::PointEmission>, CurveUnit::spectral_intensity, 4 * std::numbers::pi,
+         [on_axis](double distance) { return on_axis * inverse_square(distance); }});
   }
   // Adds a light at infinity. Without an emission its own strength applies, with the spectrum D65.
   void add_from_infinity(decltype(Light::kind) kind, const spec::DaylightStrength& strength,

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -11,7 +12,7 @@
 #include "description/load_context.h"
 #include "description/motion.h"
 #include "description/surface.h"
-#include "scene/lights/environment_image.h"
+#include "scene/lights/infinite_light.h"
 #include "scene/scene.h"
 
 // Lights as scene files describe them. Lengths and positions are in the scene file's unit; directions are in
@@ -41,6 +42,14 @@ struct Spot {
   Imath::V3d at{0, 0, 0};         ///< Position.
   Imath::V3d direction{0, 0, 0};  ///< Axis of the cone, along the light.
   double half_angle_deg = 0;      ///< Half-angle of the cone, in [0.1, 180].
+};
+/// A point with the intensity distribution of a luminaire. Without a scale or a spectral flux its emission
+/// has the luminous flux of the file, and only the shape of the spectrum counts.
+struct Photometric {
+  Imath::V3d at{0, 0, 0};             ///< Position.
+  schema::Located<std::string> file;  ///< An IES LM-63 (.ies) or EULUMDAT (.ldt) file.
+  Imath::V3d axis{0, 0, -1};          ///< Direction of gamma = 0: of a ceiling luminaire, downwards.
+  Imath::V3d c0{1, 0, 0};             ///< Its component perpendicular to the axis is the direction of C = 0.
 };
 /// Irradiance [W/m^2] over 300-1100 nm of a surface that faces the light, with the spectrum D65.
 struct DaylightIrradiance : schema::Located<double> {};
@@ -75,6 +84,7 @@ struct EnvironmentLight {
 };
 using PointLightSource = LightSource<Point, PointEmission>;
 using SpotLightSource = LightSource<Spot, PointEmission>;
+using PhotometricLightSource = LightSource<Photometric, PointEmission>;
 using DirectionalLightSource = LightSource<DirectionalLight, std::optional<DirectionalLightEmission>>;
 using SunLightSource = LightSource<Sun, std::optional<SunEmission>>;
 using EnvironmentLightSource = LightSource<EnvironmentLight, EnvironmentLightEmission>;
@@ -82,7 +92,8 @@ using EnvironmentLightSource = LightSource<EnvironmentLight, EnvironmentLightEmi
 struct Light {
   std::optional<std::string> name;  ///< If absent, messages call it "light N", counted from 0.
   std::variant<std::monostate, AreaLight<Quad>, AreaLight<Sphere>, AreaLight<Disc>, PointLightSource,
-               SpotLightSource, DirectionalLightSource, SunLightSource, EnvironmentLightSource>
+               SpotLightSource, PhotometricLightSource, DirectionalLightSource, SunLightSource,
+               EnvironmentLightSource>
       kind;
   SourcePosition where;
   std::optional<Motion> motion = {};  ///< Motion relative to the described pose; at rest if absent.
@@ -132,5 +143,18 @@ struct EnvironmentTexels {
 /// Throws Error{input} for an image file that cannot be read, and Error{resource} for one that is too large.
 [[nodiscard]] std::optional<EnvironmentTexels> build(const spec::EnvironmentLight& environment,
                                                      LoadContext& context);
+
+/// Reads the intensity distribution of a luminaire, with all half-planes that its symmetry implies:
+/// - `.ies`: ANSI/IES LM-63 of 1986, 1991, 1995, 2002 or 2019 with type C photometry. Intensities are
+///   multiplied by the candela multiplier and the ballast factor, and in files before 1995 by the
+///   photometric factor that follows it. The factors of TILT=INCLUDE are not applied; a warning says so.
+/// - `.ldt`: EULUMDAT, in cd/klm times the flux of the first set of light sources and the conversion factor.
+/// Reports to `context.diagnostics`, and returns nullptr for:
+/// - a URL, another extension, a file that cannot be read and one that ends too early;
+/// - photometry of types A and B, tilt factors in another file, and angles that do not fit the symmetry;
+/// - numbers that are not finite or out of their range, and intensities that are all 0.
+/// Throws Error{resource} if the memory limit is exceeded.
+[[nodiscard]] std::shared_ptr<const IntensityDistribution> read_photometric_file(
+    const schema::Located<std::string>& name, LoadContext& context);
 
 }  // namespace abbe::description

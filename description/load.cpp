@@ -1,5 +1,6 @@
 #include "description/load.h"
 
+#include <algorithm>
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -8,15 +9,56 @@
 
 #include <fmt/format.h>
 
+#include "description/material.h"
 #include "description/scene.h"
-#include "description/sensor_model.h"
+#include "description/sensor.h"
+#include "io/schema/documentation.h"
 #include "io/schema/read.h"
-#include "io/standard_stream.h"
+#include "io/schema/write.h"
 #include "io/table.h"
 #include "io/text.h"
 #include "materials/index/library.h"
 
 namespace abbe {
+namespace {
+
+struct MaterialPath {
+  std::filesystem::path path;
+  std::string name;  // Empty if not given.
+};
+
+// Splits "FILE" or "FILE:NAME".
+MaterialPath split_name(const std::string& words) {
+  const std::size_t colon = words.rfind(".json:");
+  if (colon == std::string::npos) return {words, ""};
+  const std::size_t end = colon + std::string_view(".json").size();
+  return {words.substr(0, end), words.substr(end + 1)};
+}
+
+// The materials of a scene file, or the single material that the whole text describes.
+JsonValue materials_of(JsonValue root) {
+  if (const JsonValue* materials = root.find("materials")) return *materials;
+  JsonValue all{JsonValue::Object{}, root.where};
+  std::get<JsonValue::Object>(all.value).push_back({"material", std::move(root)});
+  return all;
+}
+
+const Material* chosen(const std::vector<Material>& materials, const std::string& name,
+                       const SourcePosition& where, Diagnostics& diagnostics) {
+  if (name.empty() && materials.size() == 1) return &materials.front();
+  std::vector<std::string> names;
+  for (const Material& material : materials) {
+    if (material.name == name) return &material;
+    names.push_back(material.name);
+  }
+  diagnostics.error(
+      where, name.empty() ? fmt::format("several materials: add :NAME, one of {}", fmt::join(names, ", "))
+                          : unknown_name("material", name, names));
+  return nullptr;
+}
+
+}  // namespace
+
 namespace description {
 namespace {
 
@@ -72,32 +114,6 @@ bool read(const std::shared_ptr<const SourceText>& source, std::span<const Overr
 
 }  // namespace
 
-std::optional<std::filesystem::path> LoadContext::file(const std::string& name, const SourcePosition& where) {
-  if (name.find("://") != std::string::npos) {
-    diagnostics.error(where, fmt::format("expected a file (got the URL \"{}\")", name), ErrorCode::input);
-    return std::nullopt;
-  }
-  remember(folder / name);
-  return files.back();
-}
-
-void LoadContext::remember(const std::filesystem::path& file) {
-  files.push_back(file);
-  if (inputs != nullptr) inputs->add_file(file);
-}
-
-void LoadContext::take_memory(const std::string& what, std::size_t bytes) const {
-  if (inputs != nullptr) inputs->reserve_memory(what, bytes);
-}
-
-std::optional<std::string> LoadContext::table(const std::string& name, const SourcePosition& where) {
-  const std::size_t end = user_table_end(name);  // A column name may follow the file name.
-  if (end == std::string::npos && !name.ends_with(".json") && !is_refractiveindex_info(name)) return name;
-  const auto path = file(name.substr(0, end), where);
-  if (!path) return std::nullopt;
-  return path->string() + name.substr(std::min(end, name.size()));
-}
-
 }  // namespace description
 
 std::optional<Scene> load_scene(const std::filesystem::path& path, std::span<const Override> overrides,
@@ -151,6 +167,50 @@ std::optional<Scene> scene_of(const MeteredScene& scene, const Meter& meter, Dia
   if (diagnostics.has_errors()) return std::nullopt;
   built.commit();
   return built;
+}
+
+std::optional<std::string> canonical_scene(const std::filesystem::path& path,
+                                           std::span<const Override> overrides, Diagnostics& diagnostics,
+                                           Inputs* inputs) {
+  spec::Scene spec;
+  if (!load_scene(path, overrides, diagnostics, inputs, &spec)) return std::nullopt;
+  std::string text = to_lines(schema::write(spec), kJsonWidth);
+  // Overrides may nest JSON deeper than a file may be.
+  const auto source = std::make_shared<const SourceText>(SourceText{path.string(), text});
+  MemoryReservation tree_memory(inputs, 0);
+  if (!parse_json(source, diagnostics, &tree_memory)) return std::nullopt;
+  return text;
+}
+
+std::string scene_schema() {
+  return to_lines(schema::json_schema(schema::fields_of<spec::Scene>()), kJsonWidth);
+}
+
+std::string scene_guide(const std::string& guide) {
+  return schema::with_tables(guide, schema::fields_of<spec::Scene>());
+}
+
+std::optional<Material> load_material(const std::string& words, Diagnostics& diagnostics, Inputs* inputs) {
+  const bool in_place = words.starts_with('{');
+  const MaterialPath material_path = in_place ? MaterialPath{} : split_name(words);
+  const auto source = in_place ? std::make_shared<const SourceText>(SourceText{"MATERIAL", words})
+                               : read_text(material_path.path, diagnostics);
+  if (!source) return std::nullopt;
+  std::optional<JsonValue> root = parse_json(source, diagnostics);
+  if (!root) return std::nullopt;
+  spec::Unit unit{};
+  if (const JsonValue* units = root->find("units"))
+    (void)schema::read(*units, spec::units(), &unit, diagnostics);
+  const JsonValue materials = materials_of(*std::move(root));
+  if (inputs && !in_place) inputs->add_file(material_path.path);
+  description::LoadContext context{diagnostics, material_path.path.parent_path(), inputs, spec::metres(unit)};
+  Scene scene{};
+  spec::Materials spec;
+  (void)schema::read(materials, spec::materials(), &spec, diagnostics);
+  description::build_materials(spec, context, scene);
+  if (diagnostics.has_errors()) return std::nullopt;
+  const Material* material = chosen(scene.materials, material_path.name, materials.where, diagnostics);
+  return material ? std::optional(*material) : std::nullopt;
 }
 
 }  // namespace abbe

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -10,6 +11,7 @@
 #include "io/diagnostics.h"
 #include "io/inputs.h"
 #include "io/json.h"
+#include "materials/material.h"
 #include "scene/camera/meter.h"
 #include "scene/scene.h"
 
@@ -60,5 +62,34 @@ struct MeteredScene {
 /// Its hash `sha256` stays empty. Reports errors, returns nothing after one and throws as `load_scene` does.
 [[nodiscard]] std::optional<Scene> scene_of(const MeteredScene& scene, const Meter& meter,
                                             Diagnostics& diagnostics, Inputs* inputs = nullptr);
+
+/// The text of a scene file in canonical form: keys in the order of the key tables, no comments, no default
+/// values. It describes the same scene with `overrides` applied; the keys of a sensor model are written out.
+/// The file is not changed. Reports the same diagnostics and throws the same errors as `load_scene`; returns
+/// nothing after an error. `inputs`, if given, records the files that are read.
+[[nodiscard]] std::optional<std::string> canonical_scene(const std::filesystem::path& path,
+                                                         std::span<const Override> overrides,
+                                                         Diagnostics& diagnostics, Inputs* inputs = nullptr);
+
+/// Line width of the JSON that Abbe writes for readers [characters].
+inline constexpr std::size_t kJsonWidth = 140;
+
+/// The text of `docs/scene.schema.json`: the JSON Schema of scene files, generated from the key tables.
+[[nodiscard]] std::string scene_schema();
+
+/// The text of `docs/scene.md` with its key tables regenerated from those of the program. `guide` is its
+/// current text, from which everything else is taken. Throws Error{internal} if it names an unknown table or
+/// a table has no end.
+[[nodiscard]] std::string scene_guide(const std::string& guide);
+
+/// Reads and builds one material, which `words` gives as one of:
+/// - JSON text that begins with "{";
+/// - the name of a file with such text;
+/// - "FILE.json:NAME", one of the `materials` of a scene; ":NAME" may be omitted if there is only one.
+/// Lengths are in the `units` of the text, or metres without that key. All materials of a scene are built.
+/// Reports every error to `diagnostics`; returns nothing if they then have one. `inputs`, if given, records
+/// the files that are read. Throws Error{resource} if its memory limit is exceeded.
+[[nodiscard]] std::optional<Material> load_material(const std::string& words, Diagnostics& diagnostics,
+                                                    Inputs* inputs = nullptr);
 
 }  // namespace abbe

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include "description/render_limits.h"
 #include "description/value_ranges.h"
 
 namespace abbe::spec {
@@ -73,7 +72,7 @@ PathSampling sampling_of(const spec::Render& render, Diagnostics& diagnostics) {
   const PathSampling sampling{render.directions.value, render.lights.value, render.heuristic.value};
   const PathSampling defaults;
   const auto refuse_for_others = [&](bool is_set, const SourcePosition& where) {
-    if (is_set && render.integrator != Integrator::path)
+    if (is_set && !traits(render.integrator).sampling_options)
       diagnostics.error(where, fmt::format("is an option of the integrator \"path\" (got it with \"{}\")",
                                            integrator_name(render.integrator)));
   };

@@ -6,8 +6,8 @@
 
 #include "description/checks.h"
 #include "io/schema/write.h"
-#include "scene/colors.h"
-#include "scene/shapes/placed.h"
+#include "scene/shapes/shape.h"
+#include "scene/white.h"
 #include "scene/working_range.h"
 #include "sensor/response/table_range.h"
 

@@ -7,7 +7,7 @@
 #include "description/camera.h"
 #include "description/light.h"
 #include "description/material.h"
-#include "description/meter.h"
+#include "description/probe.h"
 #include "description/render.h"
 #include "description/sensor.h"
 #include "description/shape.h"

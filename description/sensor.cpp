@@ -1,19 +1,28 @@
 #include "description/sensor.h"
 
 #include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "description/value_ranges.h"
+#include "io/data_directory.h"
 #include "io/image.h"
+#include "io/json_values.h"
+#include "io/text.h"
 #include "sensor/readout/speed.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 
 namespace abbe::spec {
-namespace {
 
 using namespace schema;
+
+namespace {
 
 // Above 1 by what a measurement may err, far below a percentage.
 constexpr Range kEffectiveIndex{1, 10};
@@ -45,6 +54,23 @@ ValueType mosaic() {
 }
 
 }  // namespace
+
+Fields fields(Tag<Shutter>) {
+  constexpr Range kSeconds = Range{0, 1e9}.in("s");
+  constexpr Range kFraction{0, 1};
+  using Knot = std::array<double, 2>;
+  return describe(
+      "shutter", "Times and transmission of the rows of the sensor; each row is open for `exposure_s`.",
+      {defaulted("open_s", &Shutter::open_s, Range{-1e9, 1e9}.in("s"),
+                 "Time at which the first row opens, on the clock of keyframes."),
+       defaulted("rise_s", &Shutter::rise_s, kSeconds, "Time to open, at a constant rate."),
+       defaulted("fall_s", &Shutter::fall_s, kSeconds, "Time to close, at a constant rate."),
+       field("transmission", &Shutter::transmission, list<Knot>(vector<Knot>(kFraction), "pairs", 2),
+             "Replaces both: pairs of the elapsed fraction of `exposure_s`, from 0 to 1, and the "
+             "transmittance at that time, linearly interpolated."),
+       defaulted("row_delay_s", &Shutter::row_delay_s, kSeconds,
+                 "Delay of each row after the row above it, as in a rolling shutter.")});
+}
 
 static Fields fields(Tag<InterferenceFilter>) {
   return describe("interference_filter",
@@ -133,6 +159,29 @@ Fields fields(Tag<Sensor>) {
 
 namespace abbe::description {
 namespace {
+
+std::vector<Shutter::Knot> knots_of(const schema::Located<std::vector<std::array<double, 2>>>& spec,
+                                    const LoadContext& context) {
+  std::vector<Shutter::Knot> knots;
+  double transmitted = 0;
+  for (const auto& [at, passes] : spec.value) {
+    if (!knots.empty() && at < knots.back().time) {
+      context.diagnostics.error(
+          spec.where, fmt::format("fractions of the exposure time must increase (got {} after {})", at,
+                                  knots.back().time));
+      return {};
+    }
+    if (!knots.empty()) transmitted += (at - knots.back().time) * (passes + knots.back().transmittance);
+    knots.push_back({at, passes});
+  }
+  if (knots.front().time == 0 && knots.back().time == 1 && transmitted > 0) return knots;
+  context.diagnostics.error(
+      spec.where,
+      fmt::format(
+          "a transmission must run from 0 to 1 and pass some light (got one from {} to {} with mean {:g})",
+          knots.front().time, knots.back().time, transmitted / 2));
+  return {};
+}
 
 void build_resolution(const spec::Sensor& spec, bool probe, Sensor& sensor, LoadContext& context) {
   if (!spec.resolution) {
@@ -241,7 +290,105 @@ void check_polarisation(const spec::Sensor& spec, const Sensor& sensor, LoadCont
     context.diagnostics.error(spec.where, "an irradiance probe does not record polarisation");
 }
 
+namespace fs = std::filesystem;
+
+constexpr const char* kKey = "model";
+constexpr std::string_view kExtension = ".json";
+
+// Keys that set the same property: one of them in a scene replaces all of them in a file.
+constexpr std::array<std::string_view, 9> kCounts{"channels",
+                                                  "camera",
+                                                  "observer",
+                                                  "spectral",
+                                                  "mosaic",
+                                                  "response",
+                                                  "quantum_efficiency",
+                                                  "peak_quantum_efficiency",
+                                                  "electrons_per_lx_s"};
+constexpr std::array<std::string_view, 4> kWhatCounts{"channels", "camera", "observer", "spectral"};
+constexpr std::array<std::string_view, 2> kScale{"peak_quantum_efficiency", "electrons_per_lx_s"};
+constexpr std::array<std::string_view, 2> kConversion{"gain_e_per_dn", "iso"};
+
+std::vector<std::string> shipped_models() {
+  std::vector<std::string> names;
+  std::error_code missing;
+  for (const auto& entry : fs::directory_iterator(data_directory() / "sensor", missing))
+    if (entry.path().extension() == kExtension) names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::optional<fs::path> model_file(const std::string& name, const SourcePosition& where,
+                                   LoadContext& context) {
+  if (name.ends_with(kExtension)) return context.file(name, where);
+  const std::vector<std::string> names = shipped_models();
+  if (std::find(names.begin(), names.end(), name) == names.end()) {
+    context.diagnostics.error(where, unknown_name("sensor", name, names));
+    return std::nullopt;
+  }
+  context.remember(data_directory() / "sensor" / (name + std::string(kExtension)));
+  return context.files.back();
+}
+
+// The member `sensor` of a model file. Reports missing keys, including those of its provenance.
+std::optional<JsonValue> read_model(const fs::path& path, LoadContext& context) {
+  const auto source = read_text(path, context.diagnostics);
+  std::optional<JsonValue> root = source ? parse_json(source, context.diagnostics) : std::nullopt;
+  if (!root) return std::nullopt;
+  bool complete = true;
+  for (const char* key : {"title", "source", "status", "sensor"})
+    if (root->find(key) == nullptr) {
+      context.diagnostics.error(root->where, fmt::format("missing key \"{}\"", key), ErrorCode::input);
+      complete = false;
+    }
+  return complete ? std::optional(std::move(*root->find("sensor"))) : std::nullopt;
+}
+
+bool has_any(const JsonValue& object, std::span<const std::string_view> keys) {
+  return std::any_of(keys.begin(), keys.end(), [&](auto key) { return object.find(key) != nullptr; });
+}
+
+// Keys of the file that the scene's sensor replaces together.
+std::span<const std::string_view> replaced_by(const JsonValue& sensor) {
+  if (has_any(sensor, kWhatCounts)) return kCounts;
+  if (has_any(sensor, kScale)) return kScale;
+  return {};
+}
+
+// Adds to `own` the members of `file` that it lacks, except those in `replaced`.
+void complete(JsonValue& own, JsonValue& file, std::span<const std::string_view> replaced) {
+  auto* const members = std::get_if<JsonValue::Object>(&file.value);
+  auto* const mine = std::get_if<JsonValue::Object>(&own.value);
+  if (members == nullptr || mine == nullptr) return;
+  for (JsonValue::Member& member : *members)
+    if (own.find(member.first) == nullptr &&
+        std::find(replaced.begin(), replaced.end(), member.first) == replaced.end())
+      mine->push_back(std::move(member));
+}
+
 }  // namespace
+
+Shutter build(const spec::Shutter& spec, double exposure_s, int rows, const LoadContext& context) {
+  std::vector<Shutter::Knot> knots;
+  const double moving_s = spec.rise_s + spec.fall_s;
+  if (spec.transmission && moving_s > 0)
+    context.diagnostics.error(spec.transmission->where,
+                              "a shutter has either rise_s and fall_s, or transmission");
+  else if (spec.transmission)
+    knots = knots_of(*spec.transmission, context);
+  else if (moving_s > exposure_s)
+    context.diagnostics.error(
+        spec.where,
+        fmt::format("a shutter must open and close within the exposure time (got {} s, allowed up to {} s)",
+                    moving_s, exposure_s));
+  else
+    knots = {{0, spec.rise_s > 0 ? 0.0 : 1.0},
+             {spec.rise_s / exposure_s, 1},
+             {1 - spec.fall_s / exposure_s, 1},
+             {1, spec.fall_s > 0 ? 0.0 : 1.0}};
+  if (knots.empty()) return {};
+  return Shutter(std::move(knots), spec.row_delay_s / exposure_s, rows);
+}
 
 Sensor build(const spec::Sensor& spec, bool probe, LoadContext& context) {
   Sensor sensor;
@@ -260,6 +407,23 @@ Sensor build(const spec::Sensor& spec, bool probe, LoadContext& context) {
   if (spec.mosaic && !sensor.spectral) sensor.mosaic = build_mosaic(spec, sensor.channels, context);
   if (spec.readout) sensor.readout = build_readout(spec, sensor, context);
   return sensor;
+}
+
+void include_sensor_model(JsonValue& scene, LoadContext& context) {
+  JsonValue* const sensor = scene.find("sensor");
+  const JsonValue* const model = sensor != nullptr ? sensor->find(kKey) : nullptr;
+  const auto* const name = model != nullptr ? std::get_if<std::string>(&model->value) : nullptr;
+  if (name == nullptr) return;  // Other values are reported when the scene is read.
+  const auto path = model_file(*name, model->where, context);
+  std::optional<JsonValue> file = path ? read_model(*path, context) : std::nullopt;
+  if (!file) return;
+  JsonValue* const own = sensor->find("readout");
+  JsonValue* const others = file->find("readout");
+  if (own != nullptr && others != nullptr)
+    complete(*own, *others,
+             has_any(*own, kConversion) ? std::span<const std::string_view>(kConversion)
+                                        : std::span<const std::string_view>());
+  complete(*sensor, *file, replaced_by(*sensor));
 }
 
 }  // namespace abbe::description

@@ -7,12 +7,29 @@
 #include <vector>
 
 #include "description/curve.h"
-#include "description/shutter.h"
+#include "description/load_context.h"
+#include "io/schema/fields.h"
 #include "scene/scene.h"
+#include "scene/shutter.h"
 #include "sensor/readout/readout_json.h"
 #include "spectral/colorimetry.h"
 
 namespace abbe::spec {
+
+/// Times and transmission of the shutter of each row of a sensor. A row is open for the exposure time of the
+/// sensor.
+struct Shutter {
+  double open_s = 0;  ///< Time at which the first row opens, on the clock of keyframes.
+  double rise_s = 0;  ///< Duration of opening, at a constant rate, as part of the exposure time.
+  double fall_s = 0;  ///< Duration of closing, at a constant rate, as part of the exposure time.
+  /// Pairs of the elapsed fraction of the exposure time, ascending from 0 to 1, and the transmittance in [0,
+  /// 1] at that time, linearly interpolated. It replaces `rise_s` and `fall_s`, which must then be 0.
+  std::optional<schema::Located<std::vector<std::array<double, 2>>>> transmission;
+  double row_delay_s = 0;  ///< Delay of each row after the row above it, 0 or more.
+  SourcePosition where;
+};
+/// Key table by which scene files are read, written and documented.
+[[nodiscard]] schema::Fields fields(schema::Tag<Shutter>);
 
 /// A filter whose transmittance shifts with the angle of incidence.
 struct InterferenceFilter {
@@ -93,6 +110,15 @@ struct Sensor {
 
 namespace abbe::description {
 
+/// Builds the shutter of a sensor with `rows` rows and the exposure time `exposure_s` > 0, with times as
+/// fractions of it. Reports to `context.diagnostics`:
+/// - both a transmission and a rise or fall;
+/// - a rise and fall that together exceed the exposure time;
+/// - a transmission whose fractions decrease or do not run from 0 to 1, or that passes no light.
+/// After an error the shutter is fully open for the exposure time, without a row delay.
+[[nodiscard]] Shutter build(const spec::Shutter& spec, double exposure_s, int rows,
+                            const LoadContext& context);
+
 /// A sensor in SI units.
 struct Sensor {
   int width = 1;                ///< [px]
@@ -125,5 +151,15 @@ struct Sensor {
 ///   channel.
 /// Warns of filters that end there and are declared 0 outside. The range excludes a negligible fraction.
 void build_channels(const spec::Sensor& spec, Sensor& sensor, LoadContext& context);
+
+/// Merges the file of a camera sensor into a scene whose `sensor` has the key `model`. The value is the name
+/// of a file of `data/sensor`, or a user's `FILE.json`. Such a file is an object with `title`, `source`,
+/// `status` and `sensor`; the last has the keys of a scene's sensor.
+/// Keys of the scene replace those of the file; in `readout` each key separately. A scene that sets the
+/// channels, the gain or the speed replaces all keys of the file with that meaning.
+/// `scene` is the root of the scene's JSON; it stays unchanged without such a key, and after an error.
+/// Reports an unknown name and the errors of the file to `context.diagnostics`. The file is recorded in
+/// `context`.
+void include_sensor_model(JsonValue& scene, LoadContext& context);
 
 }  // namespace abbe::description

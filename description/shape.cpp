@@ -3,15 +3,17 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "description/light.h"
 #include "description/material.h"
 #include "description/meshes/mesh_file.h"
-#include "scene/shapes/mesh.h"
-#include "scene/shapes/placed.h"
+#include "scene/shapes/shape.h"
+#include "scene/shapes/solid.h"
 
 namespace abbe::spec {
 namespace {
@@ -86,7 +88,9 @@ Fields fields(Tag<Shape>) {
       {field("name", &Shape::name, "Name for messages, and for references to it as a white if it emits."),
        one_of(&Shape::kind, inlined_by<MeshBody>("mesh"), inlined_by<PlainBody<Sphere>>("sphere"),
               inlined_by<PlainBody<Disc>>("disc"), inlined_by<PlainBody<Quad>>("quad"),
-              inlined_by<PrismBody>("prism"), inlined_by<ChartShape>("chart"), under<Instance>("instance")),
+              inlined_by<SolidBody<Cylinder>>("cylinder"), inlined_by<SolidBody<Cone>>("cone"),
+              inlined_by<SolidBody<Paraboloid>>("paraboloid"), inlined_by<SolidBody<Prism>>("prism"),
+              inlined_by<ChartShape>("chart"), under<Instance>("instance")),
        field("motion", &Shape::motion, "Motion relative to the described pose; a chart cannot move.")});
 }
 
@@ -100,32 +104,6 @@ Fields fields(Tag<Object>) {
 
 namespace abbe::description {
 namespace {
-
-Imath::V3d moved_direction(const Imath::V3d& v, const Transform& by) {
-  Imath::V3d result;
-  by.matrix.multDirMatrix(v, result);
-  return result;
-}
-void move(Mesh& mesh, const Transform& by) {
-  for (Imath::V3d& vertex : mesh.vertices) vertex *= by.matrix;
-  for (std::array<Imath::V3f, 3>& corners : mesh.normals)
-    for (Imath::V3f& normal : corners)
-      normal = Imath::V3f(moved_direction(Imath::V3d(normal), by).normalized());
-}
-void move(Sphere& sphere, const Transform& by) {
-  sphere.center *= by.matrix;
-  sphere.radius *= by.scale;
-}
-void move(Disc& disc, const Transform& by) {
-  disc.center *= by.matrix;
-  disc.normal = moved_direction(disc.normal, by).normalized();
-  disc.radius *= by.scale;
-}
-void move(Quad& quad, const Transform& by) {
-  quad.corner *= by.matrix;
-  quad.edge_u = moved_direction(quad.edge_u, by);
-  quad.edge_v = moved_direction(quad.edge_v, by);
-}
 
 std::optional<Mesh> scaled(std::optional<Mesh> mesh, double factor) {
   if (mesh)
@@ -293,8 +271,77 @@ void add_shape(const spec::Shape& shape, const std::string& name, LoadContext& c
 bool loses_axes(const PlainShape& shape, const Material& material, const Imath::M44d& to) {
   const Medium* medium = abbe::medium(material);
   if (medium != nullptr && medium->grid) return to != Imath::M44d();
-  const bool round = std::holds_alternative<Sphere>(shape) || std::holds_alternative<Disc>(shape);
+  const bool round =
+      std::visit([](const auto& s) { return !Triangulated<std::decay_t<decltype(s)>>; }, shape);
   return round && to != Imath::M44d().setTranslation(to.translation());
+}
+
+using Counts = std::vector<std::pair<std::size_t, const char*>>;
+
+// Text such as "2 open edges, 1 triangle back to back with another". "(s)" in a text marks the plural ending.
+std::string counted(const Counts& counts) {
+  std::vector<std::string> words;
+  for (const auto& [count, what] : counts) {
+    if (count == 0) continue;
+    std::string named = what;
+    const std::size_t plural = named.find("(s)");
+    named.replace(plural, 3, count == 1 ? "" : "s");
+    words.push_back(fmt::format("{} {}", count, named));
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
+}
+
+// Repairs a mesh around a medium as far as possible, and reports the rest.
+void enclose_medium(Mesh& mesh, const std::string& name, const Material& material,
+                    const SourcePosition& where, const LoadContext& context) {
+  Diagnostics& diagnostics = context.diagnostics;
+  const std::string within = fmt::format("{} around medium \"{}\"", name, material.name);
+  const SolidReport solid = make_solid(mesh);
+  if (solid.repaired())
+    diagnostics.warning(where, fmt::format("{}: repaired: {}", within,
+                                           counted({{solid.repeated, "repeated triangle(s)"},
+                                                    {solid.rewound, "triangle(s) wound against the rest"},
+                                                    {solid.inverted, "component(s) facing inward"}})));
+  if (!solid.encloses())
+    diagnostics.error_if_strict(
+        where, fmt::format(
+                   "{} is not a closed surface: {}", within,
+                   counted({{solid.open_edges, "open edge(s)"},
+                            {solid.crowded_edges, "edge(s) of more than two triangles that cannot be paired"},
+                            {solid.clashing_edges, "edge(s) with opposite windings"},
+                            {solid.back_to_back, "triangle(s) back to back with another"},
+                            {solid.buried, "component(s) facing outward inside the medium"}})));
+  if (!mesh.normals.empty() && !is_boundary(material))
+    diagnostics.error_if_strict(
+        where, fmt::format("{}: vertex normals are ignored, because light is refracted at the flat triangles",
+                           within));
+  mesh.normals = {};
+}
+
+void build_object_shape(const spec::Shape& shape, const std::string& name, LoadContext& context, Scene& scene,
+                        std::vector<NamedShape>& parts) {
+  if (const auto* instance = std::get_if<spec::Instance>(&shape.kind))
+    return context.diagnostics.error(instance->where, "an object holds shapes, not instances");
+  if (const auto* chart = std::get_if<spec::ChartShape>(&shape.kind))
+    return context.diagnostics.error(chart->chart.where, "an object holds shapes, not charts");
+  if (const spec::Emission* emission = emission_of(shape))
+    context.diagnostics.error(emission->where, "a shape of an object cannot emit");
+  if (shape.motion)
+    context.diagnostics.error(shape.motion->where, "a shape of an object cannot move, but its instances can");
+  for (NamedShape& part : build_parts(shape, name, context, scene)) parts.push_back(std::move(part));
+}
+
+// Prototypes of the parts, shifted to the center of the object, where single precision resolves best.
+Object centred(std::vector<NamedShape> parts) {
+  Imath::Box3d box;
+  for (const NamedShape& part : parts)
+    std::visit([&](const auto& shape) { box.extendBy(bounds(shape)); }, part.shape);
+  Object object{{}, box.isEmpty() ? Imath::V3d(0) : box.center()};
+  for (NamedShape& part : parts) {
+    std::visit([&](auto& shape) { shift(shape, -object.center); }, part.shape);
+    object.parts.push_back({std::move(part.name), part.material, make_prototype(std::move(part.shape))});
+  }
+  return object;
 }
 
 }  // namespace
@@ -305,7 +352,7 @@ abbe::Shape shape_at_opening(PlainShape shape, bool emits, const Material& mater
                              const PoseAndMotion& moving, LoadContext& context) {
   if (!moving.motion && (emits || !loses_axes(shape, material, moving.pose_at_opening))) {
     if (moving.pose_at_opening != Imath::M44d())
-      std::visit([&](auto& s) { move(s, Transform{moving.pose_at_opening}); }, shape);
+      std::visit([&](auto& s) { transform(s, moving.pose_at_opening, 1); }, shape);
     return std::visit([](auto& s) { return abbe::Shape(std::move(s)); }, shape);
   }
   const Imath::V3d center = std::visit([](const auto& s) { return bounds(s); }, shape).center();
@@ -317,20 +364,6 @@ abbe::Shape shape_at_opening(PlainShape shape, bool emits, const Material& mater
   context.placements.push_back(at);
   return PlacedShape{make_prototype(std::move(shape)), at};
 }
-
-void shift(Mesh& mesh, const Imath::V3d& by) {
-  for (Imath::V3d& vertex : mesh.vertices) vertex += by;
-}
-void shift(Sphere& sphere, const Imath::V3d& by) {
-  sphere.center += by;
-}
-void shift(Disc& disc, const Imath::V3d& by) {
-  disc.center += by;
-}
-void shift(Quad& quad, const Imath::V3d& by) {
-  quad.corner += by;
-}
-void shift(PlacedShape&, const Imath::V3d&) {}
 
 const spec::Emission* emission_of(const spec::Shape& shape) {
   const auto emission = [](const auto& kind) -> const spec::Emission* {
@@ -348,8 +381,9 @@ std::vector<NamedShape> build_parts(const spec::Shape& shape, const std::string&
   const auto apply_transform = [&](const auto& kind) {
     if constexpr (requires { build(kind.transform, context).scale; }) {
       if (kind.transform.empty()) return;
-      const Transform transform = build(kind.transform, context);
-      for (NamedShape& part : parts) std::visit([&](auto& s) { move(s, transform); }, part.shape);
+      const Transform by = build(kind.transform, context);
+      for (NamedShape& part : parts)
+        std::visit([&](auto& s) { transform(s, by.matrix, by.scale); }, part.shape);
     }
   };
   std::visit(apply_transform, shape.kind);
@@ -361,6 +395,47 @@ void build_shapes(const std::vector<spec::Shape>& shapes, LoadContext& context, 
     add_shape(shapes[i], shapes[i].name.value_or(fmt::format("shape {}", i)), context, scene);
     context.shape_positions.resize(scene.shapes.size(), shapes[i].where);
   }
+}
+
+void prepare_for_medium(Mesh& mesh, const std::string& name, const Material& material,
+                        const SourcePosition& where, const LoadContext& context) {
+  if (encloses_medium(material))
+    enclose_medium(mesh, name, material, where, context);
+  else
+    mesh.slivers = {};  // Only closed meshes need their zero-area triangles.
+}
+
+void build_objects(const std::vector<schema::Named<spec::Object>>& objects, LoadContext& context,
+                   Scene& scene) {
+  for (const auto& [name, object, where] : objects) {
+    std::vector<NamedShape> parts;
+    for (std::size_t i = 0; i < object.shapes.size(); ++i)
+      build_object_shape(object.shapes[i], object.shapes[i].name.value_or(fmt::format("shape {}", i)),
+                         context, scene, parts);
+    context.objects.emplace(name, centred(std::move(parts)));
+  }
+}
+
+void add_instance(const spec::Instance& instance, const PoseAndMotion& moving, const std::string& name,
+                  LoadContext& context, Scene& scene) {
+  const auto matrix = build(instance.transform.value, instance.transform.where, context);
+  if (!matrix) return;
+  const auto found = context.objects.find(instance.of.value);
+  if (found == context.objects.end()) {
+    std::vector<std::string> names;
+    for (const auto& [known, object] : context.objects) names.push_back(known);
+    context.diagnostics.error(instance.of.where, unknown_name("object", instance.of.value, names));
+    return;
+  }
+  const Object& object = found->second;
+  const auto at = std::make_shared<Placement>(
+      placement(Imath::M44d().setTranslation(object.center) * *matrix * moving.pose_at_opening));
+  at->motion = moving.motion;
+  at->described_origin = object.center;
+  context.placements.push_back(at);
+  for (const Object::Member& member : object.parts)
+    scene.shapes.push_back({object.parts.size() == 1 ? name : name + "/" + member.name,
+                            PlacedShape{member.prototype, at}, member.material});
 }
 
 }  // namespace abbe::description

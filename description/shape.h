@@ -34,7 +34,9 @@ struct Body {
   bool two_sided = false;             ///< True if its back emits too.
 };
 using MeshBody = Body<Mesh, std::optional<MaterialName>, MeshEmission>;  ///< Material of the file if absent.
-using PrismBody = Body<Prism, MaterialName, MeshEmission>;
+/// A shape whose irradiance on an axis is not a formula, so that its emission cannot be given by that.
+template <typename Surface>
+using SolidBody = Body<Surface, MaterialName, MeshEmission>;
 /// A sphere, disc or quad as a shape.
 template <typename Surface>
 using PlainBody = Body<Surface, MaterialName, AreaLightEmission>;
@@ -62,8 +64,9 @@ struct Instance {
 /// A shape of a scene file. `std::monostate` means that none has been read.
 struct Shape {
   std::optional<std::string> name;  ///< If absent, messages call it "shape N", counted from 0.
-  std::variant<std::monostate, MeshBody, PlainBody<Sphere>, PlainBody<Disc>, PlainBody<Quad>, PrismBody,
-               ChartShape, Instance>
+  std::variant<std::monostate, MeshBody, PlainBody<Sphere>, PlainBody<Disc>, PlainBody<Quad>,
+               SolidBody<Cylinder>, SolidBody<Cone>, SolidBody<Paraboloid>, SolidBody<Prism>, ChartShape,
+               Instance>
       kind;
   SourcePosition where;
   std::optional<Motion> motion = {};  ///< Motion relative to the described pose; at rest if absent.
@@ -128,13 +131,5 @@ void add_instance(const spec::Instance& instance, const PoseAndMotion& moving, c
 /// with the scene.
 [[nodiscard]] abbe::Shape shape_at_opening(PlainShape shape, bool emits, const Material& material,
                                            const PoseAndMotion& moving, LoadContext& context);
-
-// Each translates a shape by a vector [m].
-void shift(Mesh& mesh, const Imath::V3d& by);
-void shift(Sphere& sphere, const Imath::V3d& by);
-void shift(Disc& disc, const Imath::V3d& by);
-void shift(Quad& quad, const Imath::V3d& by);
-/// Does nothing: instances may have a placement in common, and each placement is translated once elsewhere.
-void shift(PlacedShape& placed, const Imath::V3d& by);
 
 }  // namespace abbe::description

@@ -33,6 +33,33 @@ Fields fields(Tag<Quad>) {
                          "Edge from the corner along the other side; the normal is edge_u x edge_v.")});
 }
 
+Fields fields(Tag<Cylinder>) {
+  return describe(
+      "cylinder", "The curved surface of a cylinder, which emits outwards.",
+      {field("from", &Cylinder::from, kCoordinate, "Center of one end."),
+       field("to", &Cylinder::to, kCoordinate, "Center of the other end."),
+       field("radius", &Cylinder::radius, kLength, "Radius."),
+       defaulted("caps", &Cylinder::caps, "True to close both ends with discs, so that it is a solid.")});
+}
+
+Fields fields(Tag<Cone>) {
+  return describe(
+      "cone", "The curved surface of a cone, which emits outwards.",
+      {field("base", &Cone::base, kCoordinate, "Center of the base."),
+       field("apex", &Cone::apex, kCoordinate, "Position of the apex."),
+       field("radius", &Cone::radius, kLength, "Radius of the base."),
+       defaulted("caps", &Cone::caps, "True to close the base with a disc, so that it is a solid.")});
+}
+
+Fields fields(Tag<Paraboloid>) {
+  return describe(
+      "paraboloid", "A paraboloid of revolution, which emits from its convex side.",
+      {field("vertex", &Paraboloid::vertex, kCoordinate, "Position of the vertex."),
+       field("axis", &Paraboloid::axis, direction(), "Direction from the vertex to the focus."),
+       field("focal_length", &Paraboloid::focal_length, kLength, "Distance from the vertex to the focus."),
+       field("radius", &Paraboloid::radius, kLength, "Radius of the rim.")});
+}
+
 Fields fields(Tag<Prism>) {
   return describe("prism",
                   "A right prism along y with an isosceles cross-section, whose apex points along +z.",
@@ -76,6 +103,34 @@ std::optional<Quad> build(const spec::Quad& quad, const LoadContext& context) {
                             "edge_u and edge_v are parallel: a quad of zero area (got 0, allowed (0, inf))",
                             ErrorCode::input);
   return std::nullopt;
+}
+
+// True if the ends of an axis differ; reports them otherwise.
+static bool has_length(const Imath::V3d& axis, const char* ends, const SourcePosition& where,
+                       const LoadContext& context) {
+  if (axis.length() > 0) return true;
+  context.diagnostics.error(
+      where, fmt::format("{} are at the same position: a length of zero (got 0, allowed (0, inf))", ends),
+      ErrorCode::input);
+  return false;
+}
+
+std::optional<Quadric> build(const spec::Cylinder& spec, const LoadContext& context) {
+  const double unit = context.unit_m;
+  if (!has_length(spec.to * unit - spec.from * unit, "from and to", spec.where, context)) return std::nullopt;
+  return cylinder(spec.from * unit, spec.to * unit, spec.radius * unit, spec.caps);
+}
+
+std::optional<Quadric> build(const spec::Cone& spec, const LoadContext& context) {
+  const double unit = context.unit_m;
+  if (!has_length(spec.apex * unit - spec.base * unit, "base and apex", spec.where, context))
+    return std::nullopt;
+  return cone(spec.base * unit, spec.apex * unit, spec.radius * unit, spec.caps);
+}
+
+Quadric build(const spec::Paraboloid& spec, const LoadContext& context) {
+  const double unit = context.unit_m;
+  return paraboloid(spec.vertex * unit, spec.axis, spec.focal_length * unit, spec.radius * unit);
 }
 
 Mesh build(const spec::Prism& prism, const LoadContext& context) {

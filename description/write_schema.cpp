@@ -5,7 +5,7 @@
 #include <iterator>
 #include <string>
 
-#include "description/scene_schema.h"
+#include "description/load.h"
 
 int main(int argc, char** argv) {
   std::string text;

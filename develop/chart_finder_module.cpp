@@ -6,7 +6,7 @@
 #include <opencv2/imgproc.hpp>
 #include <opencv2/mcc.hpp>
 
-#include "develop/chart_finder.h"
+#include "develop/find_chart.h"
 
 namespace {
 

@@ -6,13 +6,12 @@
 
 #include <fmt/format.h>
 
-#include "calibration/output/white_clip.h"
+#include "calibration/output/display.h"
 #include "develop/radiance.h"
 #include "io/text.h"
-#include "sensor/film/recorded_crop.h"
-#include "sensor/film/recorded_error.h"
-#include "sensor/film/recorded_white.h"
-#include "sensor/film/variance_name.h"
+#include "sensor/film/crop.h"
+#include "sensor/film/film_planes.h"
+#include "sensor/film/recorded_attributes.h"
 #include "sensor/readout/demosaic.h"
 #include "sensor/readout/speed.h"
 

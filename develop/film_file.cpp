@@ -10,10 +10,10 @@
 #include "develop/raw_picture.h"
 #include "io/error.h"
 #include "io/exr.h"
-#include "io/extension.h"
 #include "io/picture.h"
 #include "io/raw_picture.h"
-#include "sensor/film/variance_name.h"
+#include "io/text.h"
+#include "sensor/film/film_planes.h"
 
 namespace abbe {
 namespace {

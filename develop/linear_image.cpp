@@ -10,17 +10,16 @@
 #include "develop/develop.h"
 #include "develop/film_file.h"
 #include "io/error.h"
-#include "io/extension.h"
+#include "io/image.h"
 #include "io/picture.h"
 #include "io/raw_picture.h"
-#include "io/rgb_order.h"
 #include "io/spectral_exr.h"
 #include "io/text.h"
-#include "sensor/film/defective_pixels.h"
+#include "sensor/film/crop.h"
 #include "sensor/film/film_planes.h"
-#include "sensor/film/recorded_crop.h"
-#include "sensor/film/recorded_mosaic.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/film/patch.h"
+#include "sensor/film/recorded_attributes.h"
+#include "sensor/response/polarised_channels.h"
 
 namespace abbe {
 namespace {
@@ -174,6 +173,17 @@ void require_unsaturated(const LinearImage& flat, const std::filesystem::path& p
                     100 * saturated / pixels, 100 * kMaxDefectiveFraction));
 }
 
+// Throws Error{input} for a pixel that is not above 0.
+void require_positive(const LinearImage& flat, const std::filesystem::path& path) {
+  const auto width = static_cast<std::size_t>(flat.image.width);
+  for (const ImageChannel& channel : flat.image.channels)
+    for (std::size_t i = 0; i < channel.values.size(); ++i)
+      if (!(channel.values[i] > 0))
+        throw Error(ErrorCode::input, path.string(),
+                    fmt::format("the flat has no light at pixel {},{} (got {})", i % width, i / width,
+                                static_cast<double>(channel.values[i])));
+}
+
 }  // namespace
 
 MeasuredPlanes LinearImage::planes() const {
@@ -199,19 +209,17 @@ void flat_field(LinearImage& image, const LinearImage& flat, const std::filesyst
                 fmt::format("the flat has different channels or a different mosaic (got {}, allowed {})",
                             described(flat), described(image)));
   require_unsaturated(flat, path);
+  require_positive(flat, path);
   if (image.exposed.empty()) image.exposed = image.image.channels;
   const std::vector<double> means = channel_means(flat);
   for (std::size_t k = 0; k < image.image.channels.size(); ++k)
     for (std::size_t i = 0; i < image.image.pixels(); ++i) {
       const int x = static_cast<int>(i % static_cast<std::size_t>(image.image.width));
       const int y = static_cast<int>(i / static_cast<std::size_t>(image.image.width));
-      const auto value = static_cast<double>(flat.image.channels[k].values[i]);
-      if (!(value > 0))
-        throw Error(ErrorCode::input, path.string(),
-                    fmt::format("the flat has no light at pixel {},{} (got {})", x, y, value));
       const std::size_t channel = image.mosaic ? static_cast<std::size_t>(image.mosaic->at(x, y)) : k;
       float& own = image.image.channels[k].values[i];
-      own = static_cast<float>(static_cast<double>(own) * means[channel] / value);
+      own = static_cast<float>(static_cast<double>(own) * means[channel] /
+                               static_cast<double>(flat.image.channels[k].values[i]));
     }
 }
 

@@ -44,7 +44,7 @@ struct LinearImage {
 /// Divides each pixel of `image` by that of `flat`, a picture of a uniform surface, relative to the mean of
 /// its channel in `flat`. `exposed` of the image then holds its planes before. This removes vignetting and
 /// differences in sensitivity between pixels. Throws Error{input}, which names `path` of the flat, in these
-/// cases:
+/// cases, and leaves the image unchanged:
 /// - its size, channels or mosaic differ from those of the image;
 /// - one of its pixels is not above 0;
 /// - more of its pixels are saturated than count as defective (`exceeds_defects`).

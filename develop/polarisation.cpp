@@ -1,9 +1,19 @@
 #include "develop/polarisation.h"
 
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
 #include "develop/radiance.h"
 #include "io/error.h"
+#include "sensor/film/film_planes.h"
+#include "sensor/film/recorded_attributes.h"
 #include "sensor/film/spectral_film.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/readout/demosaic.h"
+#include "sensor/response/polarised_channels.h"
 #include "spectral/matrix3.h"
 
 namespace abbe {
@@ -34,6 +44,68 @@ std::vector<double> weights_of(const Image& film, std::size_t channels) {
   if (matrix && channels == 3)
     for (int k = 0; k < 3; ++k) weights[static_cast<std::size_t>(k)] = (*matrix)[1][k];
   return weights;
+}
+
+// A plane behind a polariser, with its row of the measurement matrix.
+struct Measurement {
+  PolariserRow row;
+  const ImageChannel* plane;
+};
+
+// The planes behind polarisers, by the name of their group.
+std::map<std::string, std::vector<Measurement>> groups_of(const Image& planes,
+                                                          const std::vector<std::string>& names) {
+  std::map<std::string, std::vector<Measurement>> groups;
+  for (const std::string& name : names) {
+    const auto recorded = planes.metadata.find(kAnalyserKey + name);
+    const auto row = recorded != planes.metadata.end() ? parse_polariser_row(recorded->second) : std::nullopt;
+    const ImageChannel* plane = planes.find(name);
+    if (row && plane != nullptr) groups[row->group].push_back({*row, plane});
+  }
+  return groups;
+}
+
+// The row r = (1, q, u): a plane's value is weight (I + q Q + u U).
+std::array<double, 3> row_of(const Measurement& one) {
+  return {1, one.row.q, one.row.u};
+}
+
+// Inverse of the sum of r r^T over the rows r; empty if they do not determine a Stokes vector.
+std::optional<Matrix3> inverse_normal(const std::vector<Measurement>& group) {
+  constexpr double kDetermined = 1e-3;  // three ideal polarisers at 0, 60 and 120 degrees give 27/4
+  Matrix3 normal(0.0);
+  for (const Measurement& one : group) {
+    const auto row = row_of(one);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        normal[i][j] += row.at(static_cast<std::size_t>(i)) * row.at(static_cast<std::size_t>(j));
+  }
+  if (!(normal.determinant() > kDetermined)) return std::nullopt;
+  return normal.inverse(true);
+}
+
+// Sum over the group of row * value at a pixel, in units of its first channel.
+std::array<double, 3> projected(const std::vector<Measurement>& group, std::size_t pixel) {
+  std::array<double, 3> sum{};
+  for (const Measurement& one : group) {
+    const double counted = static_cast<double>(one.plane->values[pixel]) / one.row.weight;
+    const auto row = row_of(one);
+    for (std::size_t i = 0; i < sum.size(); ++i) sum.at(i) += row.at(i) * counted;
+  }
+  return sum;
+}
+
+void add_stokes(const std::string& name, const std::vector<Measurement>& group, const Matrix3& solve,
+                Image& stokes) {
+  std::array<std::vector<float>, 3> planes;
+  for (std::size_t pixel = 0; pixel < stokes.pixels(); ++pixel) {
+    const std::array<double, 3> stokes_at_pixel = multiply(solve, projected(group, pixel));
+    for (std::size_t i = 0; i < planes.size(); ++i)
+      planes.at(i).push_back(static_cast<float>(stokes_at_pixel.at(i)));
+  }
+  for (int component = 0; component < 3; ++component)
+    stokes.channels.push_back(
+        {name_of({component, name}), std::move(planes.at(static_cast<std::size_t>(component)))});
 }
 
 }  // namespace
@@ -74,6 +146,21 @@ Image polarisation_image(const Image& film) {
     for (ImageChannel* channel : {&linear, &angle}) image.channels.push_back(std::move(*channel));
   }
   return image;
+}
+
+Image stokes_of_polarisers(const Image& film) {
+  const auto mosaic = recorded_mosaic(film.metadata);
+  const Image demosaiced = mosaic ? demosaic(film, kRawPlane, mosaic->pattern, mosaic->channels) : Image{};
+  const Image& planes = mosaic ? demosaiced : film;
+  Image stokes{film.width, film.height, {}, film.metadata};
+  for (const auto& [name, group] : groups_of(planes, mosaic ? mosaic->channels : plane_names(film)))
+    if (const auto solve = inverse_normal(group)) add_stokes(name, group, *solve, stokes);
+  std::vector<std::string> names;
+  for (const ImageChannel& channel : stokes.channels) names.push_back(channel.name);
+  stokes.metadata["sensor_channels"] = fmt::format("{}", fmt::join(names, ","));
+  for (const char* of_sensor : {"mosaic", "mosaic_channels", "to_xyz_d65", kNoPictureKey})
+    stokes.metadata.erase(of_sensor);
+  return stokes;
 }
 
 }  // namespace abbe

@@ -9,15 +9,12 @@
 #include "calibration/output/color_spaces.h"
 #include "io/error.h"
 #include "sensor/film/feature_film.h"
-#include "sensor/film/recorded_error.h"
-#include "sensor/film/recorded_layers.h"
-#include "sensor/film/recorded_white.h"
+#include "sensor/film/film_planes.h"
+#include "sensor/film/recorded_attributes.h"
 #include "sensor/film/spectral_film.h"
-#include "sensor/film/variance_name.h"
 #include "sensor/readout/demosaic.h"
 #include "sensor/readout/speed.h"
-#include "sensor/response/polariser_group.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 #include "spectral/rgb.h"
 
 namespace abbe {

@@ -1,9 +1,18 @@
 #include "develop/raw_picture.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
+#include <memory>
 
-#include "calibration/output/dng_profile.h"
-#include "calibration/output/exif_light.h"
+#include <fmt/format.h>
+
+#include "calibration/output/camera_profile.h"
+#include "io/error.h"
+#include "io/json.h"
+#include "io/json_values.h"
+#include "io/table.h"
+#include "io/text.h"
 #include "sensor/readout/speed.h"
 
 namespace abbe {
@@ -43,6 +52,68 @@ void record_colors(const FilmSensor& sensor, RawPicture& raw) {
   raw.neutral = matrices->neutral;
 }
 
+constexpr int kLastOfExif = 24;
+
+const JsonValue* member(const JsonValue& value, const char* key, Diagnostics& diagnostics) {
+  const JsonValue* const found = value.find(key);
+  if (found == nullptr) diagnostics.error(value.where, fmt::format("missing key \"{}\"", key));
+  return found;
+}
+
+std::array<double, 9> read_matrix(const JsonValue& light, const char* key, Diagnostics& diagnostics) {
+  std::array<double, 9> matrix{};
+  const JsonValue* const value = member(light, key, diagnostics);
+  const JsonValue::Array* const rows =
+      value != nullptr ? read_array(*value, "rows", 3, diagnostics) : nullptr;
+  if (rows == nullptr) return matrix;
+  if (rows->size() != 3)
+    diagnostics.error(value->where, fmt::format("expected 3 rows (got {})", rows->size()));
+  for (std::size_t i = 0; i < 3; ++i)
+    if (const auto row = read_numbers((*rows)[i], 3, Range::any(), diagnostics))
+      std::copy(row->begin(), row->end(), matrix.begin() + static_cast<std::ptrdiff_t>(3 * i));
+  return matrix;
+}
+
+RawLight read_light(const JsonValue& light, Diagnostics& diagnostics) {
+  RawLight read{0};
+  if (const JsonValue* const code = member(light, "CalibrationIlluminant", diagnostics))
+    if (const auto number = read_number(*code, {0, 255}, diagnostics)) {
+      read.illuminant = static_cast<int>(*number);
+      if (read.illuminant < 1 || read.illuminant > kLastOfExif)
+        diagnostics.error(code->where,
+                          fmt::format("the illuminant has no Exif code, so raw converters cannot identify it "
+                                      "(got {}, allowed A, B, C, D50, D55, D65, D75 and fluorescent lights)",
+                                      read.illuminant));
+    }
+  read.color = read_matrix(light, "ColorMatrix", diagnostics);
+  read.forward = read_matrix(light, "ForwardMatrix", diagnostics);
+  return read;
+}
+
+DngProfile read_profile(const std::shared_ptr<const SourceText>& source, Diagnostics& diagnostics) {
+  DngProfile profile;
+  const std::optional<JsonValue> root = parse_json(source, diagnostics);
+  if (const JsonValue* const camera = root ? root->find("camera") : nullptr)
+    profile.camera = read_string(*camera, diagnostics).value_or("");
+  const JsonValue* const list = root ? member(*root, "lights", diagnostics) : nullptr;
+  const JsonValue::Array* const all = list != nullptr ? read_array(*list, "lights", 2, diagnostics) : nullptr;
+  if (all == nullptr) return profile;
+  if (all->size() != 2)
+    diagnostics.error(list->where, fmt::format("expected 2 lights (got {})", all->size()));
+  for (const JsonValue& light : *all) profile.lights.push_back(read_light(light, diagnostics));
+  return profile;
+}
+
+// True if both name the same camera. Curve files are compared by file name, in any folder.
+bool is_same_camera(const std::filesystem::path& a, const std::filesystem::path& b) {
+  return a.filename() == b.filename();
+}
+
+bool is_shipped_camera(const std::string& camera) {
+  const std::vector<std::string> names = table_names("camera");
+  return std::find(names.begin(), names.end(), camera) != names.end();
+}
+
 }  // namespace
 
 RawPicture raw_picture(const DevelopedFilm& developed, const FilmSensor& sensor) {
@@ -70,6 +141,33 @@ RawPicture raw_picture(const DevelopedFilm& developed, const FilmSensor& sensor)
   raw.camera = sensor.camera;
   raw.metadata = developed.codes.metadata;
   return raw;
+}
+
+std::optional<DngProfile> read_dng_profile(const std::filesystem::path& path, Diagnostics& diagnostics) {
+  const auto source = read_text(path, diagnostics);
+  if (!source) return std::nullopt;
+  Diagnostics faults;  // reported as errors of an input, not of a scene
+  DngProfile profile = read_profile(source, faults);
+  for (const Diagnostic& fault : faults.all())
+    diagnostics.error(fault.where, fault.message, ErrorCode::input);
+  if (faults.has_errors()) return std::nullopt;
+  return profile;
+}
+
+void require_same_camera(const DngProfile& profile, const FilmSensor& sensor,
+                         const std::filesystem::path& path) {
+  const auto refuse = [&](const std::string& allowed) {
+    throw Error(ErrorCode::input, path.string(),
+                fmt::format("has the matrices of another camera than the film's (got {}, allowed {})",
+                            profile.camera, allowed));
+  };
+  if (profile.camera.empty()) return;
+  if (!sensor.measured_camera.empty()) {
+    if (!is_same_camera(profile.camera, sensor.measured_camera)) refuse(sensor.measured_camera);
+  } else if (is_shipped_camera(profile.camera) &&
+             sensor.description.find(profile.camera) == std::string::npos) {
+    refuse("those of its own channels");
+  }
 }
 
 }  // namespace abbe

@@ -15,10 +15,8 @@
 #include "io/spectral_exr.h"
 #include "io/text.h"
 #include "sensor/film/film_planes.h"
-#include "sensor/film/recorded_error.h"
-#include "sensor/film/recorded_layers.h"
-#include "sensor/film/variance_name.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/film/recorded_attributes.h"
+#include "sensor/response/polarised_channels.h"
 #include "spectral/rgb.h"
 
 namespace abbe {
@@ -29,7 +27,7 @@ std::vector<std::string> lights_of(const Image& film) {
   std::vector<std::string> lights;
   const auto recorded = film.metadata.find(kLayersKey);
   if (recorded != film.metadata.end())
-    for (const std::string& layer : parse_layers(recorded->second))
+    for (const std::string& layer : split(recorded->second, ','))
       if (layer.starts_with(kLightLayer))
         lights.push_back(layer.substr(std::string_view(kLightLayer).size()));
   if (lights.empty())

@@ -1,10 +1,5 @@
 #include "io/atomic_file.h"
 
-#include <fcntl.h>
-#include <fmt/format.h>
-#include <signal.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -12,12 +7,19 @@
 #include <fstream>
 #include <system_error>
 
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <signal.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include "io/error.h"
 #include "io/text.h"
 
 namespace abbe {
-namespace {
 
+namespace {
 namespace fs = std::filesystem;
 
 [[noreturn]] void fail(const fs::path& path, const std::string& message) {
@@ -79,6 +81,13 @@ struct Removal {
   fs::path path;
 };
 
+// True if `path` still names the locked file: its last owner may have removed it in between.
+bool is_current(int descriptor, const std::filesystem::path& path) {
+  struct stat locked_file {};
+  struct stat named_file {};
+  return ::fstat(descriptor, &locked_file) == 0 && ::stat(path.c_str(), &named_file) == 0 &&
+         locked_file.st_ino == named_file.st_ino && locked_file.st_dev == named_file.st_dev;
+}
 }  // namespace
 
 fs::path destination(const fs::path& path) {
@@ -167,6 +176,29 @@ void require_writable(const fs::path& name) {
   const int descriptor = ::open(trial.path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
   if (descriptor < 0) fail(path, fmt::format("cannot create a file in its folder ({})", reason()));
   ::close(descriptor);
+}
+
+FileLock::FileLock(const std::filesystem::path& path) : descriptor_(-1) {
+  const std::filesystem::path end = destination(path);
+  lock_ = end.parent_path() / fmt::format(".{}.lock", companion_stem(end.filename().string()));
+  while (true) {
+    descriptor_ = ::open(lock_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    const bool locked = descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0;
+    if (locked && is_current(descriptor_, lock_)) break;
+    const int error = errno;
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!locked)
+      throw Error(ErrorCode::output, path.string(),
+                  error == EWOULDBLOCK
+                      ? "another process is writing it"
+                      : fmt::format("cannot lock it ({})", std::generic_category().message(error)));
+  }
+  remove_leftovers(path);
+}
+
+FileLock::~FileLock() {
+  ::unlink(lock_.c_str());
+  ::close(descriptor_);
 }
 
 }  // namespace abbe

@@ -1,15 +1,16 @@
 #include "io/diagnostics.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cctype>
 #include <numeric>
 #include <vector>
 
+#include <fmt/format.h>
+
 #include "io/text.h"
 
 namespace abbe {
+
 namespace {
 
 constexpr std::size_t kExcerptBefore = 72;
@@ -157,6 +158,21 @@ std::string unknown_name(std::string_view kind, std::string_view name,
   for (const std::string& candidate : candidates)
     if (std::find(known.begin(), known.end(), candidate) == known.end()) known.push_back(candidate);
   return fmt::format("unknown {} \"{}\"; known: {}", kind, name, fmt::join(known, ", "));
+}
+
+void require_no_errors(const Diagnostics& diagnostics) {
+  if (!diagnostics.has_errors()) return;
+  std::string all = diagnostics.text();
+  if (all.ends_with('\n')) all.pop_back();
+  const auto first =
+      std::find_if(diagnostics.all().begin(), diagnostics.all().end(),
+                   [](const Diagnostic& d) { return d.severity == Diagnostic::Severity::error; });
+  const bool placed = first->where.source != nullptr;
+  const ErrorCode code =
+      !placed && diagnostics.code() == ErrorCode::scene ? ErrorCode::input : diagnostics.code();
+  // Each diagnostic with a position begins a line, since editors parse it.
+  throw InvalidInput(code, placed ? "invalid input\n" + all : all,
+                     {diagnostics.all().begin(), diagnostics.all().end()});
 }
 
 }  // namespace abbe

@@ -6,6 +6,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "io/error.h"
@@ -91,5 +92,19 @@ class Diagnostics {
 /// are at most 12 candidates, all of them follow instead.
 [[nodiscard]] std::string unknown_name(std::string_view kind, std::string_view name,
                                        std::span<const std::string> candidates);
+
+/// Thrown if the inputs of a command contain errors. It carries all diagnostics. Its text is
+/// `Diagnostics::text`, with or without a first line "invalid input".
+struct InvalidInput : Error {
+  InvalidInput(ErrorCode code, const std::string& message, std::vector<Diagnostic> all)
+      : Error(code, "", message), diagnostics(std::move(all)) {}
+
+  std::vector<Diagnostic> diagnostics;  ///< Errors and warnings, in the order in which they were found.
+};
+
+/// Throws InvalidInput with all diagnostics if there is an error among them. Its code is that of the first
+/// error. A first error of the code `scene` without a source, such as an unknown name from the command line,
+/// becomes `input`.
+void require_no_errors(const Diagnostics& diagnostics);
 
 }  // namespace abbe

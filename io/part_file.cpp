@@ -8,7 +8,6 @@
 
 #include "io/atomic_file.h"
 #include "io/error.h"
-#include "io/sha256.h"
 #include "io/text.h"
 
 namespace abbe {

@@ -1,20 +1,20 @@
 // The picture module: all uses of OpenImageIO, called through io/picture_codec.h.
-#include <OpenImageIO/filesystem.h>
-#include <OpenImageIO/imageio.h>
+#include "io/picture_module.h"
 
 #include <array>
 #include <memory>
 #include <string_view>
 
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
 #include "io/error.h"
 #include "io/exr.h"
-#include "io/orientation.h"
+#include "io/picture.h"
 #include "io/picture_codec.h"
-#include "io/picture_module.h"
 
 namespace abbe {
 namespace {
-
 OIIO::ImageSpec spec_of(const PictureHeader& header, const OIIO::TypeDesc& format) {
   OIIO::ImageSpec spec(static_cast<int>(header.width), static_cast<int>(header.height),
                        static_cast<int>(header.channels.size()), format);

@@ -1,10 +1,12 @@
-// Colour properties that a picture file declares.
-#include <tiffio.h>
-
+// Properties that a picture file declares and OpenImageIO does not report: colours, ICC profiles, chunks of a
+// PNG and the header of a Radiance picture.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <fstream>
+#include <limits>
 #include <optional>
+#include <set>
 #include <span>
 #include <sstream>
 #include <string>
@@ -12,13 +14,17 @@
 #include <utility>
 #include <vector>
 
+#include <tiffio.h>
+#include <boost/crc.hpp>
+
+#include "io/error.h"
 #include "io/picture_codec.h"
 #include "io/picture_module.h"
 #include "io/picture_module_dng.h"
 
 namespace abbe::picture_module {
-namespace {
 
+namespace {
 // Values of `kColorSpace` for codes that cannot be decoded:
 // - kUnread: the library does not return the profile (of a WebP, or a damaged or unsuitable profile),
 // - kUnreadHeif: the library returns no colour properties of HEIF files,
@@ -136,6 +142,208 @@ std::string exif_encoding(int space) {
   return space == kExifUncalibrated ? kUncalibrated : "number " + std::to_string(space) + " of Exif";
 }
 
+using Bytes = std::span<const std::uint8_t>;
+
+constexpr double kNoCurve = std::numeric_limits<double>::quiet_NaN();
+// Values of `kColorSpace` for profiles that are not one curve and three primaries.
+constexpr const char* kOtherCurves = "unsupported tone curves or primaries";
+constexpr const char* kTables = "colour lookup tables or L*a*b*";
+
+bool has_word(Bytes bytes, std::size_t at, std::string_view word) {
+  return bytes.size() >= at + word.size() &&
+         std::equal(word.begin(), word.end(), bytes.begin() + static_cast<std::ptrdiff_t>(at));
+}
+
+// A signed fixed-point number with 16 fractional bits.
+double fixed(Bytes bytes, std::size_t at) {
+  return static_cast<std::int32_t>(big_endian(bytes, at)) / 65536.0;
+}
+
+// The bytes of a tag; empty if it is missing or exceeds the profile.
+Bytes tag(Bytes profile, std::string_view name) {
+  constexpr std::size_t kCount = 128;
+  constexpr std::size_t kEntry = 12;
+  const std::size_t max_count = profile.size() / kEntry;
+  const std::size_t count = std::min<std::size_t>(big_endian(profile, kCount), max_count);
+  for (std::size_t at = kCount + 4; at < kCount + 4 + count * kEntry; at += kEntry) {
+    if (!has_word(profile, at, name)) continue;
+    const std::size_t from = big_endian(profile, at + 4);
+    const std::size_t size = big_endian(profile, at + 8);
+    return from > profile.size() || size > profile.size() - from ? Bytes() : profile.subspan(from, size);
+  }
+  return {};
+}
+
+// Value of a `curv` curve: the identity for no entries, a power for one entry, otherwise a table.
+double by_table(Bytes curve, double code) {
+  constexpr std::size_t kFirst = 12;
+  const std::size_t count = big_endian(curve, 8);
+  if (curve.size() < kFirst || count > (curve.size() - kFirst) / 2) return kNoCurve;
+  const auto number = [&](std::size_t i) {
+    return 256.0 * curve[kFirst + 2 * i] + curve[kFirst + 2 * i + 1];
+  };
+  if (count == 0) return code;
+  if (count == 1) return std::pow(code, number(0) / 256);
+  const double at = code * static_cast<double>(count - 1);
+  const std::size_t i = std::min(static_cast<std::size_t>(at), count - 2);
+  return std::lerp(number(i), number(i + 1), at - static_cast<double>(i)) / 65535;
+}
+
+// Value of a `para` curve: (a x + b)^g + e for x >= d, otherwise c x + f.
+double by_parameters(Bytes curve, double code) {
+  constexpr std::array<std::size_t, 5> kCounts{1, 3, 4, 5, 7};
+  const std::size_t type = big_endian(curve, 8) >> 16U;
+  if (type >= kCounts.size() || curve.size() < 12 + 4 * kCounts.at(type)) return kNoCurve;
+  const auto p = [&](std::size_t i) { return fixed(curve, 12 + 4 * i); };
+  if (type == 0) return std::pow(code, p(0));
+  const double from = type < 3 ? -p(2) / p(1) : p(4);
+  const double c = type < 3 ? 0 : p(3);
+  const double e = type == 2 ? p(3) : type == 4 ? p(5) : 0;
+  const double f = type == 2 ? p(3) : type == 4 ? p(6) : 0;
+  return code < from ? c * code + f : std::pow(p(1) * code + p(2), p(0)) + e;
+}
+
+// Linear value of a code in [0, 1]; NaN if the curve is invalid.
+double decoded(Bytes curve, double code) {
+  if (has_word(curve, 0, "curv")) return by_table(curve, code);
+  return has_word(curve, 0, "para") ? by_parameters(curve, code) : kNoCurve;
+}
+
+// [IEC61966, sec. 5.2]
+double srgb(double code) {
+  return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4);
+}
+
+// True if the tone curve agrees with `linear` on [0, 1] within `tolerance`.
+template <typename Linear>
+bool is_near(Bytes curve, double tolerance, Linear linear) {
+  constexpr int kSteps = 32;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double code = static_cast<double>(i) / kSteps;
+    if (!(std::abs(decoded(curve, code) - linear(code)) <= tolerance)) return false;
+  }
+  return true;
+}
+
+// The curve as a value of `kColorSpace`. Small profiles have short tables of the sRGB curve, with
+// interpolation errors of a few thousandths. sRGB differs from a power of 2.2 by up to 0.008.
+std::string curve_encoding(Bytes curve) {
+  constexpr double kPower = 1e-3;
+  constexpr double kSmallTable = 5e-3;
+  const double gamma = std::log(decoded(curve, 0.5)) / std::log(0.5);
+  if (is_near(curve, kPower, [gamma](double code) { return std::pow(code, gamma); })) {
+    std::ostringstream text;
+    text << kGamma << gamma;
+    return std::abs(gamma - 1) < kPower ? kLinear : text.str();
+  }
+  return is_near(curve, kSmallTable, srgb) ? "sRGB" : kOtherCurves;
+}
+
+// Chromaticities of the primaries and of D50, to which profiles refer; "" if primaries are missing.
+std::string profile_primaries(Bytes profile) {
+  std::vector<double> xy;
+  for (const char* const name : {"rXYZ", "gXYZ", "bXYZ"}) {
+    const Bytes xyz = tag(profile, name);
+    if (xyz.size() < 20 || !has_word(xyz, 0, "XYZ ")) return "";
+    const double sum = fixed(xyz, 8) + fixed(xyz, 12) + fixed(xyz, 16);
+    for (const std::size_t at : {8U, 12U}) xy.push_back(fixed(xyz, at) / sum);
+  }
+  xy.insert(xy.end(), {0.3457, 0.3585});
+  return numbers_text(xy);
+}
+
+struct Chunk {
+  std::string type;
+  std::vector<std::uint8_t> data;
+};
+
+/// Reads a file chunk by chunk, if it is a PNG.
+class PngFile {
+ public:
+  explicit PngFile(const std::string& path) : file_(path, std::ios::binary | std::ios::ate) {
+    constexpr std::string_view kSignature = "\x89PNG\r\n\x1a\n";
+    size_ = static_cast<std::uint64_t>(file_.tellg());
+    file_.seekg(0);
+    std::string begin(kSignature.size(), '\0');
+    is_png_ = file_.read(begin.data(), static_cast<std::streamsize>(begin.size())) && begin == kSignature;
+  }
+  /// True if the file has a PNG signature.
+  [[nodiscard]] bool is_png() const { return is_png_; }
+
+  /// The next chunk. Nothing if it is truncated or its checksum is wrong.
+  std::optional<Chunk> next() {
+    constexpr std::uint64_t kAround = 12;  // Length, type and checksum [bytes].
+    const std::uint64_t left = size_ - static_cast<std::uint64_t>(file_.tellg());
+    const std::uint32_t length = left < kAround ? 0 : number();
+    if (left < kAround || length > left - kAround) return std::nullopt;
+    Chunk chunk{std::string(4, '\0'), std::vector<std::uint8_t>(length)};
+    file_.read(chunk.type.data(), 4);
+    if (length > 0) file_.read(reinterpret_cast<char*>(chunk.data.data()), length);
+    boost::crc_32_type crc;
+    crc.process_bytes(chunk.type.data(), chunk.type.size());
+    crc.process_bytes(chunk.data.data(), chunk.data.size());
+    const bool is_sound = number() == crc.checksum() && file_;
+    return is_sound ? std::optional(std::move(chunk)) : std::nullopt;
+  }
+
+ private:
+  std::uint32_t number() {
+    std::array<std::uint8_t, 4> bytes{};
+    file_.read(reinterpret_cast<char*>(bytes.data()), 4);
+    return big_endian(bytes, 0);
+  }
+
+  std::ifstream file_;
+  std::uint64_t size_ = 0;
+  bool is_png_ = false;
+};
+
+// The numbers after "KEY=" in a line; throws unless there are `count`.
+std::vector<double> numbers_of(const std::string& line, std::size_t count, const std::string& path) {
+  std::istringstream words(line.substr(line.find('=') + 1));
+  std::vector<double> numbers;
+  for (double number = 0; words >> number;) numbers.push_back(number);
+  if (!words.eof() || numbers.size() != count)
+    throw Error(ErrorCode::input, path,
+                "wrong count of numbers (got \"" + line + "\", allowed " + std::to_string(count) + ")");
+  return numbers;
+}
+
+// Multiplies `factors` by the numbers of a line: one for all channels or one for each.
+void take_factors(const std::string& line, std::size_t count, const std::string& path,
+                  std::array<double, 3>& factors) {
+  const std::vector<double> values = numbers_of(line, count, path);
+  if (std::ranges::any_of(values, [](double factor) { return !(factor > 0); }))
+    throw Error(ErrorCode::input, path,
+                "factors of the pixels must be positive (got \"" + line + "\", allowed > 0)");
+  for (std::size_t c = 0; c < 3; ++c) factors.at(c) *= values[c % count];
+}
+
+// Primaries of a line; "" for zeros, which some programs write for unknown primaries.
+std::string primaries_of(const std::string& line, const std::string& path) {
+  const std::vector<double> values = numbers_of(line, 8, path);
+  if (std::ranges::all_of(values, [](double number) { return number == 0; })) return "";
+  return numbers_text(values);
+}
+
+void read_line(const std::string& line, const std::string& path, RadianceHeader& header) {
+  if (line.starts_with("EXPOSURE=")) take_factors(line, 1, path, header.factors);
+  if (line.starts_with("COLORCORR=")) take_factors(line, 3, path, header.factors);
+  if (line.starts_with("PRIMARIES=")) header.primaries = primaries_of(line, path);
+  if (line.starts_with("GAMMA=") && numbers_of(line, 1, path).front() != 1)
+    throw Error(ErrorCode::input, path, "values are not linear (got \"" + line + "\", allowed GAMMA=1)");
+}
+
+// Orientation from the line "-Y 600 +X 800". The first axis runs across rows, the second along them. +X
+// points to the right, +Y upwards.
+int orientation_of(const std::string& line) {
+  const bool from_right = line.find("-X") != std::string::npos;
+  const bool from_bottom = line.find("+Y") != std::string::npos;
+  const bool rows_are_columns = line.find('X') < line.find('Y');
+  const int quarter = from_bottom ? (from_right ? 2 : 3) : (from_right ? 1 : 0);
+  return 1 + quarter + (rows_are_columns ? 4 : 0);
+}
+
 }  // namespace
 
 std::string numbers_text(const std::vector<double>& numbers) {
@@ -154,6 +362,51 @@ DeclaredColors declared_colors(const std::string& path, const LibraryColors& lib
   if (library.format == "jpeg" && has_jpeg_profile(path)) return {kUnread, "", ""};
   if (auto space = exif_encoding(library.exif_space); !space.empty()) return {std::move(space), "", ""};
   return library.format == "tiff" ? tiff_colors(path) : DeclaredColors{};
+}
+
+std::uint32_t big_endian(std::span<const std::uint8_t> bytes, std::size_t at) {
+  if (bytes.size() < 4 || at > bytes.size() - 4) return 0;
+  std::uint32_t number = 0;
+  for (const std::uint8_t byte : bytes.subspan(at, 4)) number = number << 8U | byte;
+  return number;
+}
+
+DeclaredColors icc_colors(std::span<const std::uint8_t> profile, bool is_grey) {
+  constexpr std::size_t kConnectionSpace = 20;
+  const bool has_table = !has_word(profile, kConnectionSpace, "XYZ ") || !tag(profile, "A2B0").empty();
+  const bool has_grey = is_grey && !tag(profile, "kTRC").empty();
+  const std::vector<const char*> names = has_grey ? std::vector{"kTRC"} : std::vector{"rTRC", "gTRC", "bTRC"};
+  std::set<std::string> encodings;
+  for (const char* const name : names) encodings.insert(curve_encoding(tag(profile, name)));
+  DeclaredColors colors{*encodings.begin(), profile_primaries(profile), ""};
+  if (encodings.size() > 1 || (!is_grey && colors.primaries.empty())) colors.encoding = kOtherCurves;
+  if (has_table) colors.encoding = kTables;
+  return colors;
+}
+
+bool is_damaged_png(const std::string& path) {
+  PngFile file(path);
+  if (!file.is_png()) return false;
+  for (auto chunk = file.next(); chunk; chunk = file.next())
+    if (chunk->type == "IEND") return false;
+  return true;
+}
+
+std::optional<std::vector<std::uint8_t>> png_chunk(const std::string& path, std::string_view type) {
+  PngFile file(path);
+  for (auto chunk = file.next(); chunk && chunk->type != "IDAT"; chunk = file.next())
+    if (chunk->type == type) return std::move(chunk->data);
+  return std::nullopt;
+}
+
+RadianceHeader radiance_header(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  RadianceHeader header;
+  std::string line;
+  while (std::getline(file, line) && !line.empty()) read_line(line, path, header);
+  std::getline(file, line);
+  header.orientation = orientation_of(line);
+  return header;
 }
 
 }  // namespace abbe::picture_module

@@ -1,16 +1,16 @@
 // Writes DNG files with libtiff.
-#include <tiffio.h>
+#include "io/picture_module_dng.h"
 
 #include <algorithm>
 #include <array>
 #include <cstdarg>
 #include <cstring>
 
+#include <tiffio.h>
+
 #include "io/error.h"
 #include "io/image.h"
 #include "io/picture_module.h"
-#include "io/picture_module_dng.h"
-#include "io/rgb_order.h"
 
 namespace abbe::picture_module {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "io/atomic_file.h"
 #include "io/error.h"
-#include "io/extension.h"
 #include "io/picture_codec.h"
 #include "io/text.h"
 

@@ -1,32 +1,32 @@
 #include "io/text.h"
 
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <iterator>
+#include <memory>
+#include <system_error>
+
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <iconv.h>
 #include <linux/magic.h>
 #include <openssl/evp.h>
 #include <sys/stat.h>
 #include <sys/vfs.h>
 #include <unistd.h>
-
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <boost/locale/utf.hpp>
-#include <cerrno>
-#include <charconv>
-#include <cmath>
-#include <cstdint>
-#include <iterator>
-#include <system_error>
 
 #include "io/error.h"
-#include "io/sha256.h"
-#include "io/standard_stream.h"
 
 namespace abbe {
-namespace {
 
+namespace {
 constexpr const char* kNoRegularFile = "not a regular file";
 
 std::string reason(int error) {
@@ -79,10 +79,6 @@ std::string_view trimmed(std::string_view text) {
   if (begin == std::string_view::npos) return {};
   return text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
 }
-
-}  // namespace
-
-namespace {
 
 constexpr std::size_t kFile = SourcePosition::kWholeFile;
 
@@ -207,7 +203,6 @@ std::shared_ptr<const SourceText> from_windows_1252(const std::shared_ptr<Source
                             static_cast<unsigned char>(left.front())),
                 code, diagnostics);
 }
-
 }  // namespace
 
 std::shared_ptr<const SourceText> read_text(const std::filesystem::path& path, Diagnostics& diagnostics,
@@ -323,6 +318,28 @@ std::string user_source(const SourceText& text) {
 
 std::string sha256(std::string_view bytes) {
   return sha256_of_pieces(std::span(&bytes, 1));
+}
+
+std::string extension_of(const std::filesystem::path& path) {
+  return lower_case(path.extension().string());
+}
+
+void require_extension(const std::filesystem::path& path, std::initializer_list<const char*> allowed) {
+  if (std::find(allowed.begin(), allowed.end(), extension_of(path)) == allowed.end())
+    throw Error(
+        ErrorCode::usage, path.string(),
+        fmt::format("got extension \"{}\", allowed {}", path.extension().string(), fmt::join(allowed, ", ")));
+}
+
+std::string sha256_of_pieces(std::span<const std::string_view> pieces) {
+  const std::unique_ptr<EVP_MD_CTX, decltype(&EVP_MD_CTX_free)> context(EVP_MD_CTX_new(), EVP_MD_CTX_free);
+  bool good = context && EVP_DigestInit_ex(context.get(), EVP_sha256(), nullptr) == 1;
+  for (const std::string_view piece : pieces)
+    good = good && EVP_DigestUpdate(context.get(), piece.data(), piece.size()) == 1;
+  std::array<unsigned char, 32> digest;
+  if (!good || EVP_DigestFinal_ex(context.get(), digest.data(), nullptr) != 1)
+    throw Error(ErrorCode::internal, "", "SHA-256 is not available");
+  return fmt::format("{:02x}", fmt::join(digest, ""));
 }
 
 }  // namespace abbe

@@ -2,8 +2,10 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <initializer_list>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -33,6 +35,17 @@ inline constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 [[nodiscard]] std::shared_ptr<const SourceText> read_unicode_text(const std::filesystem::path& path,
                                                                   Diagnostics& diagnostics,
                                                                   ErrorCode code = ErrorCode::input);
+/// The path that means standard input for reading and standard output for writing.
+inline constexpr const char* kStandardStream = "-";
+
+/// Name of standard input in messages.
+inline constexpr const char* kStandardInputName = "<stdin>";
+
+/// Name in messages of a path that is read.
+[[nodiscard]] inline std::string input_name(const std::filesystem::path& path) {
+  return path == kStandardStream ? kStandardInputName : path.string();
+}
+
 /// Reads standard input to its end under the name "<stdin>". Limit, reports and result are those of
 /// `read_text`.
 [[nodiscard]] std::shared_ptr<const SourceText> read_standard_input(Diagnostics& diagnostics, ErrorCode code);
@@ -47,6 +60,14 @@ void require_file(const std::filesystem::path& path);
 /// that names the path.
 [[nodiscard]] bool is_file(const std::filesystem::path& path, const SourcePosition& where,
                            Diagnostics& diagnostics);
+
+/// The extension of a file name in lower case, such as ".exr"; "" if there is none. File types are recognised
+/// in either case, since cameras write upper-case extensions.
+[[nodiscard]] std::string extension_of(const std::filesystem::path& path);
+
+/// Throws Error{usage} unless the extension is one of `allowed`, which are in lower case with a dot, such as
+/// ".exr". The path may have it in either case.
+void require_extension(const std::filesystem::path& path, std::initializer_list<const char*> allowed);
 
 /// Number of leading bytes that are valid UTF-8 without NUL; the whole size for valid text.
 [[nodiscard]] std::size_t valid_prefix(std::string_view text);
@@ -76,5 +97,8 @@ void require_file(const std::filesystem::path& path);
 
 /// SHA-256 of the bytes, as 64 lower-case hexadecimal digits.
 [[nodiscard]] std::string sha256(std::string_view bytes);
+/// SHA-256 of the concatenated pieces, as 64 lower-case hexadecimal digits. Throws Error{internal} if OpenSSL
+/// does not provide it.
+[[nodiscard]] std::string sha256_of_pieces(std::span<const std::string_view> pieces);
 
 }  // namespace abbe

@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "io/json.h"
 #include "io/text.h"
-#include "io/value_tree.h"
 
 namespace abbe {
 namespace {

@@ -46,6 +46,8 @@ class ExitPupil {
   /// nearest bound, shifted.
   [[nodiscard]] PupilBound bound(const Imath::V2d& image) const;
   [[nodiscard]] const EntranceDisc& entrance() const { return entrance_; }
+  /// Radius around the axis within which light crosses the plane of the first vertex [mm].
+  [[nodiscard]] double front_radius() const { return front_radius_; }
   /// Lower bound of the cosine of the angle of incidence on the image, over all its points.
   [[nodiscard]] double min_cosine() const { return min_cosine_; }
 
@@ -64,7 +66,15 @@ class ExitPupil {
   double shift_;        // movement of the pupil over that of the image point
   std::vector<PupilBound> bounds_;
   EntranceDisc entrance_{0, 0};
+  double front_radius_ = 0;
   double min_cosine_ = 1;
 };
+
+/// The system with a clear aperture at every surface. Surfaces without one get the smallest that transmits
+/// all light to an image with these half sides [mm], at `low_nm`, `high_nm` and the wavelength midway. Stops
+/// with blades count as their circle. A surface without light gets 0. Throws Error{scene} if the passing rays
+/// have no bound.
+[[nodiscard]] System with_clear_apertures(const SpectralSystem& system, const Imath::V2d& half_image_mm,
+                                          double low_nm, double high_nm);
 
 }  // namespace abbe::lens

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "lens/crossing.h"
+#include "lens/trace.h"
 
 namespace abbe::lens {
 namespace {

@@ -6,6 +6,32 @@
 #include <numbers>
 
 namespace abbe::lens {
+namespace {
+
+struct Mean {
+  double weight = 0;
+  V2d point{0, 0};
+  V2d slope{0, 0};
+};
+
+Mean mean_of(std::span<const Spot> spots) {
+  Mean mean;
+  for (const Spot& spot : spots)
+    for (const SpotRay& ray : spot.rays) {
+      mean.weight += ray.weight;
+      mean.point += ray.weight * ray.point;
+      mean.slope += ray.weight * ray.slope;
+    }
+  if (mean.weight > 0) {
+    mean.point /= mean.weight;
+    mean.slope /= mean.weight;
+  }
+  return mean;
+}
+
+constexpr int kFocusCells = 48;  // across a beam
+
+}  // namespace
 
 using V2d = Imath::V2d;
 
@@ -32,31 +58,6 @@ Spot spot(const Beam& beam, double field, int side) {
     }
   return spot;
 }
-
-namespace {
-
-struct Mean {
-  double weight = 0;
-  V2d point{0, 0};
-  V2d slope{0, 0};
-};
-
-Mean mean_of(std::span<const Spot> spots) {
-  Mean mean;
-  for (const Spot& spot : spots)
-    for (const SpotRay& ray : spot.rays) {
-      mean.weight += ray.weight;
-      mean.point += ray.weight * ray.point;
-      mean.slope += ray.weight * ray.slope;
-    }
-  if (mean.weight > 0) {
-    mean.point /= mean.weight;
-    mean.slope /= mean.weight;
-  }
-  return mean;
-}
-
-}  // namespace
 
 std::optional<SpotSize> size_of(std::span<const Spot> spots) {
   const Mean mean = mean_of(spots);
@@ -99,6 +100,25 @@ double geometric_mtf(std::span<const Spot> spots, double per_mm, const V2d& dire
       sum += ray.weight *
              std::polar(1.0, -2 * std::numbers::pi * per_mm * (ray.point - mean.point).dot(direction));
   return std::abs(sum) / mean.weight;
+}
+
+std::vector<std::vector<Spot>> all_spots(const System& system, double stop_radius_mm, int side) {
+  std::vector<std::vector<Spot>> groups;
+  for (const double field : system.fields) {
+    std::vector<Spot>& group = groups.emplace_back();
+    for (const double nm : system.wavelengths_nm) {
+      const SystemAt at(system, nm);
+      if (const auto beam = Beam::of(at, field, stop_radius_mm))
+        group.push_back(spot(*beam, field, side));
+      else
+        group.push_back({nm, field, {}});
+    }
+  }
+  return groups;
+}
+
+std::optional<double> best_focus(const System& system) {
+  return best_focus(all_spots(system, stop_radius(system), kFocusCells));
 }
 
 }  // namespace abbe::lens

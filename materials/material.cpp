@@ -1,15 +1,33 @@
 #include "materials/material.h"
 
 #include <cmath>
+#include <concepts>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "materials/interface/fresnel.h"
 
 namespace abbe {
+namespace {
+
+// The model's answer to `ask`, or `otherwise` if it has no such member function.
+template <typename T, typename Ask>
+T answer(const Material& material, Ask ask, T otherwise) {
+  return std::visit(
+      [&]<typename Model>(const Model& model) -> T {
+        if constexpr (std::invocable<Ask, const Model&>)
+          return ask(model);
+        else
+          return otherwise;
+      },
+      material.model);
+}
+
+}  // namespace
 
 Bsdf make_bsdf(const Material& material, const SurfaceLookup& at) {
-  return std::visit([&at](const auto& model) { return model.bsdf(at); }, material.model);
+  return std::visit([&at](const auto& model) { return as_bsdf(model.bsdf(at)); }, material.model);
 }
 
 Lobes lobes(const Material& material) {
@@ -17,8 +35,12 @@ Lobes lobes(const Material& material) {
 }
 
 bool needs_coordinates(const Material& material) {
-  return material.relief ||
-         std::visit([](const auto& model) { return model.needs_coordinates(); }, material.model);
+  return material.relief || answer(
+                                material,
+                                [](const auto& model) -> decltype(model.needs_coordinates()) {
+                                  return model.needs_coordinates();
+                                },
+                                false);
 }
 
 bool is_dispersive(const Material& material) {
@@ -27,25 +49,50 @@ bool is_dispersive(const Material& material) {
 }
 
 bool depends_on_outside(const Material& material) {
-  return std::visit([](const auto& model) { return model.depends_on_outside(); }, material.model);
+  return answer(
+      material,
+      [](const auto& model) -> decltype(model.depends_on_outside()) { return model.depends_on_outside(); },
+      false);
 }
 
 bool opaque(const Material& material) {
-  return std::visit([](const auto& model) { return model.opaque(); }, material.model);
+  return answer(
+      material, [](const auto& model) -> decltype(model.opaque()) { return model.opaque(); }, false);
+}
+
+bool preserves_polarisation(const Material& material) {
+  return answer(
+      material,
+      [](const auto& model) -> decltype(model.preserves_polarisation()) {
+        return model.preserves_polarisation();
+      },
+      false);
+}
+
+bool polarises(const Material& material) {
+  return answer(
+      material, [](const auto& model) -> decltype(model.polarises()) { return model.polarises(); },
+      lobes(material).delta && !preserves_polarisation(material));
 }
 
 const RefractiveIndex* interior_index(const Material& material) {
-  return std::visit([](const auto& model) { return model.interior_index(); }, material.model);
+  return answer(
+      material, [](const auto& model) -> decltype(model.interior_index()) { return model.interior_index(); },
+      static_cast<const RefractiveIndex*>(nullptr));
 }
 
 const Medium* medium(const Material& material) {
-  return std::visit([](const auto& model) { return model.medium(); }, material.model);
+  return answer(
+      material, [](const auto& model) -> decltype(model.medium()) { return model.medium(); },
+      static_cast<const Medium*>(nullptr));
 }
 
 std::optional<std::string> transparency_fault(const Material& material, double wavelength_nm) {
   constexpr double kTolerance = 1e-4;
-  const auto* pane = std::get_if<ThinGlassMaterial>(&material.model);
-  const RefractiveIndex* index = pane != nullptr ? &pane->index : interior_index(material);
+  const RefractiveIndex* sheet = answer(
+      material, [](const auto& model) -> decltype(model.clear_index()) { return model.clear_index(); },
+      static_cast<const RefractiveIndex*>(nullptr));
+  const RefractiveIndex* index = sheet != nullptr ? sheet : interior_index(material);
   if (index == nullptr) return std::nullopt;
   const double n = index->n(wavelength_nm);
   const double k = index->k(wavelength_nm);
@@ -59,11 +106,15 @@ std::optional<std::string> transparency_fault(const Material& material, double w
 }
 
 std::vector<IndexUse> indices(const Material& material) {
-  return std::visit([](const auto& model) { return model.indices(); }, material.model);
+  return answer(
+      material, [](const auto& model) -> decltype(model.indices()) { return model.indices(); },
+      std::vector<IndexUse>());
 }
 
 std::size_t texture_bytes(const Material& material) {
-  std::size_t bytes = std::visit([](const auto& model) { return model.texture_bytes(); }, material.model);
+  std::size_t bytes = answer(
+      material, [](const auto& model) -> decltype(model.texture_bytes()) { return model.texture_bytes(); },
+      std::size_t{0});
   if (material.relief)
     bytes += std::visit([](const auto& map) { return map.image.memory_bytes(); }, *material.relief);
   return bytes;
@@ -75,6 +126,33 @@ bool encloses_medium(const Material& material) {
 
 bool is_boundary(const Material& material) {
   return std::holds_alternative<MediumMaterial>(material.model);
+}
+
+std::optional<FresnelPower<double>> smooth_power(const Material& material, const SmoothLookup& at) {
+  return std::visit(
+      [&at]<typename Model>(const Model& model) -> std::optional<FresnelPower<double>> {
+        if constexpr (requires { model.smooth_power(at); }) {
+          return model.smooth_power(at);
+        } else {
+          static_assert(!Model::lobes().delta);
+          return std::nullopt;
+        }
+      },
+      material.model);
+}
+
+std::optional<SmoothMueller> smooth_mueller(const Material& material, const SmoothLookup& at) {
+  if (!smooth_power(material, at)) return std::nullopt;
+  return std::visit(
+      [&at]<typename Model>(const Model& model) -> std::optional<SmoothMueller> {
+        if constexpr (requires { model.smooth_mueller(at); }) {
+          return model.smooth_mueller(at);
+        } else {
+          static_assert(!Model::lobes().delta);
+          return std::nullopt;
+        }
+      },
+      material.model);
 }
 
 }  // namespace abbe

@@ -8,38 +8,40 @@
 #include <variant>
 #include <vector>
 
-#include "materials/model/classic.h"
-#include "materials/model/layered.h"
-#include "materials/model/medium_material.h"
-#include "materials/model/mixture.h"
-#include "materials/model/principled.h"
-#include "materials/model/rough.h"
-#include "materials/model/smooth.h"
-#include "materials/model/thin_element.h"
-#include "materials/texture/relief.h"
+#include "materials/bsdf.h"
+#include "materials/bsdf/surface.h"
+#include "materials/texture/texture_image.h"
 
 namespace abbe {
 
-/// Interface of the models in `MaterialModel`.
-/// - `bsdf`: the scattering at a lookup, which may refer to the model; `lobes`: its kinds of lobes.
-/// - `needs_coordinates`: true if the scattering depends on surface coordinates; `depends_on_outside`: true
-///   if it depends on the index outside.
-/// - `opaque`: true if no light passes through the surface.
-/// - `interior_index`: the index inside a closed surface, or nullptr if light does not enter.
-/// - `medium`: the medium inside that absorbs or scatters in addition to `interior_index`, or nullptr.
-/// - `indices`: all refractive indices that the model uses, except those of a mixture's components;
-///   `texture_bytes`: the size of its images in bytes.
+/// The scattering model that `bsdf` of a `SurfaceModel` returns.
+template <BsdfModel Model>
+[[nodiscard]] Bsdf as_bsdf(const Model& model) {
+  return model;
+}
+template <BsdfModel... Models>
+[[nodiscard]] Bsdf as_bsdf(const std::variant<Models...>& either) {
+  return std::visit([](const auto& model) -> Bsdf { return model; }, either);
+}
+
+/// Interface of the models in `MaterialModel`. The free functions of these names below describe most of them.
+/// - Required: `bsdf`, the scattering at a lookup, which may refer to the model: a `BsdfModel` or a variant
+/// of
+///   several. `lobes`, its kinds of lobes.
+/// - Required if it has delta lobes: `smooth_power`, and `smooth_mueller`, which is called only if that is
+/// not
+///   empty.
+/// - Optional, false if absent: `needs_coordinates`, `depends_on_outside`, `opaque`,
+/// `preserves_polarisation`.
+/// - Optional: `polarises`; if absent, true for delta lobes that do not preserve polarisation.
+/// - Optional, nullptr or empty if absent: `interior_index`; `clear_index`, the index of a sheet that light
+/// does
+///   not enter but crosses; `medium`, which absorbs or scatters in addition to `interior_index`; `indices`;
+///   `texture_bytes`.
 template <typename Model>
 concept SurfaceModel = requires(const Model& model, const SurfaceLookup& at) {
-  { model.bsdf(at) } -> std::same_as<Bsdf>;
+  { as_bsdf(model.bsdf(at)) } -> std::same_as<Bsdf>;
   { model.lobes() } -> std::same_as<Lobes>;
-  { model.needs_coordinates() } -> std::same_as<bool>;
-  { model.depends_on_outside() } -> std::same_as<bool>;
-  { model.opaque() } -> std::same_as<bool>;
-  { model.interior_index() } -> std::same_as<const RefractiveIndex*>;
-  { model.medium() } -> std::same_as<const Medium*>;
-  { model.indices() } -> std::same_as<std::vector<IndexUse>>;
-  { model.texture_bytes() } -> std::same_as<std::size_t>;
 };
 
 /// The closed list of material models.
@@ -88,6 +90,11 @@ struct Material {
 /// The renderer uses n alone for its reflectance; the message is given if k changes the reflectance along the
 /// normal by more than 1e-4. Empty otherwise and for other materials.
 [[nodiscard]] std::optional<std::string> transparency_fault(const Material& material, double wavelength_nm);
+/// True if the surface may polarise unpolarised light.
+[[nodiscard]] bool polarises(const Material& material);
+/// True if the surface may preserve the polarisation of polarised light although it leaves unpolarised light
+/// unpolarised, as ideal mirrors do.
+[[nodiscard]] bool preserves_polarisation(const Material& material);
 /// True if no light passes through the surface.
 [[nodiscard]] bool opaque(const Material& material);
 /// All refractive indices that the material uses, including those of coatings. Empty for a mixture, because
@@ -100,5 +107,16 @@ struct Material {
 [[nodiscard]] bool encloses_medium(const Material& material);
 /// True if a medium begins and ends at the surface without reflection or refraction.
 [[nodiscard]] bool is_boundary(const Material& material);
+
+/// Reflectance and transmittance of the delta lobes, in double precision by the formulas of the model. T is
+/// the power that crosses the surface; it is 0 if the surface is opaque. A model without polarisation returns
+/// equal values for s and p. A mixture adds up its components with their weights and leaves out those without
+/// a result. Empty if the material has no delta lobe, or if a textured value is needed at unknown
+/// coordinates.
+[[nodiscard]] std::optional<FresnelPower<double>> smooth_power(const Material& material,
+                                                               const SmoothLookup& at);
+
+/// Mueller matrices of the delta lobes; empty if `smooth_power` is empty.
+[[nodiscard]] std::optional<SmoothMueller> smooth_mueller(const Material& material, const SmoothLookup& at);
 
 }  // namespace abbe

@@ -9,7 +9,7 @@
 
 #include "io/text.h"
 #include "page_text.h"
-#include "preview/snapshot.h"
+#include "preview/viewer_film.h"
 
 namespace abbe {
 namespace {

@@ -6,15 +6,17 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
 #include <span>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include "film/film_attributes.h"
 #include "io/error.h"
-#include "preview/tev_packets.h"
+#include "results/rendered_film.h"
 
 namespace abbe {
 namespace {
@@ -43,6 +45,64 @@ int connected_socket(const ServerAddress& address) {
   }
   if (socket < 0) throw Error(ErrorCode::output, to_text(address), "no viewer listens there");
   return socket;
+}
+
+// TCP packets of the image viewer tev. A packet has its length in bytes (including the length), its kind, and
+// the content. Integers have 32 bits; integers and floats are little-endian; strings end with a zero byte.
+enum class PacketKind : std::uint8_t { update_image = 3, create_image = 4 };
+
+class Packet {
+ public:
+  Packet(PacketKind kind, bool in_front) {
+    add(std::int32_t{0});  // placeholder for the length
+    bytes_ += static_cast<char>(kind);
+    bytes_ += in_front ? '\1' : '\0';
+  }
+  void add(const std::string& text) { bytes_.append(text.c_str(), text.size() + 1); }
+  void add(std::int32_t number) { add_bytes(&number, sizeof(number)); }
+  void add(std::span<const float> values) { add_bytes(values.data(), values.size_bytes()); }
+
+  [[nodiscard]] std::string finished() && {
+    const auto length = static_cast<std::int32_t>(bytes_.size());
+    std::memcpy(bytes_.data(), &length, sizeof(length));
+    return std::move(bytes_);
+  }
+
+ private:
+  void add_bytes(const void* from, std::size_t size) {
+    static_assert(std::endian::native == std::endian::little);
+    bytes_.append(static_cast<const char*>(from), size);
+  }
+
+  std::string bytes_;
+};
+
+// Packet that creates an image of zeros called `image`, `width` x `height` pixels with these channels, and
+// moves it to the front.
+std::string tev_create_image(const std::string& image, int width, int height,
+                             const std::vector<std::string>& channels) {
+  Packet packet(PacketKind::create_image, true);
+  packet.add(image);
+  packet.add(width);
+  packet.add(height);
+  packet.add(static_cast<std::int32_t>(channels.size()));
+  for (const std::string& channel : channels) packet.add(channel);
+  return std::move(packet).finished();
+}
+
+// Packet that replaces whole rows of a channel, beginning with row `y`, counted from 0 at the top. `width` is
+// that of the image. `values` are row by row, a multiple of `width`.
+std::string tev_update_rows(const std::string& image, const std::string& channel, int width, int y,
+                            std::span<const float> values) {
+  Packet packet(PacketKind::update_image, false);
+  packet.add(image);
+  packet.add(channel);
+  packet.add(0);
+  packet.add(y);
+  packet.add(width);
+  packet.add(static_cast<std::int32_t>(values.size() / static_cast<std::size_t>(width)));
+  packet.add(values);
+  return std::move(packet).finished();
 }
 
 }  // namespace

@@ -10,7 +10,7 @@
 
 #include "io/image.h"
 #include "preview/page_server.h"
-#include "preview/snapshot.h"
+#include "preview/viewer_film.h"
 #include "scene/scene.h"
 #include "transport/render/part.h"
 

@@ -7,12 +7,12 @@
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
-#include "calibration/calibration_case.h"
-#include "python/develop.h"
+#include "calibration/camera_calibration.h"
+#include "python/arguments.h"
 #include "python/errors.h"
 #include "python/gil.h"
+#include "python/module.h"
 #include "python/numbers.h"
-#include "python/query.h"
 
 namespace abbe::python {
 namespace {

@@ -4,16 +4,15 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include "film/white.h"
-#include "python/develop.h"
 #include "python/errors.h"
 #include "python/film.h"
 #include "python/json.h"
+#include "python/module.h"
 #include "python/scene.h"
-#include "sensor/film/recorded_white.h"
-#include "validation/statistics/chart_difference.h"
-#include "validation/statistics/common_areas.h"
-#include "validation/statistics/image_difference.h"
+#include "report/chart_difference.h"
+#include "report/image_difference.h"
+#include "results/white.h"
+#include "sensor/film/recorded_attributes.h"
 
 namespace abbe::python {
 namespace {

@@ -9,14 +9,13 @@
 #include "io/table.h"
 #include "materials/index/library.h"
 #include "python/arguments.h"
-#include "python/arrays.h"
 #include "python/errors.h"
-#include "python/query.h"
-#include "python/text.h"
+#include "python/module.h"
+#include "python/numbers.h"
+#include "report/image_difference.h"
 #include "sensor/response/channel.h"
 #include "spectral/curve_use.h"
 #include "spectral/library.h"
-#include "validation/statistics/image_difference.h"
 
 namespace abbe::python {
 namespace {
@@ -171,13 +170,6 @@ std::vector<std::string> names(const std::string& kind) {
 }
 
 }  // namespace
-
-std::optional<ResponseKind> response_of(const char* argument, const std::string& text) {
-  if (text.empty()) return std::nullopt;
-  if (text == "energy") return ResponseKind::energy;
-  if (text == "quantum") return ResponseKind::quantum;
-  throw Error(ErrorCode::usage, argument, fmt::format("got \"{}\", allowed energy, quantum", text));
-}
 
 void add_curves(py::module_& module) {
   module.def("names", names, py::arg("kind"),

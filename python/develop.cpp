@@ -5,20 +5,19 @@
 
 #include "develop/film_file.h"
 #include "develop/radiance.h"
-#include "film/spectral.h"
-#include "film/white.h"
-#include "io/extension.h"
+#include "io/text.h"
 #include "python/arguments.h"
-#include "python/develop.h"
 #include "python/errors.h"
 #include "python/film.h"
 #include "python/gil.h"
+#include "python/job.h"
 #include "python/json.h"
+#include "python/module.h"
 #include "python/numbers.h"
-#include "python/picture.h"
-#include "python/request.h"
 #include "python/scene.h"
-#include "sensor/film/recorded_white.h"
+#include "results/spectral.h"
+#include "results/white.h"
+#include "sensor/film/recorded_attributes.h"
 
 namespace abbe::python {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "python/arguments.h"
 #include "python/gil.h"
-#include "python/text.h"
+#include "python/module.h"
 
 namespace abbe::python {
 namespace {

@@ -7,7 +7,6 @@
 #include <pybind11/pybind11.h>
 
 #include "io/diagnostics.h"
-#include "io/invalid_input.h"
 
 namespace abbe::python {
 
@@ -26,9 +25,5 @@ template <typename T>
   if (!value) throw Error(ErrorCode::internal, "", "a loader returned nothing and reported no error");
   return *std::move(value);
 }
-
-/// Adds the class of diagnostics. Registers a translator of exceptions: Error{usage} becomes abbe.UsageError,
-/// and so on for each code, with the diagnostics of an InvalidInput.
-void add_errors(pybind11::module_& module);
 
 }  // namespace abbe::python

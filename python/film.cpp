@@ -1,28 +1,27 @@
 #include "python/film.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
+#include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
 
+#include "develop/develop.h"
 #include "develop/film_file.h"
-#include "film/film_attributes.h"
-#include "film/rendered_film.h"
+#include "develop/radiance.h"
 #include "io/exr.h"
-#include "io/extension.h"
 #include "io/picture.h"
 #include "io/text.h"
 #include "python/arguments.h"
-#include "python/arrays.h"
 #include "python/errors.h"
 #include "python/gil.h"
+#include "python/module.h"
 #include "python/numbers.h"
-#include "python/picture.h"
-#include "python/text.h"
+#include "results/rendered_film.h"
 #include "sensor/film/film_planes.h"
-#include "sensor/film/recorded_error.h"
-#include "sensor/film/variance_name.h"
+#include "sensor/film/recorded_attributes.h"
 
 namespace abbe::python {
 namespace {
@@ -69,6 +68,36 @@ FilmHandle film_of_file(const fs::path& path) {
   return FilmHandle(read_film(path));
 }
 
+ExposedFilm exposed(const Image& film) {
+  constexpr const char* kWhere = "film";
+  if (is_spectral(film)) return observed_film(spectral_image(film, kWhere), kWhere, {}, {});
+  Diagnostics diagnostics;
+  std::optional<FilmSensor> sensor =
+      read_film_sensor(film, kWhere, {}, {}, recorded_white(film), diagnostics);
+  require_no_errors(diagnostics);
+  sensor->readout.reset();  // the expected exposure, without noise
+  return {film, *std::move(sensor)};
+}
+
+// The picture of a film's expected exposure, without sensor noise, on the sRGB display. Throws Error{usage}
+// if no display can show it, and InvalidInput if the film does not describe its sensor.
+Image exposure_picture(const FilmHandle& film) {
+  const ExposedFilm source = exposed(film.image());
+  return display_picture(source.sensor, develop(source, 0).calibrated);
+}
+
+py::object picture(const FilmHandle& film) {
+  const Image image = exposure_picture(film);
+  std::vector<std::string> names;
+  for (const ImageChannel& channel : image.channels) names.push_back(channel.name);
+  return planes_of(image, names);
+}
+
+py::object png(const FilmHandle& film) {
+  const ExposedFilm source = exposed(film.image());
+  return png_of(source.sensor, develop(source, 0).calibrated);
+}
+
 // Writes the format of the extension: the sums, the image or the display picture.
 void write_film(const FilmHandle& film, const fs::path& path) {
   require_extension(path, {".exr", kPartExtension, ".png", ".jpg", ".tif"});
@@ -76,7 +105,7 @@ void write_film(const FilmHandle& film, const fs::path& path) {
   if (is_part && !film.part())
     throw Error(ErrorCode::usage, path.string(),
                 "the film was read from an image: only a film with its exact sums can be written as a part");
-  if (!is_part && extension_of(path) != ".exr") return write_picture(path, display_picture(film));
+  if (!is_part && extension_of(path) != ".exr") return write_picture(path, exposure_picture(film));
   const Image* const image = is_part ? nullptr : &film.image();
   const GilReleased released;
   if (is_part)
@@ -266,12 +295,26 @@ void add_film(py::module_& module) {
           "width", [](const FilmHandle& f) { return f.image().width; }, "The film's columns of pixels.")
       .def_property_readonly(
           "height", [](const FilmHandle& f) { return f.image().height; }, "The film's rows of pixels.")
-      .def("__repr__", repr_of_film);
-  add_pictures(film);
+      .def("__repr__", repr_of_film)
+      .def("picture", picture,
+           "Returns the picture of the film on an sRGB display: rows, columns, and R, G, B or grey, as code "
+           "values in [0, 1]. Raises UsageError for a film that no display can show.")
+      .def("_repr_png_", png);
   module.def("merge", merge_films, py::arg("films"), py::kw_only(), py::arg("partial") = false,
              "Merges films of one render, or the .abbepart files at paths, to the film that a single render "
              "of all their samples would give, bit for bit. Raises InputError for films of different "
              "renders, for samples that two films share, and, unless `partial`, for missing samples.");
+}
+
+Image display_picture(const FilmSensor& sensor, const Image& calibrated) {
+  require_display(sensor);
+  const Image planes = display_planes(sensor, calibrated);
+  return (*sensor.display)(planes, 1 / display_white(sensor, planes)).image;
+}
+
+py::object png_of(const FilmSensor& sensor, const Image& calibrated) {
+  if (!sensor.display) return py::none();
+  return py::bytes(encoded_picture(".png", display_picture(sensor, calibrated)));
 }
 
 }  // namespace abbe::python

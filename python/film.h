@@ -6,6 +6,7 @@
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 
+#include "develop/film_sensor.h"
 #include "io/image.h"
 #include "io/spectral_exr.h"
 #include "transport/render/part.h"
@@ -46,7 +47,13 @@ class FilmHandle {
 /// if the image lacks one of them or `names` is empty. Requires the GIL.
 [[nodiscard]] pybind11::object planes_of(const Image& image, const std::vector<std::string>& names);
 
-/// Adds the class of films and `merge`.
-void add_film(pybind11::module_& module);
+/// The picture of a sensor's planes `calibrated` (`DevelopedFilm`) on the sRGB display of `abbe render`:
+/// channels R, G and B, or one of grey, as code values in [0, 1]. Throws Error{usage} if no display can show
+/// it.
+[[nodiscard]] Image display_picture(const FilmSensor& sensor, const Image& calibrated);
+
+/// The picture as bytes of a PNG, which Jupyter requests. None if no display can show it; Jupyter then shows
+/// text.
+[[nodiscard]] pybind11::object png_of(const FilmSensor& sensor, const Image& calibrated);
 
 }  // namespace abbe::python

@@ -4,11 +4,10 @@
 
 #include <fmt/format.h>
 
-#include "io/invalid_input.h"
+#include "io/diagnostics.h"
+#include "io/json.h"
 #include "io/json_values.h"
-#include "io/value_tree.h"
 #include "python/numbers.h"
-#include "python/text.h"
 
 namespace abbe::python {
 namespace {

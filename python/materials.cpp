@@ -7,12 +7,11 @@
 #include "io/text.h"
 #include "materials/index/library.h"
 #include "materials/interface/coating.h"
-#include "materials/interface/film_thickness.h"
 #include "materials/interface/prism.h"
-#include "python/arrays.h"
 #include "python/errors.h"
 #include "python/gil.h"
-#include "python/query.h"
+#include "python/module.h"
+#include "python/numbers.h"
 #include "sampling/angle.h"
 
 namespace abbe::python {

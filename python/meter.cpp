@@ -8,21 +8,18 @@
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
-#include "film/measure_meter.h"
-#include "film/rendered_film.h"
-#include "film/scene_warnings.h"
 #include "python/arguments.h"
-#include "python/arrays.h"
 #include "python/errors.h"
 #include "python/gil.h"
 #include "python/job.h"
 #include "python/json.h"
+#include "python/module.h"
 #include "python/numbers.h"
-#include "python/render.h"
-#include "python/request.h"
 #include "python/scene.h"
-#include "python/text.h"
-#include "validation/statistics/students_interval.h"
+#include "results/measure_meter.h"
+#include "results/rendered_film.h"
+#include "results/scene_warnings.h"
+#include "validation/statistics.h"
 
 namespace abbe::python {
 namespace {
@@ -154,8 +151,7 @@ std::vector<MeterMeasurement> measure(const SceneSource& source, const std::vect
     std::optional<abbe::Scene> scene = scene_of(metered, *one, diagnostics, all.empty() ? &inputs : nullptr);
     if (all.empty() || !scene) scene = accepted(std::move(scene), diagnostics);
     if (all.empty())
-      for (const auto& hidden : {hidden_sheet_warning(*scene), hidden_light_warning(*scene)})
-        if (hidden) warn(*hidden);
+      if (const auto hidden = coincidence_warning(*scene)) warn(*hidden);
     all.push_back(measure_meter(*std::move(scene), *one, how, caller, inputs));
   }
   return all;

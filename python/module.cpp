@@ -5,12 +5,7 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "io/data_directory.h"
-#include "python/develop.h"
-#include "python/errors.h"
-#include "python/film.h"
-#include "python/query.h"
-#include "python/render.h"
-#include "python/scene.h"
+#include "python/module.h"
 
 PYBIND11_MODULE(_abbe, module) {
   module.doc() = "Abbe, a spectral renderer validated against measured colour science.";

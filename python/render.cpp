@@ -5,19 +5,50 @@
 #include <fmt/format.h>
 #include <pybind11/stl.h>
 
-#include "film/rendered_film.h"
-#include "film/scene_warnings.h"
 #include "python/arguments.h"
 #include "python/errors.h"
 #include "python/film.h"
 #include "python/gil.h"
 #include "python/job.h"
+#include "python/module.h"
 #include "python/numbers.h"
-#include "python/render.h"
-#include "python/request.h"
-#include "python/sample_range.h"
 #include "python/scene.h"
-#include "transport/render/light_subpaths.h"
+#include "results/rendered_film.h"
+#include "results/scene_warnings.h"
+#include "transport/render/pass.h"
+
+namespace pybind11::detail {
+
+/// Converts (first, last), or a Python range of step 1, to the samples first <= s < last. The ends may be any
+/// whole numbers from 0 on. Throws Python's TypeError for other objects.
+template <>
+struct type_caster<abbe::SampleRange> {
+  bool load(const handle& object, bool convert) {
+    using End = abbe::python::Whole<std::uint64_t>;
+    make_caster<std::pair<End, End>> pair;
+    const bool is_bytes =
+        isinstance<bytes>(object) || isinstance<bytearray>(object) || isinstance<memoryview>(object);
+    if (is_bytes || !pair.load(ends_of(object), convert))
+      throw type_error(fmt::format(
+          "sample_range: expected (first, last), whole numbers from 0 on, or a range of step 1 (got {})",
+          std::string(repr(object))));
+    const auto [first, last] = cast_op<std::pair<End, End>>(pair);
+    value = {first, last};
+    return true;
+  }
+
+  PYBIND11_TYPE_CASTER(abbe::SampleRange, const_name("Union[Tuple[int, int], range]"));
+
+ private:
+  static object ends_of(const handle& samples) {
+    if (!PyRange_Check(samples.ptr())) return reinterpret_borrow<object>(samples);
+    const object step = samples.attr("step");
+    if (!step.equal(int_(1))) return none();
+    return make_tuple(samples.attr("start"), samples.attr("stop"));
+  }
+};
+
+}  // namespace pybind11::detail
 
 namespace abbe::python {
 namespace {
@@ -60,10 +91,9 @@ FilmHandle render_scene(SceneHandle& handle, const Request& request, const py::o
   inputs.reserve_memory("the film", film_bytes(scene, how));
   inputs.reserve_memory("the paths from lights of a sample", bytes_of_light_paths(scene));
   FilmIdentity identity = identity_of(scene, handle.name(), how);
-  for (const auto& warning :
-       {ignored_polarisation_warning(scene), dark_camera_warning(scene), hidden_sheet_warning(scene),
-        hidden_light_warning(scene), unsampled_light_warning(scene), undertrained_warning(how.guides.get()),
-        unused_settings_warning(scene)})
+  for (const auto& warning : {ignored_polarisation_warning(scene), dark_camera_warning(scene),
+                              coincidence_warning(scene), unsampled_light_warning(scene),
+                              undertrained_warning(how.guides.get()), unused_settings_warning(scene)})
     if (warning) warn(*warning);
   RenderResult result = render_listening(scene, how, progress);
   if (how.target_error && !how.time_limit_s && !std::isfinite(result.stats.error.median))

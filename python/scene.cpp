@@ -8,16 +8,14 @@
 #include <pybind11/stl/filesystem.h>
 
 #include "description/load.h"
-#include "description/scene_schema.h"
-#include "film/white.h"
-#include "io/schema/help.h"
-#include "io/schema/keys.h"
+#include "io/schema/documentation.h"
 #include "io/schema/write.h"
 #include "python/arguments.h"
 #include "python/errors.h"
 #include "python/gil.h"
 #include "python/json.h"
-#include "python/text.h"
+#include "python/module.h"
+#include "results/white.h"
 #include "transport/render/choose_integrator.h"
 #include "transport/render/threads.h"
 

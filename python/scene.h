@@ -73,7 +73,4 @@ class SceneHandle {
   std::shared_ptr<const GuidingData> guiding_data_;
 };
 
-/// Adds the class `Scene`, and `help`.
-void add_scene(pybind11::module_& module);
-
 }  // namespace abbe::python

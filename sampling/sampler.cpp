@@ -1,11 +1,9 @@
 #include "sampling/sampler.h"
 
-#include <immintrin.h>
-
 #include <bit>
 #include <cstddef>
 
-#include "sampling/mix.h"
+#include <immintrin.h>
 
 namespace abbe {
 namespace {

@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <functional>
 #include <numbers>
 #include <optional>
 #include <utility>
+#include <variant>
 #include <vector>
+
+#include <ImathBoxAlgo.h>
 
 #include "scene/scene.h"
 #include "scene/working_range.h"
@@ -18,6 +22,62 @@ namespace {
 using Imath::Box3d;
 using Imath::M44d;
 using Imath::V3d;
+
+constexpr std::size_t kRunLength = 64;  // triangles
+
+using BoxesOfMeshes = std::map<const Mesh*, FaceFinder::MeshBoxes>;
+
+const FaceFinder::MeshBoxes& boxes_of(const Mesh& mesh, BoxesOfMeshes& boxes_of_meshes) {
+  const auto [at, added] = boxes_of_meshes.try_emplace(&mesh);
+  auto& [around, runs] = at->second;
+  if (!added) return at->second;
+  runs.resize((mesh.triangles.size() + kRunLength - 1) / kRunLength);
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i)
+    for (const std::uint32_t vertex : mesh.triangles[i]) runs[i / kRunLength].extendBy(mesh.vertices[vertex]);
+  for (const Box3d& run : runs) around.extendBy(run);
+  return at->second;
+}
+
+// Adds the flat faces of a shape, transformed by a matrix, that intersect the box.
+struct FaceCollector {
+  const M44d& to_world;
+  double handedness;  // of the matrix: -1 if it mirrors, which reverses the winding
+  const Box3d& within;
+  BoxesOfMeshes& boxes_of_meshes;
+  std::vector<Face>& faces;
+
+  void add(std::array<V3d, 4> corners, bool round = false) const {
+    Box3d box;
+    for (V3d& corner : corners) {
+      corner = corner * to_world;
+      box.extendBy(corner);
+    }
+    if (!box.intersects(within)) return;
+    const V3d across = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    faces.push_back({corners, box, across.normalized() * handedness, round});
+  }
+  void operator()(const Mesh& mesh) const {
+    const std::vector<Box3d>& runs = boxes_of(mesh, boxes_of_meshes).runs;
+    const bool is_identity = to_world == M44d();  // transforming boxes takes most of the time
+    for (std::size_t run = 0; run < runs.size(); ++run) {
+      if (!(is_identity ? runs[run] : Imath::transform(runs[run], to_world)).intersects(within)) continue;
+      const std::size_t end = std::min((run + 1) * kRunLength, mesh.triangles.size());
+      for (std::size_t i = run * kRunLength; i < end; ++i) {
+        const auto& [a, b, c] = mesh.triangles[i];
+        add({mesh.vertices[a], mesh.vertices[b], mesh.vertices[c], mesh.vertices[c]});
+      }
+    }
+  }
+  template <typename S>
+  void operator()(const S& shape) const {
+    if (const std::optional<FlatFace> flat = flat_face(shape)) add(flat->corners, flat->round);
+  }
+  void operator()(const PlacedShape& placed) const {
+    const M44d& at = placed.at->to_world;
+    std::visit(FaceCollector{at, std::copysign(1.0, at.determinant()), within, boxes_of_meshes, faces},
+               placed.of->shape);
+  }
+};
 
 // A sphere transformed by a matrix.
 struct Ellipsoid {
@@ -136,8 +196,8 @@ bool ellipsoid_is_tangent(const Shape& shape, const Shape& other, double toleran
 // Faces that certainly belong to the shape: for a disc the inscribed square.
 std::vector<Face> certain_faces(const Shape& shape, const Box3d& near, FaceFinder& faces) {
   std::vector<Face> found = faces.near(shape, near);
-  if (plain<Disc>(shape) == nullptr) return found;
   for (Face& face : found) {
+    if (!face.round) continue;
     const V3d center = (face.corners[0] + face.corners[3]) / 2;
     face.box.makeEmpty();
     for (V3d& corner : face.corners) {
@@ -146,22 +206,6 @@ std::vector<Face> certain_faces(const Shape& shape, const Box3d& near, FaceFinde
     }
   }
   return found;
-}
-
-// Maximum distance by which float rounding moves a point of a face off its plane.
-double rounding_across(const Face& face) {
-  double sum = 0;
-  for (int axis = 0; axis < 3; ++axis)
-    sum += std::abs(face.normal[axis]) *
-           float_step(std::max(std::abs(face.box.min[axis]), std::abs(face.box.max[axis])));
-  return sum;
-}
-
-bool is_on_ball(const V3d& point, const Ellipsoid& ball, const Box3d& box) {
-  const V3d out = point - ball.center;
-  const double rounding = rounding_across({{point, point, point, point}, box, out.normalized()});
-  const std::optional<double> radius = ball.radius_of_ball(rounding);
-  return radius && std::abs(out.length() - *radius) <= rounding;
 }
 
 // True if `matches` accepts a pair of faces that are near each other along x. Nothing if there are too many
@@ -175,11 +219,27 @@ std::optional<bool> any_pair(const std::vector<Face>& faces_a, const std::vector
 
 }  // namespace
 
+std::vector<Face> FaceFinder::near(const Shape& shape, const Box3d& box) {
+  std::vector<Face> faces;
+  const M44d unmoved;
+  std::visit(FaceCollector{unmoved, 1, box, boxes_of_meshes_, faces}, shape);
+  std::sort(faces.begin(), faces.end(),
+            [](const Face& a, const Face& b) { return a.box.min.x < b.box.min.x; });
+  return faces;
+}
+
+Box3d FaceFinder::box_of(const Shape& shape) {
+  const auto* mesh = std::get_if<Mesh>(&shape);
+  return mesh != nullptr ? boxes_of(*mesh, boxes_of_meshes_).around : bounds(shape);
+}
+
 bool may_coincide(const Shape& a, const Shape& b, double tolerance, FaceFinder& faces) {
   const Box3d near_a = grown(faces.box_of(a), tolerance);
   const Box3d box_b = faces.box_of(b);
   if (!near_a.intersects(box_b)) return false;
   if (motion_of(a) != nullptr || motion_of(b) != nullptr) return true;
+  const auto is_known = [](const Shape& shape) { return has_faces(shape) || ellipsoid_of(shape); };
+  if (!is_known(a) || !is_known(b)) return true;
   if (ellipsoid_of(a) || ellipsoid_of(b))
     return ellipsoid_is_tangent(a, b, tolerance, faces) || ellipsoid_is_tangent(b, a, tolerance, faces);
   return any_pair(
@@ -203,7 +263,7 @@ bool overlaps(const Shape& a, const Shape& b, double tolerance, FaceFinder& face
 
 bool coats(const Shape& coat, const Shape& body, double tolerance, FaceFinder& faces) {
   if (ellipsoid_of(coat) || ellipsoid_of(body)) return overlaps(coat, body, tolerance, faces);
-  if (motion_of(coat) != nullptr || motion_of(body) != nullptr) return false;
+  if (motion_of(coat) != nullptr || motion_of(body) != nullptr || !has_faces(coat)) return false;
   const std::vector<Face> of_coat = certain_faces(coat, faces.box_of(coat), faces);
   const std::vector<Face> of_body = certain_faces(body, faces.box_of(body), faces);
   std::vector<bool> covered(of_coat.size(), false);
@@ -213,26 +273,6 @@ bool coats(const Shape& coat, const Shape& body, double tolerance, FaceFinder& f
     return false;
   };
   return any_pair(of_coat, of_body, tolerance, cover) && std::ranges::all_of(covered, std::identity());
-}
-
-bool overlaps_itself(const Shape& shape, double tolerance, FaceFinder& faces) {
-  const std::vector<Face> all = faces.near(shape, grown(faces.box_of(shape), tolerance));
-  const auto matches = [&](const Face& one, const Face& other) {
-    return &one < &other && lies_in(one, other, tolerance);
-  };
-  return any_pair(all, all, tolerance, matches).value_or(false);
-}
-
-bool is_on_surface(const V3d& point, const Shape& shape, FaceFinder& faces) {
-  if (motion_of(shape) != nullptr) return false;
-  if (const std::optional<Ellipsoid> ball = ellipsoid_of(shape))
-    return is_on_ball(point, *ball, bounds(shape));
-  const double max_step = 2 * float_step(largest_coordinate(faces.box_of(shape)));  // of all faces
-  const std::vector<Face> near = certain_faces(shape, grown(Box3d(point), max_step), faces);
-  return std::ranges::any_of(near, [&](const Face& face) {
-    const Face at{{point, point, point, point}, Box3d(point), face.normal};
-    return coincide(at, face, rounding_across(face), -max_step);
-  });
 }
 
 }  // namespace abbe

@@ -2,11 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include "materials/interface/fresnel.h"
-#include "materials/interface/hemispherical.h"
 #include "scene/coincidence.h"
 #include "scene/shapes/solid.h"
 #include "scene/small_light.h"
@@ -32,83 +35,90 @@ std::vector<BoxedShape> shapes_of(const Scene& scene, const Predicate& predicate
   return found;
 }
 
-// A light that an opaque surface may hide, and its bounding box.
-struct BoxedLight {
-  std::uint32_t light;
-  Imath::Box3d box;
-};
-
-// Emitting opaque surfaces, and static point and spot lights.
-std::vector<BoxedLight> hidable_lights(const Scene& scene) {
-  std::vector<BoxedLight> found;
-  for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-    const Light& light = scene.lights[i];
-    if (!emits(light)) continue;
-    const auto* emitter = std::get_if<AreaLight>(&light.kind);
-    if (emitter != nullptr && opaque(material_of(scene, emitter->shape)))
-      found.push_back({i, bounds(scene.shapes[emitter->shape].shape)});
-    else if (const Imath::V3f* at = light_position(light); at && motion_of(light, scene.shapes) == nullptr)
-      found.push_back({i, Imath::Box3d(Imath::V3d(*at))});
-  }
-  return found;
-}
-
-// True if light may be lost where the light coincides with a wall of that orientation, or, if it is the wall,
-// with itself.
-bool is_hidden(const Scene& scene, const BoxedLight& light_box, const BoxedShape& wall, Facing facing,
-               FaceFinder& faces) {
-  const Shape& shape = scene.shapes[wall.shape].shape;
-  const auto* emitter = std::get_if<AreaLight>(&scene.lights[light_box.light].kind);
-  const std::uint32_t own = emitter != nullptr ? emitter->shape : wall.shape;
-  const double tolerance =
-      scene.coincidence_tolerance(Imath::V3d(largest_coordinate(light_box.box)), own, wall.shape);
-  if (!grown(light_box.box, tolerance).intersects(wall.box)) return false;
-  if (emitter == nullptr) return is_on_surface(light_box.box.min, shape, faces);
-  if (own != wall.shape) return overlaps(scene.shapes[own].shape, shape, tolerance, faces, facing);
-  const auto* mesh = plain<Mesh>(shape);
-  return mesh != nullptr && (has_duplicate_triangles(*mesh) || overlaps_itself(shape, tolerance, faces));
-}
-
-// True if a light is the outside of a closed body. The test works on a copy, because `make_solid` modifies
-// its mesh.
-bool is_closed_emitter(const Scene& scene, const BoxedLight& light_box) {
-  const auto* emitter = std::get_if<AreaLight>(&scene.lights[light_box.light].kind);
-  if (emitter == nullptr || emitter->two_sided) return false;
-  const auto* mesh = plain<Mesh>(scene.shapes[emitter->shape].shape);
+// True if the outside of a closed body emits and its inside does not. The test works on a copy, because
+// `make_solid` modifies its mesh.
+bool is_closed_emitter(const Scene& scene, std::uint32_t shape) {
+  const ShapeInstance& instance = scene.shapes[shape];
+  if (std::get<AreaLight>(scene.lights[static_cast<std::size_t>(instance.light)].kind).two_sided)
+    return false;
+  const auto* mesh = plain<Mesh>(instance.shape);
   if (mesh == nullptr) return false;
   Mesh copy = *mesh;
   const SolidReport report = make_solid(copy);
   return report.encloses() && !report.repaired();
 }
 
-// The first wall on which light is lost. Coincident faces of a closed body and a wall that look at each other
-// are invisible and do not count.
-std::optional<CoincidentLight> coincidence_of(const Scene& scene, const BoxedLight& light_box,
-                                              const std::vector<const BoxedShape*>& walls,
-                                              FaceFinder& faces) {
-  const auto hiding = [&](Facing facing) {
-    return std::ranges::find_if(
-        walls, [&](const BoxedShape* wall) { return is_hidden(scene, light_box, *wall, facing, faces); });
-  };
-  auto wall = hiding(Facing::any);
-  if (wall != walls.end() && is_closed_emitter(scene, light_box)) wall = hiding(Facing::same);
-  if (wall == walls.end()) return std::nullopt;
-  return CoincidentLight{light_box.light, (*wall)->shape};
+bool is_emitter(const Scene& scene, std::uint32_t shape) {
+  const std::int32_t light = scene.shapes[shape].light;
+  return light >= 0 && emits(scene.lights[static_cast<std::size_t>(light)]) &&
+         opaque(material_of(scene, shape));
 }
 
-// `IneffectiveCoat::reflectance`: the interface reflects r and transmits 1 - r. The base of reflectance d
-// scatters the light; it leaves with the probability 1 - r_i, or returns. Total: r + (1 - r) (1 - r_i) d/(1 -
-// d r_i) [Judd1942].
-std::optional<double> coated_reflectance(const Material& coat) {
-  constexpr double kNm = 550;
-  const RefractiveIndex* index = interior_index(coat);
-  if (index == nullptr) return std::nullopt;
-  const double n = index->n(kNm);
-  const double r = fresnel_dielectric(1.0, n).R();
-  const double internal_reflectance = diffuse_reflectance_inside(n);
-  return r + (1 - r) * (1 - internal_reflectance) * IneffectiveCoat::kBaseReflectance /
-                 (1 - IneffectiveCoat::kBaseReflectance * internal_reflectance);
-}
+// Finds what rays hit instead of a shape among others near it.
+class HidingFinder {
+ public:
+  explicit HidingFinder(const Scene& scene) : scene_(scene) {}
+
+  [[nodiscard]] std::vector<std::uint32_t> hiding(const BoxedShape& one,
+                                                  const std::vector<const BoxedShape*>& others) {
+    const Material& material = material_of(scene_, one.shape);
+    if (is_sheet(material)) return hiding_sheet(one, others);
+    if (encloses_medium(material))
+      return selected(others, [&](const BoxedShape& other) { return is_coated(other, one); });
+    const auto hides = [&](Facing facing) {
+      return selected(others, [&](const BoxedShape& other) {
+        return opaque(material_of(scene_, other.shape)) && coincides(one, other, facing);
+      });
+    };
+    // Coincident faces of a closed body and a wall that look at each other are invisible.
+    std::vector<std::uint32_t> found = hides(Facing::any);
+    return found.empty() || !is_closed_emitter(scene_, one.shape) ? found : hides(Facing::same);
+  }
+
+ private:
+  template <typename Predicate>
+  static std::vector<std::uint32_t> selected(const std::vector<const BoxedShape*>& from,
+                                             const Predicate& predicate) {
+    std::vector<std::uint32_t> found;
+    for (const BoxedShape* shape : from)
+      if (predicate(*shape)) found.push_back(shape->shape);
+    return found;
+  }
+  // A sheet between two bodies of one material is not hidden.
+  std::vector<std::uint32_t> hiding_sheet(const BoxedShape& sheet,
+                                          const std::vector<const BoxedShape*>& others) {
+    std::vector<std::uint32_t> on = selected(others, [&](const BoxedShape& other) {
+      const Material& material = material_of(scene_, other.shape);
+      return (opaque(material) || is_sheet(material) || interior_index(material) != nullptr) &&
+             coincides(sheet, other, Facing::any);
+    });
+    const auto differs = [&](std::uint32_t shape) {
+      return interior_index(material_of(scene_, shape)) == nullptr ||
+             scene_.shapes[shape].material != scene_.shapes[on.front()].material;
+    };
+    if (on.size() > 1 && std::ranges::none_of(on, differs)) on.clear();
+    return on;
+  }
+  bool coincides(const BoxedShape& one, const BoxedShape& other, Facing facing) {
+    const double tolerance = tolerance_of(one, other);
+    return grown(one.box, tolerance).intersects(other.box) &&
+           overlaps(scene_.shapes[one.shape].shape, scene_.shapes[other.shape].shape, tolerance, faces_,
+                    facing);
+  }
+  bool is_coated(const BoxedShape& body, const BoxedShape& coat) {
+    const double tolerance = tolerance_of(coat, body);
+    return opaque(material_of(scene_, body.shape)) &&
+           coat.box.min.equalWithAbsError(body.box.min, tolerance) &&
+           coat.box.max.equalWithAbsError(body.box.max, tolerance) &&
+           coats(scene_.shapes[coat.shape].shape, scene_.shapes[body.shape].shape, tolerance, faces_);
+  }
+  [[nodiscard]] double tolerance_of(const BoxedShape& one, const BoxedShape& other) const {
+    return scene_.coincidence_tolerance(Imath::V3d(largest_coordinate(one.box)), one.shape, other.shape);
+  }
+
+  const Scene& scene_;
+  FaceFinder faces_;
+};
 
 // True if rays from a film position of a probe start behind a surface that emits towards the probe. The rays
 // start off the probe by the rounding of its coordinates.
@@ -180,6 +190,178 @@ class WallCollector {
   std::optional<std::vector<Imath::Plane3d>> planes_{std::in_place};
 };
 
+using Imath::Box3d;
+using Imath::V3d;
+
+// Maximum number of faces and of pairs that are compared, which takes tenths of a second.
+constexpr std::size_t kMaxCompared = 2'000'000;
+
+// Minimum cosine between normals of candidates. It is lower than that of `CoincidentHits`, because rays
+// intersect faces in float.
+constexpr double kNearlyParallel = CoincidentHits::kParallel - 0.001;
+
+// True if the plane of `plane` cuts `face` or passes within `tolerance` of it.
+bool cuts(const Face& plane, const Face& face, double tolerance) {
+  double min_distance = std::numeric_limits<double>::infinity();
+  double max_distance = -std::numeric_limits<double>::infinity();
+  for (const V3d& corner : face.corners) {
+    const double distance = (corner - plane.corners[0]).dot(plane.normal);
+    min_distance = std::min(min_distance, distance);
+    max_distance = std::max(max_distance, distance);
+  }
+  return min_distance <= tolerance && max_distance >= -tolerance;
+}
+
+// True if a sphere and a plane at `distance` from its center, or two spheres, may coincide: they intersect at
+// a small angle or come within `tolerance`.
+bool nearly_tangent(const Sphere& ball, double distance, double tolerance) {
+  return distance >= kNearlyParallel * ball.radius - tolerance && distance <= ball.radius + tolerance;
+}
+bool nearly_tangent(const Sphere& a, const Sphere& b, double tolerance) {
+  const double distance = (a.center - b.center).length();
+  if (distance > a.radius + b.radius + tolerance || distance < std::abs(a.radius - b.radius) - tolerance)
+    return false;
+  const double cosine =
+      (a.radius * a.radius + b.radius * b.radius - distance * distance) / (2 * a.radius * b.radius);
+  const double slack = 2 * tolerance / std::min(a.radius, b.radius);
+  return std::abs(cosine) >= kNearlyParallel - slack;
+}
+
+class RegionFinder {
+ public:
+  explicit RegionFinder(const Scene& scene) : scene_(scene) {
+    for (std::uint32_t i = 0; i < scene.shapes.size(); ++i) {
+      const Box3d box = bounds(scene.shapes[i].shape);
+      const double tolerance = 4 * scene.coincidence_tolerance(V3d(largest_coordinate(box)), i, i);
+      shapes_.push_back({i, box, tolerance, grown(box, tolerance), {}});
+    }
+  }
+
+  [[nodiscard]] std::vector<Imath::Box3f> compute() {
+    const bool all_known = compare_all();
+    std::vector<Imath::Box3f> found(shapes_.size());
+    for (const ShapeRegion& shape : shapes_) {
+      const Box3d& at = all_known ? shape.region : shape.near;
+      if (!at.isEmpty()) found[shape.index] = {Imath::V3f(at.min), Imath::V3f(at.max)};
+    }
+    return found;
+  }
+
+ private:
+  struct ShapeRegion {
+    std::uint32_t index;
+    Box3d box;
+    double tolerance;  // around this shape
+    Box3d near;
+    Box3d region;
+  };
+
+  [[nodiscard]] const Shape& shape_of(const ShapeRegion& of) const { return scene_.shapes[of.index].shape; }
+
+  // Compares all shapes in order of x; false if there are too many pairs.
+  bool compare_all() {
+    std::ranges::stable_sort(shapes_, {}, [](const ShapeRegion& shape) { return shape.near.min.x; });
+    std::size_t pairs = 0;
+    for (auto a = shapes_.begin(); a != shapes_.end(); ++a) {
+      add_self(*a);
+      for (auto b = a + 1; b != shapes_.end() && b->near.min.x <= a->near.max.x; ++b) {
+        if (++pairs > kMaxPairs) return false;
+        add(*a, *b);
+      }
+    }
+    return true;
+  }
+
+  // Takes `more` comparisons from the budget; false if it is exhausted.
+  bool spend(std::size_t more) {
+    const bool may = more <= budget_;
+    budget_ -= std::min(more, budget_);
+    return may;
+  }
+  // Faces of a shape that intersect a box; nothing if examining them would take too long.
+  std::optional<std::vector<Face>> faces_near(const Shape& shape, const Box3d& box) {
+    const auto* mesh = plain<Mesh>(shape);
+    if (!spend(mesh != nullptr ? mesh->triangles.size() : 1)) return std::nullopt;
+    return finder_.near(shape, box);
+  }
+
+  void add_self(ShapeRegion& of) {
+    const Shape& shape = shape_of(of);
+    if (is_flat(shape)) return;
+    if (!std::holds_alternative<PlacedShape>(shape) &&
+        visit_plain([](const auto& s) { return thickness(s); }, shape) > of.tolerance)
+      return;
+    const bool flat = motion_of(shape) == nullptr && has_faces(shape);
+    const auto faces = flat ? faces_near(shape, of.near) : std::nullopt;
+    if (!faces || !add_faces(of, *faces, of, *faces, [](double cosine) { return cosine < -kNearlyParallel; }))
+      of.region = of.near;
+  }
+
+  void add(ShapeRegion& a, ShapeRegion& b) {
+    const double tolerance = std::max(a.tolerance, b.tolerance);
+    const Box3d both = common(grown(a.box, tolerance), grown(b.box, tolerance));
+    if (both.isEmpty()) return;
+    if (!spend(1) || !add_within(a, b, both, tolerance)) extend(a, b, both);
+  }
+
+  // Adds the region within a box where both coincide; false if that cannot be determined.
+  bool add_within(ShapeRegion& a, ShapeRegion& b, const Box3d& both, double tolerance) {
+    const Shape& of_a = shape_of(a);
+    const Shape& of_b = shape_of(b);
+    if (motion_of(of_a) != nullptr || motion_of(of_b) != nullptr) return false;
+    const auto* ball_a = std::get_if<Sphere>(&of_a);
+    const auto* ball_b = std::get_if<Sphere>(&of_b);
+    if (ball_a != nullptr && ball_b != nullptr) return !nearly_tangent(*ball_a, *ball_b, tolerance);
+    if (ball_a == nullptr && !has_faces(of_a)) return false;
+    if (ball_b == nullptr && !has_faces(of_b)) return false;
+    if (ball_a != nullptr) return add_ball(*ball_a, a, b, both, tolerance);
+    if (ball_b != nullptr) return add_ball(*ball_b, b, a, both, tolerance);
+    const auto faces_a = faces_near(of_a, both);
+    const auto faces_b = faces_near(of_b, both);
+    return faces_a && faces_b && add_faces(a, *faces_a, b, *faces_b, [](double cosine) {
+             return std::abs(cosine) > kNearlyParallel;
+           });
+  }
+
+  // Adds the region where faces are near a sphere; false if there are too many.
+  bool add_ball(const Sphere& ball, ShapeRegion& of_ball, ShapeRegion& other, const Box3d& both,
+                double tolerance) {
+    const auto faces = faces_near(shape_of(other), both);
+    if (!faces) return false;
+    for (const Face& face : *faces) {
+      const double distance = std::abs((ball.center - face.corners[0]).dot(face.normal));
+      if (nearly_tangent(ball, distance, tolerance))
+        extend(of_ball, other, common(both, grown(face.box, tolerance)));
+    }
+    return true;
+  }
+
+  // Adds the region where faces of one shape are near those of the other and `condition` accepts the cosine
+  // of their normals. False if there are too many. Both lists are in order of x.
+  template <typename Condition>
+  bool add_faces(ShapeRegion& a, const std::vector<Face>& of_a, ShapeRegion& b, const std::vector<Face>& of_b,
+                 const Condition& condition) {
+    const double tolerance = std::max(a.tolerance, b.tolerance);
+    const auto add_pair = [&](const Face& face, const Face& other) {
+      if (!condition(face.normal.dot(other.normal))) return false;
+      const Box3d both = common(grown(face.box, tolerance), grown(other.box, tolerance));
+      if (!both.isEmpty() && cuts(face, other, tolerance) && cuts(other, face, tolerance)) extend(a, b, both);
+      return false;
+    };
+    return any_near_pair(of_a, of_b, 2 * tolerance, budget_, add_pair).has_value();
+  }
+
+  static void extend(ShapeRegion& a, ShapeRegion& b, const Box3d& by) {
+    a.region.extendBy(by);
+    b.region.extendBy(by);
+  }
+
+  const Scene& scene_;
+  FaceFinder finder_;
+  std::vector<ShapeRegion> shapes_;
+  std::size_t budget_ = kMaxCompared;  // comparisons left
+};
+
 }  // namespace
 
 std::optional<CoincidentPair> find_coincident_pair(const Scene& scene) {
@@ -205,55 +387,6 @@ std::optional<CoincidentPair> find_coincident_pair(const Scene& scene) {
   return std::nullopt;
 }
 
-std::optional<CoincidentPair> find_hidden_sheet(const Scene& scene) {
-  const std::vector<BoxedShape> sheets = shapes_of(scene, is_sheet);
-  if (sheets.empty()) return std::nullopt;
-  const double tolerance = scene.coincidence_tolerance();
-  const std::vector<BoxedShape> partners = shapes_of(scene, [](const Material& material) {
-    return opaque(material) || is_sheet(material) || interior_index(material) != nullptr;
-  });
-  FaceFinder faces;
-  std::size_t pairs = 0;
-  for (const BoxedShape& sheet : sheets) {
-    const Imath::Box3d near = grown(sheet.box, tolerance);
-    std::vector<std::uint32_t> on;
-    for (const BoxedShape& other : partners) {
-      if (other.shape == sheet.shape || !near.intersects(other.box)) continue;
-      if (++pairs > kMaxPairs) return std::nullopt;
-      if (overlaps(scene.shapes[sheet.shape].shape, scene.shapes[other.shape].shape, tolerance, faces))
-        on.push_back(other.shape);
-    }
-    const auto hides = [&](std::uint32_t shape) {
-      return interior_index(material_of(scene, shape)) == nullptr ||
-             scene.shapes[shape].material != scene.shapes[on.front()].material;
-    };
-    if (on.size() == 1 || std::any_of(on.begin(), on.end(), hides))
-      return CoincidentPair{sheet.shape, on.front()};
-  }
-  return std::nullopt;
-}
-
-std::optional<IneffectiveCoat> find_ineffective_coat(const Scene& scene) {
-  const std::vector<BoxedShape> media = shapes_of(scene, encloses_medium);
-  if (media.empty()) return std::nullopt;
-  const std::vector<BoxedShape> walls =
-      shapes_of(scene, [](const Material& material) { return opaque(material); });
-  const double tolerance = scene.coincidence_tolerance();
-  FaceFinder faces;
-  std::size_t pairs = 0;
-  for (const BoxedShape& medium : media)
-    for (const BoxedShape& wall : walls) {
-      if (++pairs > kMaxPairs) return std::nullopt;
-      const bool same_box = medium.box.min.equalWithAbsError(wall.box.min, tolerance) &&
-                            medium.box.max.equalWithAbsError(wall.box.max, tolerance);
-      if (same_box &&
-          coats(scene.shapes[medium.shape].shape, scene.shapes[wall.shape].shape, tolerance, faces))
-        return IneffectiveCoat{medium.shape, wall.shape,
-                               coated_reflectance(material_of(scene, medium.shape))};
-    }
-  return std::nullopt;
-}
-
 std::optional<std::uint32_t> find_light_on_probe(const Scene& scene) {
   if (!is_probe(scene.camera) || scene.camera.motion) return std::nullopt;
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
@@ -269,31 +402,31 @@ std::optional<std::uint32_t> find_light_on_probe(const Scene& scene) {
   return std::nullopt;
 }
 
-std::optional<CoincidentLight> find_hidden_light(const Scene& scene) {
-  std::vector<BoxedLight> light_boxes = hidable_lights(scene);
-  std::vector<BoxedShape> walls = shapes_of(scene, [](const Material& material) { return opaque(material); });
-  if (light_boxes.empty() || walls.empty()) return std::nullopt;
-  const auto min_x = [](const auto& boxed) { return boxed.box.min.x; };
-  std::ranges::stable_sort(light_boxes, {}, min_x);
-  std::ranges::stable_sort(walls, {}, min_x);
-  FaceFinder faces;
+std::optional<LostSurfaces> find_lost_surfaces(const Scene& scene) {
+  std::vector<BoxedShape> all = shapes_of(scene, [](const Material& /*any*/) { return true; });
+  std::ranges::stable_sort(all, {}, [](const BoxedShape& shape) { return shape.box.min.x; });
+  HidingFinder finder(scene);
+  std::set<std::pair<std::uint32_t, std::uint32_t>> lost;
   std::vector<const BoxedShape*>
-      // walls that overlap a light along x, and some that begin behind it
-      nearby_walls;
+      // shapes that overlap the present one along x, and some that begin behind it
+      nearby;
   std::size_t pairs = 0;
-  auto next = walls.begin();
-  for (const BoxedLight& light_box : light_boxes) {
-    const double tolerance =
-        scene.coincidence_tolerance(Imath::V3d(largest_coordinate(light_box.box)), walls.front().shape);
-    for (; next != walls.end() && next->box.min.x <= light_box.box.max.x + tolerance; ++next)
-      nearby_walls.push_back(&*next);
-    std::erase_if(nearby_walls,
-                  [&](const BoxedShape* wall) { return wall->box.max.x < light_box.box.min.x - tolerance; });
-    pairs += nearby_walls.size();
+  auto next = all.begin();
+  for (const BoxedShape& one : all) {
+    if (opaque(material_of(scene, one.shape)) && !is_emitter(scene, one.shape)) continue;
+    const double tolerance = scene.coincidence_tolerance(Imath::V3d(largest_coordinate(one.box)), one.shape);
+    for (; next != all.end() && next->box.min.x <= one.box.max.x + tolerance; ++next)
+      nearby.push_back(&*next);
+    std::erase_if(nearby,
+                  [&](const BoxedShape* other) { return other->box.max.x < one.box.min.x - tolerance; });
+    pairs += nearby.size();
     if (pairs > kMaxPairs) return std::nullopt;
-    if (const auto contact = coincidence_of(scene, light_box, nearby_walls, faces)) return contact;
+    std::vector<const BoxedShape*> others = nearby;
+    std::erase(others, &one);
+    for (const std::uint32_t on : finder.hiding(one, others)) lost.insert(std::minmax(one.shape, on));
   }
-  return std::nullopt;
+  if (lost.empty()) return std::nullopt;
+  return LostSurfaces{lost.begin()->first, lost.begin()->second, lost.size() - 1};
 }
 
 std::vector<NearWalls> walls_near_shapes(const Scene& scene) {
@@ -316,6 +449,10 @@ std::vector<NearWalls> walls_near_shapes(const Scene& scene) {
     found[shape] = near.found();
   }
   return found;
+}
+
+std::vector<Imath::Box3f> coincidence_regions(const Scene& scene) {
+  return RegionFinder(scene).compute();
 }
 
 }  // namespace abbe

@@ -6,13 +6,7 @@
 #include <optional>
 #include <type_traits>
 
-#include "scene/embree_query.h"
-#include "scene/shapes/disc.h"
-#include "scene/shapes/mesh.h"
-#include "scene/shapes/placed.h"
-#include "scene/shapes/quad.h"
-#include "scene/shapes/sphere.h"
-#include "scene/shapes/triangle.h"
+#include "scene/shapes/shape.h"
 
 namespace abbe {
 namespace {
@@ -125,7 +119,18 @@ void user_occluded(const RTCOccludedFunctionNArguments* args) {
 }
 
 template <typename S>
-void set_user_callbacks(RTCGeometryTy* geometry) {
+unsigned primitives_of(const S& /*shape*/) {
+  return 1;
+}
+unsigned primitives_of(const TriangleSet& set) {
+  return static_cast<unsigned>(set.triangles.size());
+}
+unsigned primitives_of(const SceneInstance& /*moving*/) {
+  return kTimeSlices;
+}
+
+template <typename S>
+void set_user_callbacks(RTCGeometryTy* geometry, const S& /*shape*/) {
   rtcSetGeometryBoundsFunction(
       geometry, [](const RTCBoundsFunctionArguments* args) { user_bounds<S>(args); }, nullptr);
   rtcSetGeometryIntersectFunction(geometry, user_intersect<S>);
@@ -201,6 +206,13 @@ void moving_occluded(const RTCOccludedFunctionNArguments* args) {
     rtcOccluded1(moving.of->scene.get(), args->context, &query);
     if (query.tfar < 0) RTCRayN_tfar(args->ray, args->N, i) = query.tfar;
   }
+}
+
+void set_user_callbacks(RTCGeometryTy* geometry, const SceneInstance& /*moving*/) {
+  rtcSetGeometryBoundsFunction(
+      geometry, [](const RTCBoundsFunctionArguments* args) { moving_bounds(args); }, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, moving_intersect);
+  rtcSetGeometryOccludedFunction(geometry, moving_occluded);
 }
 
 SurfaceHit surface_hit(const ShapeHit<double>& hit, const BasicRay<double>& ray, std::uint32_t shape,
@@ -288,20 +300,14 @@ void collect_hits(const RTCFilterFunctionNArguments* args) {
   }
 }
 
-void set_callbacks(RTCGeometryTy* geometry, const Sphere& /*sphere*/) {
-  set_user_callbacks<Sphere>(geometry);
-}
-void set_callbacks(RTCGeometryTy* geometry, const Disc& /*disc*/) {
-  set_user_callbacks<Disc>(geometry);
-}
-void set_callbacks(RTCGeometryTy* geometry, const TriangleSet& /*set*/) {
-  set_user_callbacks<TriangleSet>(geometry);
-}
-void set_callbacks(RTCGeometryTy* geometry, const SceneInstance& /*moving*/) {
-  rtcSetGeometryBoundsFunction(
-      geometry, [](const RTCBoundsFunctionArguments* args) { moving_bounds(args); }, nullptr);
-  rtcSetGeometryIntersectFunction(geometry, moving_intersect);
-  rtcSetGeometryOccludedFunction(geometry, moving_occluded);
+void set_callbacks(RTCGeometryTy* geometry, AttachedGeometry& attached) {
+  std::visit(
+      [geometry](auto& shape) {
+        rtcSetGeometryUserPrimitiveCount(geometry, primitives_of(shape));
+        rtcSetGeometryUserData(geometry, &shape);
+        set_user_callbacks(geometry, shape);
+      },
+      attached);
 }
 
 std::optional<SurfaceHit> resolve_hit(const RTCHit& hit, const ExactContext& context, std::size_t number) {

@@ -1,14 +1,16 @@
 #pragma once
 
-#include <embree3/rtcore.h>
-
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
+#include <embree3/rtcore.h>
+
 #include "scene/geometry.h"
+#include "scene/shapes/ray.h"
 
 namespace abbe {
 
@@ -30,12 +32,12 @@ struct ExactContext : RTCIntersectContext {
   }
   const std::vector<AttachedGeometry>& attached;  ///< By index of the shape; must outlive the context.
   std::array<BasicRay<double>, kPacket> rays;
-  std::array<ShapeHit<double>, kPacket> curved_hit;  ///< Hit on a sphere or disc, per ray.
+  std::array<ShapeHit<double>, kPacket> curved_hit;  ///< Hit on a curved shape, per ray.
   std::vector<SurfaceHit>* all = nullptr;  ///< Receives every hit; null if the nearest is requested.
 };
 
 /// Computes a hit that Embree found for ray number `ray` in double precision. Nothing if the ray does not
-/// cross the triangle's plane in double at t in (0, t_max). Hits on spheres and discs come from
+/// cross the triangle's plane in double at t in (0, t_max). Hits on curved shapes come from
 /// `ExactContext::curved_hit`. `retreat_m` stays 0.
 [[nodiscard]] std::optional<SurfaceHit> resolve_hit(const RTCHit& hit, const ExactContext& context,
                                                     std::size_t ray);
@@ -54,13 +56,73 @@ void reject_behind(const RTCFilterFunctionNArguments* args);
 /// the end of the ray.
 void collect_hits(const RTCFilterFunctionNArguments* args);
 
-/// Sets Embree's callbacks for a sphere or disc. The caller has made it the geometry's user data
-/// (`rtcSetGeometryUserData`); it must outlive the geometry. The second argument only selects the overload.
-void set_callbacks(RTCGeometryTy* geometry, const Sphere& sphere);
-void set_callbacks(RTCGeometryTy* geometry, const Disc& disc);
-/// Sets Embree's callbacks for a set of triangles that are intersected in double. The set is the user data.
-void set_callbacks(RTCGeometryTy* geometry, const TriangleSet& set);
-/// Sets Embree's callbacks for a moving instance, which is the user data. It has `kTimeSlices` primitives.
-void set_callbacks(RTCGeometryTy* geometry, const SceneInstance& moving);
+/// Makes `attached`, which must outlive it, a user geometry of Embree. That is intersected in double: a
+/// curved shape, each triangle of a set, or a moving instance, which has `kTimeSlices` primitives.
+void set_callbacks(RTCGeometryTy* geometry, AttachedGeometry& attached);
+
+/// Converts a ray to Embree's format: coordinates rounded to the nearest float, tnear 0, and a mask that
+/// accepts all geometry. The direction need not have unit length.
+[[nodiscard]] inline RTCRay embree_ray(const BasicRay<double>& ray) {
+  RTCRay r{};
+  r.org_x = static_cast<float>(ray.origin.x);
+  r.org_y = static_cast<float>(ray.origin.y);
+  r.org_z = static_cast<float>(ray.origin.z);
+  r.dir_x = static_cast<float>(ray.direction.x);
+  r.dir_y = static_cast<float>(ray.direction.y);
+  r.dir_z = static_cast<float>(ray.direction.z);
+  r.tfar = static_cast<float>(ray.t_max);
+  r.time = ray.time;
+  r.mask = ~0U;
+  return r;
+}
+
+/// An Embree query for a ray, without a hit yet.
+[[nodiscard]] inline RTCRayHit embree_query(const BasicRay<double>& ray) {
+  RTCRayHit query{embree_ray(ray), {}};
+  query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  query.hit.instID[0] = RTC_INVALID_GEOMETRY_ID;
+  return query;
+}
+
+/// The first `count` rays of a context as an Embree packet of `kPacket`; `count` is in [1, `kPacket`].
+/// `valid` is -1 for these and 0, which disables, for the rest. `mask` selects the geometry: `kOpaque`,
+/// `kBoundary` or ~0U for both. Ray `id`s are indices into the context.
+struct alignas(32) Packet {
+  std::array<int, kPacket> valid;
+  RTCRayHit8 query;
+
+  Packet(const ExactContext& context, std::size_t count, unsigned mask) {
+    for (std::size_t i = 0; i < kPacket; ++i) {
+      valid[i] = i < count ? -1 : 0;
+      const RTCRay ray = embree_ray(context.rays[std::min(i, count - 1)]);
+      query.ray.org_x[i] = ray.org_x;
+      query.ray.org_y[i] = ray.org_y;
+      query.ray.org_z[i] = ray.org_z;
+      query.ray.dir_x[i] = ray.dir_x;
+      query.ray.dir_y[i] = ray.dir_y;
+      query.ray.dir_z[i] = ray.dir_z;
+      query.ray.tnear[i] = 0;
+      query.ray.time[i] = ray.time;
+      query.ray.tfar[i] = ray.tfar;
+      query.ray.mask[i] = mask;
+      query.ray.id[i] = static_cast<unsigned>(i);
+      query.ray.flags[i] = 0;
+      query.hit.geomID[i] = RTC_INVALID_GEOMETRY_ID;
+      query.hit.instID[0][i] = RTC_INVALID_GEOMETRY_ID;
+    }
+  }
+  /// Distance of the hit of ray `i` in units of its direction; its t_max if there is none.
+  [[nodiscard]] float t(std::size_t i) const { return query.ray.tfar[i]; }
+  /// Hit of ray `i` in Embree's format for single rays; valid only if its `geomID` is not the invalid one.
+  [[nodiscard]] RTCHit hit(std::size_t i) const {
+    RTCHit one{};
+    one.u = query.hit.u[i];
+    one.v = query.hit.v[i];
+    one.primID = query.hit.primID[i];
+    one.geomID = query.hit.geomID[i];
+    one.instID[0] = query.hit.instID[0][i];
+    return one;
+  }
+};
 
 }  // namespace abbe

@@ -1,7 +1,5 @@
 #include "scene/geometry.h"
 
-#include <embree3/rtcore.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,31 +8,19 @@
 #include <type_traits>
 #include <utility>
 
+#include <embree3/rtcore.h>
+
 #include "io/error.h"
-#include "scene/embree_query.h"
+#include "scene/coincidence.h"
 #include "scene/exact_query.h"
-#include "scene/large_triangles.h"
-#include "scene/ray_packet.h"
-#include "scene/shapes/basis.h"
-#include "scene/shapes/disc.h"
-#include "scene/shapes/mesh.h"
-#include "scene/shapes/placed.h"
-#include "scene/shapes/quad.h"
-#include "scene/shapes/sphere.h"
+#include "scene/shapes/ray.h"
+#include "scene/shapes/shape.h"
 
 namespace abbe {
 namespace {
 
 // One instruction set on all CPUs, so that wider vectors do not change bits.
 constexpr const char* kDeviceConfig = "isa=avx2";
-
-template <typename S>
-PlainGeometry plain_geometry(const S& shape) {
-  if constexpr (std::is_constructible_v<PlainGeometry, const S&>)
-    return shape;
-  else
-    return triangles_of(shape);
-}
 
 RTCGeometry triangle_geometry(RTCDevice device, TriangleSet& set) {
   const std::size_t vertex_count = set.vertices.size();
@@ -49,33 +35,7 @@ RTCGeometry triangle_geometry(RTCDevice device, TriangleSet& set) {
   return geometry;
 }
 
-template <typename S>
-RTCGeometry user_geometry(RTCDevice device, S& shape, std::size_t primitives = 1) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(primitives));
-  rtcSetGeometryUserData(geometry, &shape);
-  set_callbacks(geometry, shape);
-  return geometry;
-}
-
-RTCGeometry geometry_of(RTCDevice device, TriangleSet& set) {
-  return triangle_geometry(device, set);
-}
-RTCGeometry geometry_of(RTCDevice device, Sphere& sphere) {
-  return user_geometry(device, sphere);
-}
-RTCGeometry geometry_of(RTCDevice device, Disc& disc) {
-  return user_geometry(device, disc);
-}
-RTCGeometry moving_geometry(RTCDevice device, const SceneInstance& moving) {
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
-  rtcSetGeometryUserPrimitiveCount(geometry, kTimeSlices);
-  rtcSetGeometryUserData(geometry, const_cast<SceneInstance*>(&moving));  // NOLINT: Embree only returns it
-  set_callbacks(geometry, moving);
-  return geometry;
-}
-RTCGeometry geometry_of(RTCDevice device, const SceneInstance& placed) {
-  if (placed.at->motion) return moving_geometry(device, placed);
+RTCGeometry instance_geometry(RTCDevice device, const SceneInstance& placed) {
   RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_INSTANCE);
   rtcSetGeometryInstancedScene(geometry, placed.of->scene.get());
   const Imath::M44d& m = placed.at->to_world;  // its rows are Embree's columns
@@ -85,6 +45,63 @@ RTCGeometry geometry_of(RTCDevice device, const SceneInstance& placed) {
       columns.at(static_cast<std::size_t>(3 * row + i)) = static_cast<float>(m[row][i]);
   rtcSetGeometryTransform(geometry, 0, RTC_FORMAT_FLOAT3X4_COLUMN_MAJOR, columns.data());
   return geometry;
+}
+
+// A shape that is intersected in double precision.
+RTCGeometry exact_geometry(RTCDevice device, AttachedGeometry& attached) {
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  set_callbacks(geometry, attached);
+  return geometry;
+}
+
+RTCGeometry geometry_of(RTCDevice device, AttachedGeometry& attached) {
+  if (auto* set = std::get_if<TriangleSet>(&attached)) return triangle_geometry(device, *set);
+  const auto* placed = std::get_if<SceneInstance>(&attached);
+  return placed != nullptr && !placed->at->motion ? instance_geometry(device, *placed)
+                                                  : exact_geometry(device, attached);
+}
+
+// The region where Embree may miss a triangle for a ray that starts just in front of it; empty if there is
+// none.
+Imath::Box3d imprecise_region(const std::array<Imath::V3d, 3>& corners) {
+  constexpr double kTimesLarger = 16;
+  Imath::Box3d box;
+  for (const Imath::V3d& corner : corners) box.extendBy(corner);
+  const Imath::V3d size = box.size();
+  const double slack = size.length() / kTimesLarger;
+  const Imath::V3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]).normalized();
+  Imath::Box3d part;
+  if (std::min({size.x, size.y, size.z}) == 0 || std::abs(corners[0].dot(normal)) > slack) return part;
+  for (int axis = 0; axis < 3; ++axis) {
+    part.min[axis] = std::max(box.min[axis], -slack);
+    part.max[axis] = std::min(box.max[axis], slack);
+  }
+  return part;
+}
+
+bool comes_near(const Shape& shape, const Imath::Box3d& part, FaceFinder& faces) {
+  if (!part.intersects(bounds(shape))) return false;
+  return motion_of(shape) != nullptr || !has_faces(shape) || !faces.near(shape, part).empty();
+}
+
+// True if Embree may miss triangles of `set` for rays that start just in front of them, where another shape
+// comes near. `set` represents shape number `shape` of `shapes`. Embree's floats resolve the origin of a ray
+// to a fraction of a triangle's size, unless the triangle is parallel to two axes. Near the scene's origin,
+// rays start closer to surfaces than that. False for sets of more than 64 triangles. Most of them are so
+// small that only a spot around the origin is affected.
+bool needs_double_precision(const TriangleSet& set, std::size_t shape,
+                            const std::vector<ShapeInstance>& shapes, FaceFinder& faces) {
+  constexpr std::size_t kMaxTriangles = 64;
+  if (set.triangles.size() > kMaxTriangles) return false;
+  return std::ranges::any_of(set.triangles, [&](const auto& triangle) {
+    const auto& [a, b, c] = triangle;
+    const Imath::Box3d region = imprecise_region(
+        {Imath::V3d(set.vertices[a]), Imath::V3d(set.vertices[b]), Imath::V3d(set.vertices[c])});
+    if (region.isEmpty()) return false;
+    for (std::size_t other = 0; other < shapes.size(); ++other)
+      if (other != shape && comes_near(shapes[other].shape, region, faces)) return true;
+    return false;
+  });
 }
 
 BasicRay<double> exact(const Ray& ray) {
@@ -99,22 +116,25 @@ Geometry::Geometry(const std::vector<ShapeInstance>& shapes, const std::vector<M
   open_device();
   attached_.reserve(shapes.size());
   for (const ShapeInstance& instance : shapes) {
-    if (const auto* mesh = std::get_if<Mesh>(&instance.shape)) attached_.emplace_back(with_normals(*mesh));
-    if (const auto* quad = std::get_if<Quad>(&instance.shape)) attached_.emplace_back(with_normals(*quad));
-    if (const auto* sphere = std::get_if<Sphere>(&instance.shape)) attached_.emplace_back(*sphere);
-    if (const auto* disc = std::get_if<Disc>(&instance.shape)) attached_.emplace_back(*disc);
     if (const auto* placed = std::get_if<PlacedShape>(&instance.shape))
       attached_.emplace_back(SceneInstance{build_prototype(placed->of), placed->at});
+    else
+      visit_plain(
+          [this](const auto& s) {
+            if constexpr (Triangulated<std::decay_t<decltype(s)>>)
+              attached_.emplace_back(with_normals(s));
+            else
+              attached_.emplace_back(s);
+          },
+          instance.shape);
   }
   FaceFinder faces;
   scene_ = new_scene();
   for (std::size_t i = 0; i < attached_.size(); ++i) {
     auto* set = std::get_if<TriangleSet>(&attached_[i]);
-    RTCGeometryTy* geometry =
-        set != nullptr && needs_double_precision(*set, i, shapes, faces)
-            ? user_geometry(device_.get(), *set, set->triangles.size())
-            : std::visit([this](auto& attached) { return geometry_of(device_.get(), attached); },
-                         attached_[i]);
+    RTCGeometryTy* geometry = set != nullptr && needs_double_precision(*set, i, shapes, faces)
+                                  ? exact_geometry(device_.get(), attached_[i])
+                                  : geometry_of(device_.get(), attached_[i]);
     rtcSetGeometryMask(geometry, is_boundary(materials[shapes[i].material]) ? kBoundary : kOpaque);
     attach(scene_.get(), static_cast<std::uint32_t>(i), geometry);
   }
@@ -169,12 +189,15 @@ void Geometry::attach(RTCSceneTy* scene, std::uint32_t index, RTCGeometryTy* geo
 const InstancedScene* Geometry::build_prototype(const std::shared_ptr<const Prototype>& prototype) {
   std::unique_ptr<InstancedScene>& built = prototypes_[prototype.get()];
   if (built) return built.get();
-  built = std::make_unique<InstancedScene>(InstancedScene{
-      prototype, std::visit([](const auto& shape) { return plain_geometry(shape); }, prototype->shape),
-      new_scene()});
-  attach(
-      built->scene.get(), 0,
-      std::visit([this](auto& attached) { return geometry_of(device_.get(), attached); }, built->geometry));
+  const auto without_normals = [](const auto& s) -> AttachedGeometry {
+    if constexpr (Triangulated<std::decay_t<decltype(s)>>)
+      return triangles_of(s);
+    else
+      return s;
+  };
+  built = std::make_unique<InstancedScene>(
+      InstancedScene{prototype, std::visit(without_normals, prototype->shape), new_scene()});
+  attach(built->scene.get(), 0, geometry_of(device_.get(), built->geometry));
   commit(built->scene.get());
   return built.get();
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -12,7 +13,7 @@
 
 #include "scene/coincident_shapes.h"
 #include "scene/scene.h"
-#include "scene/shapes/triangles.h"
+#include "scene/shapes/shape.h"
 
 struct RTCDeviceTy;
 struct RTCGeometryTy;
@@ -20,24 +21,24 @@ struct RTCSceneTy;
 
 namespace abbe {
 
-/// Embree's representation of a shape that is not an instance.
-using PlainGeometry = std::variant<TriangleSet, Sphere, Disc>;
-/// Embree scene with the one geometry of a prototype, in its coordinates; instances of it refer to it.
-struct InstancedScene {
-  std::shared_ptr<const Prototype> prototype;
-  PlainGeometry geometry;
-  std::unique_ptr<RTCSceneTy, void (*)(RTCSceneTy*)> scene;
-};
+struct InstancedScene;
 /// An instance of such a scene. It moves if `at->motion` is set. `Geometry` owns the scene.
 struct SceneInstance {
   const InstancedScene* of;
   std::shared_ptr<const Placement> at;
 };
+/// Embree's representation of any shape of the scene.
+using AttachedGeometry =
+    Joined<Joined<std::variant<TriangleSet>, CurvedShape>::type, std::variant<SceneInstance>>::type;
+/// Embree scene with the one geometry of a prototype, in its coordinates; instances of it refer to it.
+struct InstancedScene {
+  std::shared_ptr<const Prototype> prototype;
+  AttachedGeometry geometry;  ///< No instance.
+  std::unique_ptr<RTCSceneTy, void (*)(RTCSceneTy*)> scene;
+};
 /// Number of boxes, each around one slice of time, by which Embree represents a moving instance. Embree's own
 /// motion blur misses hits in packets whose rays have different times.
 inline constexpr unsigned kTimeSlices = 16;
-/// Embree's representation of any shape of the scene.
-using AttachedGeometry = std::variant<TriangleSet, Sphere, Disc, SceneInstance>;
 
 /// The shapes as Embree geometry, in render coordinates [m]. It is immutable; threads may query it
 /// concurrently. Embree finds the primitive in float. The shape's own formula then decides in double whether

@@ -6,11 +6,9 @@
 #include <map>
 #include <set>
 
-#include "scene/coincidence_regions.h"
 #include "scene/coincident_shapes.h"
 #include "scene/geometry.h"
-#include "scene/shapes/mesh.h"
-#include "scene/shapes/solid.h"
+#include "scene/shapes/shape.h"
 #include "scene/working_range.h"
 
 namespace abbe {
@@ -63,6 +61,23 @@ void tabulate_in_media(Scene& scene) {
       if (j != i && medium != nullptr && box.intersects(boxes[j])) rough->tabulate_in(*medium);
     }
   }
+}
+
+Imath::V3d turned(const NormalMap& map, const SurfaceCoordinates& at, const Imath::V3d& normal) {
+  const Basis<double> axes(normal, at.dp_du);
+  const Imath::V3d n = map.normal(Imath::V2f(at.uv));
+  return axes.to_world({n.x, axes.y.dot(at.dp_dv) < 0 ? -n.y : n.y, n.z});
+}
+
+// Tilts the normal against the gradient g along the surface, which has the slopes g.dp_du and g.dp_dv. The
+// curvature of the surface itself is neglected. [Blinn1978]
+Imath::V3d turned(const BumpMap& map, const SurfaceCoordinates& at, const Imath::V3d& normal) {
+  const Imath::V3d area = at.dp_du.cross(at.dp_dv);
+  if (area.length2() == 0) return normal;
+  const Imath::V2d slope = map.slope(Imath::V2f(at.uv));
+  const Imath::V3d gradient =
+      (at.dp_dv.cross(area) * slope.x + area.cross(at.dp_du) * slope.y) / area.length2();
+  return (normal - gradient).normalized();
 }
 
 }  // namespace
@@ -129,8 +144,7 @@ void Scene::measure_working_range() {
   max_rounding_ = 0;
   for (ShapeInstance& instance : shapes) {
     const Imath::Box3d box = abbe::bounds(instance.shape);
-    const bool vertices = plain<Mesh>(instance.shape) != nullptr || plain<Quad>(instance.shape) != nullptr;
-    instance.rounding = vertices ? largest_coordinate(box) : 0;
+    instance.rounding = is_triangulated(instance.shape) ? largest_coordinate(box) : 0;
     instance.distant = distance_to(box, position(camera)) > far_threshold_m;
     if (instance.distant) continue;
     bounds.extendBy(box);
@@ -216,6 +230,22 @@ std::optional<ExactHit> intersect_exact(const Scene& scene, const BasicRay<doubl
     nearest = ExactHit{*hit, static_cast<std::uint32_t>(i)};
   }
   return nearest;
+}
+
+ShadingPoint textured_shading_point(const Scene& scene, const SurfaceHit& hit, float time) {
+  const ShapeInstance& instance = scene.shapes[hit.shape];
+  const Material& material = scene.materials[instance.material];
+  const Imath::V3d point(hit.point);
+  const auto smooth = interpolated_normal(instance.shape, point, hit.primitive, Imath::V3d(hit.normal), time);
+  const Imath::V3f normal = smooth ? Imath::V3f(*smooth) : hit.normal;
+  const bool relief = smooth || material.relief;
+  if (!needs_coordinates(material)) return {Basis<float>(normal), {0, 0}, relief};
+  const SurfaceCoordinates at = coordinates(instance.shape, point, hit.primitive, time);
+  const Imath::V3f along(at.dp_du.normalized());
+  if (!material.relief) return {Basis<float>(normal, along), Imath::V2f(at.uv), relief};
+  const Imath::V3d carved =
+      std::visit([&](const auto& map) { return turned(map, at, Imath::V3d(normal)); }, *material.relief);
+  return {Basis<float>(Imath::V3f(carved), along), Imath::V2f(at.uv), relief};
 }
 
 }  // namespace abbe

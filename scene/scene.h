@@ -16,11 +16,11 @@
 
 #include "materials/material.h"
 #include "scene/camera/camera.h"
+#include "scene/integrators.h"
 #include "scene/lights/light.h"
 #include "scene/scene_features.h"
 #include "scene/shapes/ray.h"
 #include "scene/shapes/shape.h"
-#include "scene/shapes/shape_instance.h"
 #include "scene/shutter.h"
 #include "scene/white.h"
 #include "sensor/film/spectral_film.h"
@@ -37,41 +37,20 @@ struct ChartInstance {
   std::uint32_t patches;
 };
 
-/// The integrator that renders the scene.
-enum class Integrator {
-  automatic,     ///< `path` with photons for caustics, or another one that the render finds to be cheaper.
-  path,          ///< Path tracing with next-event estimation [Kajiya1986].
-  light,         ///< Light tracing: photons connected to the camera [Arvo1986].
-  bdpt,          ///< Bidirectional path tracing [Lafortune1993].
-  photon_map,    ///< Photon mapping [Jensen1996]; biased.
-  ppm,           ///< Progressive photon mapping [Hachisuka2008]; biased, consistent.
-  sppm,          ///< Stochastic progressive photon mapping [Hachisuka2009]; biased, consistent.
-  vcm,           ///< Vertex connection and merging [Georgiev2012]; biased, consistent.
-  photon_brute,  ///< Photons that enter the camera's opening or hit the probe by chance.
-  adjoint_brute  ///< Camera paths of one wavelength each that hit lights by chance.
-};
-/// Names of the integrators in scenes, commands and films, in the order of the enumeration.
-inline constexpr std::array kIntegratorNames{"auto", "path", "light", "bdpt",         "photon-map",
-                                             "ppm",  "sppm", "vcm",   "photon-brute", "adjoint-brute"};
-/// Name of an integrator in `kIntegratorNames`.
-[[nodiscard]] constexpr const char* integrator_name(Integrator integrator) {
-  return kIntegratorNames.at(static_cast<std::size_t>(integrator));
-}
-
 /// Settings of the integrators that use photons.
 struct PhotonSettings {
   std::optional<std::uint64_t> per_sample = {};  ///< Photons per sample; absent: as many as pixels.
   std::optional<double> radius_m = {};  ///< Initial gathering radius [m]; absent: from the scene's size.
-  int nearest = 50;           ///< Number of nearest photons in an estimate of Integrator::photon_map.
-  bool final_gather = false;  ///< True if Integrator::photon_map evaluates the map one bounce later.
+  int nearest = 50;                     ///< Number of photons in an estimate with `Merging::nearest`.
+  bool final_gather = false;            ///< True if such an estimate is made one bounce later.
 };
 
-/// The density with which Integrator::path samples directions after a non-specular event at a surface or
+/// The density with which path tracing samples directions after a non-specular event at a surface or
 /// probe [1/sr]: that of the BSDF, cos/pi, or uniform. The latter two cover the side of the incoming path.
 /// They cover both sides, with half the density, if light may be transmitted.
 enum class DirectionSampling { bsdf, cosine, uniform };
 
-/// The sampling techniques by which Integrator::path finds light after such an event or one in a medium: BSDF
+/// The sampling techniques by which path tracing finds light after such an event or one in a medium: BSDF
 /// sampling and light sampling combined by MIS, BSDF sampling alone, or light sampling alone wherever it is
 /// possible.
 enum class LightStrategy { mis, bsdf, light };
@@ -80,7 +59,7 @@ enum class LightStrategy { mis, bsdf, light };
 /// to their squares.
 enum class MisHeuristic { balance, power };
 
-/// Sampling of paths by Integrator::path. It changes the noise. It changes the expected value only by the
+/// Sampling of paths by path tracing. It changes the noise. It changes the expected value only by the
 /// paths that `unsampled_paths` reports.
 struct PathSampling {
   DirectionSampling directions = DirectionSampling::bsdf;
@@ -103,7 +82,7 @@ struct RenderSettings {
   bool consistent = false;  ///< Integrator::automatic may choose biased but consistent integrators.
   /// Paths carry polarisation if it is relevant; otherwise light counts as unpolarised at every event.
   bool polarisation = true;
-  PathSampling sampling = {};  ///< For Integrator::path; others require the default.
+  PathSampling sampling = {};  ///< See `IntegratorTraits::sampling_options`.
 };
 
 /// Output files that the scene file requests, and the appearance of the picture.
@@ -287,5 +266,19 @@ struct ExactHit {
 [[nodiscard]] inline const Material& material_of(const Scene& scene, std::uint32_t shape) {
   return scene.materials[scene.shapes[shape].material];
 }
+
+/// Shading frame of a hit, in render coordinates, and its texture coordinates. The frame's z axis is the
+/// outward normal, as modified by vertex normals and by a relief: a normal or bump map.
+struct ShadingPoint {
+  Basis<float> frame;
+  Imath::V2f uv{0, 0};  ///< As `SurfaceCoordinates::uv`.
+  bool relief = false;  ///< True if z may differ from the geometric normal.
+};
+
+/// Shading point of a hit at that time, a fraction of the exposure, for scenes with `features.textures`;
+/// elsewhere the geometric normal suffices. Vertex normals apply first, then a relief. If the material needs
+/// texture coordinates, they are computed and the x axis runs along dp/du, made perpendicular to z. Otherwise
+/// they are (0, 0) and the x axis is arbitrary.
+[[nodiscard]] ShadingPoint textured_shading_point(const Scene& scene, const SurfaceHit& hit, float time);
 
 }  // namespace abbe

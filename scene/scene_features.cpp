@@ -6,15 +6,15 @@
 #include <limits>
 #include <set>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "scene/coincidence.h"
 #include "scene/coincident_shapes.h"
-#include "scene/polarisation_cause.h"
 #include "scene/scene.h"
-#include "scene/shapes/placed.h"
+#include "scene/shapes/shape.h"
 #include "scene/small_light.h"
 #include "scene/working_range.h"
 
@@ -197,6 +197,24 @@ double fall_distance(std::span<const Knot> knots, std::size_t i, std::ptrdiff_t 
   return std::numeric_limits<double>::infinity();
 }
 
+bool holds_camera(const Sphere& sphere, const Scene& scene) {
+  return (center(scene.camera) - sphere.center).length() <= sphere.radius;
+}
+
+// Number of consecutive events at the shape that a path may have, with 2 for any larger number, if nothing
+// else returns light to it. Light meets the outside of an opaque sphere once, but its inside repeatedly.
+int events_in_a_row(const Scene& scene, const ShapeInstance& instance) {
+  const Material& material = scene.materials[instance.material];
+  const Medium* contents = medium(material);
+  if (contents != nullptr && contents->scatters() && std::holds_alternative<RayleighPhase>(contents->phase))
+    return 2;
+  if (!polarises(material)) return 0;
+  if (plain<Mesh>(instance.shape) != nullptr) return 2;
+  if (is_flat(instance.shape)) return 1;
+  const auto* plain_sphere = std::get_if<Sphere>(&instance.shape);
+  return opaque(material) && plain_sphere != nullptr && !holds_camera(*plain_sphere, scene) ? 1 : 2;
+}
+
 }  // namespace
 
 bool has_narrow_feature(const Curve& curve, double width_nm) {
@@ -228,6 +246,35 @@ SceneFeatures analyse(const Scene& scene) {
   analyse_motion(scene, features);
   require(features, &SceneFeatures::depth_of_field, traits(scene.camera).depth_of_field, "camera", "");
   return features;
+}
+
+// A sensor that measures polarisation always needs it. A polarised light counts as a first event and a
+// polarising lens as a last one.
+std::optional<PolarisationCause> polarisation_cause(const Scene& scene) {
+  const auto analysing = std::find_if(scene.channels.begin(), scene.channels.end(),
+                                      [](const Channel& channel) { return channel.analyser.has_value(); });
+  if (analysing != scene.channels.end()) return PolarisationCause{"channel", analysing->name};
+  const auto polarised_light = std::find_if(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+    return light.polarisation.has_value();
+  });
+  const bool has_polarised_light = polarised_light != scene.lights.end();
+  const bool polarising_lens = traits(scene.camera).polarises;
+  if (has_polarised_light && polarising_lens) return PolarisationCause{"light", polarised_light->name};
+  const bool returns_light =
+      std::any_of(scene.shapes.begin(), scene.shapes.end(), [&scene](const ShapeInstance& instance) {
+        return preserves_polarisation(scene.materials[instance.material]);
+      });
+  int events = has_polarised_light || polarising_lens ? 1 : 0;
+  for (const ShapeInstance& instance : scene.shapes) {
+    const int here = events_in_a_row(scene, instance);
+    events += here;
+    if (events >= 2 || (here > 0 && returns_light)) return PolarisationCause{"shape", instance.name};
+  }
+  return std::nullopt;
+}
+
+bool carries_polarisation(const Scene& scene) {
+  return scene.features.polarisation_relevant && scene.render.polarisation;
 }
 
 }  // namespace abbe

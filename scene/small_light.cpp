@@ -6,9 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "scene/shapes/basis.h"
-#include "scene/shapes/placed.h"
 #include "scene/shapes/ray.h"
+#include "scene/shapes/shape.h"
 
 namespace abbe {
 namespace {
@@ -81,10 +80,8 @@ Viewpoints probe_viewpoints(const Scene& scene) {
 }
 
 bool subtends_less(const Scene& scene, const Light& light, const Viewpoints& from, double limit_sr) {
-  if (const auto* sun = std::get_if<SunLight>(&light.kind))
-    return 2 * std::numbers::pi * static_cast<double>(sun->cap) < limit_sr;
   const auto* emitter = std::get_if<AreaLight>(&light.kind);
-  if (emitter == nullptr) return light.is_delta();
+  if (emitter == nullptr) return solid_angle(light) < limit_sr;
   const Shape& shape = scene.shapes[emitter->shape].shape;
   const Imath::V3d center = bounds(shape).center();
   const Imath::Box3d box = box_at_opening(shape);

@@ -4,9 +4,11 @@
 #include <string>
 
 #include "scene/lights/light.h"
-#include "spectral/film_observer.h"
+#include "spectral/colorimetry.h"
 
 namespace abbe {
+
+class Scene;
 
 /// The light that pictures of a film display as white.
 struct White {
@@ -25,5 +27,14 @@ struct White {
 /// `spectrum`, and the chromaticity of that for the film's observer. `requested` is false. `reason` is copied
 /// to the result.
 [[nodiscard]] White white_of(const Light& light, const FilmObserver& film_observer, std::string reason);
+
+/// True if a film of the scene has colours and therefore a white: it has exactly three channels that measure
+/// intensity, or a spectrum. Stokes components other than the intensity do not count.
+[[nodiscard]] bool has_colors(const Scene& scene);
+
+/// The observer of those colours: the standard observer that the intensity channels implement, otherwise CIE
+/// 1931. The band edges [nm] are those of a spectral film or of the spectral image that the sensor views,
+/// otherwise empty.
+[[nodiscard]] FilmObserver film_observer_of(const Scene& scene);
 
 }  // namespace abbe

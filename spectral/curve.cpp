@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "io/error.h"
-#include "spectral/curve_cursor.h"
 
 namespace abbe {
 namespace {

@@ -1,8 +1,12 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "io/table.h"
@@ -101,5 +105,60 @@ class Curve {
 /// counts as a clamp here; the caller checks the coverage, as `load_curve` does.
 [[nodiscard]] Curve table_curve(std::span<const double> wavelengths_nm, std::span<const double> values,
                                 Outside outside);
+
+/// Cursor on the linear pieces of a curve, which only advances. The curve must outlive it.
+class CurveCursor {
+ public:
+  /// Begins at the piece that starts at or contains `from_nm`, within [300, 1100] nm.
+  CurveCursor(const Curve& curve, double from_nm) : knots_(curve.knots()) { advance_to(from_nm); }
+
+  /// End of the current piece [nm]; requires a piece that begins below 1100 nm.
+  [[nodiscard]] double end_nm() const { return knots_[at_ + 1].wavelength_nm; }
+  /// Value at a wavelength within the current piece. At both ends it is that of the knots: at the upper one
+  /// the value to the left of a jump.
+  [[nodiscard]] double operator()(double nm) const {
+    const Knot& a = knots_[at_];
+    const Knot& b = knots_[at_ + 1];
+    return std::lerp(a.value, b.value, (nm - a.wavelength_nm) / (b.wavelength_nm - a.wavelength_nm));
+  }
+  /// Advances to the piece that starts at or contains `nm`, between the current piece and 1100 nm. No piece
+  /// remains at 1100 nm.
+  void advance_to(double nm) {
+    const auto after = std::upper_bound(knots_.begin() + static_cast<std::ptrdiff_t>(at_), knots_.end(), nm,
+                                        [](double x, const Knot& knot) { return x < knot.wavelength_nm; });
+    at_ = static_cast<std::size_t>(after - knots_.begin()) - 1;
+  }
+
+ private:
+  std::span<const Knot> knots_;
+  std::size_t at_ = 0;
+};
+
+/// A curve times a factor >= 0. Proportional curves have a common base, so that each costs only its factor.
+class ScaledCurve {
+ public:
+  /// A curve with factor 1 and a base of its own.
+  ScaledCurve(Curve curve) : ScaledCurve(std::make_shared<const Curve>(std::move(curve)), 1) {}
+  /// `base`, which must not be null, times `factor`.
+  ScaledCurve(std::shared_ptr<const Curve> base, double factor) : base_(std::move(base)), factor_(factor) {}
+
+  /// Value of the product at wavelengths [nm]. A factor that is a power of two changes no digits.
+  [[nodiscard]] double operator()(double wavelength_nm) const { return factor_ * (*base_)(wavelength_nm); }
+  [[nodiscard]] SampledSpectrum operator()(const SampledSpectrum& wavelengths_nm) const {
+    return (*base_)(wavelengths_nm) * static_cast<float>(factor_);
+  }
+
+  /// Base curve, for a factor of 1.
+  [[nodiscard]] const Curve& base() const { return *base_; }
+  [[nodiscard]] double factor() const { return factor_; }
+  /// Largest value of the product.
+  [[nodiscard]] double max() const { return factor_ * base_->max(); }
+  /// Product as a curve of its own.
+  [[nodiscard]] Curve curve() const { return scaled(*base_, factor_); }
+
+ private:
+  std::shared_ptr<const Curve> base_;
+  double factor_;
+};
 
 }  // namespace abbe

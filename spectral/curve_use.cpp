@@ -1,246 +1,305 @@
 #include "spectral/curve_use.h"
 
 #include <algorithm>
-#include <cmath>
-#include <cstddef>
+#include <array>
+#include <iterator>
+#include <optional>
+#include <span>
+#include <sstream>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include "spectral/unit_line.h"
+#include "io/text.h"
 
 namespace abbe {
-namespace {
 
-/// The unit or quantity that is allowed instead. `by_factor` is true if a factor converts to it.
+namespace {
+/// The unit or quantity that is allowed instead. `by_factor` is true if a factor may convert to it.
 struct UnitMismatch {
   std::string_view allowed;
   bool by_factor = true;
 };
 
-std::optional<UnitMismatch> fraction_mismatch_in_words(const UnitLine& line) {
-  static const Phrases kDecibels{"db", "decibel", "decibels"};
-  static const Phrases kDensities{"optical density", "density",    "od",
-                                  "absorbance",      "extinction", "attenuation"};
-  if (declares_percent(line)) return UnitMismatch{"fractions of 1"};
-  if (declares(line, kDecibels)) return UnitMismatch{"fractions of 1: 10^(-A/10) for A dB", false};
-  if (declares(line, kDensities)) return UnitMismatch{"fractions of 1: 10^-D for a density D", false};
-  return std::nullopt;
-}
+constexpr UnitMismatch kLinearNeeded{
+    "linear values: 10^x for log10 x, 10^-D for a density D, 10^(-A/10) for A dB", false};
 
-// A fraction has no unit, but "electrons per photon" is a fraction too.
-std::optional<UnitMismatch> fraction_mismatch(const UnitLine& line) {
-  if (auto prose = fraction_mismatch_in_words(line)) return prose;
-  if (line.unit && line.unit->of(Unit::photon) >= 0) return UnitMismatch{"fractions of 1", false};
-  return std::nullopt;
-}
-
-bool declares_photons(const UnitLine& line) {
-  static const Phrases kPhotons{"photon",       "photons",       "photon flux",     "photon flux density",
-                                "photon count", "photon counts", "photon radiance", "photon irradiance",
-                                "quanta",       "moles",         "micromoles",      "ppfd"};
-  return line.unit ? line.unit->of(Unit::photon) > 0 : declares(line, kPhotons);
-}
-
-bool declares_wavenumbers(const UnitLine& line) {
-  return line.unit ? line.unit->of(Unit::watt) > 0 && line.unit->per_wavenumber
-                   : declares(line, {"per wavenumber", "per cm-1", "per cm^-1", "per 1/cm"});
-}
-
-std::optional<UnitMismatch> power_mismatch(const UnitLine& line) {
-  if (declares_photons(line)) return UnitMismatch{"power per nm: hc/lambda for each photon", false};
-  if (declares_wavenumbers(line))
-    return UnitMismatch{"power per nm: 10^7 nm cm^-1/lambda^2 times that per cm^-1", false};
-  if (!line.unit && declares(line, {"db", "dbm", "decibel", "decibels"}))
-    return UnitMismatch{"power per nm: 10^(A/10) for A dB", false};
-  if (line.unit && line.unit->of(Unit::hertz) < 0)
-    return UnitMismatch{"power per nm: c/lambda^2 times that per Hz", false};
-  if (line.unit && line.unit->of(Unit::electronvolt) < 0)
-    return UnitMismatch{"power per nm: hc/lambda^2 times that per unit of energy", false};
-  return std::nullopt;
-}
-
-std::string_view name_of(CurveUnit quantity) {
+/// Unit of a radiometric quantity.
+struct QuantityUnit {
+  std::string_view name;
+  unsigned divisors;
+};
+std::optional<QuantityUnit> quantity_unit(CurveUnit quantity) {
+  constexpr unsigned kPerNm = TableUnit::wavelength;
   switch (quantity) {
     case CurveUnit::spectral_radiance:
-      return "W/(m^2 sr nm)";
+      return QuantityUnit{"W/(m^2 sr nm)", TableUnit::area | TableUnit::solid_angle | kPerNm};
     case CurveUnit::spectral_intensity:
-      return "W/(sr nm)";
+      return QuantityUnit{"W/(sr nm)", TableUnit::solid_angle | kPerNm};
     case CurveUnit::spectral_irradiance:
-      return "W/(m^2 nm)";
+      return QuantityUnit{"W/(m^2 nm)", TableUnit::area | kPerNm};
     case CurveUnit::spectral_flux:
-      return "W/nm";
+      return QuantityUnit{"W/nm", kPerNm};
     default:
-      return {};
+      return std::nullopt;
   }
 }
 
-bool is_power(const UnitLine& line) {
-  return line.unit && line.unit->of(Unit::watt) > 0;
-}
-bool is_relative(const UnitLine& line) {
-  static const Phrases kRelative{"relative", "dimensionless", "unitless",   "arbitrary", "arb",   "a.u",
-                                 "rel",      "normalised",    "normalized", "norm",      "count", "counts"};
-  const auto is_so = [](std::string_view text) { return contains_phrase(text, kRelative); };
-  return !is_power(line) &&
-         (is_so(line.quantity) || std::any_of(line.additions.begin(), line.additions.end(), is_so) ||
-          declares_percent(line));
-}
-
-std::optional<UnitMismatch> quantity_mismatch(const UnitLine& line, CurveUnit needed) {
-  if (auto mismatch = power_mismatch(line)) return mismatch;
-  const std::string_view allowed = name_of(needed);
-  if (!line.unit || is_relative(line) || line.unit->equals(leading_unit(allowed).value()))
-    return std::nullopt;
-  return UnitMismatch{allowed, line.unit->of(Unit::lumen) == 0};
-}
-
-// True for coefficients of powers of 10. Tables declare them, often in a remark; coefficients of powers of e
-// need no word. A remark can also name what the values were converted from.
-bool is_decadic(const UnitLine& line) {
-  static const Phrases kDecadic{"decadic", "base 10", "base-10", "base ten", "log10", "log 10", "log_10"};
-  static const Phrases kNatural{"natural", "napierian", "neperian", "base e",
-                                "ln 10",   "ln(10)",    "2.3",      "converted from"};
-  if (contains_phrase(line.text, kNatural)) return false;
-  const std::size_t remark = line.text.find(';');
-  return contains_phrase(line.quantity, kDecadic) || declares(line, kDecadic) ||
-         (remark != line.text.npos &&
-          declares(unit_line(std::string_view(line.text).substr(remark + 1)), kDecadic));
+std::optional<UnitMismatch> fraction_mismatch(const TableUnit& unit, UnitRole role) {
+  switch (unit.kind) {
+    case TableUnit::Kind::fraction:
+    case TableUnit::Kind::relative:
+      return std::nullopt;
+    case TableUnit::Kind::percent:
+      return UnitMismatch{"fractions of 1"};
+    case TableUnit::Kind::logarithm:
+      return kLinearNeeded;
+    case TableUnit::Kind::unknown:
+      return UnitMismatch{
+          "fractions of 1: 1, 0-1, relative, electrons/photon or a name such as reflectance; put remarks "
+          "after "
+          "a \";\"",
+          false};
+    default:
+      return role == UnitRole::factor ? std::nullopt : std::optional(UnitMismatch{"fractions of 1", false});
+  }
 }
 
-bool is_per_length(const UnitLine& line) {
-  static const Unit kPerMetre = leading_unit("1/m").value();
-  return line.unit && line.unit->exponents == kPerMetre.exponents;
-}
-
-std::optional<UnitMismatch> coefficient_mismatch(const UnitLine& line) {
-  if (!is_per_length(line) || line.unit->log10_factor != 0) return UnitMismatch{"1/m"};
-  if (is_decadic(line))
+// Factors of a coefficient may have units that are not listed, such as concentrations.
+std::optional<UnitMismatch> coefficient_mismatch(const TableUnit& unit, UnitRole role) {
+  if (unit.kind == TableUnit::Kind::logarithm)
     return UnitMismatch{"1/m for powers of e: ln 10 times the coefficient for powers of 10"};
-  return std::nullopt;
+  const bool is_coefficient = unit.kind == TableUnit::Kind::coefficient;
+  if (is_coefficient ? unit.log10_factor == 0 : role == UnitRole::factor) return std::nullopt;
+  return UnitMismatch{"1/m"};
 }
 
-std::optional<UnitMismatch> unit_mismatch(const UnitLine& line, CurveUnit needed) {
+std::optional<UnitMismatch> power_mismatch(const TableUnit& unit, CurveUnit needed, UnitRole role) {
+  const auto quantity = quantity_unit(needed);
+  const UnitMismatch other{quantity
+                               ? quantity->name
+                               : "power per nm: W/nm, W/(m^2 nm), W/(sr nm), W/(m^2 sr nm) or multiples, 1 "
+                                 "or relative"};
+  const bool is_factor = role == UnitRole::factor;
+  switch (unit.kind) {
+    case TableUnit::Kind::unknown:
+      return other;
+    case TableUnit::Kind::logarithm:
+      return kLinearNeeded;
+    case TableUnit::Kind::photons:
+      if (is_factor) return std::nullopt;
+      return UnitMismatch{"power per nm: hc/lambda for each photon", false};
+    case TableUnit::Kind::coefficient:
+      return is_factor ? std::nullopt : std::optional(other);
+    case TableUnit::Kind::power:
+      if (!quantity) return std::nullopt;
+      return unit.log10_factor == 0 && (is_factor || unit.divisors == quantity->divisors)
+                 ? std::nullopt
+                 : std::optional(other);
+    default:
+      return std::nullopt;
+  }
+}
+
+std::optional<UnitMismatch> unit_mismatch(const TableUnit& unit, CurveUnit needed, UnitRole role) {
   switch (needed) {
-    case CurveUnit::fraction:
-      return fraction_mismatch(line);
-    case CurveUnit::per_metre:
-      return coefficient_mismatch(line);
-    case CurveUnit::power:
-      return power_mismatch(line);
-    case CurveUnit::spectral_radiance:
-    case CurveUnit::spectral_intensity:
-    case CurveUnit::spectral_irradiance:
-    case CurveUnit::spectral_flux:
-      return quantity_mismatch(line, needed);
     case CurveUnit::any:
     case CurveUnit::unknown_response:
       return std::nullopt;
+    case CurveUnit::fraction:
+      return fraction_mismatch(unit, role);
+    case CurveUnit::per_metre:
+      return coefficient_mismatch(unit, role);
+    default:
+      return power_mismatch(unit, needed, role);
   }
-  return std::nullopt;
 }
 
-// True for products of watts per nm, m^2 and sr. An odd power of lengths contains a wavelength.
-bool is_in_watts_per_nm(const Unit& unit) {
-  constexpr double kPerNm = 9;
-  constexpr double kRounding = 1e-6;
-  return unit.of(Unit::ampere) == 0 &&
-         std::abs(unit.log10_factor - (unit.of(Unit::metre) % 2 != 0 ? kPerNm : 0)) < kRounding;
-}
+using Kind = TableUnit::Kind;
+using Words = std::vector<std::string_view>;
 
-// Checks one factor of a product. Other factors can convert photons to power, or relative values to radiance,
-// but none corrects a multiple of the needed unit.
-std::optional<UnitMismatch> factor_mismatch(const UnitLine& line, CurveUnit needed) {
-  if (needed == CurveUnit::fraction) return fraction_mismatch_in_words(line);
-  if (needed == CurveUnit::per_metre && is_per_length(line)) return coefficient_mismatch(line);
-  if (name_of(needed).empty() || power_mismatch(line) || !is_power(line) || is_in_watts_per_nm(*line.unit))
-    return std::nullopt;
-  return UnitMismatch{name_of(needed)};
+// Units that are no products, in lower case.
+const std::vector<std::pair<Kind, Words>>& unit_words() {
+  static const std::vector<std::pair<Kind, Words>> kWords{
+      {Kind::fraction,
+       {"1", "1.0", "0-1", "0..1", "w/w", "electrons per photon", "electrons/photon", "e-/photon"}},
+      {Kind::percent, {"%", "percent", "per cent", "pct", "0-100", "0-100 %"}},
+      {Kind::logarithm,
+       {"db", "decibel", "od", "density", "optical density", "absorbance", "log", "log10", "ln", "base 10",
+        "decadic"}},
+      {Kind::relative,
+       {"relative", "rel.", "normalised", "normalized", "norm.", "dimensionless", "unitless",
+        "arbitrary units", "arb. u.", "a.u.", "counts"}},
+      {Kind::coefficient, {"per metre", "per meter"}}};
+  return kWords;
 }
+// Names of fractions, which need no unit.
+constexpr std::array<std::string_view, 9> kFractionNames{"reflectance",    "transmittance", "transmission",
+                                                         "transmissivity", "throughput",    "factor",
+                                                         "efficiency",     "fraction",      "qe"};
 
-// True if the unit line declares a response per photon, by its quantity or by a divisor.
-bool is_per_photon(const UnitLine& line) {
-  const auto of_energy = [](std::string_view text) { return contains_phrase(text, {"energy"}); };
-  const auto divides = [](std::string_view text) {
-    return text.find("/photon") != text.npos || contains_phrase(text, {"per photon"});
-  };
-  if (of_energy(line.quantity) || std::any_of(line.additions.begin(), line.additions.end(), of_energy))
-    return false;
-  return contains_phrase(line.quantity, {"photon", "photons", "quantum", "qe"}) ||
-         std::any_of(line.additions.begin(), line.additions.end(), divides);
-}
+struct Numerator {
+  std::string_view symbol;
+  Kind kind;
+  int log10_factor = 0;
+};
+constexpr std::array<Numerator, 8> kNumerators{{{"W", Kind::power},
+                                                {"mW", Kind::power, -3},
+                                                {"uW", Kind::power, -6},
+                                                {"kW", Kind::power, 3},
+                                                {"1", Kind::coefficient},
+                                                {"photons", Kind::photons},
+                                                {"mol", Kind::photons},
+                                                {"umol", Kind::photons}}};
 
-// A coefficient declares its logarithm by the word for it, and prose does not declare its unit.
-bool accepts_ambiguous_unit(CurveUnit needed) {
-  return needed == CurveUnit::any || needed == CurveUnit::unknown_response || needed == CurveUnit::per_metre;
-}
+struct DivisorSymbol {
+  std::string_view symbol;  ///< After "/".
+  std::string_view power;   ///< In a product without "/".
+  TableUnit::Divisor divisor;
+  int log10_factor = 0;
+};
+constexpr std::array<DivisorSymbol, 11> kDivisors{{{"m2", "m-2", TableUnit::area},
+                                                   {"cm2", "cm-2", TableUnit::area, 4},
+                                                   {"mm2", "mm-2", TableUnit::area, 6},
+                                                   {"sr", "sr-1", TableUnit::solid_angle},
+                                                   {"nm", "nm-1", TableUnit::wavelength},
+                                                   {"um", "um-1", TableUnit::wavelength, -3},
+                                                   {"Å", "Å-1", TableUnit::wavelength, 1},
+                                                   {"s", "s-1", TableUnit::time},
+                                                   {"m", "m-1", TableUnit::length},
+                                                   {"cm", "cm-1", TableUnit::length, 2},
+                                                   {"mm", "mm-1", TableUnit::length, 3}}};
 
-// True for a table of logarithms, such as "log10 W/nm" and "radiance (log)". "log" and "ln" count alone or
-// before a unit or a quantity, so "log book" is none.
-bool is_of_logarithms(std::string_view text, const UnitLine& line) {
-  static const Phrases kLogged{"radiance", "irradiance",  "intensity",     "flux",     "power", "energy",
-                               "spectral", "reflectance", "transmittance", "relative", "scale"};
-  if (declares(line, {"log10", "log_10", "logarithm", "logarithmic"})) return true;
-  for (const std::string_view sign : {"log 10", "log", "ln"}) {
-    if (line.quantity == sign || std::count(line.additions.begin(), line.additions.end(), sign) != 0)
-      return true;
-    if (!line.quantity.starts_with(std::string(sign) + ' ')) continue;
-    std::string_view rest = text.substr(line.text.find(sign) + sign.size() + 1);
-    if (rest.starts_with("of ")) rest.remove_prefix(3);
-    const UnitLine logged = unit_line(rest.substr(0, rest.find_first_of(" ,;")));
-    if (logged.unit || std::count(kLogged.begin(), kLogged.end(), logged.quantity) != 0) return true;
+// Signs and their replacement, so that "W·m⁻²" and "W m^-2" become "W m-2".
+constexpr std::array<std::pair<std::string_view, std::string_view>, 14> kReplacements{{{"⁻", "-"},
+                                                                                       {"−", "-"},
+                                                                                       {"–", "-"},
+                                                                                       {"¹", "1"},
+                                                                                       {"²", "2"},
+                                                                                       {"µ", "u"},
+                                                                                       {"μ", "u"},
+                                                                                       {"\u212B", "Å"},
+                                                                                       {"·", " "},
+                                                                                       {"*", " "},
+                                                                                       {"^", ""},
+                                                                                       {"{", ""},
+                                                                                       {"}", ""},
+                                                                                       {"\t", " "}}};
+
+std::string plain_text(std::string_view line) {
+  std::string plain;
+  while (!line.empty()) {
+    const auto sign = std::ranges::find_if(
+        kReplacements, [line](const auto& replacement) { return line.starts_with(replacement.first); });
+    const bool found = sign != kReplacements.end();
+    plain += found ? sign->second : line.substr(0, 1);
+    line.remove_prefix(found ? sign->first.size() : 1);
   }
-  return false;
+  return plain;
 }
 
-// A light that is scaled may have any unit with any divisor, such as "W/nm/lamp".
-bool accepts_unknown_factor(CurveUnit needed) {
-  return accepts_ambiguous_unit(needed) || needed == CurveUnit::power;
+// Parts of a text between commas, semicolons, brackets and parentheses, except for "/(...)".
+std::vector<std::string> parts_of(std::string_view text) {
+  std::string separated;
+  bool divides = false;
+  for (const char sign : text) {
+    if (sign == '(' && separated.ends_with('/')) divides = true;
+    const bool separates = std::string_view(",;()[]").find(sign) != std::string_view::npos && !divides;
+    if (sign == ')') divides = false;
+    separated += separates ? '\n' : sign;
+  }
+  std::vector<std::string> parts = split(separated, '\n');
+  std::erase(parts, "");
+  return parts;
 }
 
-using Rule = std::optional<UnitMismatch> (*)(const UnitLine&, CurveUnit);
+std::optional<TableUnit> product_of(std::string text) {
+  const bool divides = text.find('/') != text.npos;
+  if (divides)
+    std::ranges::replace_if(
+        text, [](char sign) { return sign == '/' || sign == '(' || sign == ')'; }, ' ');
+  std::istringstream stream(text);
+  const std::vector<std::string> symbols{std::istream_iterator<std::string>(stream), {}};
+  if (symbols.empty()) return std::nullopt;
 
-std::optional<std::string> describe_mismatch(Rule rule, std::string_view name, std::string_view unit,
-                                             CurveUnit needed, std::string_view remedy) {
-  const UnitLine line = unit_line(unit);
-  if (!accepts_unknown_factor(needed) && line.unit && line.unit->has_unknown_factor)
-    return fmt::format(
-        "\"{}\" has a unit that cannot be parsed (got \"{}\", allowed {}; put remarks after a \";\")", name,
-        unit, needed == CurveUnit::fraction ? "fractions of 1" : "products such as W/(m^2 nm)");
-  const std::optional<UnitMismatch> mismatch =
-      !accepts_ambiguous_unit(needed) && is_of_logarithms(unit, line)
-          ? std::optional(UnitMismatch{"linear values: 10^x for log10 x, e^x for ln x", false})
-          : rule(line, needed);
+  const auto numerator = std::ranges::find(kNumerators, symbols.front(), &Numerator::symbol);
+  const bool has_numerator = numerator != kNumerators.end();
+  if (divides && (!has_numerator || symbols.size() == 1)) return std::nullopt;
+  TableUnit unit =
+      has_numerator ? TableUnit{numerator->kind, 0, numerator->log10_factor} : TableUnit{Kind::coefficient};
+  for (const std::string& symbol : std::span(symbols).subspan(has_numerator ? 1 : 0)) {
+    const auto entry =
+        std::ranges::find(kDivisors, symbol, divides ? &DivisorSymbol::symbol : &DivisorSymbol::power);
+    if (entry == kDivisors.end() || (unit.divisors & entry->divisor) != 0) return std::nullopt;
+    unit.divisors |= entry->divisor;
+    unit.log10_factor += entry->log10_factor;
+  }
+  const unsigned others = unit.divisors & (TableUnit::length | TableUnit::time);
+  const bool is_allowed = unit.kind == Kind::coefficient ? unit.divisors == TableUnit::length
+                                                         : unit.kind == Kind::photons || others == 0;
+  return is_allowed ? std::optional(unit) : std::nullopt;
+}
+
+// Unit that a part consists of or that follows "in", as in "reflectance in percent".
+std::optional<TableUnit> unit_of(const std::string& part) {
+  const std::string small = lower_case(part);
+  for (const auto& [kind, words] : unit_words())
+    if (std::ranges::count(words, small) != 0) return TableUnit{kind};
+  if (const auto product = product_of(part)) return product;
+  const std::size_t in = (" " + part).rfind(" in ");
+  return in == std::string::npos ? std::nullopt : unit_of(part.substr(in + 3));
+}
+
+bool contains(std::string_view text, std::string_view words) {
+  return text.find(words) != text.npos;
+}
+
+// A relative quantity per something else than nm or a photon needs a conversion.
+TableUnit relative_unit(const std::string& quantity) {
+  const bool per_photon = contains(quantity, " per photon");
+  if (contains(quantity, "photon") && !per_photon) return {Kind::photons};
+  return {contains(quantity, " per ") && !per_photon && !contains(quantity, " per nm") ? Kind::unknown
+                                                                                       : Kind::relative};
+}
+
+TableUnit unit_of_names(const std::vector<std::string>& parts) {
+  const std::string quantity = parts.empty() ? "" : lower_case(parts.front());
+  for (const std::string_view word : {"relative ", "normalised ", "normalized "})
+    if (quantity.starts_with(word)) return relative_unit(quantity);
+  for (const std::string& part : parts)
+    for (const std::string_view name : kFractionNames)
+      if (const std::string small = lower_case(part);
+          small == name || small.ends_with(" " + std::string(name)))
+        return {Kind::fraction};
+  return {};
+}
+}  // namespace
+
+std::optional<std::string> unit_fault(std::string_view name, std::string_view unit, CurveUnit needed,
+                                      std::string_view remedy, UnitRole role) {
+  const auto mismatch = unit_mismatch(table_unit(unit), needed, role);
   if (!mismatch) return std::nullopt;
   return fmt::format("\"{}\" has the wrong unit (got \"{}\", allowed {}{})", name, unit, mismatch->allowed,
                      mismatch->by_factor ? remedy : std::string_view());
 }
 
-}  // namespace
-
-std::optional<std::string> unit_fault(std::string_view name, std::string_view unit, CurveUnit needed,
-                                      std::string_view remedy) {
-  return describe_mismatch(unit_mismatch, name, unit, needed, remedy);
-}
-
-std::optional<std::string> factor_unit_fault(std::string_view name, std::string_view unit, CurveUnit needed,
-                                             std::string_view remedy) {
-  return describe_mismatch(factor_mismatch, name, unit, needed, remedy);
-}
-
 std::optional<std::string> relative_power(std::string_view name, std::string_view unit, CurveUnit needed) {
-  const std::string_view allowed = name_of(needed);
-  if (allowed.empty() || !is_relative(unit_line(unit))) return std::nullopt;
+  const auto quantity = quantity_unit(needed);
+  const TableUnit::Kind kind = table_unit(unit).kind;
+  if (!quantity || (kind != TableUnit::Kind::relative && kind != TableUnit::Kind::percent))
+    return std::nullopt;
   return fmt::format("\"{}\" is used in {}, but its unit is \"{}\": scale the emission to a quantity", name,
-                     allowed, unit);
+                     quantity->name, unit);
 }
 
 bool declares_power(std::string_view unit) {
-  return is_power(unit_line(unit));
+  return table_unit(unit).kind == TableUnit::Kind::power;
 }
 
 std::optional<std::string> unknown_response(std::string_view name, std::string_view unit) {
-  if (!is_per_photon(unit_line(unit))) return std::nullopt;
+  if (!declares_response_per_photon(unit)) return std::nullopt;
   return fmt::format(
       "\"{}\" is used as a response to energy, but its unit is \"{}\": set the response to energy or "
       "quantum",
@@ -262,6 +321,25 @@ std::optional<NamedCurve> load_curve(const CurveUse& use, const std::string& nam
   auto curve = load_curve(use.folder, name, where, diagnostics, needed);
   if (!curve || !check_use(name, curve->unit, curve->curve, use, where, diagnostics)) return std::nullopt;
   return curve;
+}
+
+TableUnit table_unit(std::string_view line) {
+  const std::string plain = plain_text(line);
+  for (const std::string& part : parts_of(plain))
+    if (const auto unit = unit_of(part); unit && unit->kind == Kind::logarithm) return *unit;
+  const std::vector<std::string> parts = parts_of(std::string_view(plain).substr(0, plain.find(';')));
+  for (const std::string& part : parts)
+    if (const auto unit = unit_of(part)) return *unit;
+  return unit_of_names(parts);
+}
+
+bool declares_response_per_photon(std::string_view line) {
+  const std::string small = lower_case(line.substr(0, line.find(';')));
+  const std::vector<std::string> parts = parts_of(small);
+  if (parts.empty() || contains(small, "energy")) return false;
+  const std::string& quantity = parts.front();
+  return contains(quantity, "photon") || contains(quantity, "quantum") || contains(" " + quantity, " qe") ||
+         contains(small, "/photon") || contains(small, "per photon");
 }
 
 }  // namespace abbe

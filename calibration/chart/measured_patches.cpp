@@ -12,7 +12,7 @@
 #include "io/picture_codec.h"
 #include "io/table.h"
 #include "io/text.h"
-#include "sensor/film/defective_pixels.h"
+#include "sensor/film/patch.h"
 #include "spectral/curve_use.h"
 
 namespace abbe {

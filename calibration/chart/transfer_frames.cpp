@@ -10,9 +10,8 @@
 #include <fmt/format.h>
 
 #include "calibration/chart/raw_scale.h"
-#include "calibration/chart/white_level.h"
 #include "io/error.h"
-#include "sensor/film/recorded_crop.h"
+#include "sensor/film/crop.h"
 
 namespace abbe {
 namespace {

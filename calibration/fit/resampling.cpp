@@ -54,6 +54,13 @@ std::size_t folds_for_choice(std::size_t patches) {
 
 }  // namespace
 
+double median(std::vector<double> values) {
+  const auto center = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), center, values.end());
+  if (values.size() % 2 == 1) return *center;
+  return (*std::max_element(values.begin(), center) + *center) / 2;
+}
+
 std::vector<ModelCandidate> cross_validate_models(const PatchColors& colors, const CorrectionOptions& options,
                                                   std::size_t folds) {
   std::vector<ModelCandidate> candidates;

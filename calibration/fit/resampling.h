@@ -6,9 +6,12 @@
 #include <span>
 #include <vector>
 
-#include "calibration/fit/correction_fit.h"
+#include "calibration/fit/correction.h"
 
 namespace abbe {
+
+/// Median of `values`, which must not be empty; for an even number, the mean of the central two.
+[[nodiscard]] double median(std::vector<double> values);
 
 /// The 95 % interval of an estimate, in the unit of the estimate.
 struct Interval {

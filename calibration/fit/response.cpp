@@ -6,19 +6,19 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <numeric>
+#include <span>
+#include <string>
 #include <utility>
 
 #include <ceres/ceres.h>
 #include <fmt/format.h>
 #include <glog/logging.h>
 
-#include "calibration/fit/median.h"
-#include "calibration/fit/response_noise.h"
+#include "calibration/fit/resampling.h"
 #include "calibration/fit/response_problem.h"
-#include "calibration/fit/response_roughness.h"
-#include "calibration/fit/response_samples.h"
-#include "calibration/fit/series_checks.h"
-#include "sensor/film/defective_pixels.h"
+#include "io/error.h"
+#include "sensor/film/patch.h"
 
 namespace abbe {
 namespace {
@@ -31,6 +31,160 @@ constexpr double kCauchy = 2.385;  // in standard deviations: 95 % efficient for
 constexpr double kMinDeviation = 2e-5;  // of a code; a lower limit even for exact values
 constexpr std::size_t kMinSamples = 32;
 constexpr double kDeviationsOf95 = 1.96;  // half-width of a Gaussian 95 % interval
+constexpr double kMadToDeviation = 1.4826;
+constexpr std::size_t kGroups = 12;
+constexpr std::size_t kMinGroupSize = 32;  // gives the deviation to about a seventh
+constexpr double kMinSpan = 1.02;
+constexpr double kMinFall = 0.01;                 // relative fall of a code
+constexpr double kMaxUncertainty = 0.1;           // relative to the exposure of the highest code
+constexpr double kMaxFullScaleUncertainty = 0.5;  // relative to full scale, outside the codes
+
+// Throws Error{input} about a response fit, with this message, unless `condition` holds.
+void require_for_response(bool condition, const std::string& message) {
+  if (!condition) throw Error(ErrorCode::input, "response fit", message);
+}
+
+// Ratios of the codes at two times, for each patch that is neither black nor clipped at either.
+std::vector<double> ratios(const ExposureSeries& series, std::size_t from, std::size_t to) {
+  const auto is_usable = [](double code) { return code > 0 && code < 1; };
+  std::vector<double> all;
+  for (const std::vector<double>& codes : series.codes)
+    if (is_usable(codes[from]) && is_usable(codes[to])) all.push_back(codes[to] / codes[from]);
+  return all;
+}
+
+// Throws Error{input} if the codes of most patches fall from one photograph to the next longer one.
+void require_rise(const ExposureSeries& series, std::size_t from, std::size_t to) {
+  constexpr std::size_t kMinPatches = 4;
+  const std::vector<double> code_ratios = ratios(series, from, to);
+  if (code_ratios.size() < kMinPatches) return;
+  const auto falling =
+      std::count_if(code_ratios.begin(), code_ratios.end(), [](double ratio) { return ratio < 1; });
+  const double fall = 1 - median(code_ratios);
+  require_for_response(
+      4 * falling < static_cast<std::ptrdiff_t>(3 * code_ratios.size()) || fall < kMinFall,
+      fmt::format("the codes fall by {:.2g} % (median of {} patches) from the photograph of {:.6g} s to that "
+                  "of {:.6g} s: are exposure times swapped, or did the light change?",
+                  100 * fall, code_ratios.size(), series.times_s[from], series.times_s[to]));
+}
+
+// Throws Error{input} unless
+// - the series has two times or more, all positive, and the longest is at least 1.02 times the shortest;
+// - codes do not fall as time grows.
+//
+// Codes fall if three patches in four are darker at the next longer time and the median over the patches is
+// lower by 1 % or more.
+void require_usable_times(const ExposureSeries& series) {
+  const std::vector<double>& times = series.times_s;
+  require_for_response(times.size() >= 2,
+                       fmt::format("an exposure series needs two times or more (got {})", times.size()));
+  require_for_response(
+      std::all_of(times.begin(), times.end(), [](double t) { return t > 0 && std::isfinite(t); }),
+      "exposure times must be positive");
+  std::vector<std::size_t> order(times.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return times[a] < times[b]; });
+  const double span = times[order.back()] / times[order.front()];
+  require_for_response(span >= kMinSpan,
+                       fmt::format("the exposure times do not determine the curve: the longest is {:.6g} "
+                                   "times the shortest (allowed from {} on, 2 is better)",
+                                   span, kMinSpan));
+  for (std::size_t i = 0; i + 1 < order.size(); ++i)
+    if (times[order[i]] < times[order[i + 1]]) require_rise(series, order[i], order[i + 1]);
+}
+
+// Half the width of the 95 % interval of the exposure of a code in [0, 1], as a fraction of full scale.
+double half_width_95(const ResponseFit& fit, double code) {
+  return kDeviationsOf95 * linearise(fit.log_deviation, code) * linearise(fit.linear, code);
+}
+
+// Throws Error{input} unless the samples of a fit determine its curve. `samples` must not be empty; this is
+// not checked. Between their lowest and highest code, the 95 % interval must extend less than a tenth of the
+// highest code's exposure to either side. Outside, it must extend less than half of full scale.
+void require_determined(const ResponseFit& fit, std::span<const ResponseSample> samples) {
+  const auto [lowest, highest] =
+      std::minmax_element(samples.begin(), samples.end(),
+                          [](const ResponseSample& a, const ResponseSample& b) { return a.code < b.code; });
+  const double brightest = linearise(fit.linear, highest->code);
+  double uncertainty = 0;
+  double at = 0;
+  constexpr int kSteps = 100;
+  for (int i = 0; i <= kSteps; ++i) {
+    const double code = std::lerp(lowest->code, highest->code, static_cast<double>(i) / kSteps);
+    const double half_width = half_width_95(fit, code) / brightest;
+    if (half_width > uncertainty) {
+      uncertainty = half_width;
+      at = code;
+    }
+  }
+  require_for_response(
+      uncertainty < kMaxUncertainty,
+      fmt::format("these exposures do not determine the curve: of the codes {:.3g} to {:.3g} the exposure of "
+                  "{:.3g} is known to {:.2g} % of the brightest (allowed {:.2g} %); add exposure times, some "
+                  "of them in a ratio of two",
+                  lowest->code, highest->code, at, 100 * uncertainty, 100 * kMaxUncertainty));
+  const double unknown = largest_uncertainty(fit);
+  require_for_response(
+      unknown < kMaxFullScaleUncertainty,
+      fmt::format("no exposure determines the curve above code {:.3g}, where it is known to {:.2g} % of full "
+                  "scale (allowed {:.2g} %): add longer exposures, until the brightest patches clip",
+                  highest->code, 100 * unknown, 100 * kMaxFullScaleUncertainty));
+}
+
+// Standard deviation of Gaussian errors with these absolute values, of which there must be at least one. It
+// is estimated from their median, which a few outliers hardly change.
+double deviation_of(std::vector<double> sizes) {
+  return kMadToDeviation * median(std::move(sizes));
+}
+
+/// Noise of codes from dark to full scale, estimated from the residuals of a fit. It is used if a series does
+/// not state deviations. Photon noise makes the errors of single pixels many times larger at bright codes
+/// than at dark ones. A fit that assumed equal errors would be far too certain of the bright end.
+class NoiseByCode {
+ public:
+  /// Estimates the noise from the absolute `errors` of the codes of `samples`, both in one order and not
+  /// empty. The samples are divided into up to 12 groups of neighbouring codes, each with the standard
+  /// deviation of its own errors.
+  NoiseByCode(std::span<const ResponseSample> samples, std::span<const double> errors);
+
+  /// Standard deviation of a code in [0, 1]: linear between the median codes of the groups, constant outside
+  /// them.
+  [[nodiscard]] double deviation(double code) const;
+
+ private:
+  struct Level {
+    double code;
+    double deviation;
+  };
+  std::vector<Level> levels_;  // by code
+};
+
+NoiseByCode::NoiseByCode(std::span<const ResponseSample> samples, std::span<const double> errors) {
+  std::vector<std::size_t> order(samples.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(),
+            [&](std::size_t a, std::size_t b) { return samples[a].code < samples[b].code; });
+  const std::size_t groups = std::clamp(samples.size() / kMinGroupSize, std::size_t{1}, kGroups);
+  for (std::size_t g = 0; g < groups; ++g) {
+    std::vector<double> codes;
+    std::vector<double> sizes;
+    for (std::size_t i = g * order.size() / groups; i < (g + 1) * order.size() / groups; ++i) {
+      codes.push_back(samples[order[i]].code);
+      sizes.push_back(errors[order[i]]);
+    }
+    levels_.push_back({median(std::move(codes)), deviation_of(std::move(sizes))});
+  }
+}
+
+double NoiseByCode::deviation(double code) const {
+  const auto above = std::upper_bound(levels_.begin(), levels_.end(), code,
+                                      [](double c, const Level& level) { return c < level.code; });
+  if (above == levels_.begin()) return levels_.front().deviation;
+  if (above == levels_.end()) return levels_.back().deviation;
+  const Level& below = *(above - 1);
+  return std::lerp(below.deviation, above->deviation, (code - below.code) / (above->code - below.code));
+}
 
 // Start of the fit: a straight line in the curve's coordinate, and the exposures of the patches that follow
 // from it.
@@ -321,10 +475,6 @@ ResponseFit recover_response(const ExposureSeries& series, const ResponseOptions
 std::pair<double, double> bounds_95(const ResponseFit& fit, std::size_t i) {
   const double factor = std::exp(kDeviationsOf95 * fit.log_deviation[i]);
   return {fit.linear[i] / factor, fit.linear[i] * factor};
-}
-
-double half_width_95(const ResponseFit& fit, double code) {
-  return kDeviationsOf95 * linearise(fit.log_deviation, code) * linearise(fit.linear, code);
 }
 
 double largest_uncertainty(const ResponseFit& fit) {

@@ -73,9 +73,6 @@ struct ResponseOptions {
 /// Lower and upper end of the 95 % interval of entry i of `ResponseFit::linear`, as fractions of full scale.
 [[nodiscard]] std::pair<double, double> bounds_95(const ResponseFit& fit, std::size_t i);
 
-/// Half the width of the 95 % interval of the exposure of a code in [0, 1], as a fraction of full scale.
-[[nodiscard]] double half_width_95(const ResponseFit& fit, double code);
-
 /// Largest half-width of the 95 % interval of exposure between 1 % and 99 % of the code range, as a fraction
 /// of full scale.
 [[nodiscard]] double largest_uncertainty(const ResponseFit& fit);

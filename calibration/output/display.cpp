@@ -1,28 +1,34 @@
 #include "calibration/output/display.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <sstream>
 #include <system_error>
 #include <utility>
+#include <vector>
 
 #include <OpenColorIO/OpenColorIO.h>
 #include <fmt/format.h>
 
 #include "calibration/chart/patches.h"
-#include "calibration/output/gamut.h"
+#include "calibration/output/color_spaces.h"
 #include "calibration/output/ocio.h"
 #include "io/error.h"
 #include "io/exr.h"
+#include "io/image.h"
 #include "io/picture_codec.h"
 #include "io/text.h"
-#include "sensor/film/recorded_crop.h"
-#include "spectral/film_observer.h"
+#include "sensor/film/crop.h"
+#include "spectral/colorimetry.h"
+#include "spectral/library.h"
+#include "spectral/rgb.h"
 
 namespace abbe {
 namespace {
@@ -169,6 +175,53 @@ std::pair<CorrectionFit, Matrix3> fit_channels(const std::vector<Channel>& chann
   }
 }
 
+constexpr const char* kOption = "--ocio";
+
+std::string light_of(const OcioCameraSpace& space) {
+  return space.name.substr(std::string_view(kCameraPrefix).size());
+}
+
+// Distance of chromaticities; infinite for a light that is not an illuminant of the data directory.
+double distance(const OcioCameraSpace& space, const Chromaticity& white) {
+  Diagnostics unknown;
+  const auto light = load_illuminant(light_of(space), {}, unknown);
+  if (!light) return std::numeric_limits<double>::infinity();
+  const Chromaticity xy = chromaticity(light->curve);
+  return std::hypot(xy[0] - white[0], xy[1] - white[1]);
+}
+
+// Space of the film's white: by name, else by the nearest chromaticity.
+const OcioCameraSpace& choose(const std::vector<OcioCameraSpace>& spaces, const std::string& white_name,
+                              const std::optional<Chromaticity>& white) {
+  if (spaces.size() == 1) return spaces.front();
+  std::vector<std::string> names;
+  const OcioCameraSpace* nearest = nullptr;
+  double min_distance = std::numeric_limits<double>::infinity();
+  for (const OcioCameraSpace& space : spaces) {
+    if (light_of(space) == white_name) return space;
+    names.push_back(space.name);
+    const double candidate = white ? distance(space, *white) : min_distance;
+    if (candidate < min_distance) nearest = &space;
+    min_distance = std::min(candidate, min_distance);
+  }
+  if (nearest == nullptr)
+    throw Error(
+        ErrorCode::usage, kOption,
+        fmt::format("has several camera spaces, none of which is for the film's white (got {}, allowed "
+                    "a white among {})",
+                    white_name.empty() ? "none" : white_name, fmt::join(names, ", ")));
+  return *nearest;
+}
+
+// The columns of R, G and B in the order of the channels.
+Matrix3 in_order_of(std::span<const std::string> channels, const Matrix3& rgb) {
+  const auto order = rgb_order(channels);
+  Matrix3 ordered = rgb;
+  for (std::size_t k = 0; order && k < 3; ++k)
+    for (int i = 0; i < 3; ++i) ordered[i][static_cast<int>((*order)[k])] = rgb[i][static_cast<int>(k)];
+  return ordered;
+}
+
 }  // namespace
 
 struct DisplayTransform::Processor {
@@ -291,6 +344,47 @@ DisplayTransform make_display(const std::vector<Channel>& channels, const Curve&
   if (observer) return {std::move(names), adapted, {}, options};
   auto [fit, to_xyz] = fit_channels(channels, names, illuminant);
   return {std::move(names), adapted * to_xyz, std::move(fit), options};
+}
+
+std::optional<std::array<double, 3>> brightest_neutral(const Matrix3& to_xyz_d65,
+                                                       const std::vector<double>& saturation) {
+  std::array<double, 3> neutral = multiply(to_xyz_d65.inverse(true), unit_xyz(kD65));
+  double brightest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = 0; k < neutral.size(); ++k) {
+    if (!(neutral[k] > 0 && saturation[k] > 0)) return std::nullopt;
+    brightest = std::min(brightest, saturation[k] / neutral[k]);
+  }
+  for (double& value : neutral) value *= brightest;
+  return neutral;
+}
+
+void clip_to_white(Image& planes, const std::vector<std::string>& channels, const Matrix3& to_xyz_d65,
+                   const std::vector<double>& saturation) {
+  const auto white = brightest_neutral(to_xyz_d65, saturation);
+  if (!white) return;
+  for (ImageChannel& channel : planes.channels) {
+    const auto found = std::find(channels.begin(), channels.end(), channel.name);
+    if (found == channels.end()) continue;
+    const auto highest = static_cast<float>((*white)[static_cast<std::size_t>(found - channels.begin())]);
+    for (float& value : channel.values) value = std::min(value, highest);
+  }
+}
+
+std::optional<CameraMatrix> camera_matrix(const ViewOptions& view, std::span<const std::string> channels,
+                                          const std::string& white_name, std::optional<Chromaticity> white) {
+  const bool is_observer = std::ranges::equal(channels, std::array<std::string, 3>{"X", "Y", "Z"});
+  if (view.config.empty() || channels.size() != 3 || is_observer) return std::nullopt;
+  const std::vector<OcioCameraSpace> spaces = camera_spaces(view.config);
+  if (spaces.empty()) return std::nullopt;
+  const OcioCameraSpace& space = choose(spaces, white_name, white);
+  if (!space.to_xyz_d65 || !is_invertible(*space.to_xyz_d65))
+    throw Error(ErrorCode::usage, kOption,
+                fmt::format("\"{}\" is not a matrix, which films need (allowed: a configuration of calibrate "
+                            "--correction matrix)",
+                            space.name));
+  const Matrix3 matrix = in_order_of(channels, *space.to_xyz_d65);
+  const std::array<double, 3> neutral = multiply(matrix.inverse(true), unit_xyz(kD65));
+  return CameraMatrix{space.name, matrix * neutral[1]};
 }
 
 }  // namespace abbe

@@ -1,15 +1,18 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "calibration/fit/correction_fit.h"
+#include "calibration/fit/correction.h"
 #include "calibration/output/color_spaces.h"
 #include "io/image.h"
 #include "sensor/response/channel.h"
+#include "spectral/colorimetry.h"
 #include "spectral/curve.h"
 #include "spectral/matrix3.h"
 
@@ -112,5 +115,38 @@ class DisplayTransform {
 [[nodiscard]] DisplayTransform make_display(const std::vector<Channel>& channels, const Curve& illuminant,
                                             const ViewOptions& options = {},
                                             std::optional<Chromaticity> white = {});
+
+/// Film values t r_k, for channel k, of the brightest neutral below saturation. The film values r of a
+/// neutral are those that `to_xyz_d65` maps to D65. The level t = min_k saturation_k / r_k is that at which
+/// the first channel saturates in neutral light. `saturation` has the film value of each of three channels at
+/// which it saturates. Empty if no neutral is positive in every channel below saturation.
+[[nodiscard]] std::optional<std::array<double, 3>> brightest_neutral(const Matrix3& to_xyz_d65,
+                                                                     const std::vector<double>& saturation);
+
+/// Clips every channel of `planes` at the `brightest_neutral`, so that saturated pixels become white.
+/// Channels saturate at values that are not neutral, which would make bright white light look cyan or
+/// magenta. `channels` are the three names in the order of `saturation`; planes of other names remain. Does
+/// nothing if there is no such neutral.
+void clip_to_white(Image& planes, const std::vector<std::string>& channels, const Matrix3& to_xyz_d65,
+                   const std::vector<double>& saturation);
+
+/// Matrix from a sensor's film values to colours, as a calibration gives it.
+struct CameraMatrix {
+  std::string space;  ///< Name of the camera space.
+  /// Its columns are in the order of the channels. Scaled so that a neutral's Y is the value of its second
+  /// channel, as in `make_display`.
+  Matrix3 to_xyz_d65;
+};
+
+/// Matrix of the camera space, in the view's configuration, that belongs to a film with these channels and
+/// this white. A single space is taken for any white. Among several, it takes that of the light named
+/// `white_name`, else of the illuminant whose chromaticity is nearest to `white`. Empty for a configuration
+/// without camera spaces, for Abbe's own configuration, for a number of channels other than three, and for an
+/// observer's X, Y, Z. Throws Error{usage} if no space can be chosen, and for a root polynomial. Throws
+/// Error{input} for a configuration that OpenColorIO cannot read.
+[[nodiscard]] std::optional<CameraMatrix> camera_matrix(const ViewOptions& view,
+                                                        std::span<const std::string> channels,
+                                                        const std::string& white_name,
+                                                        std::optional<Chromaticity> white);
 
 }  // namespace abbe

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "description/meshes/mesh_file.h"
+#include "io/inputs.h"
 
 namespace abbe {
 
@@ -91,5 +92,14 @@ void add_corners(const std::vector<Corner>& polygon, const std::vector<Triangle>
 /// Largest number of triangles, and of vertices, that one material of a glTF file may have. It is counted
 /// after nodes are expanded: a small file can repeat a mesh many times.
 inline constexpr double kMaxTriangles = 67108864;
+
+/// Decompresses the file `path` [RFC1952] and appends the result to `bytes`. Returns nothing on success, and
+/// otherwise an error message without the path:
+/// - a file that cannot be opened, is not in gzip format, is damaged or is truncated;
+/// - `bytes` longer than `limit` bytes in all, because a small file may unpack to any length.
+/// `bytes` then holds what was unpacked so far. Its growth is reserved in `memory` before it is allocated.
+/// Throws Error{resource} if that exceeds the memory limit.
+[[nodiscard]] std::optional<std::string> read_gzip_bytes(const std::filesystem::path& path, std::size_t limit,
+                                                         std::string& bytes, MemoryReservation& memory);
 
 }  // namespace abbe

@@ -1,10 +1,16 @@
 #include "io/schema/write.h"
 
+#include <algorithm>
 #include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "io/text.h"
 
 namespace abbe::schema {
-namespace {
 
+namespace {
 void write_fields(const Fields& fields, const void* instance, JsonValue::Object& into);
 
 void write_choice(const Choice& choice, const void* variant, JsonValue::Object& into) {
@@ -93,6 +99,281 @@ bool is_informative(const JsonValue& value) {
   return object == nullptr || !object->empty();
 }
 
+using Object = JsonValue::Object;
+using Array = JsonValue::Array;
+
+JsonValue string(std::string_view text) {
+  return json(std::string(text));
+}
+void add(Object& object, std::string_view key, JsonValue value) {
+  object.push_back({std::string(key), std::move(value)});
+}
+JsonValue object_of(std::string_view key, JsonValue value) {
+  Object object;
+  add(object, key, std::move(value));
+  return json(std::move(object));
+}
+// {"required": [key]}. For a path, the first key is required and its value must have the rest.
+JsonValue has(std::string_view path) {
+  const std::size_t end = path.find('/');
+  JsonValue first = object_of("required", json(Array{string(path.substr(0, end))}));
+  if (end != std::string_view::npos)
+    add(std::get<Object>(first.value), "properties",
+        object_of(path.substr(0, end), has(path.substr(end + 1))));
+  return first;
+}
+
+/// Constraints on an object.
+struct ObjectSchema {
+  Object properties;
+  Array required;
+  Array clauses;
+};
+
+/// Definitions that have been referred to, by name.
+using Definitions = std::map<std::string, JsonValue>;
+
+JsonValue schema_of(const ValueType& type, Definitions& definitions);
+void add_fields(const Fields& fields, ObjectSchema& content, Definitions& definitions);
+
+// Writes the constraints: a single clause directly, several as "allOf".
+void write_object_schema(ObjectSchema content, Object& into) {
+  if (!content.properties.empty()) add(into, "properties", json(std::move(content.properties)));
+  if (!content.required.empty()) add(into, "required", json(std::move(content.required)));
+  if (content.clauses.size() == 1) {
+    for (auto& member : std::get<Object>(content.clauses.front().value)) into.push_back(std::move(member));
+  } else if (content.clauses.size() > 1) {
+    add(into, "allOf", json(std::move(content.clauses)));
+  }
+}
+
+void describe_as(JsonValue& schema, std::string_view text) {
+  if (!text.empty()) add(std::get<Object>(schema.value), "description", string(text));
+}
+
+JsonValue field_schema(const Field& field, const void* defaults, Definitions& definitions) {
+  JsonValue schema = schema_of(std::get<ValueType>(*field.content), definitions);
+  describe_as(schema, field.text);
+  if (auto value = default_of(field, defaults))
+    add(std::get<Object>(schema.value), "default", *std::move(value));
+  return schema;
+}
+
+/// Constraints on the object for each choice of a group.
+std::vector<ObjectSchema> branches_of(const OneOf& group, Definitions& definitions) {
+  std::vector<ObjectSchema> branches;
+  for (const Choice& choice : group.choices) {
+    ObjectSchema& branch = branches.emplace_back();
+    if (choice.nested) {
+      JsonValue schema = schema_of(*choice.alternative.type, definitions);
+      describe_as(schema, choice.text);
+      add(branch.properties, choice.key, std::move(schema));
+    } else {
+      add_fields(std::get<Struct>(choice.alternative.type->variant).fields(), branch, definitions);
+    }
+  }
+  return branches;
+}
+
+bool same_everywhere(const std::vector<ObjectSchema>& branches, const std::string& key,
+                     const JsonValue& schema) {
+  const std::string text = to_text(schema);
+  return std::all_of(branches.begin(), branches.end(), [&](const ObjectSchema& branch) {
+    const auto found = std::find_if(branch.properties.begin(), branch.properties.end(),
+                                    [&](const auto& member) { return member.first == key; });
+    return found == branch.properties.end() || to_text(found->second) == text;
+  });
+}
+
+// Merges the properties of all branches. A property with the same schema in all branches is moved to
+// `properties`; others stay in their branches.
+void merge_properties(std::vector<ObjectSchema>& branches, Object& properties) {
+  const std::vector<ObjectSchema> all = branches;
+  for (ObjectSchema& branch : branches)
+    std::erase_if(branch.properties, [&](const JsonValue::Member& member) {
+      const bool same = same_everywhere(all, member.first, member.second);
+      const bool known = std::any_of(properties.begin(), properties.end(),
+                                     [&](const auto& other) { return other.first == member.first; });
+      if (!known) add(properties, member.first, same ? member.second : json(true));
+      return same;
+    });
+}
+
+// Requires, for each key that belongs to some choices only, one of these choices.
+void require_owner_keys(const OneOf& group, const std::vector<ObjectSchema>& branches, Object& dependent) {
+  std::map<std::string, Array> owners;
+  for (std::size_t i = 0; i < branches.size(); ++i)
+    for (const auto& member : branches[i].properties)
+      if (member.first != group.choices[i].key) owners[member.first].push_back(has(group.choices[i].key));
+  for (auto& [key, choices] : owners)
+    if (choices.size() < branches.size() || !group.required)
+      add(dependent, key, object_of("anyOf", json(std::move(choices))));
+}
+
+// Adds a group: exactly one of its keys is present, or none if it is not required. The keys of a choice are
+// allowed with its key only.
+void add_group(const OneOf& group, ObjectSchema& content, Definitions& definitions) {
+  std::vector<ObjectSchema> branches = branches_of(group, definitions);
+  Object dependent;
+  require_owner_keys(group, branches, dependent);
+  merge_properties(branches, content.properties);
+  Array choices;
+  for (std::size_t i = 0; i < branches.size(); ++i) {
+    const std::string_view key = group.choices[i].key;
+    choices.push_back(has(key));
+    std::erase_if(branches[i].required,
+                  [&](const JsonValue& other) { return std::get<std::string>(other.value) == key; });
+    Object schema;
+    write_object_schema(std::move(branches[i]), schema);
+    if (!schema.empty()) add(dependent, key, json(std::move(schema)));
+  }
+  if (!group.required) {
+    JsonValue none = object_of("not", object_of("anyOf", json(choices)));
+    choices.push_back(std::move(none));
+  }
+  Object clause;
+  add(clause, "oneOf", json(std::move(choices)));
+  if (!dependent.empty()) add(clause, "dependentSchemas", json(std::move(dependent)));
+  content.clauses.push_back(json(std::move(clause)));
+}
+
+// Adds the keys of all fields, and the rule that one of `any_of` is present.
+void add_fields(const Fields& fields, ObjectSchema& content, Definitions& definitions) {
+  for (const Field& field : fields.fields) {
+    if (const auto* group = std::get_if<OneOf>(field.content.get())) {
+      add_group(*group, content, definitions);
+    } else if (const auto* inlined = std::get_if<Inlined>(field.content.get())) {
+      add_fields(inlined->fields(), content, definitions);
+    } else {
+      add(content.properties, field.key, field_schema(field, fields.defaults, definitions));
+      if (field.presence == Presence::required) content.required.push_back(string(field.key));
+    }
+  }
+  if (fields.any_of.empty()) return;
+  Array keys;
+  for (const std::string_view path : fields.any_of) keys.push_back(has(path));
+  content.clauses.push_back(object_of(fields.exclusive ? "oneOf" : "anyOf", json(std::move(keys))));
+}
+
+void write_object(const Fields& fields, Object& into, Definitions& definitions) {
+  ObjectSchema content;
+  add_fields(fields, content, definitions);
+  add(into, "type", string("object"));
+  write_object_schema(std::move(content), into);
+  add(into, "additionalProperties", json(false));
+}
+
+JsonValue of_type(std::string_view type) {
+  return object_of("type", string(type));
+}
+
+JsonValue bounded(std::string_view type, const Range& range, double largest) {
+  JsonValue schema = of_type(type);
+  auto& object = std::get<Object>(schema.value);
+  add(object, range.open_low ? "exclusiveMinimum" : "minimum", json(std::max(range.low, -largest)));
+  add(object, range.open_high ? "exclusiveMaximum" : "maximum", json(std::min(range.high, largest)));
+  return schema;
+}
+
+JsonValue array_of(JsonValue items, std::size_t min_size, std::size_t max_size) {
+  JsonValue schema = of_type("array");
+  auto& object = std::get<Object>(schema.value);
+  add(object, "items", std::move(items));
+  if (min_size > 0) add(object, "minItems", json(static_cast<double>(min_size)));
+  if (max_size > 0) add(object, "maxItems", json(static_cast<double>(max_size)));
+  return schema;
+}
+
+/// The JSON schema of each value type.
+struct SchemaOf {
+  Definitions& definitions;
+
+  JsonValue operator()(const Number& type) const { return bounded("number", type.range, kLargestFloat); }
+  JsonValue operator()(const Integer& type) const { return bounded("integer", type.range, kLargestInteger); }
+  JsonValue operator()(const Boolean&) const { return of_type("boolean"); }
+  JsonValue operator()(const Text&) const { return of_type("string"); }
+  JsonValue operator()(const Enumeration& type) const {
+    Array names;
+    for (const char* name : type.names) {
+      names.push_back(string(name));
+      if (type.accepts_numbers) names.push_back(json(parse_number(name).value()));
+    }
+    return object_of("enum", json(std::move(names)));
+  }
+  JsonValue operator()(const Vector& type) const {
+    JsonValue number = type.integers ? bounded("integer", type.range, kLargestInteger)
+                                     : bounded("number", type.range, kLargestFloat);
+    JsonValue schema = array_of(std::move(number), type.count, type.count);
+    if (type.nonzero)
+      add(std::get<Object>(schema.value), "not", object_of("const", json(Array(type.count, json(0.0)))));
+    return schema;
+  }
+  JsonValue operator()(const Numbers& type) const {
+    return array_of(bounded("number", type.range, kLargestFloat), 0, 0);
+  }
+  // A reference to the definition called `name`, which `write` creates at the first use.
+  template <typename Write>
+  JsonValue defined(std::string_view name, Write write) const {
+    if (!definitions.contains(std::string(name))) {
+      definitions[std::string(name)];  // Inserted first, since the struct may contain its own type.
+      JsonValue schema = write();
+      definitions[std::string(name)] = std::move(schema);
+    }
+    return object_of("$ref", string(fmt::format("#/$defs/{}", name)));
+  }
+  JsonValue operator()(const Struct& type) const {
+    const Fields& fields = type.fields();
+    return defined(fields.name, [&] {
+      Object schema;
+      if (!fields.text.empty()) add(schema, "description", string(fields.text));
+      if (fields.array_form) {
+        Object object;
+        write_object(fields, object, definitions);
+        add(schema, "anyOf", json(Array{json(std::move(object)), row_of(fields)}));
+      } else {
+        write_object(fields, schema, definitions);
+      }
+      return json(std::move(schema));
+    });
+  }
+  JsonValue row_of(const Fields& fields) const {
+    Array values;
+    for (std::size_t i = 0; i < fields.array_form->max_size; ++i)
+      values.push_back(object_of(
+          "anyOf", json(Array{schema_of(std::get<ValueType>(*fields.fields[i].content), definitions),
+                              of_type("null")})));
+    JsonValue schema = of_type("array");
+    auto& object = std::get<Object>(schema.value);
+    add(object, "prefixItems", json(std::move(values)));
+    add(object, "minItems", json(static_cast<double>(fields.array_form->min_size)));
+    add(object, "maxItems", json(static_cast<double>(fields.array_form->max_size)));
+    return schema;
+  }
+  JsonValue operator()(const List& type) const {
+    JsonValue all = array_of(schema_of(*type.element, definitions), type.min_size, 0);
+    if (!type.allows_single) return all;
+    return object_of("anyOf", json(Array{schema_of(*type.element, definitions), std::move(all)}));
+  }
+  JsonValue operator()(const ByName& type) const {
+    JsonValue schema = of_type("object");
+    auto& object = std::get<Object>(schema.value);
+    add(object, "additionalProperties", schema_of(*type.element, definitions));
+    if (type.min_size > 0) add(object, "minProperties", json(static_cast<double>(type.min_size)));
+    return schema;
+  }
+  JsonValue operator()(const Forms& type) const {
+    const auto any_of = [&] {
+      Array forms;
+      for (const Form& form : type.forms) forms.push_back(schema_of(*form.alternative.type, definitions));
+      return object_of("anyOf", json(std::move(forms)));
+    };
+    return type.name.empty() ? any_of() : defined(type.name, any_of);
+  }
+};
+
+JsonValue schema_of(const ValueType& type, Definitions& definitions) {
+  return std::visit(SchemaOf{definitions}, type.variant);
+}
 }  // namespace
 
 JsonValue write(const ValueType& type, const void* value) {
@@ -110,6 +391,19 @@ std::optional<JsonValue> default_of(const Field& field, const void* defaults) {
   if (otherwise == nullptr) return std::nullopt;
   JsonValue value = write(std::get<ValueType>(*field.content), otherwise);
   return is_informative(value) ? std::optional(std::move(value)) : std::nullopt;
+}
+
+JsonValue json_schema(const Fields& fields) {
+  Definitions definitions;
+  Object schema;
+  add(schema, "$schema", string("https://json-schema.org/draft/2020-12/schema"));
+  add(schema, "title", string(fields.name));
+  add(schema, "description", string(fields.text));
+  write_object(fields, schema, definitions);
+  Object all;
+  for (auto& [name, definition] : definitions) add(all, name, std::move(definition));
+  if (!all.empty()) add(schema, "$defs", json(std::move(all)));
+  return json(std::move(schema));
 }
 
 }  // namespace abbe::schema

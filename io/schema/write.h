@@ -25,4 +25,8 @@ template <typename T>
 /// default that is infinite or an empty list or object.
 [[nodiscard]] std::optional<JsonValue> default_of(const Field& field, const void* defaults);
 
+/// The JSON Schema (draft 2020-12) of a file that contains one such struct, without source positions. It
+/// accepts exactly the files that `read` accepts without an error.
+[[nodiscard]] JsonValue json_schema(const Fields& fields);
+
 }  // namespace abbe::schema

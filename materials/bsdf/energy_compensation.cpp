@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <numbers>
 
-#include "materials/bsdf/mirror.h"
+#include "materials/bsdf/event.h"
 #include "materials/interface/fresnel.h"
 #include "sampling/discrete.h"
 

@@ -1,37 +1,82 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "materials/bsdf/event.h"
+#include "materials/bsdf/surface.h"
+#include "materials/interface/fresnel.h"
+#include "materials/interface/mueller.h"
 
 namespace abbe {
 
-/// Functions shared by the smooth models.
+// Mirrors that no real material has, for teaching and for comparisons. Both sides reflect alike.
 
-/// Mirror direction of the local direction `wo`.
-[[nodiscard]] inline Imath::V3f mirrored(const Imath::V3f& wo) {
-  return {-wo.x, -wo.y, wo.z};
+/// Mueller matrix of a smooth surface that reflects s and p alike.
+[[nodiscard]] inline MuellerMatrix ideal_mirror_mueller(const Imath::V3f& wo) {
+  return mueller_of_surface(wo, 0, [](int /*lane*/) { return kIdealMirror<float>; });
 }
 
-/// Local direction into which light from `wo` is refracted, away from the surface on the other side. eta =
-/// n_t/n_i, with n_i on the side of `wo`; `cos_t` > 0 is the cosine of the refracted angle.
-[[nodiscard]] inline Imath::V3f refracted_direction(const Imath::V3f& wo, float eta, float cos_t) {
-  return {-wo.x / eta, -wo.y / eta, std::copysign(cos_t, -wo.z)};
-}
+/// The ideal mirror R/cos delta, with the same reflectance at every angle. [Marschner2021, sec. 14.1]
+struct MirrorBsdf {
+  static constexpr bool kScatters = false;
+  static constexpr bool kDelta = true;
 
-/// Factor by which refraction scales the quantity of a path: 1/eta^2 for radiance, 1 for power. eta =
-/// n_t/n_i, with n_i on the side of wo.
-[[nodiscard]] inline float refraction_scale(float eta, TransportMode mode) {
-  return mode == TransportMode::radiance ? 1 / (eta * eta) : 1.0F;
-}
+  SampledSpectrum reflectance;
 
-/// `s` restricted to the hero wavelength and marked as dispersive, for directions that the other wavelengths
-/// cannot take.
-[[nodiscard]] inline BsdfSample only_lane(BsdfSample s, int hero) {
-  s.weight = SampledSpectrum::only(hero, s.weight[hero]);
-  s.lane_pdf = SampledSpectrum::only(hero, 1);
-  s.dispersive = true;
-  return s;
-}
+  [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& /*u*/, int /*hero*/,
+                                                 TransportMode /*mode*/) const {
+    if (wo.z == 0) return std::nullopt;
+    return BsdfSample{.wi = mirrored(wo), .weight = reflectance, .pdf = 1, .delta = true};
+  }
+  [[nodiscard]] SampledSpectrum delta_power(const Imath::V3f& /*wo*/, bool through) const {
+    return through ? SampledSpectrum() : reflectance;
+  }
+  [[nodiscard]] static std::optional<MuellerMatrix> mueller(const Imath::V3f& wo, const Imath::V3f& /*wi*/,
+                                                            bool /*delta*/, std::optional<int> /*lane*/) {
+    return ideal_mirror_mueller(wo);
+  }
+};
+
+/// A smooth surface by Schlick's approximation instead of Fresnel's equations. [Schlick1994]
+struct SchlickBsdf {
+  static constexpr bool kScatters = false;
+  static constexpr bool kDelta = true;
+
+  SampledSpectrum r0;  ///< Reflectance along the normal, in [0, 1].
+
+  [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& /*u*/, int /*hero*/,
+                                                 TransportMode /*mode*/) const {
+    if (wo.z == 0) return std::nullopt;
+    return BsdfSample{.wi = mirrored(wo), .weight = delta_power(wo, false), .pdf = 1, .delta = true};
+  }
+  [[nodiscard]] SampledSpectrum delta_power(const Imath::V3f& wo, bool through) const {
+    if (through) return {};
+    return SampledSpectrum::map(r0, [c = std::min(std::abs(wo.z), 1.0F)](float r) { return schlick(c, r); });
+  }
+  [[nodiscard]] static std::optional<MuellerMatrix> mueller(const Imath::V3f& wo, const Imath::V3f& /*wi*/,
+                                                            bool /*delta*/, std::optional<int> /*lane*/) {
+    return ideal_mirror_mueller(wo);
+  }
+};
+
+/// The ideal mirror with the same `reflectance` at every angle.
+struct MirrorMaterial : OpaqueSurface {
+  [[nodiscard]] MirrorBsdf bsdf(const SurfaceLookup& at) const { return {reflectance(at)}; }
+  [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }
+  [[nodiscard]] static constexpr bool preserves_polarisation() { return true; }
+  [[nodiscard]] std::optional<FresnelPower<double>> smooth_power(const SmoothLookup& at) const;
+  [[nodiscard]] SmoothMueller smooth_mueller(const SmoothLookup& at) const;
+};
+
+/// A mirror by Schlick's approximation; `reflectance` is its value along the normal.
+struct SchlickMaterial : OpaqueSurface {
+  [[nodiscard]] SchlickBsdf bsdf(const SurfaceLookup& at) const { return {reflectance(at)}; }
+  [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }
+  [[nodiscard]] static constexpr bool preserves_polarisation() { return true; }
+  [[nodiscard]] std::optional<FresnelPower<double>> smooth_power(const SmoothLookup& at) const;
+  [[nodiscard]] SmoothMueller smooth_mueller(const SmoothLookup& at) const;
+};
 
 }  // namespace abbe

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "materials/bsdf/mirror.h"
+#include "materials/bsdf/event.h"
 #include "materials/bsdf/warp.h"
 
 namespace abbe {
+
 namespace {
 
 using Imath::V3f;
@@ -120,6 +121,22 @@ SampledSpectrum RetroreflectorBsdf::eval(const V3f& wo, const V3f& wi, Transport
 }
 SampledSpectrum RetroreflectorBsdf::pdf(const V3f& wo, const V3f& wi) const {
   return SampledSpectrum(lobe_of(*this, wo).density(wi));
+}
+
+std::variant<CosinePowerBsdf<false>, CosinePowerBsdf<true>> CosinePowerMaterial::bsdf(
+    const SurfaceLookup& at) const {
+  const SampledSpectrum rho = reflectance(at);
+  const auto a = static_cast<float>(exponent);
+  if (reciprocal) return CosinePowerBsdf<true>{rho, a};
+  return CosinePowerBsdf<false>{rho, a};
+}
+
+PhongBsdf PhongMaterial::bsdf(const SurfaceLookup& at) const {
+  return {reflectance(at), static_cast<float>(exponent)};
+}
+
+RetroreflectorBsdf RetroreflectorMaterial::bsdf(const SurfaceLookup& at) const {
+  return {reflectance(at), static_cast<float>(exponent)};
 }
 
 }  // namespace abbe

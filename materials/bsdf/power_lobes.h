@@ -1,8 +1,11 @@
 #pragma once
 
 #include <optional>
+#include <variant>
 
 #include "materials/bsdf/event.h"
+#include "materials/bsdf/surface.h"
+#include "materials/index/relative_index.h"
 
 namespace abbe {
 
@@ -19,6 +22,7 @@ template <bool Reciprocal>
 struct CosinePowerBsdf {
   static constexpr bool kScatters = true;
   static constexpr bool kDelta = false;
+  static constexpr bool kGlossy = true;
   static constexpr bool kReciprocal = Reciprocal;  ///< True if f(wo, wi) = f(wi, wo).
 
   SampledSpectrum reflectance;
@@ -28,7 +32,6 @@ struct CosinePowerBsdf {
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
-  [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
 /// Phong's highlight as a BRDF, C cos^n alpha/cos theta_i with C = rho (n + 1)/(2 pi). n is the exponent,
@@ -38,6 +41,7 @@ struct CosinePowerBsdf {
 struct PhongBsdf {
   static constexpr bool kScatters = true;
   static constexpr bool kDelta = false;
+  static constexpr bool kGlossy = true;
   static constexpr bool kReciprocal = false;  ///< False because f(wo, wi) differs from f(wi, wo).
   static constexpr bool kConserving = false;  ///< False because more light may leave than arrives.
 
@@ -48,7 +52,6 @@ struct PhongBsdf {
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
-  [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
 /// A retroreflector, C (k_i . k_o)^n where the product is positive, with n the exponent. Its
@@ -57,6 +60,7 @@ struct PhongBsdf {
 struct RetroreflectorBsdf {
   static constexpr bool kScatters = true;
   static constexpr bool kDelta = false;
+  static constexpr bool kGlossy = true;
 
   SampledSpectrum reflectance;
   float exponent;  ///< In [0, 1e4].
@@ -65,7 +69,40 @@ struct RetroreflectorBsdf {
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
-  [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
+};
+
+// Formulas give the BRDF [1/sr]: rho is the material's `reflectance`; theta_i and theta_o are the angles of
+// the light and the viewer with the normal. `SurfaceModel` describes the member functions.
+
+/// BRDF rho/pi cos^a theta_i, or if `reciprocal`, rho (a + 2)/(2 pi) cos^a theta_i cos^a theta_o, with the
+/// exponent a. rho is the directional-hemispherical reflectance along the normal.
+struct CosinePowerMaterial : OpaqueSurface {
+  double exponent;  ///< In [0, 1e4].
+  bool reciprocal;  ///< True if the cosines of both directions are factors.
+
+  [[nodiscard]] std::variant<CosinePowerBsdf<false>, CosinePowerBsdf<true>> bsdf(
+      const SurfaceLookup& at) const;
+  [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
+};
+
+/// Phong's highlight as a BRDF, rho (n + 1)/(2 pi) cos^n alpha/cos theta_i, with the exponent n. alpha is the
+/// angle between the viewer and the mirror direction of the light. rho is the directional-hemispherical
+/// reflectance along the normal. The model is not reciprocal, and its albedo is unbounded towards grazing
+/// incidence.
+struct PhongMaterial : OpaqueSurface {
+  double exponent;  ///< In [0, 1e4].
+
+  [[nodiscard]] PhongBsdf bsdf(const SurfaceLookup& at) const;
+  [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
+};
+
+/// A retroreflector with the BRDF rho (n + 2)/(2 pi) cos^n alpha, with the exponent n. alpha is the angle
+/// between the light and the viewer. rho is the directional-hemispherical reflectance along the normal.
+struct RetroreflectorMaterial : OpaqueSurface {
+  double exponent;  ///< In [0, 1e4].
+
+  [[nodiscard]] RetroreflectorBsdf bsdf(const SurfaceLookup& at) const;
+  [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
 };
 
 }  // namespace abbe

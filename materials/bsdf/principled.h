@@ -5,6 +5,8 @@
 #include <vector>
 
 #include "materials/bsdf/event.h"
+#include "materials/bsdf/surface.h"
+#include "materials/index/relative_index.h"
 
 namespace abbe {
 
@@ -86,7 +88,15 @@ struct PrincipledBsdf {
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
-  [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
+};
+
+/// Burley's principled model; `reflectance` is its base colour. `SurfaceModel` describes the member
+/// functions.
+struct PrincipledMaterial : OpaqueSurface {
+  Principled principled;
+
+  [[nodiscard]] PrincipledBsdf bsdf(const SurfaceLookup& at) const { return {reflectance(at), &principled}; }
+  [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
 };
 
 }  // namespace abbe

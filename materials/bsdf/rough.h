@@ -4,17 +4,22 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <memory>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "materials/bsdf/energy_compensation.h"
 #include "materials/bsdf/event.h"
+#include "materials/bsdf/surface.h"
 #include "materials/index/refractive_index.h"
+#include "materials/index/relative_index.h"
 #include "materials/interface/microfacet.h"
+#include "materials/medium/medium.h"
 
 namespace abbe {
 
-// The models below satisfy `BsdfModel` of `materials/bsdf/bsdf.h`, which describes `sample`, `eval`, `pdf`
+// The models below satisfy `BsdfModel` of `materials/bsdf.h`, which describes `sample`, `eval`, `pdf`
 // and `index_inside`. `eval` returns f(wo, wi) [1/sr] without the cosine of wi.
 
 /// Reflecting microfacets with their table of lost energy, computed once for all wavelengths.
@@ -63,6 +68,7 @@ struct RoughInterface {
 struct RoughConductorBsdf {
   static constexpr bool kScatters = true;
   static constexpr bool kDelta = false;
+  static constexpr bool kGlossy = true;
 
   SampledSpectrum wavelengths_nm;    ///< Wavelengths in standard air [nm].
   SampledSpectrum mean_reflectance;  ///< `diffuse_reflectance` relative to the outside.
@@ -74,9 +80,10 @@ struct RoughConductorBsdf {
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] std::optional<MuellerMatrix> mueller(const Imath::V3f& wo, const Imath::V3f& wi, bool delta,
+                                                     std::optional<int> lane) const;
   /// Fraction of the light from wo to wi that a single facet has scattered, at each wavelength.
   [[nodiscard]] SampledSpectrum single_fraction(const Imath::V3f& wo, const Imath::V3f& wi) const;
-  [[nodiscard]] static constexpr float index_inside(int /*lane*/) { return 1; }
 };
 
 /// A rough dielectric interface with its normal towards the outside. The inside index relative to the outside
@@ -95,6 +102,8 @@ struct RoughConductorBsdf {
 struct RoughDielectricBsdf {
   static constexpr bool kScatters = true;
   static constexpr bool kDelta = false;
+  static constexpr bool kGlossy = true;
+  static constexpr bool kBothSides = true;
 
   SampledSpectrum n;              ///< Inside index relative to the outside.
   const RoughInterface* surface;  ///< Holds the tables for n.
@@ -103,9 +112,65 @@ struct RoughDielectricBsdf {
                                                  TransportMode mode) const;
   [[nodiscard]] SampledSpectrum eval(const Imath::V3f& wo, const Imath::V3f& wi, TransportMode mode) const;
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
+  [[nodiscard]] std::optional<MuellerMatrix> mueller(const Imath::V3f& wo, const Imath::V3f& wi, bool delta,
+                                                     std::optional<int> lane) const;
   /// Fraction of the light from wo to wi that a single facet has scattered, at each wavelength.
   [[nodiscard]] SampledSpectrum single_fraction(const Imath::V3f& wo, const Imath::V3f& wi) const;
   [[nodiscard]] float index_inside(int lane) const { return n[lane]; }
+};
+
+/// A rough dielectric interface; alpha_x of the facets is the roughness along u, alpha_y that perpendicular
+/// to it. `SurfaceModel` describes the member functions. If both alphas are below `kMinAlpha`, the scene uses
+/// a `DielectricMaterial` instead. A relative index within 1e-3 of 1 is replaced by the nearest one that
+/// differs by 1e-3.
+class RoughDielectricMaterial {
+ public:
+  /// Tabulates multiple scattering in air, which takes some tens of milliseconds.
+  RoughDielectricMaterial(std::string index_name, RefractiveIndex index, const Microfacets<float>& facets,
+                          std::optional<Medium> interior_medium = {});
+
+  /// Tabulates multiple scattering also in a medium of that index, unless an existing table covers it. In
+  /// other media `bsdf` uses the table of the nearest relative index. Not thread-safe.
+  void tabulate_in(const RefractiveIndex& medium);
+
+  [[nodiscard]] RoughDielectricBsdf bsdf(const SurfaceLookup& at) const;
+  [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
+  [[nodiscard]] static constexpr bool polarises() { return true; }
+  [[nodiscard]] bool needs_coordinates() const { return surface->facets.brushed(); }
+  [[nodiscard]] static constexpr bool depends_on_outside() { return true; }
+  [[nodiscard]] const RefractiveIndex* interior_index() const { return &index; }
+  [[nodiscard]] const Medium* medium() const { return interior_medium ? &*interior_medium : nullptr; }
+  [[nodiscard]] std::vector<IndexUse> indices() const { return {{&index_name, &index}}; }
+
+  std::string index_name;
+  RefractiveIndex index;
+  /// Medium inside that scatters or absorbs in addition to `index`; else empty.
+  std::optional<Medium> interior_medium;
+  std::shared_ptr<const RoughInterface> surface;                         ///< Tables in air.
+  std::vector<std::shared_ptr<const RoughInterface>> surfaces_in_media;  ///< Tables added by `tabulate_in`.
+
+ private:
+  [[nodiscard]] const RoughInterface& nearest_surface(float low_n, float high_n) const;
+};
+
+/// A rough conductor; alpha_x of the facets is the roughness along u, alpha_y that perpendicular to it.
+/// `SurfaceModel` describes the member functions.
+class RoughConductorMaterial {
+ public:
+  RoughConductorMaterial(std::string index_name, RefractiveIndex index, const Microfacets<float>& facets);
+
+  [[nodiscard]] RoughConductorBsdf bsdf(const SurfaceLookup& at) const;
+  [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
+  [[nodiscard]] static constexpr bool polarises() { return true; }
+  [[nodiscard]] bool needs_coordinates() const { return surface->facets.brushed(); }
+  [[nodiscard]] static constexpr bool depends_on_outside() { return true; }
+  [[nodiscard]] static constexpr bool opaque() { return true; }
+  [[nodiscard]] std::vector<IndexUse> indices() const { return {{&index_name, &index}}; }
+
+  std::string index_name;
+  RefractiveIndex index;
+  Curve mean_reflectance;  ///< Diffuse reflectance of the smooth metal in air.
+  std::shared_ptr<const RoughMetal> surface;
 };
 
 }  // namespace abbe

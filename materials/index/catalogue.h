@@ -1,13 +1,27 @@
 #pragma once
 
+#include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 
+#include "io/diagnostics.h"
 #include "io/table.h"
-#include "materials/index/named_index.h"
+#include "materials/index/refractive_index.h"
+#include "spectral/library.h"
 
 namespace abbe {
+
+/// A refractive index with its name and source.
+struct NamedIndex {
+  std::string name;
+  std::string source;  ///< Text that identifies the origin of the data.
+  RefractiveIndex index;
+};
+
+/// No wavelength range is required of an index table: RefractiveIndex extrapolates n and reports the range of
+/// its data.
+inline constexpr NeededRange kAnyWavelength{kMaxWavelengthNm, kMinWavelengthNm};
 
 /// The data folder of transparent materials.
 inline constexpr const char* kGlassFolder = "glass";
@@ -50,5 +64,18 @@ class Catalogue {
 /// with an error in `diagnostics`, if the file cannot be read.
 [[nodiscard]] const Catalogue* dielectrics(Diagnostics& diagnostics);
 [[nodiscard]] const Catalogue* makers(Diagnostics& diagnostics);
+
+/// Reads a file of the refractiveindex.info database (`.yml`). [Polyanskiy2024]
+/// - DATA has one block that gives n ("formula 1" to "formula 9", "tabulated n", "tabulated nk") and
+///   optionally one that gives k ("tabulated nk", "tabulated k"). Outside its table k has the value at the
+///   nearer end.
+/// - REFERENCES and COMMENTS become the source.
+/// - `n_is_absolute` and `wavelength_is_vacuum` in SPECS, CONDITIONS or PROPERTIES are true for an index
+///   relative to vacuum and for wavelengths in vacuum; air is the default. Earlier editions spell them
+///   `n_absolute` and `wavelength_vacuum`.
+/// Anything missing, malformed, out of order, misplaced or contradictory is reported as an input error with
+/// its position; the result is then empty.
+[[nodiscard]] std::optional<NamedIndex> read_refractiveindex_info(const std::filesystem::path& path,
+                                                                  Diagnostics& diagnostics);
 
 }  // namespace abbe

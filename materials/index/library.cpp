@@ -8,7 +8,6 @@
 #include "io/table.h"
 #include "io/text.h"
 #include "materials/index/catalogue.h"
-#include "materials/index/refractiveindex_info.h"
 #include "spectral/library.h"
 
 namespace abbe {

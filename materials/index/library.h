@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/diagnostics.h"
-#include "materials/index/named_index.h"
+#include "materials/index/catalogue.h"
 
 namespace abbe {
 

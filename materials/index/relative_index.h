@@ -1,6 +1,9 @@
 #pragma once
 
+#include <ImathVec.h>
+
 #include "materials/index/refractive_index.h"
+#include "spectral/sampled_spectrum.h"
 
 namespace abbe {
 
@@ -23,5 +26,13 @@ struct RelativeIndex {
   const SampledSpectrum relative = n / n_outside;
   return {relative, k / n_outside, !(relative - SampledSpectrum(relative[0])).is_zero()};
 }
+
+/// Surface position and wavelengths at which to evaluate scattering. It refers to the wavelengths, which must
+/// outlive it.
+struct SurfaceLookup {
+  const SampledSpectrum& wavelengths_nm;  ///< Wavelengths in standard air [nm].
+  Imath::V2f uv{0, 0};  ///< Surface coordinates (u, v); read only if the material `needs_coordinates`.
+  const RefractiveIndex* outside = nullptr;  ///< Index outside the surface; nullptr is air.
+};
 
 }  // namespace abbe

@@ -4,7 +4,7 @@
 #include <span>
 
 #include "materials/index/relative_index.h"
-#include "materials/interface/fresnel_mueller.h"
+#include "materials/interface/mueller.h"
 
 namespace abbe {
 namespace {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "io/json_values.h"
 #include "materials/index/refractive_index.h"
 #include "materials/interface/fresnel.h"
 #include "materials/interface/mueller.h"
@@ -72,5 +73,8 @@ class CoatingAt {
   std::array<SampledSpectrum, Coating::kMaxMaterials> n_;
   std::array<SampledSpectrum, Coating::kMaxMaterials> k_;
 };
+
+/// Allowed thickness of a thin film: above 0 and at most 1e5 nm. Thicker layers are not coherent.
+inline constexpr Range kFilmThickness{0, 1e5, true, false, "nm"};
 
 }  // namespace abbe

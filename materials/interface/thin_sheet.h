@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "materials/interface/fresnel_mueller.h"
+#include "materials/interface/mueller.h"
 
 namespace abbe {
 

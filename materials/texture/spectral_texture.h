@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "materials/bsdf/lookup.h"
+#include "materials/index/relative_index.h"
 #include "materials/texture/texture_image.h"
 #include "spectral/curve.h"
 

@@ -7,6 +7,7 @@
 #include "io/error.h"
 
 namespace abbe {
+
 namespace {
 
 /// Two neighbouring texels along an axis, and the weight of the second.
@@ -65,6 +66,16 @@ TextureImage::Blend TextureImage::blend_at(const Imath::V2d& at) const {
   return {
       {above + column.index[0], above + column.index[1], under + column.index[0], under + column.index[1]},
       {(1 - right) * (1 - below), right * (1 - below), (1 - right) * below, right * below}};
+}
+
+Imath::V3d NormalMap::normal(const Imath::V2f& uv) const {
+  const TextureImage::Blend blend = image.blend(uv);
+  const Imath::V3f code(image.value(blend, 0), image.value(blend, 1), image.value(blend, 2));
+  return (Imath::V3d(code) * 2 - Imath::V3d(1)).normalized();
+}
+
+Imath::V2d BumpMap::slope(const Imath::V2f& uv) const {
+  return image.gradient(uv, 0) * height_m;
 }
 
 }  // namespace abbe

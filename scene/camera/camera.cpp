@@ -1,6 +1,11 @@
 #include "scene/camera/camera.h"
 
-#include "scene/camera/camera_rays.h"
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+
+#include "scene/camera/perspective.h"
 
 namespace abbe {
 namespace {
@@ -39,6 +44,61 @@ Imath::V3f probe_ray_origin(const Camera& probe, const Ray& ray) {
   const Imath::V3f at_rest = probe_normal(probe, ray_in_rest_frame(probe, ray).origin);
   const Imath::V3f normal(direction_at(probe, Imath::V3d(at_rest), ray.time));
   return offset_point(ray.origin, normal, normal);
+}
+
+// Twice the mean squared radius of an opening in the unit circle, which is 1 for the disc. The squared radius
+// of an iris point is proportional to that of its disc point, so that the rim suffices.
+double mean_square(const std::optional<lens::Iris>& iris) {
+  if (!iris) return 1;
+  constexpr int kAngles = 7200;
+  double sum = 0;
+  for (int i = 0; i < kAngles; ++i) {
+    const double angle = 2 * std::numbers::pi * (i + 0.5) / kAngles;
+    sum += iris->point({std::cos(angle), std::sin(angle)}).length2();
+  }
+  return sum / kAngles;
+}
+
+// Mean of cos^4 = 1/(1 + t^2)^2 over the tangents t in a disc of radius k about the tangent u. It is the
+// projected solid angle of a disc seen from an element of a parallel plane, divided by the disc's area:
+//     2/(B (A + B)),  A = 1 + u^2 - k^2,  B^2 = A^2 + 4 k^2.
+double mean_cos4(double u, double k) {
+  const double a = 1 + u * u - k * k;
+  const double b = std::hypot(a, 2 * k);
+  return 2 / (b * (a + b));
+}
+
+constexpr std::uint32_t kRays = 4096;
+constexpr std::size_t kGroups = 32;  // groups of rays with similar angles
+constexpr double kSameSine2 = 1e-9;  // smaller differences count as one angle
+constexpr float kReferenceNm = 550;
+
+// Squared sine of a ray's angle of incidence, on which filter shifts depend, and its irradiance.
+struct WeightedAngle {
+  double sine2;
+  double weight;
+};
+
+// Point i of Hammersley's set of `kRays` points in the unit square: (i + 1/2)/kRays, and the radical inverse
+// of i in base 2 [Pharr2023, sec. 8.6].
+Imath::V2f hammersley(std::uint32_t i) {
+  float mirrored = 0.5F / kRays;
+  float digit = 0.5F;
+  for (std::uint32_t rest = i; rest > 0; rest /= 2, digit /= 2)
+    if (rest % 2 == 1) mirrored += digit;
+  return {(static_cast<float>(i) + 0.5F) / kRays, mirrored};
+}
+
+std::vector<WeightedAngle> angles_over_lens(const Camera& camera, Imath::V2f film) {
+  const Camera image_camera = without_ghosts(camera);
+  std::vector<WeightedAngle> angles;
+  for (std::uint32_t i = 0; i < kRays; ++i) {
+    const CameraRay ray = sample_ray(image_camera, film, hammersley(i), SampledSpectrum(kReferenceNm), 0, 0);
+    const auto weight = static_cast<double>(ray.weight[0]);
+    const auto cos_film = static_cast<double>(ray.cos_film);
+    if (weight > 0) angles.push_back({(1 - cos_film) * (1 + cos_film), weight});
+  }
+  return angles;
 }
 
 }  // namespace
@@ -192,6 +252,42 @@ double central_weight(const Camera& camera, Imath::V2f film) {
   constexpr float kReferenceNm = 550;
   return static_cast<double>(
       sample_ray(without_ghosts(camera), film, {0.5F, 0.5F}, SampledSpectrum(kReferenceNm), 0, 0).weight[0]);
+}
+
+double opening_tangent(const Camera& camera) {
+  const auto* lens = std::get_if<ThinLens>(&camera.kind);
+  if (lens == nullptr) return 0;
+  return lens->aperture_radius * std::sqrt(mean_square(lens->iris)) / lens->focus_distance;
+}
+
+double mean_weight(const Camera& camera, double opening_tangent, Imath::V2f film) {
+  const double central = central_weight(camera, film);
+  if (opening_tangent == 0) return central;
+  const double u = film_plane(camera.film(), film).length() / traits(camera).image_distance.value();
+  return central * mean_cos4(u, opening_tangent) / mean_cos4(u, 0);
+}
+
+std::vector<Incidence> incidence_angles(const Camera& camera, Imath::V2f film) {
+  std::vector<WeightedAngle> rays = angles_over_lens(camera, film);
+  if (rays.empty()) return {};
+  std::sort(rays.begin(), rays.end(),
+            [](const WeightedAngle& a, const WeightedAngle& b) { return a.sine2 < b.sine2; });
+  const bool is_single_angle = rays.back().sine2 - rays.front().sine2 < kSameSine2;
+  const std::size_t groups = is_single_angle ? 1 : std::min(kGroups, rays.size());
+  std::vector<Incidence> angles;
+  double total_weight = 0;
+  for (std::size_t group = 0; group < groups; ++group) {
+    double weight = 0;
+    double sine2 = 0;
+    for (std::size_t i = group * rays.size() / groups; i < (group + 1) * rays.size() / groups; ++i) {
+      weight += rays[i].weight;
+      sine2 += rays[i].weight * rays[i].sine2;
+    }
+    angles.push_back({std::sqrt(1 - sine2 / weight), weight});
+    total_weight += weight;
+  }
+  for (Incidence& angle : angles) angle.fraction /= total_weight;
+  return angles;
 }
 
 }  // namespace abbe

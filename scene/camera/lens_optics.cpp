@@ -5,7 +5,7 @@
 #include <numbers>
 #include <optional>
 
-#include "lens/clear_apertures.h"
+#include "lens/exit_pupil.h"
 #include "lens/paraxial.h"
 
 namespace abbe {

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
-#include "scene/camera/frame.h"
 #include "scene/camera/model.h"
 
 namespace abbe {

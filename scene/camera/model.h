@@ -3,14 +3,41 @@
 #include <concepts>
 #include <cstdint>
 #include <optional>
+#include <variant>
 
 #include <ImathVec.h>
 
-#include "scene/camera/opening.h"
+#include "lens/iris.h"
 #include "scene/shapes/ray.h"
+#include "scene/shapes/shape.h"
 #include "spectral/sampled_spectrum.h"
 
 namespace abbe {
+
+/// A planar opening in render coordinates [m]: the points center + a u + b v. A round one has a^2 + b^2 <= 1,
+/// otherwise |a|, |b| <= 1. With an iris, (a, b) must also lie inside its polygon.
+struct FlatOpening {
+  Imath::V3d center;
+  Imath::V3d u, v;    ///< Half extents; not parallel, and perpendicular to `normal`.
+  Imath::V3d normal;  ///< Unit vector towards the side from which light is received.
+  bool round;
+  std::optional<lens::Iris> iris = {};
+};
+
+/// One side of a sphere, which receives light.
+struct SphereSide {
+  Sphere sphere;
+  bool inwards = false;  ///< True if the sphere receives light from inside, false from outside.
+};
+
+/// A surface through which light enters a camera or on which it is received.
+using Opening = std::variant<FlatOpening, SphereSide>;
+
+/// Distance > 0 [m] along a light ray, which travels towards the opening, to its intersection with it from
+/// the receiving side. Nothing if it misses. The ray's `t_max` is ignored.
+[[nodiscard]] std::optional<double> crossing(const Opening& opening, const Ray& ray);
+/// Upper bound of the distance [m] of the opening's points from its center.
+[[nodiscard]] double opening_radius(const Opening& opening);
 
 /// The pixels of a film. Film positions are in pixels from the top left corner of the upright image: x to the
 /// right, y down.
@@ -162,6 +189,16 @@ concept CameraModel = requires(const Model& camera, Model& movable, const FilmGr
   { camera.center() } -> std::same_as<Imath::V3d>;
   /// Moves the camera by a vector [m].
   movable.translate(Imath::V3d());
+};
+
+/// Position [m] and orientation of a camera in render coordinates. `forward` is the unit viewing direction
+/// into the scene. `right` and `up` are unit vectors along the picture's right and up. The scene file's
+/// cameras have `up` = `right` x `forward`; the default values do not.
+struct CameraFrame {
+  Imath::V3d position{0, 0, 0};
+  Imath::V3d right{1, 0, 0};
+  Imath::V3d up{0, 1, 0};
+  Imath::V3d forward{0, 0, 1};
 };
 
 }  // namespace abbe

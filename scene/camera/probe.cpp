@@ -5,10 +5,8 @@
 #include <numbers>
 
 #include "materials/bsdf/warp.h"
-#include "scene/shapes/basis.h"
-#include "scene/shapes/disc.h"
-#include "scene/shapes/quad.h"
-#include "scene/shapes/sphere.h"
+#include "scene/shapes/basic.h"
+#include "scene/shapes/ray.h"
 
 namespace abbe {
 namespace {

@@ -7,8 +7,8 @@
 #include <ImathBox.h>
 #include <fmt/format.h>
 
-#include "sensor/film/recorded_crop.h"
-#include "sensor/film/recorded_mosaic.h"
+#include "sensor/film/crop.h"
+#include "sensor/film/recorded_attributes.h"
 
 namespace abbe {
 namespace {

@@ -2,8 +2,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <variant>
@@ -11,103 +9,61 @@
 
 #include <ImathVec.h>
 
-#include "scene/lights/environment_image.h"
-#include "scene/lights/polarisation.h"
-#include "scene/lights/spherical_rectangle.h"
-#include "scene/shapes/quad.h"
+#include "scene/lights/area_light.h"
+#include "scene/lights/infinite_light.h"
+#include "scene/lights/model.h"
+#include "scene/lights/photometric_light.h"
+#include "scene/lights/point_light.h"
+#include "scene/shapes/basic.h"
 #include "scene/shapes/ray.h"
 #include "scene/shapes/shape.h"
-#include "spectral/scaled_curve.h"
+#include "spectral/curve.h"
 
 namespace abbe {
 
-struct ShapeInstance;
-
-/// The point for which light is sampled. `side` is the unit normal of the side of a surface that receives the
-/// light, if it receives it from one side only.
-struct LightSampleContext {
-  Imath::V3f point{0, 0, 0};  ///< Render coordinates [m].
-  std::optional<Imath::V3f> side = {};
-  bool glossy = false;  ///< True if the BSDF has glossy lobes, which sample environment light better.
+/// The electric field oscillates along a unit axis of the scene, projected perpendicular to the propagation
+/// direction.
+struct LinearPolarisation {
+  Imath::V3f axis{0, 0, 1};
+};
+/// The electric field rotates: clockwise as seen by the receiver, who looks towards the source, if
+/// right-handed, otherwise counter-clockwise.
+struct CircularPolarisation {
+  bool right = true;
 };
 
-/// Density [1/sr] of directions uniform in a cone; `cap` is 1 - cos of its half angle, in (0, 2].
-[[nodiscard]] inline float cone_pdf(float cap) {
-  return 1 / (2 * std::numbers::pi_v<float> * cap);
-}
-
-/// An emitting quad, in the form that is used to sample points.
-struct EmittingQuad {
-  RenderedQuad quad;
-  std::optional<Rectangle> rectangle;  ///< Present if the quad has right angles.
+/// Polarisation of all light that a light emits.
+struct LightPolarisation {
+  float degree = 1;  ///< Degree of polarisation, in [0, 1].
+  std::variant<LinearPolarisation, CircularPolarisation> kind;
 };
 
-/// A surface that emits uniform radiance in all directions, from its outer side or from both sides.
-struct AreaLight {
-  std::uint32_t shape = 0;  ///< Index into `Scene::shapes`.
-  bool two_sided = false;
-  double area = 0;  ///< Area of one side [m^2]; 0 before `measure`.
-  /// Cumulative fraction of the area by triangle, ending in 1; empty except for meshes.
-  std::vector<float> triangle_cdf = {};
-  /// The quad, for lights that are quads. Other lights do not spend memory on it.
-  std::shared_ptr<const EmittingQuad> flat = nullptr;
-
-  /// Computes `area`, `triangle_cdf` and `flat` from the light's shape. Throws Error{internal} for a static
-  /// instance. `Scene::commit` calls it.
-  void measure(const Shape& of);
-};
-/// A point that emits equally in all directions.
-struct PointLight {
-  Imath::V3f position{0, 0, 0};                    ///< Render coordinates [m]; at time 0 if it moves.
-  std::shared_ptr<const Motion> motion = nullptr;  ///< Null if it does not move.
-};
-/// A point that emits equally within a cone around `axis`.
-struct SpotLight {
-  Imath::V3f position{0, 0, 0};  ///< Render coordinates [m]; at time 0 if it moves.
-  Imath::V3f axis{0, 0, 1};      ///< Unit propagation direction along the cone's axis; at time 0 if it moves.
-  float cap = 2;                 ///< 1 - cos of the half angle, in (0, 2]; precise for narrow cones.
-  std::shared_ptr<const Motion> motion = nullptr;  ///< Null if it does not move.
-
-  /// The axis at that time of the exposure.
-  [[nodiscard]] Imath::V3f axis_at(float time) const;
-  /// True if the unit propagation direction `wi`, away from the light, lies in the cone: |wi - axis|^2 <= 2
-  /// (1 - cos).
-  [[nodiscard]] bool illuminates(const Imath::V3f& wi, float time) const {
-    return (wi - (motion ? axis_at(time) : axis)).length2() <= 2 * cap;
-  }
-};
-/// Light from infinity: uniform radiance, or that of an image.
-struct EnvironmentLight {
-  std::shared_ptr<const EnvironmentImage> image = nullptr;
-
-  /// Density [1/sr] of the unit direction `wi`, from the point towards the light, as sampled for that point.
-  /// With an image it follows the image. Otherwise it is proportional to the cosine on the receiving side, or
-  /// uniform if there is no such side.
-  [[nodiscard]] float pdf(const LightSampleContext& context, const Imath::V3f& wi) const;
-};
-/// Parallel light from infinity. `towards` is the unit direction from the scene towards the source.
-struct DirectionalLight {
-  Imath::V3f towards{0, 0, 1};
-};
-/// A disc at infinity around the unit direction `towards`, with uniform radiance and visible to cameras.
-struct SunLight {
-  Imath::V3f towards{0, 0, 1};
-  float cap = 1;  ///< 1 - cos of its angular radius, in (0, 1].
-
-  /// True if the unit direction `wi` points to the disc.
-  [[nodiscard]] bool contains(const Imath::V3f& wi) const { return (wi - towards).length2() <= 2 * cap; }
-  /// Irradiance of a perpendicular surface divided by the radiance [sr]: pi sin^2 of the angular radius.
-  [[nodiscard]] double projected_solid_angle() const;
+/// Normalised Stokes vector (1, q, u, v), in the frame whose first axis is the unit vector `axis`,
+/// perpendicular to the propagation direction. q is 1 for full linear polarisation along `axis`, and v is 1
+/// for full right-handed circular polarisation. `docs/physics/conventions.md` defines the signs.
+struct PolarisationState {
+  Imath::V3f axis;
+  float q = 0;
+  float u = 0;
+  float v = 0;
 };
 
-/// A light: its kind with its position, and its emission spectrum. The emission is
+/// Polarisation state of light that propagates along the unit direction `travels`. Nothing if it is linear
+/// and its axis is parallel to that direction, where the state is undefined.
+[[nodiscard]] std::optional<PolarisationState> polarised(const LightPolarisation& of,
+                                                         const Imath::V3f& travels);
+
+/// A light: its model with its position, and its emission spectrum. The emission is
 /// - spectral radiance [W m^-2 sr^-1 nm^-1] for an area light, environment light or sun. For an environment
 ///   image it is the radiance of a texel (1, 1, 1);
-/// - spectral intensity [W sr^-1 nm^-1] for a point or spot light;
+/// - spectral intensity [W sr^-1 nm^-1] for a point or spot light, for a photometric one averaged over all
+///   directions;
 /// - spectral irradiance [W m^-2 nm^-1] of a perpendicular surface for a directional light.
 struct Light {
   std::string name;
-  std::variant<AreaLight, PointLight, SpotLight, EnvironmentLight, DirectionalLight, SunLight> kind;
+  std::variant<AreaLight, PointLight, SpotLight, EnvironmentLight, DirectionalLight, SunLight,
+               PhotometricLight>
+      kind;
   ScaledCurve emission;
   std::optional<LightPolarisation> polarisation = {};  ///< Nothing for unpolarised light.
 
@@ -117,84 +73,102 @@ struct Light {
     return (std::holds_alternative<Kinds>(kind) || ...);
   }
   /// True if it arrives from a single direction at every point, so that BSDF sampling cannot hit it.
-  [[nodiscard]] bool is_delta() const { return is<PointLight, SpotLight, DirectionalLight>(); }
+  [[nodiscard]] bool is_delta() const;
   [[nodiscard]] bool is_environment() const { return is<EnvironmentLight>(); }
   /// True if it has no position.
-  [[nodiscard]] bool at_infinity() const { return is<EnvironmentLight, DirectionalLight, SunLight>(); }
+  [[nodiscard]] bool at_infinity() const;
 };
 
-/// Position of a point or spot light, at time 0 if it moves; nullptr for other lights.
+/// Flags of the alternatives of `Light::kind`, in their order.
+template <typename Kinds>
+struct LightFlags;
+template <typename... Models>
+struct LightFlags<std::variant<Models...>> {
+  static_assert((LightModel<Models> && ...));
+  static constexpr std::array<bool, sizeof...(Models)> kIsDelta{Models::kIsDelta...};
+  static constexpr std::array<bool, sizeof...(Models)> kAtInfinity{Models::kAtInfinity...};
+};
+inline bool Light::is_delta() const {
+  return LightFlags<decltype(kind)>::kIsDelta[kind.index()];
+}
+inline bool Light::at_infinity() const {
+  return LightFlags<decltype(kind)>::kAtInfinity[kind.index()];
+}
+
+/// Position of a light at a point, at time 0 if it moves; nullptr for other lights.
 [[nodiscard]] const Imath::V3f* light_position(const Light& light);
-/// Position [m] of a light at that time, a fraction of the exposure.
-[[nodiscard]] Imath::V3f position_at(const PointLight& light, float time);
-[[nodiscard]] Imath::V3f position_at(const SpotLight& light, float time);
+/// Position [m] of a light at a point at that time, a fraction of the exposure; nothing for other lights.
+[[nodiscard]] std::optional<Imath::V3f> position_at(const Light& light, float time);
+/// Cone that contains all emission of a light at a point at that time; nothing if it has none.
+[[nodiscard]] std::optional<DirectionCone> cone_at(const Light& light, float time);
 /// Motion of a light, for an area light that of its shape in `shapes`; nullptr if it does not move.
-[[nodiscard]] const Motion* motion_of(const Light& light, const std::vector<ShapeInstance>& shapes);
+[[nodiscard]] const Motion* motion_of(const Light& light, const Shapes& shapes);
+/// World-space bounding box [m] of a light over its whole motion. The light must not be at infinity.
+[[nodiscard]] Imath::Box3d bounds_of(const Light& light, const Shapes& shapes);
+/// Bounds of a light whose emission has the magnitude `emission`, such as `Emissions::sensor_emissions`.
+[[nodiscard]] LightBounds light_bounds(const Light& light, const Shapes& shapes, double emission);
+/// Cone of the directions towards a directional light or sun; nothing for other lights.
+[[nodiscard]] std::optional<DirectionCone> beam_of(const Light& light);
+/// True if the unit direction `wi` points to a light at infinity that is not a delta light.
+[[nodiscard]] bool is_visible_along(const Light& light, const Imath::V3f& wi);
+/// Solid angle [sr] that a light without a shape subtends, the same from everywhere; 0 for delta lights.
+[[nodiscard]] double solid_angle(const Light& light);
 
 /// Emission at these wavelengths, in the unit of `Light`, of light that arrives from the unit direction `wi`,
-/// which points towards the light. Only an environment image depends on the direction. Visibility, the
-/// emitting side and the cone of a spot light are not tested.
+/// which points towards the light. Only an environment image depends on the direction. Visibility and
+/// `emission_factor` are left out.
 [[nodiscard]] SampledSpectrum emission_from(const Light& light, const Imath::V3f& wi,
                                             const SampledSpectrum& wavelengths_nm);
+/// Factor from the emission to that along the unit direction `wo`, away from the light, at that time. It is
+/// - for an area light the cosine with its outward `normal`, and 0 on the sides that do not emit;
+/// - for a spot light 1 within its cone and 0 outside;
+/// - for a photometric light its relative intensity;
+/// - for all others 1.
+[[nodiscard]] float emission_factor(const Light& light, const Imath::V3f& normal, const Imath::V3f& wo,
+                                    float time);
+/// True if the light emits from a surface point with outward `normal` in the direction `wo`, which points
+/// away from the surface. Always true for lights without a surface.
+[[nodiscard]] bool emits_towards(const Light& light, const Imath::V3f& normal, const Imath::V3f& wo);
 
 /// Polarisation state of the light's emission along the unit propagation direction `travels`. Nothing for
 /// unpolarised lights, and for a linearly polarised one along its own axis.
 [[nodiscard]] std::optional<PolarisationState> polarisation_of(const Light& light, const Imath::V3f& travels);
 
-/// A sampled direction towards a light. `factor` times `emission_from` is the incident radiance (area,
-/// environment, sun) or the irradiance of a perpendicular surface (point, spot, directional). Visibility is
-/// not tested.
-struct LightSample {
-  Imath::V3f wi;   ///< Unit direction from the point towards the light.
-  float distance;  ///< [m]; infinite for lights at infinity.
-  float factor;    ///< 1/distance^2 [1/m^2] for point and spot lights, otherwise 1.
-  float pdf;       ///< Density of `wi` [1/sr]; 1 for delta lights.
-  /// End of the shadow ray: the point of the light, offset from its surface. Undefined for lights at
-  /// infinity.
-  Imath::V3f end;
-  Imath::V3f normal{0, 0, 0};  ///< Outward unit normal of an area light there; zero for the others.
-};
-
 /// Samples a direction from a point towards the light at that time by `u` in [0, 1)^2. Nothing if the sampled
 /// point of the light cannot illuminate the point: it emits to the other side, or the point lies outside the
 /// cone of a spot light.
-/// - Spheres seen from outside are sampled by solid angle [Pharr2023, sec. 6.2.4], as are rectangles of large
-///   solid angle [Urena2013]. All other area lights are sampled by area.
-/// - An environment light is sampled by `EnvironmentLight::pdf`, a sun uniformly over its solid angle.
-[[nodiscard]] std::optional<LightSample> sample_light(const Light& light,
-                                                      const std::vector<ShapeInstance>& shapes,
+[[nodiscard]] std::optional<LightSample> sample_light(const Light& light, const Shapes& shapes,
                                                       const LightSampleContext& context, Imath::V2f u,
                                                       float time);
 
 /// Density [1/sr] with which `sample_light` samples the unit direction `wi` that hits the light at
 /// `hit_point` with outward unit normal `hit_normal`. For lights at infinity only `wi` has an effect. 0 for
 /// delta lights, and where the light does not emit towards the point.
-[[nodiscard]] float light_pdf(const Light& light, const std::vector<ShapeInstance>& shapes,
-                              const LightSampleContext& context, const Imath::V3f& wi,
-                              const Imath::V3f& hit_point, const Imath::V3f& hit_normal, float time);
+[[nodiscard]] float light_pdf(const Light& light, const Shapes& shapes, const LightSampleContext& context,
+                              const Imath::V3f& wi, const Imath::V3f& hit_point, const Imath::V3f& hit_normal,
+                              float time);
 
-/// True if the light emits from a surface point with outward `normal` in the direction `wo`, which points
-/// away from the surface. Always true for lights without a surface.
-[[nodiscard]] bool emits_towards(const Light& light, const Imath::V3f& normal, const Imath::V3f& wo);
-
-/// A starting point of photons: position and outward normal on an area light, or the position of a point or
-/// spot light with a zero normal.
-struct EmissionPoint {
-  Imath::V3f point;
-  Imath::V3f normal;
-  float pdf_area;  ///< Density by area [1/m^2]; 1 for point and spot lights.
-};
-/// Samples a starting point at that time, uniformly by area, by `u` in [0, 1)^2. Throws Error{internal} for a
-/// light at infinity.
-[[nodiscard]] EmissionPoint sample_emission_point(const Light& light,
-                                                  const std::vector<ShapeInstance>& shapes, Imath::V2f u,
+/// Samples a starting point of photons at that time, uniformly by area, by `u` in [0, 1)^2. Throws
+/// Error{internal} for a light at infinity.
+[[nodiscard]] EmissionPoint sample_emission_point(const Light& light, const Shapes& shapes, Imath::V2f u,
                                                   float time);
 /// Random numbers for `sample_emission_point`, or fractions for `probe_point`, that represent a whole light
 /// or probe. Those of its center come first.
 inline constexpr std::array<std::array<float, 2>, 5> kRepresentativePoints{
     {{0.5F, 0.5F}, {0.05F, 0.05F}, {0.95F, 0.05F}, {0.05F, 0.95F}, {0.95F, 0.95F}}};
 
-/// Factor from the mean emission of a light to its power: [m^2 sr], [sr] for point and spot lights, [m^2] for
+/// Density of emission in the unit propagation direction `wo`, away from the light, at that time, a fraction
+/// of the exposure. For area lights `normal` is the outward unit normal at the point; other lights do not use
+/// it. Lights at infinity emit as `sample_light` samples them without a receiving side; only they use
+/// `scene_radius_m` [m].
+[[nodiscard]] EmissionDensity emission_density(const Light& light, const Imath::V3f& normal,
+                                               const Imath::V3f& wo, float scene_radius_m, float time);
+/// Samples a unit propagation direction with that density by `u` in [0, 1)^2, for lights with a position.
+/// Throws Error{internal} for lights at infinity.
+[[nodiscard]] Imath::V3f emission_direction(const Light& light, const Imath::V3f& normal, Imath::V2f u,
+                                            float time);
+
+/// Factor from the mean emission of a light to its power: [m^2 sr], [sr] for lights at a point, [m^2] for
 /// directional ones. Two-sided lights count both sides. For lights at infinity it counts the power through
 /// the sphere of radius `scene_radius_m` [m].
 [[nodiscard]] double etendue(const Light& light, double scene_radius_m);
@@ -205,5 +179,13 @@ inline constexpr std::array<std::array<float, 2>, 5> kRepresentativePoints{
 [[nodiscard]] Curve power(const Light& light, double scene_radius_m);
 /// Memory in bytes of the light and all its data except the emission, which other lights may share.
 [[nodiscard]] std::size_t memory_bytes(const Light& light);
+
+/// Central ray of a light without a shape at time 0, for drawings: infinite, with a unit direction away from
+/// the light. Light at infinity starts 1.5 times the sphere's radius before its center. A point light's ray
+/// points to that center, or along +x if it is there. Nothing for an environment light and for area lights.
+[[nodiscard]] std::optional<BasicRay<double>> central_ray(const Light& light, const SceneSphere& sphere);
+/// Half the angle [rad] of the rays around the central ray that a drawing shows: pi for a point light, the
+/// half angle of a spot light, 60 degrees for an area light.
+[[nodiscard]] double fan_of(const Light& light);
 
 }  // namespace abbe

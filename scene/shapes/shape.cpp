@@ -1,17 +1,8 @@
 #include "scene/shapes/shape.h"
 
-#include <algorithm>
 #include <cmath>
-#include <concepts>
-#include <cstdint>
-#include <utility>
 
 #include "io/error.h"
-#include "scene/shapes/disc.h"
-#include "scene/shapes/mesh.h"
-#include "scene/shapes/placed.h"
-#include "scene/shapes/quad.h"
-#include "scene/shapes/sphere.h"
 
 namespace abbe {
 namespace {
@@ -24,9 +15,31 @@ namespace {
 SurfacePoint sample_shape(const Mesh& mesh, const std::vector<float>& triangle_cdf, Imath::V2f u) {
   return sample_area(mesh, triangle_cdf, u);
 }
+SurfacePoint sample_shape(const PlacedShape& /*placed*/, const std::vector<float>& /*triangle_cdf*/,
+                          Imath::V2f /*u*/) {
+  throw_cannot_emit();
+}
 template <typename S>
 SurfacePoint sample_shape(const S& shape, const std::vector<float>& /*triangle_cdf*/, Imath::V2f u) {
   return sample_area(shape, u);
+}
+
+// The placement of an instance at that time.
+const Placement& current_placement(const PlacedShape& placed, float time, std::optional<Placement>& moved) {
+  if (!placed.at->motion) return *placed.at;
+  return moved.emplace(placement_at(*placed.at, static_cast<double>(time)));
+}
+
+SurfaceCoordinates coordinates_on(const PlacedShape& placed, const Placement& now, const Imath::V3d& point,
+                                  std::size_t triangle) {
+  const Imath::V3d inside = point * now.to_prototype;
+  SurfaceCoordinates at = std::visit(
+      [&](const auto& shape) { return coordinates_on(shape, inside, triangle); }, placed.of->shape);
+  for (Imath::V3d* tangent : {&at.dp_du, &at.dp_dv}) {
+    const Imath::V3d moved = *tangent;
+    now.to_world.multDirMatrix(moved, *tangent);
+  }
+  return at;
 }
 
 }  // namespace
@@ -36,28 +49,6 @@ static double area(const PlacedShape& placed) {
   if (!placed.at->motion) throw_cannot_emit();
   return std::visit([](const auto& s) { return area(s); }, placed.of->shape);
 }
-static SurfacePoint sample_area(const PlacedShape& /*placed*/, Imath::V2f /*u*/) {
-  throw_cannot_emit();
-}
-
-template <typename S>
-concept SampledByArea = std::same_as<S, Mesh> || requires {
-  static_cast<SurfacePoint (*)(const S&, Imath::V2f)>(sample_area);
-};
-// Functions that each shape implements, with exactly these signatures. A plain call would not check them,
-// because a shape converts implicitly to the variant, whose function would be found instead.
-template <typename S>
-concept ShapeModel = SampledByArea<S> && requires {
-  static_cast<std::optional<ShapeHit<float>> (*)(const S&, const BasicRay<float>&, float)>(intersect);
-  static_cast<std::optional<ShapeHit<double>> (*)(const S&, const BasicRay<double>&, double)>(intersect);
-  static_cast<Imath::Box3d (*)(const S&)>(bounds);
-  static_cast<double (*)(const S&)>(area);
-};
-template <typename List>
-constexpr bool kAllShapeModels = false;
-template <typename... Shapes>
-constexpr bool kAllShapeModels<std::variant<Shapes...>> = (ShapeModel<Shapes> && ...);
-static_assert(kAllShapeModels<Shape>);
 
 template <typename T>
 std::optional<ShapeHit<T>> intersect(const Shape& shape, const BasicRay<T>& ray, T t_min) {
@@ -75,22 +66,10 @@ Imath::Box3d bounds(const Shape& shape) {
   return std::visit([](const auto& s) { return bounds(s); }, shape);
 }
 
+// An instance is tested by its bounding box alone.
 bool may_intersect(const Shape& shape, const Imath::Box3d& box) {
   if (!bounds(shape).intersects(box)) return false;
-  if (const auto* sphere = std::get_if<Sphere>(&shape)) {
-    Imath::V3d furthest;  // corner relative to the center
-    for (int k = 0; k < 3; ++k)
-      furthest[k] =
-          std::max(std::abs(box.min[k] - sphere->center[k]), std::abs(box.max[k] - sphere->center[k]));
-    return furthest.length() >= sphere->radius;
-  }
-  const auto* mesh = std::get_if<Mesh>(&shape);
-  return mesh == nullptr ||
-         std::any_of(mesh->triangles.begin(), mesh->triangles.end(), [&](const auto& corners) {
-           Imath::Box3d around;
-           for (const std::uint32_t corner : corners) around.extendBy(mesh->vertices[corner]);
-           return around.intersects(box);
-         });
+  return std::visit([&](const auto& s) { return may_intersect(s, box); }, shape);
 }
 
 double area(const Shape& shape) {
@@ -102,6 +81,61 @@ SurfacePoint sample_area(const Shape& shape, const std::vector<float>& triangle_
   if (placed != nullptr && placed->at->motion)
     return std::visit([&](const auto& s) { return sample_shape(s, triangle_cdf, u); }, placed->of->shape);
   return std::visit([&](const auto& s) { return sample_shape(s, triangle_cdf, u); }, shape);
+}
+
+std::vector<float> triangle_cdf(const Shape& shape) {
+  const auto* mesh = plain<Mesh>(shape);
+  return mesh != nullptr ? triangle_cdf(*mesh) : std::vector<float>();
+}
+
+OuterSide outer_side(const Shape& shape) {
+  if (std::holds_alternative<PlacedShape>(shape)) return {area(shape), std::nullopt};
+  return visit_plain([](const auto& s) { return outer_side(s); }, shape);
+}
+
+Imath::V3d triangle_normal(const PlainShape& shape, std::size_t triangle) {
+  if (const auto* mesh = std::get_if<Mesh>(&shape)) return normal_at(*mesh, triangle);
+  return normal_at(std::get<Quad>(shape), triangle);
+}
+
+Outline outline(const Shape& shape, const DrawingPlane& plane) {
+  const auto* placed = std::get_if<PlacedShape>(&shape);
+  const Imath::M44d to_world = placed != nullptr ? placed->at->to_world : Imath::M44d();
+  return visit_plain([&](const auto& s) { return outline(s, to_world, plane); }, shape);
+}
+
+std::optional<Imath::V3d> interpolated_normal(const Shape& shape, const Imath::V3d& point,
+                                              std::size_t triangle, const Imath::V3d& geometric, float time) {
+  const auto* mesh = plain<Mesh>(shape);
+  if (mesh == nullptr || mesh->normals.empty()) return std::nullopt;
+  const auto* placed = std::get_if<PlacedShape>(&shape);
+  std::optional<Placement> moved;
+  const Placement* now = placed != nullptr ? &current_placement(*placed, time, moved) : nullptr;
+  const auto& [a, b, c] = mesh->triangles[triangle];
+  const Imath::V3d& origin = mesh->vertices[a];
+  const PlaneCoordinates weights((now ? point * now->to_prototype : point) - origin,
+                                 mesh->vertices[b] - origin, mesh->vertices[c] - origin);
+  const auto& [at_a, at_b, at_c] = mesh->normals[triangle];
+  Imath::V3d normal = Imath::V3d(at_a) * (1 - weights.first - weights.second) +
+                      Imath::V3d(at_b) * weights.first + Imath::V3d(at_c) * weights.second;
+  if (now) normal = normal_to_world(*now, normal);
+  normal.normalize();
+  const double side = normal.dot(geometric);
+  if (side == 0) return geometric;  // the interpolated normals cancel
+  return side < 0 ? -normal : normal;
+}
+
+SurfaceCoordinates coordinates(const Shape& shape, const Imath::V3d& point, std::size_t triangle,
+                               float time) {
+  const auto on = [&](const auto& s) {
+    if constexpr (std::is_same_v<std::decay_t<decltype(s)>, PlacedShape>) {
+      std::optional<Placement> moved;
+      return coordinates_on(s, current_placement(s, time, moved), point, triangle);
+    } else {
+      return coordinates_on(s, point, triangle);
+    }
+  };
+  return std::visit(on, shape);
 }
 
 }  // namespace abbe

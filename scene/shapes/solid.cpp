@@ -2,21 +2,113 @@
 #include "scene/shapes/solid.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <numeric>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
-#include "scene/shapes/edges.h"
 #include "scene/shapes/mesh.h"
 
 namespace abbe {
 namespace {
+
+/// A triangle at one of its edges. A vertex is identified by the index of the first vertex at its position.
+struct EdgeSide {
+  std::uint32_t high;      ///< End of the edge with the higher index.
+  std::uint32_t opposite;  ///< Third vertex of the triangle.
+  std::uint32_t triangle;  ///< Index into `Mesh::triangles`, or that size plus an index into `Mesh::slivers`.
+  bool forward;            ///< True if the triangle's winding runs from the lower end to the higher.
+};
+
+/// The edges of a mesh's triangles. Slivers join edges too; their indices follow those of the triangles. A
+/// triangle with two corners at one position has no edges. The mesh need not outlive it.
+class EdgeTable {
+ public:
+  explicit EdgeTable(const Mesh& mesh);
+
+  /// Calls `visit` once for each edge with a span of its sides, at least one. Sides with the same third
+  /// vertex are adjacent.
+  template <typename Visit>
+  void for_each(Visit&& visit) const {
+    for (std::size_t low = 0; low + 1 < first_.size(); ++low)
+      for (std::size_t i = first_[low]; i < first_[low + 1];) {
+        std::size_t end = i + 1;
+        while (end < first_[low + 1] && sides_[end].high == sides_[i].high) ++end;
+        visit(std::span<const EdgeSide>(&sides_[i], end - i));
+        i = end;
+      }
+  }
+
+ private:
+  std::vector<std::size_t>
+      // first side of each edge by its lower end, and an end marker
+      first_;
+  std::vector<EdgeSide> sides_;
+};
+
+using Corners = std::array<std::uint32_t, 3>;
+
+std::size_t hash(const Imath::V3d& v) {
+  std::uint64_t mixed = 0;
+  for (const double x : {v.x, v.y, v.z}) {
+    mixed = (mixed ^ std::bit_cast<std::uint64_t>(x + 0.0)) * 0x9E3779B97F4A7C15U;  // maps -0 to 0
+    mixed ^= mixed >> 32;
+  }
+  return mixed;
+}
+
+// Returns for each vertex the index of the first one at the same position.
+std::vector<std::uint32_t> welded(const std::vector<Imath::V3d>& vertices) {
+  constexpr std::uint32_t kFree = std::numeric_limits<std::uint32_t>::max();
+  std::vector<std::uint32_t> table(std::bit_ceil(2 * vertices.size() + 1), kFree);
+  std::vector<std::uint32_t> first(vertices.size());
+  for (std::uint32_t i = 0; i < vertices.size(); ++i) {
+    std::size_t at = hash(vertices[i]) & (table.size() - 1);
+    while (table[at] != kFree && vertices[table[at]] != vertices[i]) at = (at + 1) & (table.size() - 1);
+    if (table[at] == kFree) table[at] = i;
+    first[i] = table[at];
+  }
+  return first;
+}
+
+template <typename Visit>
+void for_each_side(const Mesh& mesh, const std::vector<std::uint32_t>& first, Visit&& visit) {
+  std::uint32_t triangle = 0;
+  for (const auto* list : {&mesh.triangles, &mesh.slivers})
+    for (const Corners& corners : *list) {
+      const Corners at{first[corners[0]], first[corners[1]], first[corners[2]]};
+      const bool joins = at[0] != at[1] && at[1] != at[2] && at[2] != at[0];
+      for (std::size_t i = 0; joins && i < 3; ++i) {
+        const std::uint32_t from = at[i];
+        const std::uint32_t to = at[(i + 1) % 3];
+        visit(std::min(from, to), EdgeSide{std::max(from, to), at[(i + 2) % 3], triangle, from < to});
+      }
+      ++triangle;
+    }
+}
+
+EdgeTable::EdgeTable(const Mesh& mesh) : first_(mesh.vertices.size() + 1, 0) {
+  const std::vector<std::uint32_t> first = welded(mesh.vertices);
+  for_each_side(mesh, first, [&](std::uint32_t low, const EdgeSide&) { ++first_[low]; });
+  std::size_t total = 0;
+  for (std::size_t& end : first_) end = total += end;
+  sides_.resize(total);
+  for_each_side(mesh, first, [&](std::uint32_t low, const EdgeSide& side) { sides_[--first_[low]] = side; });
+  for (std::size_t low = 0; low + 1 < first_.size(); ++low)
+    std::sort(&sides_[0] + first_[low], &sides_[0] + first_[low + 1],
+              [](const EdgeSide& a, const EdgeSide& b) {
+                return std::tie(a.high, a.opposite, a.triangle) < std::tie(b.high, b.opposite, b.triangle);
+              });
+}
 
 /// Union-find over triangles. Each triangle winds with or against the first triangle of its set.
 class Windings {
@@ -322,16 +414,6 @@ SolidReport make_solid(Mesh& mesh) {
   return report;
 }
 
-bool has_duplicate_triangles(const Mesh& mesh) {
-  bool doubled = false;
-  EdgeTable(mesh).for_each([&](std::span<const EdgeSide> sides) {
-    for (std::size_t i = 1; i < sides.size(); ++i)
-      doubled = doubled || (sides[i].opposite == sides[i - 1].opposite &&
-                            std::max(sides[i].triangle, sides[i - 1].triangle) < mesh.triangles.size());
-  });
-  return doubled;
-}
-
 double enclosed_volume(const Mesh& mesh) {
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size() + mesh.slivers.size());
   double largest = 0;
@@ -340,10 +422,6 @@ double enclosed_volume(const Mesh& mesh) {
     largest = std::max(largest, std::abs(component.volume));
   }
   return largest;
-}
-
-double enclosed_volume(const Sphere& sphere) {
-  return 4 * std::numbers::pi / 3 * sphere.radius * sphere.radius * sphere.radius;
 }
 
 }  // namespace abbe

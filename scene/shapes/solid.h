@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-#include "scene/shapes/shape.h"
+#include "scene/shapes/mesh.h"
 
 namespace abbe {
 
@@ -35,23 +35,5 @@ struct SolidReport {
 /// outward. A component inside the medium enclosed by others may face inward and bound a cavity. Components
 /// inside a flipped component are flipped with it.
 [[nodiscard]] SolidReport make_solid(Mesh& mesh);
-
-/// True if two triangles of a mesh have the same corners, whatever their windings. Vertices at the same
-/// position count as one.
-[[nodiscard]] bool has_duplicate_triangles(const Mesh& mesh);
-
-/// Volume [m^3] that a shape encloses: for a mesh that of its largest closed component, cavities included. 0
-/// if it encloses nothing. A shape inside another one has a smaller volume, unless the outer shape has
-/// further components.
-[[nodiscard]] double enclosed_volume(const Mesh& mesh);
-[[nodiscard]] double enclosed_volume(const Sphere& sphere);
-/// Always 0.
-[[nodiscard]] inline double enclosed_volume(const Disc&) {
-  return 0;
-}
-/// Always 0.
-[[nodiscard]] inline double enclosed_volume(const Quad&) {
-  return 0;
-}
 
 }  // namespace abbe

@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "io/image.h"
+
 namespace abbe {
 
 /// Rectangle of pixels of a film: x0 <= x < x1, y0 <= y < y1, from the top left corner.
@@ -35,5 +37,16 @@ inline constexpr const char* kAreasKey = "areas";
 [[nodiscard]] std::optional<Crop> parse_crop(std::string_view text);
 /// Text of several rectangles, separated by spaces.
 [[nodiscard]] std::string to_text(const std::vector<Crop>& areas);
+
+/// Crop that a film or a file developed from it records; nothing if it has all pixels, or if the record is
+/// malformed or exceeds the image.
+[[nodiscard]] std::optional<Crop> recorded_crop(const Image& film);
+
+/// Recorded pixels of a film as disjoint rectangles. A film merged from parts can have several; without a
+/// crop, one rectangle contains all pixels. A malformed `kAreasKey` counts as absent.
+[[nodiscard]] std::vector<Crop> recorded_areas(const Image& film);
+
+/// Indices y width + x of the recorded pixels, area by area and row by row.
+[[nodiscard]] std::vector<std::size_t> recorded_pixels(const Image& film);
 
 }  // namespace abbe

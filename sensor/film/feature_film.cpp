@@ -9,7 +9,7 @@
 
 #include "io/error.h"
 #include "io/text.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 
 namespace abbe {
 namespace {

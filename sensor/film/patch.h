@@ -11,10 +11,19 @@
 
 #include "io/image.h"
 #include "sensor/film/crop.h"
-#include "sensor/film/defective_pixels.h"
 #include "sensor/response/mosaic.h"
 
 namespace abbe {
+
+/// Largest fraction of black or saturated pixels that counts as defective. Hot, stuck and dead pixels occur
+/// at any light; a larger fraction is due to the light.
+inline constexpr double kMaxDefectiveFraction = 0.01;
+
+/// True if `at_end` black or saturated ones among `pixels` pixels are too many to be defective, so that the
+/// light causes them.
+[[nodiscard]] constexpr bool exceeds_defects(double at_end, double pixels) {
+  return at_end > kMaxDefectiveFraction * pixels;
+}
 
 /// Outline of a chart patch in an image: the corners of a convex quadrilateral in order of either sense, in
 /// pixels from the top left corner, x right and y down.
@@ -92,5 +101,11 @@ struct MeasuredPlanes {
 [[nodiscard]] std::vector<std::optional<double>> clipping_levels(const Image& image,
                                                                  const MeasuredPlanes& planes,
                                                                  std::span<const PatchValues> patches);
+
+/// Median of grouped data. `values` must not be empty. Equal values, such as codes, are spread evenly over a
+/// step that extends halfway to the neighbouring values. With a neighbour on one side only, the step is
+/// symmetric. The median of codes is therefore finer than one code, like their mean. A side with so few
+/// values that they may be defective (`exceeds_defects`) has no neighbour.
+[[nodiscard]] double grouped_median(std::vector<double> values);
 
 }  // namespace abbe

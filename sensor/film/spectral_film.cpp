@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "io/error.h"
-#include "sensor/film/variance_name.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/film/film_planes.h"
+#include "sensor/response/polarised_channels.h"
 #include "spectral/sources.h"
 
 namespace abbe {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "io/error.h"
-#include "sensor/film/recorded_crop.h"
+#include "sensor/film/crop.h"
 
 namespace abbe {
 namespace {

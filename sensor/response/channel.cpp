@@ -1,18 +1,50 @@
 #include "sensor/response/channel.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
 #include <utility>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "io/error.h"
+#include "io/json.h"
+#include "io/json_values.h"
 #include "io/table.h"
-#include "sensor/response/camera_json.h"
+#include "io/text.h"
 #include "sensor/response/table_range.h"
 #include "spectral/curve_use.h"
 #include "spectral/library.h"
 #include "spectral/sources.h"
 
 namespace abbe {
+
 namespace {
+// Largest value on the open interval (low, high), where the curve is linear between its knots.
+double largest_between(const Curve& curve, double low, double high) {
+  const auto knots = curve.knots();
+  const auto after = [](double nm, const Knot& knot) { return nm < knot.wavelength_nm; };
+  auto knot = std::upper_bound(knots.begin(), knots.end(), low, after);
+  double largest = curve(low);  // value to the right of a jump at low
+  for (; knot != knots.end() && knot->wavelength_nm < high; ++knot) largest = std::max(largest, knot->value);
+  return std::max(largest, curve(std::nextafter(high, low)));
+}
+
+// Applies a function to the values of a curve: exact at its knots and at every nanometre.
+template <typename Function>
+Curve of_each(const Curve& curve, Function function) {
+  std::vector<Knot> knots;
+  for (const Knot& knot : curve.knots()) {
+    if (!knots.empty())
+      for (double nm = std::floor(knots.back().wavelength_nm) + 1; nm < knot.wavelength_nm; ++nm)
+        knots.push_back({nm, curve(nm)});
+    knots.push_back(knot);
+  }
+  for (Knot& knot : knots) knot.value = function(knot.value);
+  return Curve(std::move(knots));
+}
 
 // Photons per joule: lambda/(hc).
 Curve photons_per_joule() {
@@ -68,7 +100,120 @@ ResponseKind photometric_kind(Observer observer) {
   return observer == Observer::cie1931 ? ResponseKind::photometric : ResponseKind::photometric_1964;
 }
 
+constexpr const char* kUnit = "relative";
+
+// Member at the end of a path of keys. Reports a missing key.
+const JsonValue* descend(const JsonValue& root, std::initializer_list<const char*> keys,
+                         Diagnostics& diagnostics) {
+  const JsonValue* value = &root;
+  for (const char* key : keys) {
+    const JsonValue* const inner = value->find(key);
+    if (inner == nullptr) {
+      diagnostics.error(value->where, fmt::format("missing key \"{}\"", key), ErrorCode::input);
+      return nullptr;
+    }
+    value = inner;
+  }
+  return value;
+}
+
+std::vector<std::string> channel_names(const JsonValue& main, Diagnostics& diagnostics) {
+  std::vector<std::string> names;
+  if (const auto* const list = std::get_if<JsonValue::Array>(&main.value))
+    for (const JsonValue& name : *list) names.push_back(read_string(name, diagnostics).value_or(""));
+  if (names.empty()) diagnostics.error(main.where, "expected the names of the channels", ErrorCode::input);
+  return names;
+}
+
+struct CameraSamples {
+  std::vector<double> wavelengths_nm;
+  std::vector<std::vector<double>> values;  // one list per channel
+};
+
+CameraSamples samples_of(const JsonValue& main, std::size_t channels, Diagnostics& diagnostics) {
+  CameraSamples samples{{}, std::vector<std::vector<double>>(channels)};
+  const auto* const rows = std::get_if<JsonValue::Object>(&main.value);
+  if (rows == nullptr || rows->size() < 2) {
+    diagnostics.error(main.where, "expected two wavelengths or more, each with its values", ErrorCode::input);
+    return samples;
+  }
+  for (const auto& [key, row] : *rows) {
+    const double nm = parse_number(key).value_or(0);
+    const double last = samples.wavelengths_nm.empty() ? 0 : samples.wavelengths_nm.back();
+    if (!(nm >= kMinWavelengthNm && nm <= kMaxWavelengthNm && nm > last))
+      diagnostics.error(row.key_position(),
+                        fmt::format("got wavelength {}, allowed ascending numbers of nm in [{}, {}]", key,
+                                    kMinWavelengthNm, kMaxWavelengthNm),
+                        ErrorCode::input);
+    samples.wavelengths_nm.push_back(nm);
+    const auto values = read_numbers(row, channels, Range::any(), diagnostics);
+    for (std::size_t k = 0; values && k < channels; ++k) samples.values[k].push_back((*values)[k]);
+  }
+  return samples;
+}
+
+// Transmittance at an angle of incidence: T(lambda / blue_shift).
+Curve shifted(const InterferenceFilter& filter, double cos_film) {
+  const double shift = blue_shift(cos_film, filter.effective_index);
+  std::vector<Knot> knots(filter.transmittance.knots().begin(), filter.transmittance.knots().end());
+  for (Knot& knot : knots) knot.wavelength_nm *= shift;
+  return Curve(std::move(knots));
+}
+
+// Transmittance of all filters at an angle of incidence.
+Curve shifted(const std::vector<InterferenceFilter>& filters, double cos_film) {
+  Curve all = shifted(filters.front(), cos_film);
+  for (std::size_t i = 1; i < filters.size(); ++i) all = product(all, shifted(filters[i], cos_film));
+  return all;
+}
+
+// Mean transmittance over the angles. Adds by recursive halving, so that few knots are copied often.
+Curve mean_transmittance(const std::vector<InterferenceFilter>& filters, std::span<const Incidence> angles) {
+  if (angles.size() == 1) return scaled(shifted(filters, angles.front().cos_film), angles.front().fraction);
+  const std::size_t half = angles.size() / 2;
+  return sum(mean_transmittance(filters, angles.first(half)),
+             mean_transmittance(filters, angles.subspan(half)));
+}
 }  // namespace
+
+Curve envelope(const InterferenceFilter& filter, double min_cosine) {
+  const double shift = blue_shift(min_cosine, filter.effective_index);
+  std::vector<double> edges;
+  for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm) edges.push_back(nm);
+  for (const Knot& knot : filter.transmittance.knots())
+    for (const double nm : {knot.wavelength_nm, knot.wavelength_nm * shift})
+      if (nm > kMinWavelengthNm && nm < kMaxWavelengthNm) edges.push_back(nm);
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+  std::vector<Knot> steps;
+  steps.reserve(2 * edges.size());
+  for (std::size_t i = 0; i + 1 < edges.size(); ++i) {
+    const double value = largest_between(filter.transmittance, edges[i], edges[i + 1] / shift);
+    steps.push_back({edges[i], value});
+    steps.push_back({edges[i + 1], value});
+  }
+  return Curve(std::move(steps));
+}
+
+StokesSpectrum row_of(const Analyser& analyser, const SampledSpectrum& wavelengths_nm) {
+  const SampledSpectrum contrast = analyser.contrast(wavelengths_nm);
+  return {SampledSpectrum(analyser.i), contrast * analyser.q, contrast * analyser.u, contrast * analyser.v};
+}
+
+Curve mean_transmittance(const Polariser& polariser) {
+  if (!polariser.extinction_ratio) return scaled(polariser.transmittance, 0.5);
+  return product(polariser.transmittance,
+                 of_each(*polariser.extinction_ratio, [](double ratio) { return (1 + 1 / ratio) / 2; }));
+}
+
+Analyser analyser_of(const Polariser& polariser) {
+  const double twice = polariser.angle_deg * std::numbers::pi / 90;
+  Analyser analyser{1, static_cast<float>(std::cos(twice)), static_cast<float>(std::sin(twice)), 0};
+  if (polariser.extinction_ratio)
+    analyser.contrast =
+        of_each(*polariser.extinction_ratio, [](double ratio) { return (ratio - 1) / (ratio + 1); });
+  return analyser;
+}
 
 Channel energy_channel(std::string name, Curve response) {
   return {std::move(name), ResponseKind::energy, std::move(response)};
@@ -170,6 +315,42 @@ std::optional<Observer> standard_observer(std::span<const Channel> channels) {
   for (const Observer observer : {Observer::cie1931, Observer::cie1964})
     if (std::ranges::count(channels, photometric_kind(observer), &Channel::kind) == 3) return observer;
   return std::nullopt;
+}
+
+std::optional<std::vector<NamedCurve>> read_camera_json(const std::filesystem::path& path,
+                                                        Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.all().size();
+  const auto source = read_text(path, diagnostics);
+  if (!source) return std::nullopt;
+  const std::optional<JsonValue> root = parse_json(source, diagnostics);
+  if (!root) return std::nullopt;
+  const JsonValue* const units = descend(*root, {"spectral_data", "units"}, diagnostics);
+  const JsonValue* const index = descend(*root, {"spectral_data", "index", "main"}, diagnostics);
+  const JsonValue* const data = descend(*root, {"spectral_data", "data", "main"}, diagnostics);
+  if (units == nullptr || index == nullptr || data == nullptr) return std::nullopt;
+  static_cast<void>(read_choice(*units, "unit", {kUnit}, diagnostics));
+  const std::vector<std::string> names = channel_names(*index, diagnostics);
+  const CameraSamples samples = samples_of(*data, names.size(), diagnostics);
+  if (diagnostics.all().size() != before) return std::nullopt;
+  const std::vector<double>& nm = samples.wavelengths_nm;
+  std::vector<NamedCurve> curves;
+  for (std::size_t k = 0; k < names.size(); ++k)
+    curves.push_back({names[k], path.string(), kUnit, nm.front(), nm.back(),
+                      table_curve(nm, samples.values[k], Outside::zero)});
+  return curves;
+}
+
+Channel averaged(Channel channel, std::span<const Incidence> angles) {
+  if (!channel.angular) return channel;
+  const FilterStack& filters = channel.angular->filters;
+  channel.weight = product(filters.fixed, mean_transmittance(filters.shifting, angles));
+  channel.angular.reset();
+  return channel;
+}
+
+bool any_angular(std::span<const Channel> channels) {
+  return std::any_of(channels.begin(), channels.end(),
+                     [](const Channel& c) { return c.angular.has_value(); });
 }
 
 }  // namespace abbe

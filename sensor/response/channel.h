@@ -1,18 +1,75 @@
 #pragma once
 
+#include <cmath>
+#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "io/diagnostics.h"
-#include "sensor/response/analyser.h"
-#include "sensor/response/filter.h"
 #include "spectral/colorimetry.h"
 #include "spectral/curve.h"
+#include "spectral/library.h"
 #include "spectral/sampled_spectrum.h"
+#include "spectral/stokes.h"
 
 namespace abbe {
+
+/// Scale of an interference filter's spectrum for light at an angle theta to its normal in air:
+/// lambda(theta)/lambda_0 = sqrt(1 - sin^2 theta / n_eff^2) [Smith2008, ch. 11]. `effective_index` >= 1 lies
+/// between the indices of its layers. The result is 1 along the normal and smaller at an angle.
+template <typename S>
+[[nodiscard]] S blue_shift(S cos_theta, S effective_index) {
+  const S sine2 = (1 - cos_theta) * (1 + cos_theta);
+  return std::sqrt(1 - sine2 / (effective_index * effective_index));
+}
+
+/// An interference filter. At an angle, its transmittance is that along the normal, shifted to shorter
+/// wavelengths.
+struct InterferenceFilter {
+  Curve transmittance;     ///< Along the normal, in [0, 1].
+  double effective_index;  ///< That of `blue_shift`, at least 1.
+};
+
+/// A stack of filters: the transmittance of those that do not depend on the angle, and the others.
+struct FilterStack {
+  /// Product of all factors that do not depend on the angle.
+  Curve fixed = Curve(1.0);
+  std::vector<InterferenceFilter> shifting = {};
+};
+
+/// Upper bound of the transmittance over all angles whose cosine is at least `min_cosine`, piecewise constant
+/// in steps of at most a nanometre. It is zero exactly where all these transmittances are zero.
+[[nodiscard]] Curve envelope(const InterferenceFilter& filter, double min_cosine);
+
+/// Response of a channel to polarised light relative to unpolarised light. A Stokes vector (I, Q, U, V) in
+/// the frame of the film counts i I + c (q Q + u U + v V), where c is the contrast. A channel without an
+/// analyser measures I.
+struct Analyser {
+  float i = 1;  ///< 0 for a channel of one signed component (`with_stokes`).
+  float q = 0;
+  float u = 0;
+  float v = 0;
+  Curve contrast = Curve(1.0);  ///< Polarisation contrast in [0, 1].
+};
+
+/// Weights (i, c q, c u, c v) of an analyser at several wavelengths [nm].
+[[nodiscard]] StokesSpectrum row_of(const Analyser& analyser, const SampledSpectrum& wavelengths_nm);
+
+/// A linear polariser in front of a film.
+struct Polariser {
+  double angle_deg = 0;  ///< Transmission axis in degrees, counterclockwise from the right of the picture.
+  Curve transmittance = Curve(1.0);  ///< Transmittance of light polarised along the axis, in [0, 1].
+  /// Ratio of that transmittance to the one across the axis, at least 1; infinite if absent.
+  std::optional<Curve> extinction_ratio = {};
+};
+
+/// Transmitted fraction of unpolarised light: half of the sum of both transmittances.
+[[nodiscard]] Curve mean_transmittance(const Polariser& polariser);
+/// Analyser of a polariser, relative to its mean transmittance: the first row of its Mueller matrix. The
+/// contrast is (r - 1)/(r + 1) for an extinction ratio r.
+[[nodiscard]] Analyser analyser_of(const Polariser& polariser);
 
 /// Quantity that a response multiplies: the incident energy, the incident photons, or the luminous exposure
 /// for the colour-matching functions of 1931. `photometric_1964` is the corresponding integral with those of
@@ -105,5 +162,30 @@ enum class ResponseScale { absolute, relative };
 /// Observer of three channels made by `observer_channels`, possibly behind filters. Nothing for other
 /// channels of the same names.
 [[nodiscard]] std::optional<Observer> standard_observer(std::span<const Channel> channels);
+
+/// Reads the spectral sensitivities of a camera from the JSON of rawtoaces and physlight. Curves are named by
+/// channel, in the order of the file. `spectral_data` contains the names of the channels in `index.main`. Its
+/// `data.main` maps wavelengths [nm] to one value per channel. The values are responses to energy and zero
+/// outside the table. Other members are ignored. Reports errors and returns nothing for
+/// - a file that cannot be read or parsed, or lacks one of these members;
+/// - units other than "relative";
+/// - fewer than two wavelengths, wavelengths out of order or outside [300, 1100] nm;
+/// - rows of another length, and values that are not numbers.
+[[nodiscard]] std::optional<std::vector<NamedCurve>> read_camera_json(const std::filesystem::path& path,
+                                                                      Diagnostics& diagnostics);
+
+/// An angle of incidence on the film, and the fraction of a pixel's irradiance that arrives under it.
+struct Incidence {
+  double cos_film;  ///< Cosine of the angle to the normal of the film, in (0, 1].
+  double fraction;  ///< In [0, 1].
+};
+
+/// Channel of a pixel that receives light under several angles: its weight is the mean over them and no
+/// longer depends on the angle. A channel that does not depend on it stays unchanged. `angles` must not be
+/// empty, and its fractions must add up to 1.
+[[nodiscard]] Channel averaged(Channel channel, std::span<const Incidence> angles);
+
+/// True if the weight of some channel depends on the angle of incidence.
+[[nodiscard]] bool any_angular(std::span<const Channel> channels);
 
 }  // namespace abbe

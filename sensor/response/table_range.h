@@ -6,7 +6,7 @@
 
 #include "io/diagnostics.h"
 #include "sensor/response/channel.h"
-#include "spectral/coverage.h"
+#include "spectral/library.h"
 
 namespace abbe {
 

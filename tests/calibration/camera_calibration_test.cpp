@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "calibration/calibration_case.h"
 #include "io/text.h"
 #include "spectral/sources.h"
 #include "tests/calibration/calibration_fixture.h"

@@ -1,4 +1,4 @@
-#include "calibration/output/camera_matrix.h"
+#include "calibration/output/display.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>

@@ -1,4 +1,4 @@
-#include "calibration/characterisation.h"
+#include "calibration/metrics/camera_quality.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "calibration/fit/correction_fit.h"
+#include "calibration/fit/correction.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 
 #include <random>
 
-#include "io/reference_table.h"
+#include "io/table.h"
 #include "spectral/colorimetry.h"
 
 namespace abbe {

@@ -12,9 +12,8 @@
 
 #include "calibration/chart/delta_e.h"
 #include "calibration/output/color_spaces.h"
-#include "calibration/output/gamut.h"
 #include "calibration/output/ocio.h"
-#include "sensor/film/recorded_crop.h"
+#include "sensor/film/crop.h"
 #include "spectral/rgb.h"
 #include "spectral/sources.h"
 #include "tests/calibration/calibration_fixture.h"

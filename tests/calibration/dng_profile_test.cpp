@@ -1,4 +1,4 @@
-#include "calibration/output/dng_profile.h"
+#include "calibration/output/camera_profile.h"
 
 #include <filesystem>
 #include <fstream>
@@ -7,8 +7,6 @@
 #include <unistd.h>
 
 #include "calibration/camera_calibration.h"
-#include "calibration/output/exif_light.h"
-#include "calibration/output/sensitivities.h"
 #include "tests/calibration/calibration_fixture.h"
 
 namespace abbe {

@@ -1,4 +1,4 @@
-#include "calibration/output/gamut.h"
+#include "calibration/output/color_spaces.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,6 @@
 #include <limits>
 #include <random>
 
-#include "calibration/output/color_spaces.h"
 #include "spectral/colorimetry.h"
 
 namespace abbe {

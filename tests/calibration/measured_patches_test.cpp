@@ -7,9 +7,9 @@
 #include <filesystem>
 #include <fstream>
 
+#include "calibration/camera_calibration.h"
 #include "calibration/chart/delta_e.h"
-#include "calibration/fit/balance.h"
-#include "calibration/fit/correction_fit.h"
+#include "calibration/fit/correction.h"
 #include "tests/calibration/calibration_fixture.h"
 
 namespace abbe {

@@ -4,10 +4,8 @@
 #include <gtest/gtest.h>
 
 #include "calibration/metrics/appearance.h"
-#include "calibration/metrics/camera_space.h"
+#include "calibration/metrics/camera_quality.h"
 #include "calibration/metrics/color_rendering.h"
-#include "calibration/metrics/itp.h"
-#include "calibration/metrics/metamerism.h"
 #include "spectral/color_temperature.h"
 #include "spectral/rgb.h"
 #include "spectral/sources.h"

@@ -1,4 +1,4 @@
-#include "calibration/fit/noise_weights.h"
+#include "calibration/fit/correction.h"
 
 #include <random>
 

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "calibration/chart/photographed_series.h"
+#include "calibration/chart/exposure_series.h"
 #include "io/exr.h"
 #include "tests/calibration/response_fixture.h"
 #include "tests/tier.h"

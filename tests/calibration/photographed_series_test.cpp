@@ -1,4 +1,4 @@
-#include "calibration/chart/photographed_series.h"
+#include "calibration/chart/exposure_series.h"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -6,9 +6,8 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include "calibration/chart/photographed_series.h"
+#include "calibration/chart/exposure_series.h"
 #include "calibration/chart/raw_scale.h"
-#include "calibration/chart/white_level.h"
 #include "io/picture.h"
 #include "io/raw_picture.h"
 #include "sensor/readout/readout.h"

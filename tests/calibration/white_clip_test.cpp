@@ -1,4 +1,4 @@
-#include "calibration/output/white_clip.h"
+#include "calibration/output/display.h"
 
 #include <gtest/gtest.h>
 

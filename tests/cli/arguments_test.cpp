@@ -12,8 +12,7 @@
 #include <CLI/CLI.hpp>
 
 #include "cli/commands.h"
-#include "cli/usage.h"
-#include "description/render_limits.h"
+#include "description/render.h"
 
 namespace abbe::cli {
 namespace {

@@ -6,9 +6,9 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "calibration/chart/chart_corners.h"
 #include "calibration/chart/measured_patches.h"
 #include "cli/calibrate.h"
+#include "develop/find_chart.h"
 #include "io/picture.h"
 #include "spectral/library.h"
 #include "tests/cli/json_output.h"

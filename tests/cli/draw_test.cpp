@@ -4,19 +4,18 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/draw.h"
 #include "cli/query.h"
-#include "cli/trace.h"
+#include "cli/rays.h"
 #include "description/load.h"
 #include "io/data_directory.h"
+#include "report/layout.h"
+#include "report/light_rays.h"
+#include "scene/shapes/shape.h"
 #include "tests/angles.h"
 #include "tests/cli/json_output.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
 #include "transport/path/ray_trace.h"
-#include "validation/layout/layout.h"
-#include "validation/layout/light_rays.h"
-#include "validation/layout/outline.h"
 
 namespace abbe::test {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "cli/trace.h"
+#include "cli/rays.h"
 #include "materials/interface/fresnel.h"
 #include "tests/angles.h"
 #include "tests/cli/json_output.h"

@@ -3,8 +3,8 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include "io/atomic_file.h"
 #include "io/exr.h"
-#include "io/file_lock.h"
 #include "io/part_file.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"

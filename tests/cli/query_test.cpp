@@ -9,7 +9,7 @@
 
 #include "cli/query.h"
 
-#include "io/reference_table.h"
+#include "io/table.h"
 #include "materials/interface/fresnel.h"
 #include "sampling/angle.h"
 #include "spectral/air.h"

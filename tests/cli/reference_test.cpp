@@ -1,4 +1,4 @@
-#include "cli/reference.h"
+#include "cli/help.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

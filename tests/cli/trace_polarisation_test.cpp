@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "cli/trace.h"
+#include "cli/rays.h"
 #include "materials/interface/fresnel.h"
 #include "sampling/angle.h"
 #include "tests/cli/json_output.h"

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "cli/query.h"
-#include "cli/trace.h"
+#include "cli/rays.h"
 #include "tests/angles.h"
 #include "tests/cli/json_output.h"
 #include "tests/cli/program.h"

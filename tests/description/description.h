@@ -61,6 +61,8 @@ class DescriptionTest : public ::testing::Test {
     write_exr(folder_ / "photo.exr", {1, 1, {{"R", {0.2F}}, {"G", {0.4F}}, {"B", {0.6F}}}, {}});
     write_exr(folder_ / "normals.exr", {1, 1, {{"R", {0.5F}}, {"G", {0.8F}}, {"B", {0.9F}}}, {}});
     write(folder_ / "lamp.csv", "# unit: W/(m2 sr nm)\n# outside: zero\nwavelength_nm,L\n400,1\n700,3\n");
+    write(folder_ / "downlight.ies",
+          "IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 2 1 1 2 0 0 0\n1 1 0\n0 90\n0\n300 0\n");
     write(folder_ / "filter.csv",
           "# unit: transmittance\n# outside: zero\nwavelength_nm,T\n500,0.2\n600,0.4\n");
   }

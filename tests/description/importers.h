@@ -12,8 +12,8 @@
 
 #include <fmt/format.h>
 
-#include "description/importers/importers.h"
 #include "description/scene.h"
+#include "importers/importers.h"
 #include "io/exr.h"
 #include "io/picture.h"
 #include "io/schema/read.h"

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "io/exr.h"
-#include "materials/interface/hemispherical.h"
+#include "materials/interface/fresnel.h"
 #include "mitsuba_scenes.h"
 
 namespace abbe {

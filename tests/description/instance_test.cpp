@@ -1,9 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "description.h"
-#include "scene/shapes/mesh.h"
-#include "scene/shapes/placed.h"
-#include "scene/shapes/quad.h"
+#include "scene/shapes/shape.h"
 #include "tests/scene/scenes.h"
 
 namespace abbe {

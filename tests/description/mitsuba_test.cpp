@@ -3,7 +3,7 @@
 
 #include "io/exr.h"
 #include "mitsuba_scenes.h"
-#include "scene/lights/environment_image.h"
+#include "scene/lights/infinite_light.h"
 
 namespace abbe {
 namespace {
@@ -74,12 +74,14 @@ TEST_F(MitsubaTest, Shapes) {
     EXPECT_GT(at(0).dot((at(1) - at(0)).cross(at(2) - at(0))), 0);
   }
   EXPECT_NEAR(volume, 8, 1e-12);
-  const auto tube = std::get<spec::InlineMesh>(
-      shape<spec::MeshBody>(
+  const auto tube =
+      shape<spec::SolidBody<spec::Cylinder>>(
           R"(<shape type="cylinder"><point name="p0" x="1"/><point name="p1" x="4"/><float name="radius" value="2"/></shape>)")
-          .surface.value);
-  for (const auto& v : tube.vertices) EXPECT_NEAR(std::hypot(v[1], v[2]), 2, 1e-12);
-  EXPECT_TRUE(tells("a cylinder is replaced by triangles")) << told_;
+          .surface;
+  EXPECT_EQ(tube.from, Imath::V3d(1, 0, 0));
+  EXPECT_EQ(tube.to, Imath::V3d(4, 0, 0));
+  EXPECT_EQ(tube.radius, 2);
+  EXPECT_FALSE(tube.caps);
   const auto file =
       shape<spec::MeshBody>(R"(<shape type="ply"><string name="filename" value="square.ply"/></shape>)");
   EXPECT_EQ(std::get<std::string>(file.surface.value), "square.ply");
@@ -237,6 +239,12 @@ TEST_F(MitsubaTest, FaultsHaveTheirPlace) {
        "a.xml:3:31: error: unknown reference \"b\""},
       {"number", whole("<shape type=\"sphere\"><float name=\"radius\" value=\"x\"/></shape>"),
        "a.xml:3:23: error: expected a number as \"value\" of <float> (got \"x\")"},
+      {"empty number", whole("<shape type=\"sphere\"><float name=\"radius\" value=\"\"/></shape>"),
+       "a.xml:3:23: error: expected a number as \"value\" of <float> (got \"\")"},
+      {"coordinate", whole("<shape type=\"sphere\"><point name=\"center\" x=\"1\" y=\"\"/></shape>"),
+       "a.xml:3:23: error: expected a number as \"y\" of <point> (got \"\")"},
+      {"vector", whole("<shape type=\"sphere\"><point name=\"center\" value=\"\"/></shape>"),
+       "a.xml:3:23: error: expected one number or three of <point> (got \"\")"},
       {"type", whole("<shape type=\"sphere\"><string name=\"radius\" value=\"1\"/></shape>"),
        "\"radius\" has a wrong type (got <string>, allowed float, integer)"},
       {"default", whole("<shape type=\"$what\"/>"),

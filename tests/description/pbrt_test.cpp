@@ -174,6 +174,11 @@ TEST_F(PbrtTest, DielectricsAndWhatIsWithin) {
       "1]\n"
       "MediumInterface \"fog\" \"\"\nMaterial \"interface\"");
   EXPECT_EQ(std::get<double>(fog.scattering.per_m.value().value), 1);
+  const auto glow = material<spec::Medium>(
+      "MakeNamedMedium \"glow\" \"string type\" \"homogeneous\" \"blackbody sigma_a\" 3000 \"float scale\" 2 "
+      "\"rgb sigma_s\" [1 1 1]\nMediumInterface \"glow\" \"\"\nMaterial \"interface\"");
+  const auto& formula = std::get<spec::CurveFormula>(glow.absorption_per_m.value().value).of;
+  EXPECT_EQ(std::get<spec::Scaled>(formula).scale, 2);
 }
 
 TEST_F(PbrtTest, OtherMaterials) {

@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include "description/meshes/gzip.h"
+#include "description/meshes/mesh_formats.h"
 #include "mesh_files.h"
 
 namespace abbe {

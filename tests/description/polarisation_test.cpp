@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "description.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 
 namespace abbe {
 namespace {

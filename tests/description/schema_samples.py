@@ -1,4 +1,4 @@
-"""Values drawn from a JSON schema as io/schema/json_schema.cpp writes it, and tests of each of its statements."""
+"""Values drawn from a JSON schema as io/schema/write.cpp writes it, and tests of each of its statements."""
 
 import itertools
 import math

@@ -11,11 +11,10 @@
 #include <fmt/format.h>
 
 #include "description.h"
+#include "description/load.h"
 #include "description/scene.h"
-#include "description/scene_schema.h"
 #include "io/data_directory.h"
-#include "io/schema/help.h"
-#include "io/schema/keys.h"
+#include "io/schema/documentation.h"
 #include "io/schema/read.h"
 #include "io/schema/write.h"
 #include "spectral/colorimetry.h"

@@ -4,7 +4,7 @@
 
 #include "description.h"
 #include "io/data_directory.h"
-#include "io/reference_table.h"
+#include "io/table.h"
 #include "spectral/library.h"
 #include "spectral/sources.h"
 

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "io/json.h"
-#include "io/reference_table.h"
+#include "io/table.h"
 
 namespace abbe {
 namespace {

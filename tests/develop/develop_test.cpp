@@ -13,7 +13,7 @@
 #include "films.h"
 #include "io/error.h"
 #include "io/exr.h"
-#include "sensor/film/recorded_white.h"
+#include "sensor/film/recorded_attributes.h"
 
 namespace abbe {
 namespace {

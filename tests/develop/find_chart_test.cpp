@@ -7,6 +7,7 @@
 #include <random>
 
 #include "calibration/chart/measured_patches.h"
+#include "develop/linear_image.h"
 #include "io/error.h"
 
 namespace abbe {

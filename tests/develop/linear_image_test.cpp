@@ -8,7 +8,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "calibration/chart/chart_corners.h"
+#include "develop/find_chart.h"
 #include "io/error.h"
 #include "io/exr.h"
 #include "io/picture.h"
@@ -72,6 +72,17 @@ TEST(LinearImage, AFlatTakesVignettingAway) {
                          "f.exr");
             }),
             "f.exr: the flat has no light at pixel 0,0 (got 0)");
+}
+
+TEST(LinearImage, AFlatThatIsRefusedLeavesTheImageUnchanged) {
+  LinearImage image = image_of(60, 40, falloff);
+  const std::vector<float> before = image.image.channels[0].values;
+  const LinearImage flat =
+      image_of(60, 40, [](int x, int y) { return x == 59 && y == 39 ? 0 : 0.5 + 0.01 * x; });
+  EXPECT_EQ(refusal([&] { flat_field(image, flat, "f.exr"); }),
+            "f.exr: the flat has no light at pixel 59,39 (got 0)");
+  EXPECT_EQ(image.image.channels[0].values, before);
+  EXPECT_TRUE(image.exposed.empty());
 }
 
 TEST(LinearImage, PatchesCountTheirOwnPixelsAndWhatIsSaturated) {

@@ -1,12 +1,12 @@
-#include "develop/polarisation_camera.h"
+#include "develop/polarisation.h"
 
 #include <gtest/gtest.h>
 
 #include <fmt/format.h>
 
-#include "sensor/film/stokes_film.h"
+#include "sensor/film/film_planes.h"
 #include "sensor/readout/demosaic.h"
-#include "sensor/response/polariser_group.h"
+#include "sensor/response/polarised_channels.h"
 
 namespace abbe {
 namespace {

@@ -5,7 +5,7 @@
 #include "io/error.h"
 #include "io/spectral_exr.h"
 #include "sensor/film/feature_film.h"
-#include "sensor/film/recorded_layers.h"
+#include "sensor/film/film_planes.h"
 
 namespace abbe {
 namespace {

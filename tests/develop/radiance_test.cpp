@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "io/error.h"
-#include "sensor/film/recorded_error.h"
-#include "sensor/film/variance_name.h"
+#include "sensor/film/film_planes.h"
+#include "sensor/film/recorded_attributes.h"
 
 namespace abbe {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "calibration/output/dng_profile.h"
+#include "calibration/output/camera_profile.h"
 #include "spectral/library.h"
 #include "spectral/rgb.h"
 #include "spectral/sources.h"

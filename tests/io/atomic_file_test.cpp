@@ -7,7 +7,6 @@
 #include <cstdlib>
 
 #include "io/error.h"
-#include "io/file_lock.h"
 #include "test_files.h"
 
 namespace abbe {

@@ -1,4 +1,4 @@
-#include "io/file_lock.h"
+#include "io/atomic_file.h"
 
 #include <sys/wait.h>
 #include <unistd.h>

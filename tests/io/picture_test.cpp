@@ -10,8 +10,7 @@
 
 #include "io/error.h"
 #include "io/exr.h"
-#include "io/extension.h"
-#include "io/orientation.h"
+#include "io/text.h"
 #include "test_files.h"
 
 namespace abbe {

@@ -7,7 +7,6 @@
 
 #include <gtest/gtest.h>
 
-#include "io/schema/json_schema.h"
 #include "io/schema/read.h"
 #include "io/schema/write.h"
 #include "test_files.h"

@@ -5,9 +5,9 @@
 #include <gtest/gtest.h>
 
 #include "lens/field.h"
-#include "lens/focus.h"
 #include "lens/paraxial.h"
 #include "lens/seidel.h"
+#include "lens/spot.h"
 #include "lenses.h"
 
 namespace abbe::lens {

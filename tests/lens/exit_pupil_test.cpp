@@ -7,7 +7,6 @@
 #include <random>
 
 #include "lens/beam.h"
-#include "lens/clear_apertures.h"
 #include "lens/exit_pupil.h"
 #include "lens/paraxial.h"
 #include "lenses.h"

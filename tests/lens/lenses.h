@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-#include "description/load_lens.h"
+#include "description/lens_files.h"
 #include "io/error.h"
 
 namespace abbe::test {

@@ -13,7 +13,7 @@
 #include "lens/spectral_system.h"
 #include "lenses.h"
 #include "materials/interface/fresnel.h"
-#include "materials/interface/fresnel_mueller.h"
+#include "materials/interface/mueller.h"
 #include "spectral/stokes.h"
 
 // Ghosts: light that surfaces of a lens reflect twice.

@@ -4,8 +4,8 @@
 #include <optional>
 #include <vector>
 
-#include "materials/bsdf/bsdf.h"
-#include "materials/interface/hemispherical.h"
+#include "materials/bsdf.h"
+#include "materials/interface/fresnel.h"
 #include "materials/material.h"
 
 namespace abbe {
@@ -154,8 +154,7 @@ inline std::vector<RoughConductorBsdf> examples() {
       {"brushed", RefractiveIndex(0.2, 3), facets_of(FacetShape::beckmann, 0.3F, 0.5F)},
       {"needle", RefractiveIndex(0.2, 3), facets_of(FacetShape::beckmann, 2e-3F, 5e-3F)}};
   std::vector<RoughConductorBsdf> models;
-  for (const RoughConductorMaterial& m : all)
-    models.push_back(std::get<RoughConductorBsdf>(m.bsdf({packet()})));
+  for (const RoughConductorMaterial& m : all) models.push_back(m.bsdf({packet()}));
   return models;
 }
 

@@ -1,4 +1,4 @@
-#include "materials/bsdf/bsdf.h"
+#include "materials/bsdf.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "materials/bsdf/bsdf.h"
+#include "materials/bsdf.h"
 #include "materials/interface/fresnel.h"
 #include "tests/materials/random_directions.h"
 

@@ -1,4 +1,4 @@
-#include "materials/medium/grid.h"
+#include "materials/medium/medium.h"
 
 #include <gtest/gtest.h>
 

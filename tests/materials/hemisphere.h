@@ -5,7 +5,7 @@
 
 #include <ImathVec.h>
 
-#include "materials/bsdf/bsdf.h"
+#include "materials/bsdf.h"
 #include "tests/materials/random_directions.h"
 
 namespace abbe {

@@ -12,8 +12,8 @@
 #include <variant>
 #include <vector>
 
-#include "materials/bsdf/polarisation.h"
-#include "materials/smooth_power.h"
+#include "materials/bsdf.h"
+#include "materials/material.h"
 #include "tests/materials/bsdf_examples.h"
 #include "tests/materials/mueller_rounding.h"
 #include "tests/materials/random_directions.h"

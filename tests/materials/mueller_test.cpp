@@ -9,9 +9,8 @@
 #include <numbers>
 #include <random>
 
-#include "materials/bsdf/polarisation.h"
+#include "materials/bsdf.h"
 #include "materials/interface/coating.h"
-#include "materials/interface/fresnel_mueller.h"
 #include "materials/interface/thin_film.h"
 #include "materials/interface/thin_sheet.h"
 #include "materials/medium/phase.h"

@@ -1,12 +1,12 @@
 // Laws that the Mueller matrices of all scattering models obey, and the matrices of mixtures.
-#include "materials/bsdf/polarisation.h"
+#include "materials/bsdf.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "materials/interface/fresnel_mueller.h"
+#include "materials/interface/mueller.h"
 #include "materials/interface/thin_sheet.h"
 #include "tests/materials/bsdf_examples.h"
 #include "tests/materials/mueller_rounding.h"

@@ -1,4 +1,4 @@
-#include "materials/index/refractiveindex_info.h"
+#include "materials/index/catalogue.h"
 
 #include <gtest/gtest.h>
 

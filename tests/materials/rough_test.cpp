@@ -135,8 +135,8 @@ TEST(RoughDielectric, LosesNothingInAnyMedium) {
         const RefractiveIndex medium(medium_index);
         RoughDielectricMaterial material("n", cavity ? medium : glass, {FacetShape::ggx, alpha, alpha});
         material.tabulate_in(cavity ? glass : medium);
-        const auto bsdf = std::get<RoughDielectricBsdf>(
-            material.bsdf({.wavelengths_nm = packet(), .outside = cavity ? &glass : &medium}));
+        const RoughDielectricBsdf bsdf =
+            material.bsdf({.wavelengths_nm = packet(), .outside = cavity ? &glass : &medium});
         for (const double cos : {1.0, 0.6, 0.15, -1.0, -0.6, -0.15}) {
           const double albedo = evaluated_albedo(bsdf, direction_at(cos, 0.5 + cos), 3);
           worst = std::max(worst, std::abs(albedo - 1));
@@ -174,10 +174,9 @@ TEST(RoughDielectric, HasATableForEachRelativeIndex) {
   glass.tabulate_in(RefractiveIndex(2));
   ASSERT_EQ(glass.surfaces_in_media.size(), 2U);
   EXPECT_FLOAT_EQ(glass.surfaces_in_media[1]->low_n, 0.75F);
-  const auto in_water =
-      std::get<RoughDielectricBsdf>(glass.bsdf({.wavelengths_nm = packet(), .outside = &water}));
+  const auto in_water = glass.bsdf({.wavelengths_nm = packet(), .outside = &water});
   EXPECT_EQ(in_water.surface, glass.surfaces_in_media[0].get());
-  EXPECT_EQ(std::get<RoughDielectricBsdf>(glass.bsdf({packet()})).surface, glass.surface.get());
+  EXPECT_EQ(glass.bsdf({packet()}).surface, glass.surface.get());
 }
 
 // The throughput of a path is a product of weights, which must not scatter. Light leaves a ball of index 4

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include "materials/bsdf/bsdf.h"
+#include "materials/bsdf.h"
 #include "tests/materials/index_of.h"
 #include "tests/materials/random_directions.h"
 

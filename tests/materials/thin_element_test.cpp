@@ -1,15 +1,14 @@
 // Polarisers and wave plates against textbook results, from both sides and at oblique incidence.
-#include "materials/model/thin_element.h"
+#include "materials/bsdf/thin_element.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <numbers>
 
-#include "materials/bsdf/polarisation.h"
+#include "materials/bsdf.h"
 #include "materials/bsdf/warp.h"
 #include "materials/material.h"
-#include "materials/smooth_power.h"
 #include "sampling/angle.h"
 #include "tests/materials/bsdf_examples.h"
 

@@ -4,7 +4,7 @@
 #include <utility>
 #include <vector>
 
-#include "film/film_attributes.h"
+#include "results/rendered_film.h"
 #include "tests/scenes/scene_fixture.h"
 #include "transport/render/part.h"
 

@@ -4,7 +4,7 @@
 
 #include <atomic>
 
-#include "film/rendered_film.h"
+#include "results/rendered_film.h"
 #include "tests/preview/rendered_cornell.h"
 #include "tests/preview/tev_listener.h"
 

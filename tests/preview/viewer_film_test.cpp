@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "film/rendered_film.h"
+#include "results/rendered_film.h"
 #include "tests/preview/rendered_cornell.h"
 
 namespace abbe {

@@ -63,7 +63,8 @@ class Meters(Test):
             warnings.simplefilter("always")
             abbe.meter(scene, spp=1)
         self.assertEqual([str(warning.message) for warning in told],
-                         ['the light "light 0" coincides with "shape 0", which rays may hit instead: separate them'])
+                         ['"shape 0" and "light 0" coincide within single precision: rays hit only one of the two surfaces, '
+                          'so that the other has no effect or its light is lost; separate them'])
 
     def test_a_scene_with_meters_needs_no_camera(self):
         scene = self.scene()

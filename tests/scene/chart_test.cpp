@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "scene/chart/readout.h"
-#include "scene/shapes/quad.h"
+#include "scene/shapes/basic.h"
 #include "tests/description/description.h"
 
 namespace abbe {

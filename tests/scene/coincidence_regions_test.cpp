@@ -1,4 +1,4 @@
-#include "scene/coincidence_regions.h"
+#include "scene/coincident_shapes.h"
 
 #include <gtest/gtest.h>
 

@@ -3,9 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/shading_point.h"
-#include "scene/shapes/coordinates.h"
-#include "scene/shapes/placed.h"
+#include "scene/scene.h"
+#include "scene/shapes/shape.h"
 #include "scenes.h"
 #include "tests/scene/expect_near.h"
 

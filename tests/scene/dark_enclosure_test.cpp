@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "scene/dark_enclosure.h"
+#include "scene/lost_light.h"
 #include "tests/scene/meshes.h"
 #include "tests/scene/scenes.h"
 

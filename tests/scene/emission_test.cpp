@@ -1,11 +1,11 @@
-#include "scene/lights/emission.h"
+#include "scene/lights/light.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
 #include "light_kinds.h"
-#include "scene/shapes/basis.h"
+#include "scene/shapes/ray.h"
 #include "tests/angles.h"
 
 namespace abbe {

@@ -4,7 +4,7 @@
 
 #include "io/atomic_file.h"
 #include "io/exr.h"
-#include "scene/lights/environment_image.h"
+#include "scene/lights/infinite_light.h"
 #include "scenes.h"
 #include "tests/angles.h"
 #include "tests/description/description.h"

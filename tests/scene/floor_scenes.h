@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
-#include "scene/shapes/placed.h"
-#include "scene/unsampled_paths.h"
+#include "scene/lost_light.h"
+#include "scene/shapes/shape.h"
 #include "scenes.h"
 
 namespace abbe::test {

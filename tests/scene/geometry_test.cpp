@@ -4,10 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/shapes/disc.h"
-#include "scene/shapes/placed.h"
-#include "scene/shapes/quad.h"
-#include "scene/shapes/triangle.h"
+#include "scene/shapes/shape.h"
 #include "scenes.h"
 #include "tests/scene/expect_near.h"
 

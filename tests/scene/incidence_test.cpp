@@ -1,4 +1,4 @@
-#include "scene/camera/incidence.h"
+#include "scene/camera/camera.h"
 
 #include <gtest/gtest.h>
 

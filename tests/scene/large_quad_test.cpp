@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "scene/shapes/quad.h"
+#include "scene/shapes/basic.h"
 #include "scenes.h"
 
 namespace abbe {

@@ -221,6 +221,11 @@ TEST(LensCamera, IsAnEventForPolarisedLight) {
   scene.channels.push_back(energy_channel("Y", Curve(1.0)));
   scene.commit();
   EXPECT_FALSE(scene.features.polarisation_relevant);
+  scene.lights.push_back(
+      {"sky", EnvironmentLight{}, Curve(1.0), LightPolarisation{1, LinearPolarisation{{1, 0, 0}}}});
+  scene.commit();
+  EXPECT_TRUE(scene.features.polarisation_relevant) << "without shapes";
+  scene.lights.clear();
   scene.shapes = {{"pane", Quad{{-1, -1, 2}, {0, 2, 0}, {2, 0, 0}}, 0}};
   scene.commit();
   EXPECT_TRUE(scene.features.polarisation_relevant);
@@ -238,6 +243,29 @@ TEST(LensCamera, TellsHowFarItsFilmIsFromThePrincipalPlane) {
   const CameraTraits told = traits(looking_through(lens, lens::stop_radius(lens)));
   EXPECT_NEAR(*told.image_distance, image * 1e-3, 1e-8);
   EXPECT_NEAR(*told.pinhole_distance, image / object * 149 * 1e-3, 1e-8);
+}
+
+// No surface of this lens has a clear aperture, and its entrance pupil is behind the first one.
+TEST(LensCamera, TakesInItsRaysWithoutClearApertures) {
+  const lens::System lens = lens_named("double_gauss");
+  ASSERT_FALSE(lens.surfaces.front().semi_aperture_mm);
+  const Camera camera = looking_through(lens, lens::stop_radius(lens));
+  const lens::ExitPupil& pupil = std::get<LensSystem>(camera.kind).optics->pupil;
+  ASSERT_GT(pupil.entrance().z, 0);
+  const Opening opening = traits(camera).opening.value();
+  EXPECT_NEAR(std::get<FlatOpening>(opening).u.length(), pupil.front_radius() * 1e-3, 1e-12);
+  EXPECT_LT(pupil.front_radius(), 60);
+  Random random(7);
+  int through = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const V2f film = random.pair() * 400;
+    const CameraRay out = sample_ray(camera, film, random.pair(), SampledSpectrum(550), 0, 0);
+    if (!(out.weight[0] > 0)) continue;
+    ++through;
+    const Ray light = ray_at(out.ray.origin + out.ray.direction, -out.ray.direction, 0);
+    EXPECT_TRUE(crossing(opening, light)) << film.x << " " << film.y;
+  }
+  EXPECT_GT(through, 1000);
 }
 
 TEST(LensCamera, TellsOfItself) {

@@ -6,7 +6,7 @@
 #include <numeric>
 
 #include "lens_cameras.h"
-#include "scene/camera/camera_rays.h"
+#include "scene/camera/camera.h"
 #include "scenes.h"
 
 // Rays and connections of a real lens, by the image and by its ghosts, are reverses of each other.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -36,6 +37,12 @@ inline Scene lit_by(decltype(Light::kind) kind) {
       {"sphere", lit_by(Shape(Sphere{{0, 0.3, 3}, 1}))},
       {"point", lit_by(PointLight{{0.1F, 0.2F, 1}})},
       {"spot", lit_by(SpotLight{{0.1F, 0.2F, 1}, {0, 0, -1}, 0.4F})},
+      {"photometric",
+       lit_by(PhotometricLight{{0.1F, 0.2F, 1},
+                               {0, 0, 1},
+                               {1, 0, 0},
+                               std::make_shared<const IntensityDistribution>(IntensityDistribution::Table{
+                                   {0, 60, 120, 180}, {0, 360}, {1, 2, 1, 0.5, 1, 2, 1, 0.5}})})},
       {"environment", lit_by(EnvironmentLight{})},
       {"directional", lit_by(DirectionalLight{{0, 0.6F, 0.8F}})},
       {"sun", lit_by(SunLight{{0, 0.6F, 0.8F}, 0.02F})}};

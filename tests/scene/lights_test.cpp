@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "scene/lights/spherical_rectangle.h"
-#include "scene/shapes/basis.h"
+#include "scene/lights/area_light.h"
+#include "scene/shapes/ray.h"
 #include "scenes.h"
 #include "tests/angles.h"
 #include "tests/scene/solid_angle.h"

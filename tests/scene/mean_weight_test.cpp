@@ -1,4 +1,4 @@
-#include "scene/camera/mean_weight.h"
+#include "scene/camera/camera.h"
 
 #include <gtest/gtest.h>
 

@@ -6,7 +6,7 @@
 #include <memory>
 #include <numbers>
 
-#include "scene/shapes/placed.h"
+#include "scene/shapes/shape.h"
 #include "scene/shutter.h"
 #include "tests/scene/meshes.h"
 #include "tests/scene/scenes.h"

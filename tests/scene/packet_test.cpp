@@ -5,8 +5,8 @@
 #include <random>
 #include <vector>
 
-#include "scene/shapes/basis.h"
-#include "scene/shapes/placed.h"
+#include "scene/shapes/ray.h"
+#include "scene/shapes/shape.h"
 #include "scenes.h"
 
 namespace abbe {

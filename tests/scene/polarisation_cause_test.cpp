@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "scene/shapes/placed.h"
+#include "scene/shapes/shape.h"
 #include "scenes.h"
 
 namespace abbe {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/shading_point.h"
-#include "scene/shapes/placed.h"
+#include "scene/scene.h"
+#include "scene/shapes/shape.h"
 #include "scenes.h"
 #include "tests/angles.h"
 #include "tests/description/mesh_files.h"

@@ -5,7 +5,7 @@
 #include "floor_scenes.h"
 #include "meshes.h"
 #include "scene/coincident_shapes.h"
-#include "scene/shapes/placed.h"
+#include "scene/shapes/shape.h"
 #include "scene/working_range.h"
 #include "spectral/sources.h"
 
@@ -141,7 +141,7 @@ TEST(Contact, TellsSheetsThatAreLost) {
     scene.shapes = {{"sheet", Quad{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, pane}};
     for (const auto& [shape, material] : others) scene.shapes.push_back({"other", shape, material});
     scene.commit();
-    return find_hidden_sheet(scene).has_value();
+    return find_lost_surfaces(scene).has_value();
   };
   const Quad wall{{-3, -3, 0}, {6, 0, 0}, {0, 6, 0}};
   const Quad beside{{1, -3, 0}, {6, 0, 0}, {0, 6, 0}};

@@ -9,7 +9,7 @@
 
 #include "floor_scenes.h"
 #include "meshes.h"
-#include "scene/shapes/placed.h"
+#include "scene/shapes/shape.h"
 
 namespace abbe::test {
 namespace {

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "meshes.h"
-#include "scene/shading_point.h"
-#include "scene/shapes/placed.h"
+#include "scene/scene.h"
+#include "scene/shapes/shape.h"
 #include "scenes.h"
 #include "tests/description/gltf_asset.h"
 #include "tests/description/mesh_files.h"

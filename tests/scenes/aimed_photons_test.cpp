@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "film/scene_warnings.h"
+#include "results/scene_warnings.h"
 #include "tests/scenes/scene_fixture.h"
 #include "transport/render/trained_plan.h"
 #include "transport/technique/light.h"

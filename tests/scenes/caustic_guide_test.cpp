@@ -2,8 +2,8 @@
 #include "tests/scenes/film_of_plan.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
-#include "transport/plan/emissions.h"
-#include "transport/render/replay.h"
+#include "transport/plan/plan.h"
+#include "transport/render/cost.h"
 #include "transport/render/trained_plan.h"
 #include "transport/technique/caustic_photons.h"
 
@@ -118,7 +118,7 @@ TEST(CausticGuide, LooksBehindAPaneForWhatPhotonsBringBesideIt) {
   settings.push_back({"/render/integrator", "path"});
   const Scene paths = test::load("glass_sphere.json", settings);
   const Plan plan = make_trained_plan(both, 2);
-  ASSERT_TRUE(uses(plan.techniques, Technique::light));
+  ASSERT_TRUE(traces(plan.techniques, TracedPaths::light));
   ASSERT_TRUE(plan.guides.path_caustics.empty());
   ASSERT_FALSE(plan.guides.caustics_through_specular.empty());
   const Film guided = test::film_of(both, plan, 512);

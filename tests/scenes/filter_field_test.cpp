@@ -4,8 +4,8 @@
 #include <fmt/format.h>
 
 #include "calibration/chart/delta_e.h"
-#include "film/field_response.h"
-#include "film/film_attributes.h"
+#include "results/rendered_film.h"
+#include "results/white.h"
 #include "spectral/colorimetry.h"
 #include "spectral/rgb.h"
 #include "tests/scenes/scene_fixture.h"

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "description/load_material.h"
+#include "description/load.h"
 #include "tests/scenes/scene_fixture.h"
 
 namespace abbe {

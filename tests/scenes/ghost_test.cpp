@@ -6,7 +6,7 @@
 #include "lens/route.h"
 #include "materials/interface/fresnel.h"
 #include "scene/camera/lens_optics.h"
-#include "scene/polarisation_cause.h"
+#include "scene/scene_features.h"
 #include "tests/scenes/margin.h"
 #include "tests/scenes/polarised_scene.h"
 #include "tests/scenes/scene_fixture.h"

@@ -129,7 +129,7 @@ TEST_P(GuidedBranches, AreThoseOfUnguidedPhotons) {
   const Scene scene = scene_of_case(GetParam());
   const Plan even = make_plan(scene);
   const Plan guided = make_trained_plan(scene, 2);
-  ASSERT_TRUE(uses(guided.techniques, Technique::light));
+  ASSERT_TRUE(traces(guided.techniques, TracedPaths::light));
   const Branches expected = trace_branches(even, photons);
   Branches found = trace_branches(guided, photons);
   int compared = 0;

@@ -14,7 +14,7 @@
 
 #include <fmt/format.h>
 
-#include "description/importers/importers.h"
+#include "importers/importers.h"
 #include "spectral/colorimetry.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/source_tree.h"

@@ -9,7 +9,7 @@
 #include "tests/angles.h"
 #include "tests/scene/meshes.h"
 #include "tests/scenes/scene_fixture.h"
-#include "transport/path/medium_at.h"
+#include "transport/path/media.h"
 #include "validation/cases/radiative_transfer.h"
 
 // Films of matter that absorbs and scatters, held against what radiative transfer says of it.

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "tests/scenes/only_meter.h"
-#include "validation/statistics/equivalence.h"
+#include "validation/statistics.h"
 
 namespace abbe::test {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "film/meter_reading.h"
+#include "results/measure_meter.h"
 #include "tests/scenes/scene_fixture.h"
 
 namespace abbe::test {

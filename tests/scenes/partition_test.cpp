@@ -346,6 +346,17 @@ TEST_F(SavedAmidAPass, AFilmWithoutAWholePassIsThatOfItsTiles) {
   EXPECT_EQ(alone.result.film.bytes(), part.result.film.bytes());
 }
 
+TEST(Merge, AHeaderThatIsRefusedLeavesTheSumUnchanged) {
+  const FilmShape shape{
+      .width = 8, .height = 8, .channels = 3, .replicates = 2, .unit_exponent = 0, .crop = {}};
+  const FilmIdentity identity{{"sensor_channels", "X,Y,Z"}};
+  PartHeader sum{identity, shape, {{{0, 0, 8, 8}, {{0, 2}}}}};
+  const SampledAreas before = sum.areas;
+  const PartHeader part{identity, shape, {{{0, 0, 4, 8}, {{2, 4}}}, {{4, 0, 8, 8}, {{1, 3}}}}};
+  EXPECT_THROW(merge(sum, part, "b.abbepart"), Error);
+  EXPECT_EQ(sum.areas, before);
+}
+
 TEST(Merge, RefusesWhatDoesNotBelongTogether) {
   const Scene scene = small_scene("cornell.json");
   RenderOptions options;

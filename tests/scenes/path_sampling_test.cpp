@@ -5,14 +5,14 @@
 
 #include <fmt/format.h>
 
-#include "film/rendered_film.h"
+#include "results/rendered_film.h"
 #include "tests/scenes/film_of_plan.h"
 #include "tests/scenes/margin.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
 #include "transport/render/trained_plan.h"
 #include "transport/technique/path.h"
-#include "validation/statistics/equivalence.h"
+#include "validation/statistics.h"
 
 namespace abbe {
 namespace {

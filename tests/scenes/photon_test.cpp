@@ -1,7 +1,7 @@
 // Techniques that gather photons or wait for them, beside those that connect paths.
 #include <cmath>
 
-#include "scene/unsampled_paths.h"
+#include "scene/lost_light.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
 #include "transport/render/render.h"

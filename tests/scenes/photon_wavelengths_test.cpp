@@ -1,13 +1,13 @@
 // Where photons draw their wavelengths from, once pilots have shown what leaves noise.
 #include <fmt/format.h>
 
+#include "report/image_difference.h"
 #include "tests/scenes/film_of_plan.h"
 #include "tests/scenes/margin.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
 #include "transport/render/trained_plan.h"
-#include "validation/bench/reference.h"
-#include "validation/statistics/image_difference.h"
+#include "validation/bench/run.h"
 
 namespace abbe {
 namespace {

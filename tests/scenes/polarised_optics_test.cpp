@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "materials/interface/fresnel_mueller.h"
+#include "materials/interface/mueller.h"
 #include "sampling/angle.h"
 #include "tests/materials/index_of.h"
 #include "tests/scenes/polarised_scene.h"

@@ -13,7 +13,7 @@
 #include "io/exr.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
-#include "validation/statistics/students_interval.h"
+#include "validation/statistics.h"
 
 namespace abbe {
 namespace {

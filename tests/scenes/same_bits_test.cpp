@@ -6,7 +6,7 @@
 #include "tests/scenes/margin.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
-#include "transport/render/replay.h"
+#include "transport/render/cost.h"
 
 namespace abbe {
 namespace {

@@ -9,8 +9,8 @@
 #include "tests/scenes/margin.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"
-#include "transport/render/choose_path_splitting.h"
 #include "transport/render/layers.h"
+#include "transport/render/technique_balance.h"
 #include "transport/render/trained_plan.h"
 
 namespace abbe {

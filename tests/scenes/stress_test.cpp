@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "materials/interface/prism.h"
-#include "scene/shapes/basis.h"
+#include "scene/shapes/ray.h"
 #include "tests/angles.h"
 #include "tests/scenes/scene_fixture.h"
 #include "tests/tier.h"

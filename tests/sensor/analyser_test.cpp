@@ -1,4 +1,4 @@
-#include "sensor/response/analyser.h"
+#include "sensor/response/channel.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "sensor/response/polariser_group.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 #include "spectral/sources.h"
 
 namespace abbe {

@@ -1,12 +1,10 @@
-#include "sensor/response/camera_json.h"
+#include "sensor/response/channel.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
-
-#include "sensor/response/channel.h"
 
 namespace abbe {
 namespace {

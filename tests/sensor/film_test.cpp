@@ -1,7 +1,7 @@
 #include "sensor/film/film.h"
 #include "io/error.h"
+#include "sensor/film/crop.h"
 #include "sensor/film/patch.h"
-#include "sensor/film/recorded_crop.h"
 #include "sensor/film/relative_error.h"
 
 #include <gtest/gtest.h>

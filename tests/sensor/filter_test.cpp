@@ -1,4 +1,4 @@
-#include "sensor/response/filter.h"
+#include "sensor/response/channel.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "sensor/response/channel.h"
-#include "sensor/response/incidence.h"
 #include "spectral/sources.h"
 
 namespace abbe {

@@ -1,4 +1,4 @@
-#include "sensor/film/grouped_median.h"
+#include "sensor/film/patch.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "sensor/readout/linearity.h"
+#include "sensor/readout/photon_transfer.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,6 @@
 #include <utility>
 #include <vector>
 
-#include "sensor/readout/photon_transfer.h"
 #include "sensor/readout/readout.h"
 
 namespace abbe {

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "io/error.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 #include "spectral/sources.h"
 
 namespace abbe {

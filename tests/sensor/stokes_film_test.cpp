@@ -1,11 +1,10 @@
-#include "sensor/film/stokes_film.h"
+#include "sensor/film/film_planes.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "io/error.h"
-#include "sensor/film/film_planes.h"
 
 namespace abbe {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "io/data_directory.h"
-#include "io/reference_table.h"
+#include "io/table.h"
 
 namespace abbe {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "io/reference_table.h"
+#include "io/table.h"
 #include "spectral/library.h"
 #include "spectral/sources.h"
 #include "tests/spectral/illuminant.h"

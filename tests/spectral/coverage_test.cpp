@@ -1,4 +1,4 @@
-#include "spectral/coverage.h"
+#include "spectral/library.h"
 
 #include <gtest/gtest.h>
 

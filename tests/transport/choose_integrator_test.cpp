@@ -12,7 +12,7 @@
 #include "description/load.h"
 #include "io/data_directory.h"
 #include "transport/render/render.h"
-#include "transport/render/technique_pilots.h"
+#include "transport/render/technique_balance.h"
 #include "transport/render/trained_plan.h"
 
 namespace abbe {

@@ -1,4 +1,4 @@
-#include "transport/path/equiangular.h"
+#include "transport/path/free_path.h"
 
 #include <cmath>
 #include <limits>

@@ -1,4 +1,4 @@
-#include "transport/path/interface.h"
+#include "transport/path/vertex.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "transport/path/joined_vertices.h"
+#include "transport/path/connect.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,12 +2,12 @@
 
 #include <vector>
 
-#include "materials/bsdf/bsdf.h"
+#include "materials/bsdf.h"
 #include "materials/interface/fresnel.h"
 #include "spectral/sources.h"
 #include "spectral/wavelength_distribution.h"
 #include "transport/path/film_response.h"
-#include "transport/path/packet.h"
+#include "transport/path/path_state.h"
 #include "transport/path/roulette.h"
 #include "transport/path/vertex.h"
 

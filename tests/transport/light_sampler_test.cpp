@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "sampling/sampler.h"
-#include "scene/shapes/basis.h"
+#include "scene/shapes/ray.h"
 #include "tests/tier.h"
 #include "transport/plan/light_sampler.h"
 

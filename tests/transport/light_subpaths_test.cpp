@@ -1,4 +1,4 @@
-#include "transport/technique/light_subpaths.h"
+#include "transport/technique/bidirectional.h"
 
 #include <gtest/gtest.h>
 

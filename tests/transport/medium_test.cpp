@@ -7,10 +7,10 @@
 
 #include "tests/scene/scenes.h"
 #include "transport/path/free_path.h"
-#include "transport/path/medium_at.h"
+#include "transport/path/media.h"
 #include "transport/path/path_recorder.h"
 #include "transport/plan/plan.h"
-#include "transport/technique/subpaths.h"
+#include "transport/technique/path_starts.h"
 
 namespace abbe {
 namespace {

@@ -6,7 +6,7 @@
 #include <string>
 #include <utility>
 
-#include "sensor/film/recorded_error.h"
+#include "sensor/film/recorded_attributes.h"
 
 namespace abbe {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "scene/lights/emission.h"
+#include "scene/lights/light.h"
 #include "tests/materials/bsdf_examples.h"
 #include "tests/scene/light_kinds.h"
 #include "transport/path/path_recorder.h"

@@ -9,8 +9,8 @@
 
 #include "sampling/sampler.h"
 #include "tests/scenes/scene_fixture.h"
-#include "transport/path/photon_map.h"
-#include "transport/technique/photon_gathering.h"
+#include "transport/technique/photon_map.h"
+#include "transport/technique/photon_mapping.h"
 
 namespace abbe {
 namespace {
@@ -153,9 +153,9 @@ TEST(GatherRadius, ShrinksAsItsProduct) {
 TEST(Techniques, TellTheirBias) {
   for (const Technique technique : {Technique::path, Technique::light, Technique::bdpt,
                                     Technique::photon_brute, Technique::adjoint_brute})
-    EXPECT_EQ(bias_of(technique), "") << name_of(technique);
+    EXPECT_EQ(bias_of(technique), "") << integrator_name(technique);
   for (const Technique technique : {Technique::ppm, Technique::sppm, Technique::vcm})
-    EXPECT_NE(bias_of(technique).find("consistent"), std::string_view::npos) << name_of(technique);
+    EXPECT_NE(bias_of(technique).find("consistent"), std::string_view::npos) << integrator_name(technique);
   EXPECT_EQ(bias_of(Technique::photon_map).find("consistent"), std::string_view::npos);
 }
 

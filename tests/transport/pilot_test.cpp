@@ -8,7 +8,6 @@
 
 #include "transport/render/pass.h"
 #include "transport/render/pilot.h"
-#include "transport/render/pilot_photons.h"
 
 namespace abbe {
 namespace {

@@ -1,4 +1,4 @@
-#include "transport/render/sampled_areas.h"
+#include "transport/render/sample_ranges.h"
 
 #include <gtest/gtest.h>
 

@@ -5,14 +5,14 @@
 #include <cfenv>
 #include <span>
 
-#include "scene/lights/emission.h"
+#include "scene/lights/light.h"
 #include "spectral/sources.h"
 #include "tests/tier.h"
 #include "transport/path/path_recorder.h"
 #include "transport/plan/plan.h"
 #include "transport/technique/bidirectional.h"
 #include "transport/technique/path.h"
-#include "transport/technique/subpaths.h"
+#include "transport/technique/path_starts.h"
 
 namespace abbe {
 namespace {

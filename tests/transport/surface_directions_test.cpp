@@ -1,4 +1,4 @@
-#include "transport/path/surface_directions.h"
+#include "transport/path/vertex.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "materials/bsdf/warp.h"
-#include "materials/interface/hemispherical.h"
+#include "materials/interface/fresnel.h"
 
 namespace abbe {
 namespace {

@@ -5,7 +5,6 @@
 
 #include "tests/tier.h"
 #include "transport/render/technique_balance.h"
-#include "transport/render/technique_pilots.h"
 #include "transport/render/trained_plan.h"
 
 namespace abbe {

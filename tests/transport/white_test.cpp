@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 #include "transport/render/white.h"
 
 // Which light is the white.

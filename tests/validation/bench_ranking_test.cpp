@@ -7,8 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/validation/bench_runs.h"
-#include "validation/bench/ranking.h"
-#include "validation/bench/reference.h"
+#include "validation/bench/run.h"
 
 namespace abbe {
 namespace {

@@ -4,12 +4,12 @@
 #include <gtest/gtest.h>
 
 #include "description/meshes/mesh_file.h"
-#include "scene/camera/camera_rays.h"
+#include "scene/camera/camera.h"
 #include "scene/shapes/mesh.h"
 #include "spectral/colorimetry.h"
 #include "tests/validation/bench_runs.h"
-#include "validation/bench/meshes.h"
-#include "validation/bench/reference.h"
+#include "validation/bench/generated_scene.h"
+#include "validation/bench/run.h"
 
 namespace abbe {
 namespace {

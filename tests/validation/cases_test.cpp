@@ -5,7 +5,7 @@
 #include <regex>
 #include <set>
 
-#include "io/reference_table.h"
+#include "io/table.h"
 #include "tests/validation/cases_run.h"
 
 namespace abbe {
@@ -74,6 +74,10 @@ TEST(CaseVerdict, NoiseCountsAgainstASampledFigure) {
 TEST(CaseVerdict, TheWorstFigureIsNamed) {
   EXPECT_EQ(run_case(planted(2.01, 0, {0.1})).worst, 1U);
   EXPECT_EQ(run_case(planted(2, 0, {0.1})).worst, 0U);
+  const Case undefined{Suite::optics, "planted", "", "", "", {0.1}, Computed{[] {
+                         return std::vector<Figure>{{"no number", 2, {std::nan(""), 0}}, {"far", 2, {9, 0}}};
+                       }}};
+  EXPECT_EQ(run_case(undefined).worst, 0U) << "no number is worse than any";
 }
 
 TEST(CaseVerdict, NoFiguresAreNoPass) {

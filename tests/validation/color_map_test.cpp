@@ -1,4 +1,4 @@
-#include "validation/picture/color_map.h"
+#include "report/display_color.h"
 
 #include <gtest/gtest.h>
 

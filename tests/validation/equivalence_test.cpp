@@ -1,4 +1,4 @@
-#include "validation/statistics/equivalence.h"
+#include "validation/statistics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "validation/statistics/image_difference.h"
+#include "report/image_difference.h"
 
 #include <array>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-#include "io/reference_table.h"
+#include "io/table.h"
 #include "spectral/rgb.h"
 
 namespace abbe {

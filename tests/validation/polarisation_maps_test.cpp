@@ -1,4 +1,4 @@
-#include "validation/picture/polarisation_maps.h"
+#include "report/maps.h"
 
 #include <gtest/gtest.h>
 
@@ -7,10 +7,10 @@
 
 #include "io/exr.h"
 #include "io/picture.h"
+#include "report/display_color.h"
+#include "report/image_difference.h"
 #include "tests/cli/program.h"
 #include "tests/cli/scenes.h"
-#include "validation/picture/color_map.h"
-#include "validation/statistics/polarisation_difference.h"
 
 namespace abbe::test {
 namespace {

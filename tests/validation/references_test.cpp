@@ -26,8 +26,9 @@ TEST(References, EveryCitationInTheCodeIsInTheBibliography) {
     known.insert((*it)[1]);
   ASSERT_FALSE(known.empty());
   const std::regex citation(R"(\[([A-Z][A-Za-z]+\d{2,4})(,[^\]]*)?\])");
-  for (const char* folder : {"io", "sampling", "spectral", "materials", "lens", "sensor", "scene", "description",
-                             "transport", "calibration", "film", "develop", "validation", "cli", "preview", "docs"})
+  for (const char* folder :
+       {"io", "sampling", "spectral", "materials", "lens", "sensor", "scene", "description", "transport",
+        "calibration", "film", "develop", "validation", "cli", "preview", "docs"})
     for (const auto& file : std::filesystem::recursive_directory_iterator(root / folder)) {
       const std::string extension = file.path().extension();
       if (extension != ".h" && extension != ".cpp" && extension != ".md") continue;

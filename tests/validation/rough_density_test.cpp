@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "materials/bsdf/rough.h"
 #include "materials/bsdf/warp.h"
-#include "materials/model/rough.h"
 #include "tests/tier.h"
 #include "validation/goniometer/lobes.h"
 

@@ -1,5 +1,10 @@
 #include "transport/path/connect.h"
 
+#include <cmath>
+#include <variant>
+
+#include "transport/path/dimensions.h"
+
 namespace abbe {
 namespace {
 
@@ -10,6 +15,12 @@ MediumState media_towards(const Scene& scene, const PathVertex& vertex, const Im
   MediumState media;
   media.enter(scene, crosses ? vertex.media_behind : vertex.media_front, vertex.lambda_nm());
   return media;
+}
+
+// True if the vertex scatters into more than single directions, so that it can be connected.
+bool is_connectible(const PathVertex& vertex) {
+  const auto* surface = std::get_if<SurfaceVertex>(&vertex.at);
+  return surface == nullptr || scatters(surface->bsdf);
 }
 
 }  // namespace
@@ -56,6 +67,19 @@ std::optional<Connection> connect(const Scene& scene, RayCaster& caster, const P
         polarisation_towards(scene, a, segment.direction, TransportMode::radiance)
             .of(polarisation_towards(scene, b, -segment.direction, TransportMode::power), -segment.direction);
   return connection;
+}
+
+void choose_joined(std::span<const PathVertex> path, const Sampler& sampler,
+                   std::vector<JoinedVertex>& joined) {
+  joined.clear();
+  double sum = path.size() > kAlwaysJoined ? static_cast<double>(sampler.group(kJoiningGroup)[0]) : 0;
+  for (std::size_t number = 1; number <= path.size(); ++number) {
+    const float probability = joining_probability(number);
+    const double before = std::floor(sum);
+    sum += static_cast<double>(probability);
+    if (std::floor(sum) > before && is_connectible(path[number - 1]))
+      joined.push_back({number, 1 / probability});
+  }
 }
 
 }  // namespace abbe

@@ -6,10 +6,11 @@
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "scene/scene.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 #include "spectral/sampled_spectrum.h"
 #include "spectral/stokes.h"
 
@@ -92,6 +93,17 @@ using Deposit = std::function<void(std::uint32_t path, const FilmPoint& at, std:
 /// Receives the film values of each contribution separately; arguments as for `Deposit`.
 using ContributionDeposit = std::function<void(std::uint32_t path, const FilmPoint& at,
                                                const ContributionInfo& info, std::span<const double> values)>;
+
+/// Base of tracers that can report each contribution separately, for the layers of a film.
+class LayerSource {
+ public:
+  /// Sets a callback that receives every contribution separately, in addition to the deposited sums. An empty
+  /// function removes it.
+  void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
+
+ protected:
+  ContributionDeposit layer_sink_;  // may be empty
+};
 
 /// Converts spectral contributions to film values. A contribution c at the wavelengths lambda_j, sampled with
 /// the pdf p, adds sum_j c_j weight_k(lambda_j) / p(lambda_j) to channel k. With a mosaic there is one value,

@@ -12,83 +12,114 @@
 #include "materials/medium/phase.h"
 #include "transport/path/dimensions.h"
 #include "transport/path/free_path.h"
-#include "transport/path/interface.h"
 #include "transport/path/path_state.h"
-#include "transport/path/polarised_draw.h"
+#include "transport/path/polarised_paths.h"
 #include "transport/path/ray_caster.h"
 #include "transport/path/roulette.h"
 #include "transport/path/vertex.h"
 
 namespace abbe {
 
-/// Callbacks of a technique that traces paths. Its `Path` is a `PathState`; `kMode` is the quantity that
-/// paths carry, radiance or power. `u` are random numbers in [0, 1). The order of the calls is:
-/// - At the end of each ray `on_escape` or `on_hit`.
-/// - If the path may scatter once more and the surface is not black: `prepare_scatter`, `connect` unless the
-///   surface is specular, `scatter`, `continues_after`. After packet, ray and media are updated,
-///   `survival_weight`.
-/// - At an event in a medium: `continues_in_medium`, `connect_in_medium`, and `survival_weight_in_medium`
-///   once the ray is updated.
+/// Callbacks by which a technique takes part in the steps of its paths, with their defaults. This is the loop
+/// of `PathBatch::run`:
 ///
-/// Work along the new ray of a path belongs in the two functions for the survival weight.
+///     while paths are active:
+///       each path finds its next event.
+///         Out of the scene: on_escape.
+///         At a surface: on_hit, prepare_scatter, connect, scatter, continues_after, survival_weight.
+///         In a medium: continues_in_medium, connect_in_medium, survival_weight_in_medium.
+///       Roulette ends paths by their survival weights.
+///       resolve_connections.
 ///
-/// Optional members:
-/// - `log2_splits(path)`: base-2 logarithm of the number of paths that continue from a scattering surface.
-///   `on_split(child, log2_count)` receives each of them.
-/// - `reuses_spare_dimensions(path)`: true if the random numbers that a matt surface does not use may draw
-///   the next direction.
-/// - `splits_wavelengths()`: true if paths split into their wavelengths at smooth dispersive glass.
-/// - `connects_equiangular()` and `connect_equiangular(path, segment, u)`: a connection from a point along a
-///   homogeneous scattering segment, before the event that ends it.
-/// - `adds_path(path)`: a random number in [0, 1) for roulette if a second path leaves the current vertex,
-///   otherwise nothing. `scatter_added(path, vertex)` turns a copy of the path into the second one and
-///   returns its event; nothing ends it.
-///
-/// A technique that computes the pdf of every event itself sets `kSamplesPolarised` to false.
+/// A technique derives from this class and hides the callbacks that it needs; none is virtual. Its `Path` is
+/// a `PathState`, and `mode` is the quantity that paths carry. `u` are random numbers in [0, 1). No path
+/// scatters on a black surface or at the maximum depth: only `on_hit` is then called. Both functions for the
+/// survival weight are called after packet, ray and media are updated. Work along the new ray of a path
+/// belongs there.
+template <TransportMode mode>
+class PathCallbacks {
+ public:
+  static constexpr TransportMode kMode = mode;
+  /// True if the technique balances wavelengths only, so that its paths may sample events with polarised
+  /// pdfs. Other techniques compute the pdf of each event themselves.
+  static constexpr bool kSamplesPolarised = true;
+  /// Exponent `a` of `survival` for long paths at surfaces; in media all use `kPathRouletteExponent`.
+  static constexpr float kRouletteExponent = kPathRouletteExponent;
+
+  /// The path leaves the scene, or hits a surface.
+  static void on_escape(PathState& /*path*/) {}
+  static void on_hit(PathState& /*path*/, const SurfaceHit& /*hit*/) {}
+  /// The path is at a surface at which it may scatter.
+  static void prepare_scatter(PathState& /*path*/, const SurfaceVertex& /*vertex*/) {}
+  /// The vertex may be connected to another path or light: on a surface that is not specular, or in a medium.
+  static void connect(PathState& /*path*/, const SurfaceVertex& /*vertex*/,
+                      const std::array<float, 4>& /*u*/) {}
+  static void connect_in_medium(PathState& /*path*/, const PhaseFunction& /*phase*/,
+                                const std::array<float, 4>& /*u*/) {}
+  /// Samples an event. Nothing ends the path.
+  [[nodiscard]] static std::optional<BsdfSample> scatter(const PathState& path, const SurfaceVertex& vertex,
+                                                         const BsdfRandom& u) {
+    return vertex.scatter(u, path.packet.hero, mode);
+  }
+  /// True if the path may continue after an event.
+  [[nodiscard]] static bool continues_after(const PathState& /*path*/, const BsdfSample& /*event*/) {
+    return true;
+  }
+  [[nodiscard]] static bool continues_in_medium(const PathState& /*path*/) { return true; }
+  /// Estimate with which roulette decides. By default it is the throughput of the event, because the power of
+  /// a photon does not predict its contribution.
+  [[nodiscard]] static float survival_weight(const PathState& /*path*/, const SurfaceVertex& /*vertex*/,
+                                             const BsdfSample& event) {
+    return event_throughput(event);
+  }
+  [[nodiscard]] static float survival_weight_in_medium(const PathState& /*path*/) { return 1; }
+  /// Adds the queued connections of all paths.
+  static void resolve_connections() {}
+
+  /// True if paths split into their wavelengths at smooth dispersive glass.
+  [[nodiscard]] static bool splits_wavelengths() { return false; }
+  /// Base-2 logarithm of the number of paths that continue from a scattering surface. `on_split` receives
+  /// each of them.
+  [[nodiscard]] static int log2_splits(const PathState& /*path*/) { return 0; }
+  static void on_split(PathState& /*child*/, int /*log2_count*/) {}
+  /// True if the random numbers that a matt surface does not use may draw the next direction.
+  [[nodiscard]] static bool reuses_spare_dimensions(const PathState& /*path*/) { return false; }
+  /// Connection from a point along a homogeneous scattering segment, before the event that ends it, if
+  /// `connects_equiangular` is true.
+  [[nodiscard]] static bool connects_equiangular() { return false; }
+  static void connect_equiangular(PathState& /*path*/, const MediumSegment& /*segment*/,
+                                  const Imath::V2f& /*u*/) {}
+  /// Random number in [0, 1) for roulette if a second path leaves the current vertex, otherwise nothing.
+  /// `scatter_added` turns a copy of the path into the second one and returns its event; nothing ends it.
+  [[nodiscard]] static std::optional<float> adds_path(const PathState& /*path*/) { return std::nullopt; }
+  [[nodiscard]] static std::optional<BsdfSample> scatter_added(PathState& /*path*/,
+                                                               const SurfaceVertex& /*vertex*/) {
+    return std::nullopt;
+  }
+};
+
+/// A technique that traces paths. The concept checks the arguments of the callbacks that it hides.
 template <typename T>
-concept PathTechnique = std::derived_from<typename T::Path, PathState> &&
+concept PathTechnique = std::derived_from<T, PathCallbacks<T::kMode>> &&
+    std::derived_from<typename T::Path, PathState> &&
     std::constructible_from<typename T::Path, const Sampler&, std::uint32_t> &&
     requires(T technique, typename T::Path& path, const SurfaceHit& hit, const SurfaceVertex& vertex,
              const PhaseFunction& phase, const BsdfSample& event, const BsdfRandom& random,
              const std::array<float, 4>& u) {
-  { T::kMode } -> std::convertible_to<TransportMode>;
-  // The path leaves the scene, or hits a surface.
   technique.on_escape(path);
   technique.on_hit(path, hit);
-  // The path is at a surface at which it may scatter.
   technique.prepare_scatter(path, vertex);
-  // The vertex may be connected to another path or light, on a surface or in a medium.
   technique.connect(path, vertex, u);
   technique.connect_in_medium(path, phase, u);
-  // Samples an event with the given random numbers.
   { technique.scatter(path, vertex, random) } -> std::same_as<std::optional<BsdfSample>>;
-  // True if the path may continue after an event.
   { technique.continues_after(path, event) } -> std::same_as<bool>;
   { technique.continues_in_medium(path) } -> std::same_as<bool>;
-  // Estimate with which roulette decides, after an event.
   { technique.survival_weight(path, vertex, event) } -> std::same_as<float>;
   { technique.survival_weight_in_medium(path) } -> std::same_as<float>;
-  // Throughput relative to that at the start.
-  { technique.throughput_estimate(path) } -> std::same_as<float>;
-  // Adds the queued connections of all paths, after each step.
   technique.resolve_connections();
 };
 
-/// True if a technique balances wavelengths only, so that its paths may sample events with polarised pdfs.
-/// Other techniques compute the pdf of each event themselves.
-template <typename Technique>
-inline constexpr bool kSamplesPolarised = true;
-
-/// Exponent `a` of `survival` for long paths of a technique at surfaces; in media all use
-/// `kPathRouletteExponent`.
-template <typename Technique>
-inline constexpr float kRouletteExponent = kPathRouletteExponent;
-
-/// True if a smooth dispersive model refracts each wavelength separately. With the random number `kRefracted`
-/// such a model reflects only at total reflection.
-[[nodiscard]] inline bool refracts_each_lane(const Bsdf& bsdf) {
-  return is_any_of<DielectricBsdf, CoatedDielectricBsdf>(bsdf);
-}
+/// A model that `refracts_smoothly` reflects with this random number only at total reflection.
 inline constexpr BsdfRandom kRefracted{0x1.fffffep-1F, {0, 0}};
 
 /// Batch of paths that take each step together: their rays are traced as a stream, then each path is updated
@@ -128,11 +159,10 @@ class PathBatch {
     const auto [u, v] = path.sampler.two_groups(scattering_group(path.depth));
     if (scatters(vertex.bsdf)) {
       technique.connect(path, vertex, v);
-      if constexpr (requires { technique.log2_splits(path); })
-        if (const int log2_count = technique.log2_splits(path); log2_count > 0) {
-          split(technique, path, vertex, log2_count);
-          return false;
-        }
+      if (const int log2_count = technique.log2_splits(path); log2_count > 0) {
+        split(technique, path, vertex, log2_count);
+        return false;
+      }
     }
     return scatter(technique, path, vertex, u);
   }
@@ -141,33 +171,29 @@ class PathBatch {
   // Scatters a path at a vertex. Returns true if the path continues.
   bool scatter(Technique& technique, Path& path, const SurfaceVertex& vertex, std::array<float, 4> u) {
     add_second_path(technique, path, vertex);
-    if constexpr (requires { technique.reuses_spare_dimensions(path); })
-      reuse_spare_dimensions(technique, path, vertex, u);
+    reuse_spare_dimensions(technique, path, vertex, u);
     const bool drawn =
-        path.packet.polarisation && kSamplesPolarised<Technique> && samples_polarised(vertex.bsdf);
+        path.packet.polarisation && Technique::kSamplesPolarised && samples_polarised(vertex.bsdf);
     const float choice =
         drawn ? polarised_choice(path.packet, vertex, path.ray.direction, Technique::kMode, u[2]) : u[2];
     const auto event = technique.scatter(path, vertex, BsdfRandom{choice, {u[0], u[1]}});
     if (!event || !technique.continues_after(path, *event)) return false;
-    if constexpr (requires { technique.splits_wavelengths(); })
-      if (event->dispersive && technique.splits_wavelengths() && refracts_each_lane(vertex.bsdf) &&
-          !path.packet.lone_lane()) {
-        split_wavelengths(technique, path, vertex, drawn, u[3]);
-        return false;
-      }
+    if (event->dispersive && technique.splits_wavelengths() && refracts_smoothly(vertex.bsdf) &&
+        !path.packet.lone_lane()) {
+      split_wavelengths(technique, path, vertex, drawn, u[3]);
+      return false;
+    }
     return apply_event(technique, path, vertex, *event, drawn, u[3]);
   }
 
   // Adds a second path at a vertex if the technique requests one.
   void add_second_path(Technique& technique, const Path& path, const SurfaceVertex& vertex) {
-    if constexpr (requires { technique.adds_path(path); }) {
-      const std::optional<float> u = technique.adds_path(path);
-      if (!u) return;
-      Path added = path;
-      const std::optional<BsdfSample> event = technique.scatter_added(added, vertex);
-      if (event && apply_event(technique, added, vertex, *event, false, *u))
-        children_.push_back(std::move(added));
-    }
+    const std::optional<float> u = technique.adds_path(path);
+    if (!u) return;
+    Path added = path;
+    const std::optional<BsdfSample> event = technique.scatter_added(added, vertex);
+    if (event && apply_event(technique, added, vertex, *event, false, *u))
+      children_.push_back(std::move(added));
   }
 
   // Two consecutive directions are an integrand of four dimensions, which the points of one group cover more
@@ -209,8 +235,8 @@ class PathBatch {
     if (event.transmitted)
       path.media.enter(scene_, vertex.media_behind(scene_, path.media.stack), path.lambda_nm());
     path.ray = vertex.spawn_ray(vertex.frame.to_world(event.wi), path.ray.time);
-    const float rr_exponent = event.delta ? std::max(kRouletteExponent<Technique>, kSpecularRouletteExponent)
-                                          : kRouletteExponent<Technique>;
+    const float rr_exponent = event.delta ? std::max(Technique::kRouletteExponent, kSpecularRouletteExponent)
+                                          : Technique::kRouletteExponent;
     return survives_roulette(path, technique.survival_weight(path, vertex, event), rr_exponent, u);
   }
 
@@ -299,22 +325,20 @@ class PathBatch {
     if (scene_.transmission_may_leak(*hit, path.ray.direction, path.ray.time)) return false;
     technique.on_hit(path, *hit);
     const SurfaceVertex vertex(scene_, *hit, interface, path);
-    return !is_black(vertex.bsdf) && !is_truncated(technique, path) && scatter_at(technique, path, vertex);
+    return !is_black(vertex.bsdf) && !is_truncated(path) && scatter_at(technique, path, vertex);
   }
 
   // Callback of the technique for scattering segments, if it has one.
   SegmentVisitor visitor(Technique& technique, Path& path) const {
-    if constexpr (requires { technique.connects_equiangular(); })
-      if (technique.connects_equiangular() && path.depth < max_depth_)
-        return [&technique, &path](const MediumSegment& segment) {
-          const std::array<float, 4> u = path.sampler.group(free_path_group(path.depth));
-          technique.connect_equiangular(path, segment, {u[2], u[3]});
-        };
-    return {};
+    if (!technique.connects_equiangular() || path.depth >= max_depth_) return {};
+    return [&technique, &path](const MediumSegment& segment) {
+      const std::array<float, 4> u = path.sampler.group(free_path_group(path.depth));
+      technique.connect_equiangular(path, segment, {u[2], u[3]});
+    };
   }
 
   bool scatter_in_medium(Technique& technique, Path& path) {
-    if (!technique.continues_in_medium(path) || is_truncated(technique, path)) return false;
+    if (!technique.continues_in_medium(path) || is_truncated(path)) return false;
     const PhaseFunction& phase = path.media.medium.scattering->phase;
     const auto [u, v] = path.sampler.two_groups(scattering_group(path.depth));
     technique.connect_in_medium(path, phase, v);
@@ -333,7 +357,7 @@ class PathBatch {
       path.nee_path_pdf = lanes / turned.pdf;
       return Basis<float>(along).to_world(turned.direction);
     }
-    const bool drawn = kSamplesPolarised<Technique> && std::holds_alternative<RayleighPhase>(phase);
+    const bool drawn = Technique::kSamplesPolarised && std::holds_alternative<RayleighPhase>(phase);
     const PhaseSample plain = sample(phase, u);
     const PolarisedDirection turned =
         drawn ? sample_polarised_phase(path.packet, phase, along, Technique::kMode, u)
@@ -352,9 +376,9 @@ class PathBatch {
   }
 
   // True if the path has the maximum depth; counts it as truncated.
-  bool is_truncated(const Technique& technique, const Path& path) {
+  bool is_truncated(const Path& path) {
     if (path.depth < max_depth_) return false;
-    caster_.count_truncated(technique.throughput_estimate(path));
+    caster_.count_truncated(path.throughput_estimate());
     return true;
   }
 

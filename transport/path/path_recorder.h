@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "transport/path/connect.h"
-#include "transport/path/emitter_hit.h"
 #include "transport/path/path_batch.h"
 #include "transport/path/path_vertex.h"
+#include "transport/path/polarised_paths.h"
 
 namespace abbe {
 
@@ -61,10 +61,11 @@ struct RecordedPath : PathState {
 /// Here dw_light/dw_camera = (n_c^2 |cos_c|)/(n_l^2 |cos_l|) is the ratio of solid angles that refraction
 /// relates. With it the pdfs of all strategies are in one measure.
 template <TransportMode mode>
-class PathRecorder {
+class PathRecorder : public PathCallbacks<mode> {
  public:
   using Path = RecordedPath;
-  static constexpr TransportMode kMode = mode;
+  static constexpr bool kSamplesPolarised = false;
+  static constexpr float kRouletteExponent = kJoinedRouletteExponent;
 
   /// Scene and caster must outlive the recorder.
   PathRecorder(const Scene& scene, RayCaster& caster)
@@ -97,7 +98,7 @@ class PathRecorder {
       return {density * (eta2 / cosines), density};
   }
 
-  // Interface of PathTechnique.
+  // Callbacks (`PathCallbacks`).
   void on_escape(RecordedPath& path) {
     if (mode == TransportMode::power) return;
     visit_escaped_lights(scene_, path, [&](const LightVertex& light) { record_emitter(path, light); });
@@ -114,15 +115,10 @@ class PathRecorder {
     here.media_behind = vertex.media_behind(scene_, path.media.stack);
     path.vertices.push_back(vertex_at(path, std::move(here)));
   }
-  void connect(RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/, const std::array<float, 4>& /*u*/) {}
   void connect_in_medium(RecordedPath& path, const PhaseFunction& phase, const std::array<float, 4>& /*u*/) {
     path.vertices.push_back(vertex_at(path, {.at = MediumVertex{path.ray.origin, path.ray.direction, phase},
                                              .media_behind = path.media.stack,
                                              .event_pdf = path.media.medium.extinction_per_m}));
-  }
-  [[nodiscard]] std::optional<BsdfSample> scatter(const RecordedPath& path, const SurfaceVertex& vertex,
-                                                  const BsdfRandom& u) const {
-    return vertex.scatter(u, path.packet.hero, mode);
   }
   [[nodiscard]] bool continues_after(const RecordedPath& path, const BsdfSample& /*event*/) const {
     return !path.is_stuck;
@@ -138,17 +134,13 @@ class PathRecorder {
     // positions.
     set_pdfs(path, event.delta ? single_direction(vertex, event, path.packet.hero)
                                : DirectionPdfs{event.lane_pdf * event.pdf, reverse_direction_pdf(path)});
-    return throughput_estimate(path);
+    return path.throughput_estimate();
   }
   [[nodiscard]] float survival_weight_in_medium(RecordedPath& path) {
     set_pdfs(path, {direction_pdf(scene_, path.vertices.back(), direction_back(path), path.ray.direction),
                     reverse_direction_pdf(path)});
-    return throughput_estimate(path);
-  }
-  [[nodiscard]] float throughput_estimate(const RecordedPath& path) const {
     return path.throughput_estimate();
   }
-  void resolve_connections() {}
 
  private:
   // Two vertices at one position have no pdf of directions per area.
@@ -198,10 +190,50 @@ class PathRecorder {
   PathBatch<PathRecorder> batch_;
 };
 
-template <TransportMode mode>
-inline constexpr bool kSamplesPolarised<PathRecorder<mode>> = false;
+/// Sums of the contributions of several paths to the film, per wavelength: power, or Stokes vectors if the
+/// sensor distinguishes polarisation. Paths are numbered from 0.
+class PathRadiance {
+ public:
+  explicit PathRadiance(const Scene& scene) : measures_polarisation_(measures_polarisation(scene)) {}
 
-template <TransportMode mode>
-inline constexpr float kRouletteExponent<PathRecorder<mode>> = kJoinedRouletteExponent;
+  /// Sets the sums of `paths` paths to zero.
+  void reset(std::size_t paths) {
+    if (measures_polarisation_)
+      vectors_.assign(paths, {});
+    else
+      powers_.assign(paths, {});
+  }
+  /// Adds a contribution to the sum of a path. `stokes` is as for `with_measurement`; it must be given if the
+  /// sensor measures polarisation.
+  void add(std::size_t path, const SampledSpectrum& contribution, const StokesSpectrum* stokes) {
+    with_measurement(measures_polarisation_, contribution, stokes, Adder{*this, path});
+  }
+  /// Calls `use` with one contribution in the form in which the film takes it: a `SampledSpectrum` or a
+  /// `StokesSpectrum`. `stokes` is as for `with_measurement`.
+  template <typename Use>
+  void visit(const SampledSpectrum& contribution, const StokesSpectrum* stokes, Use use) const {
+    with_measurement(measures_polarisation_, contribution, stokes, use);
+  }
+  /// Calls `use` with the sum of a path, in the same form.
+  template <typename Use>
+  void visit(std::size_t path, Use use) const {
+    if (measures_polarisation_)
+      use(vectors_[path]);
+    else
+      use(powers_[path]);
+  }
+
+ private:
+  struct Adder {
+    PathRadiance& to;
+    std::size_t path;
+    void operator()(const SampledSpectrum& power) const { to.powers_[path] += power; }
+    void operator()(const StokesSpectrum& vector) const { to.vectors_[path] += vector; }
+  };
+
+  bool measures_polarisation_;
+  std::vector<SampledSpectrum> powers_;
+  std::vector<StokesSpectrum> vectors_;
+};
 
 }  // namespace abbe

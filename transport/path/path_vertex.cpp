@@ -3,9 +3,9 @@
 #include <cmath>
 #include <limits>
 
-#include "scene/lights/emission.h"
+#include "scene/lights/light.h"
 #include "scene/working_range.h"
-#include "transport/path/polarised_ends.h"
+#include "transport/path/polarised_paths.h"
 
 namespace abbe {
 namespace {
@@ -30,12 +30,9 @@ SampledSpectrum value_towards(const CameraVertex& at, const VertexQuery& query, 
 
 SampledSpectrum value_towards(const LightVertex& at, const VertexQuery& query, TransportMode /*mode*/) {
   const Light& light = query.scene.lights[at.light];
-  if (!emits_towards(light, at.normal, query.w)) return {};
-  if (const auto* spot = std::get_if<SpotLight>(&light.kind);
-      spot != nullptr && !spot->illuminates(query.w, query.vertex.time))
-    return {};
-  const float cosine = light.is<AreaLight>() ? std::abs(at.normal.dot(query.w)) : 1.0F;
-  return emission_from(light, -query.w, query.vertex.lambda_nm()) * cosine;
+  const float factor = emission_factor(light, at.normal, query.w, query.vertex.time);
+  if (!(factor > 0)) return {};
+  return emission_from(light, -query.w, query.vertex.lambda_nm()) * factor;
 }
 
 SampledSpectrum value_towards(const SurfaceVertex& at, const VertexQuery& query, TransportMode mode) {

@@ -12,9 +12,13 @@
 #include <utility>
 #include <vector>
 
-#include "transport/path/interface.h"
-#include "transport/path/medium_at.h"
-#include "transport/path/smooth_scattering.h"
+#include "materials/interface/mueller.h"
+#include "materials/interface/snell.h"
+#include "materials/material.h"
+#include "scene/shapes/ray.h"
+#include "scene/shapes/shape.h"
+#include "transport/path/media.h"
+#include "transport/path/vertex.h"
 
 namespace abbe {
 namespace {
@@ -23,6 +27,96 @@ using Kind = TraceEvent::Kind;
 
 // A hit closer than this fraction of the distances involved is the surface from which the ray starts.
 constexpr double kSelfIntersection = 1e-11;
+
+// Surface coordinates at a point; nothing on meshes, because a hit does not identify their triangle.
+std::optional<SurfaceCoordinates> coordinates_at(const Shape& shape, const Imath::V3d& point) {
+  if (plain<Mesh>(shape) != nullptr) return std::nullopt;
+  return coordinates(shape, point, 0, 0);
+}
+
+// Axis of the event's frame, perpendicular to the ray before and after.
+Imath::V3d axis_of(const SmoothMueller& mueller, const Imath::V3d& wo, const Imath::V3d& normal,
+                   const std::optional<SurfaceCoordinates>& coordinates) {
+  if (!mueller.axis) return across(wo, normal);
+  const Basis<double> axes(normal, coordinates->dp_du);
+  return axes.to_world(projected_axis(*mueller.axis, axes.to_local(wo)));
+}
+
+// Sets the indices of refraction of both sides.
+void set_other_side(const Material& material, double wavelength_nm, bool entering, double outside,
+                    Passage& passage) {
+  if (const RefractiveIndex* glass = interior_index(material)) {
+    const double inside = glass->n(wavelength_nm);
+    passage.n_from = entering ? outside : inside;
+    passage.n_to = entering ? inside : outside;
+  } else if (const auto* metal = std::get_if<ConductorMaterial>(&material.model)) {
+    passage.n_to = metal->index.n(wavelength_nm);
+    passage.k_to = metal->index.k(wavelength_nm);
+  } else if (!opaque(material)) {
+    passage.n_to = outside;
+  }
+}
+
+// Ray that leaves a smooth surface.
+struct OutgoingRay {
+  TraceEvent::Kind kind;  // refract, reflect or total_reflection
+  Imath::V3d direction;   // Unit vector.
+  double angle_deg;       // Angle with the normal on the side of the ray, in [0, 90].
+  // Mueller matrix of the event, including the power of unpolarised light, with `SmoothScattering::axis` as
+  // axis.
+  FullMueller mueller;
+};
+
+// Light that a surface sends in single directions. `OutgoingRay::mueller` has the fractions of its power.
+struct SmoothScattering {
+  // Specular reflection, and refraction or straight transmission; empty if it carries no power.
+  std::optional<OutgoingRay> reflected, through;
+  Imath::V3d axis = {};  // First axis of the event's frames, perpendicular to the ray before and after.
+  Passage passage = {};  // Complete except for `angle_out_deg`, which depends on the ray that is followed.
+  // True if the surface also scatters light into other directions, or if no outgoing ray is known.
+  bool ends = true;
+};
+
+// Outgoing rays of a ray that arrives at `at`; the unit vector `wo` points back to where it came from.
+// `outside` is the index of the medium outside the shape, relative to air. No rays leave a surface without a
+// specular lobe, or a mesh whose material needs surface coordinates, because a hit does not have them.
+SmoothScattering smooth_scattering_at(const Scene& scene, const ExactHit& at, const Imath::V3d& wo,
+                                      double wavelength_nm, double outside) {
+  const ShapeInstance& shape = scene.shapes[at.shape];
+  const Material& material = scene.materials[shape.material];
+  const bool entering = wo.dot(at.hit.normal) > 0;
+  const Imath::V3d normal = entering ? at.hit.normal : -at.hit.normal;
+  SmoothLookup lookup{wavelength_nm, normal.dot(wo), !entering, outside};
+  std::optional<SurfaceCoordinates> surface_coordinates;
+  if (needs_coordinates(material)) surface_coordinates = coordinates_at(shape.shape, at.hit.point);
+  if (surface_coordinates) lookup.coordinates = Imath::V2f(surface_coordinates->uv);
+  const auto power = smooth_power(material, lookup);
+  if (!power) return {};
+  const SmoothMueller mueller = *smooth_mueller(material, lookup);
+  if (mueller.axis && !surface_coordinates) return {};
+  SmoothScattering scattering{{},
+                              {},
+                              axis_of(mueller, wo, at.hit.normal, surface_coordinates),
+                              {outside, 0, 0, angle_deg(wo, normal), 0, power->Rs, power->Rp},
+                              lobes(material).spread};
+  set_other_side(material, wavelength_nm, entering, outside, scattering.passage);
+  if (power->transmitted() > 0) {
+    const auto through = interior_index(material) != nullptr
+                             ? refract(wo, normal, scattering.passage.n_to / scattering.passage.n_from)
+                             : std::optional(-wo);
+    if (through)
+      scattering.through = OutgoingRay{Kind::refract, through->normalized(), angle_deg(*through, -normal),
+                                       FullMueller::of(mueller.matrices.through, power->transmitted())};
+  }
+  if (power->R() > 0) {
+    const Imath::V3d direction = reflect(wo, normal);
+    const bool total = !scattering.through && !opaque(material);
+    scattering.reflected =
+        OutgoingRay{total ? Kind::total_reflection : Kind::reflect, direction.normalized(),
+                    angle_deg(direction, normal), FullMueller::of(mueller.matrices.reflected, power->R())};
+  }
+  return scattering;
+}
 
 // Crossing of surfaces in a scene without nested media. Materials that depend on the index around them are in
 // air. Coincident medium boundaries are crossed together, exits first.
@@ -270,7 +364,52 @@ class RayFollower {
   std::multimap<double, RayState, std::greater<>> queue_;
 };
 
+using Kind = TraceEvent::Kind;
+
 }  // namespace
+
+FullMueller FullMueller::identity() {
+  return of({}, 1);
+}
+
+FullMueller FullMueller::of(const MuellerElements<double>& m, double power) {
+  FullMueller full{{{{1, m.d, 0, 0}, {m.d, m.p, 0, 0}, {0, 0, m.c, 0 - m.s}, {0, 0, m.s, m.c}}}};
+  return full *= power;
+}
+
+StokesVector FullMueller::operator*(const StokesVector& light) const {
+  StokesVector after{};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j) after[i] += rows[i][j] * light[j];
+  return after;
+}
+
+FullMueller FullMueller::operator*(const FullMueller& before) const {
+  FullMueller both{};
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j)
+      for (std::size_t k = 0; k < 4; ++k) both.rows[i][j] += rows[i][k] * before.rows[k][j];
+  return both;
+}
+
+FullMueller& FullMueller::operator*=(double power) {
+  for (StokesVector& row : rows)
+    for (double& element : row) element *= power;
+  return *this;
+}
+
+// Rotation by the right-handed angle between both axes about the direction. [Born1999, sec. 10.9]
+void RayPolarisation::turn_to(const Imath::V3d& axis, const Imath::V3d& direction) {
+  const double cosine = last_axis.dot(axis);
+  const double sine = direction.dot(last_axis.cross(axis));
+  const double scale = 1 / (cosine * cosine + sine * sine);
+  const double cos_twice = (cosine - sine) * (cosine + sine) * scale;
+  const double sin_twice = 2 * sine * cosine * scale;
+  const FullMueller turn{
+      {{{1, 0, 0, 0}, {0, cos_twice, sin_twice, 0}, {0, -sin_twice, cos_twice, 0}, {0, 0, 0, 1}}}};
+  mueller = turn * mueller;
+  last_axis = axis;
+}
 
 double angle_deg(const Imath::V3d& a, const Imath::V3d& b) {
   const Imath::V3d u = a.normalized();

@@ -2,18 +2,64 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 
-#include "materials/bsdf/polarisation.h"
+#include "materials/bsdf.h"
 #include "materials/material.h"
 #include "scene/scene.h"
-#include "scene/shading_point.h"
-#include "transport/path/interface.h"
+#include "transport/path/media.h"
 #include "transport/path/path_state.h"
 
 namespace abbe {
+
+// Nested media: a surface is an interface only if the medium changes there. At a point within several shapes
+// the medium is that of the shape with the highest priority [Schmidt2002]; among equals, of the smallest. A
+// medium without an interface has the index of the medium around it and does not refract. Coincident surfaces
+// are crossed together, from the medium before all of them to the medium behind all of them.
+
+/// Crossing of a shape's surface, into the shape or out of it.
+struct CrossedSurface {
+  std::uint32_t shape;  ///< Index into `Scene::shapes`.
+  bool entering;        ///< True if the ray arrives against the shape's outward normal.
+};
+
+/// The one of several coincident surfaces that acts on a ray, and the media there.
+struct ActingSurface {
+  /// Position of the acting surface in the list of crossed surfaces; none if the ray continues straight.
+  std::optional<std::size_t> acting;
+  /// Refractive index of the medium on the side of the acting surface that is not in its own shape; for
+  /// opaque surfaces and sheets, of the medium from which the ray arrives. nullptr is air.
+  const RefractiveIndex* outside = nullptr;
+  MediumStack media_behind = {};  ///< Media of a transmitted ray; those before an opaque surface.
+};
+
+/// Decides which of `surfaces`, which coincide and number at most `CoincidentHits::kMaxHits`, acts on a ray
+/// in `media`. The first rule that applies decides:
+/// - The first opaque surface of the list acts.
+/// - If the index changes, the surface of higher priority of the two that bound the media before and behind
+///   acts. Among equals this is the later one of the scene.
+/// - If the index does not change, the first sheet of the list acts: a surface that encloses no medium.
+///
+/// A shape that is left without having been entered counts as entered before. Throws Error{resource} if more
+/// than `MediumStack::kMaxShapes` media nest.
+[[nodiscard]] ActingSurface acting_surface(const Scene& scene, std::span<const CrossedSurface> surfaces,
+                                           const MediumStack& media);
+
+/// Interface at which a path interacts with coincident surfaces.
+struct Interface {
+  SurfaceHit hit;                  ///< Hit on the acting surface, or on the first one if `passes`.
+  bool passes;                     ///< True if no surface acts, so that the path continues straight.
+  const RefractiveIndex* outside;  ///< See `ActingSurface::outside`.
+  MediumStack media_behind;        ///< See `ActingSurface::media_behind`.
+};
+/// Interface of a path whose ray hits the scene first at `first`, in `media`. The coincidence radius of its
+/// hit encloses all coincident surfaces. Throws as `acting_surface`.
+[[nodiscard]] Interface interface_at(const Scene& scene, const Ray& ray, const SurfaceHit& first,
+                                     const MediumStack& media);
 
 /// Surface vertex of a path, with its BSDF.
 struct SurfaceVertex {
@@ -59,10 +105,8 @@ struct SurfaceVertex {
   /// Context for light sampling: position, and the shading normal on the path's side unless the model
   /// scatters to both sides. Glossy if all lobes are glossy; mixtures count as not glossy.
   [[nodiscard]] LightSampleContext light_context() const {
-    const bool both = std::holds_alternative<RoughDielectricBsdf>(bsdf);
-    const bool glossy = is_any_of<RoughDielectricBsdf, RoughConductorBsdf, CosinePowerBsdf<false>,
-                                  CosinePowerBsdf<true>, PhongBsdf, RetroreflectorBsdf>(bsdf);
-    return {hit.point, both ? std::nullopt : std::optional(wo.z > 0 ? frame.z : -frame.z), glossy};
+    const bool both = scatters_to_both_sides(bsdf);
+    return {hit.point, both ? std::nullopt : std::optional(wo.z > 0 ? frame.z : -frame.z), glossy(bsdf)};
   }
 
   /// Infinite ray that leaves in the unit world direction `w` at the time `time`, a fraction of the exposure.
@@ -154,5 +198,25 @@ struct SurfaceVertex {
     return scattering(scene, interface, path, textured.uv);
   }
 };
+
+/// Sampling of directions at a surface independently of its BSDF: by the cosine with the shading normal, or
+/// uniformly. Both sides are sampled if the surface transmits. `DirectionSampling::bsdf` is not allowed. Let
+/// q_k be the probability that wavelength k's event is delta, and p(wi) the pdf of DirectionSampling. The pdf
+/// of a direction is
+///     P_k(wi) = (1 - q_k) p(wi),
+/// and the weight of an event is f |cos wi| / P_hero. Surfaces with delta distributions only are sampled by
+/// their BSDF.
+
+/// P_k(wi) [1/sr] per wavelength, for a local unit direction. 0 on the far side of a surface that does not
+/// transmit.
+[[nodiscard]] SampledSpectrum pdf_of_directions(DirectionSampling directions, const SurfaceVertex& vertex,
+                                                const Imath::V3f& wi);
+
+/// Samples an event with the hero wavelength: the BSDF's own if that is delta, otherwise one with the pdf
+/// P_hero(wi). Returns nothing if the surface scatters no light there. `mode` is the quantity that the path
+/// carries.
+[[nodiscard]] std::optional<BsdfSample> sample_directions(DirectionSampling directions,
+                                                          const SurfaceVertex& vertex, const BsdfRandom& u,
+                                                          int hero, TransportMode mode);
 
 }  // namespace abbe

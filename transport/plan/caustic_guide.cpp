@@ -7,7 +7,7 @@
 #include <numbers>
 #include <utility>
 
-#include "scene/shapes/basis.h"
+#include "scene/shapes/ray.h"
 
 namespace abbe {
 namespace {

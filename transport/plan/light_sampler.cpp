@@ -3,13 +3,36 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <numeric>
 #include <span>
 #include <tuple>
 #include <utility>
 
+#include "sampling/discrete.h"
 #include "scene/working_range.h"
 
 namespace abbe {
+
+PowerLightSampler::PowerLightSampler(const std::vector<double>& weights)
+    : probability_(weights.size(), 0.0F) {
+  const double total = std::accumulate(weights.begin(), weights.end(), 0.0);
+  if (!(total > 0)) return;
+  const auto positive =
+      static_cast<double>(std::count_if(weights.begin(), weights.end(), [](double w) { return w > 0; }));
+  double sum = 0;
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double p = weights[i] > 0 ? 0.9 * weights[i] / total + 0.1 / positive : 0;
+    probability_[i] = static_cast<float>(p);
+    sum += p;
+    cdf_.push_back(static_cast<float>(sum));
+  }
+}
+
+PowerLightSampler::SampledLight PowerLightSampler::pick(float u) const {
+  const auto light = static_cast<std::uint32_t>(invert_cdf(std::span<const float>(cdf_), u).index);
+  return {light, probability_[light]};
+}
+
 namespace {
 
 constexpr double kUniform = 0.1;  // defensive fraction
@@ -56,7 +79,7 @@ LightSampler::LightSampler(const Scene& scene, const std::vector<double>& sensor
   std::vector<LightLeaf> leaves;
   for (std::uint32_t i = 0; i < scene.lights.size(); ++i)
     if (sensor_emissions[i] > 0)
-      leaves.push_back({i, light_bounds(scene.lights[i], scene, sensor_emissions[i])});
+      leaves.push_back({i, light_bounds(scene.lights[i], scene.shapes, sensor_emissions[i])});
   if (leaves.empty()) return;
   lights_ = static_cast<std::uint32_t>(leaves.size());
   const LightScale scale = scale_of(leaves, scene_radius(scene.bounds));

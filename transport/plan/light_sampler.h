@@ -5,9 +5,31 @@
 
 #include "scene/scene.h"
 #include "transport/plan/light_tree.h"
-#include "transport/plan/power_light_sampler.h"
 
 namespace abbe {
+
+/// Discrete distribution over the lights of a scene.
+class PowerLightSampler {
+ public:
+  /// Nine in ten samples are in proportion to `weights`, one per light and not negative. The others are
+  /// uniform over the lights of positive weight.
+  explicit PowerLightSampler(const std::vector<double>& weights);
+
+  struct SampledLight {
+    std::uint32_t light;  ///< Index into `Scene::lights`.
+    float probability;    ///< Probability of choosing this light.
+  };
+  /// Picks a light with `u` in [0, 1). The distribution must not be empty.
+  [[nodiscard]] SampledLight pick(float u) const;
+  /// Probability with which `pick` chooses a light; 0 for one without weight.
+  [[nodiscard]] float probability(std::uint32_t light) const { return probability_[light]; }
+  /// True if no light has weight.
+  [[nodiscard]] bool empty() const { return cdf_.empty(); }
+
+ private:
+  std::vector<float> cdf_;  // empty if no light has weight
+  std::vector<float> probability_;
+};
 
 /// Samples a light for a vertex. Nine in ten samples are in proportion to the unoccluded irradiance; the
 /// others are uniform over all lights, because only one of them may be unoccluded. Up to 16 lights are

@@ -11,8 +11,8 @@
 
 #include "materials/bsdf/warp.h"
 #include "sampling/discrete.h"
-#include "scene/lights/emission.h"
-#include "scene/shapes/basis.h"
+#include "scene/lights/light.h"
+#include "scene/shapes/ray.h"
 
 namespace abbe {
 namespace {

@@ -2,25 +2,193 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <tuple>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "scene/working_range.h"
-#include "transport/plan/emissions.h"
-#include "transport/plan/light_bounds.h"
-#include "transport/plan/make_photon_guides.h"
-#include "transport/plan/photon_settings.h"
+#include "transport/plan/light_tree.h"
+#include "transport/plan/techniques.h"
 
 namespace abbe {
 namespace {
+
+// Bounding box of all shapes that are not distant and whose material satisfies `holds`.
+template <typename Holds>
+Imath::Box3d bounds_where(const Scene& scene, Holds holds) {
+  Imath::Box3d box;
+  for (const ShapeInstance& shape : scene.shapes)
+    if (!shape.distant && holds(scene.materials[shape.material])) box.extendBy(bounds(shape.shape));
+  return box;
+}
+
+// Sphere through which photons of distant lights are sent: around all refracting and specular shapes, or
+// around everything nearby if photons are the only technique.
+struct TargetSphere {
+  Imath::V3d center{0};
+  double radius = 1;
+};
+TargetSphere distant_target(const Scene& scene, bool light_only) {
+  const Imath::Box3d box = light_only ? scene.bounds : bounds_where(scene, [](const Material& m) {
+    return lobes(m).delta || encloses_medium(m);
+  });
+  return box.isEmpty() ? TargetSphere{} : TargetSphere{box.center(), box.size().length() / 2};
+}
+
+// Lower bound of the cosine between `axis` and the rays from a distant light to the target. It combines the
+// angle of the light's corners, viewed from the center, with that of the sphere, viewed from the light.
+double min_cosine(const Imath::Box3d& light_box, const Imath::V3d& axis, const TargetSphere& target) {
+  double cosine = 1;
+  for (const double x : {light_box.min.x, light_box.max.x})
+    for (const double y : {light_box.min.y, light_box.max.y})
+      for (const double z : {light_box.min.z, light_box.max.z})
+        cosine = std::min(cosine, (target.center - Imath::V3d(x, y, z)).normalized().dot(axis));
+  const double sine = std::min(1.0, target.radius / distance_to(light_box, target.center));
+  return cosine * std::sqrt(1 - sine * sine) - std::sqrt(std::max(0.0, 1 - cosine * cosine)) * sine;
+}
+
+// Distant light as viewed from the scene, whose center is the origin of world space.
+struct DistantLight {
+  Imath::V3d center;  // Center of the light's bounding box in world space [m].
+  double distance;    // Distance of that center from the origin [m].
+  double radius;      // Radius of the sphere around the bounding box [m].
+};
+// Data of a distant light; nothing for a nearby light or one at infinity.
+std::optional<DistantLight> distant_light(const Light& light, const Scene& scene) {
+  if (light.at_infinity() || !scene.is_distant(light)) return std::nullopt;
+  const Imath::Box3d box = bounds_of(light, scene.shapes);
+  return DistantLight{box.center(), box.center().length(), box.size().length() / 2};
+}
+
+// Guide of a distant light or a light at infinity; nothing for other lights.
+std::optional<PhotonGuide> guide_for_distant(const Scene& scene, const Light& light,
+                                             const TargetSphere& target) {
+  const Imath::V3f center(target.center);
+  if (const std::optional<DirectionCone> beam = beam_of(light))
+    return PhotonGuide::for_distant_light(-beam->axis, 1 - static_cast<double>(beam->cap), center,
+                                          target.radius);
+  const auto distant = distant_light(light, scene);
+  if (!distant) return std::nullopt;
+  const Imath::V3d axis = -distant->center.normalized();
+  return PhotonGuide::for_distant_light(
+      Imath::V3f(axis), min_cosine(bounds_of(light, scene.shapes), axis, target), center, target.radius);
+}
+
+// The target grows with the light's size, without bound as rays become parallel to it.
+std::optional<Error> distant_light_error(const Scene& scene, const Light& light, const TargetSphere& target) {
+  constexpr double kMinCosine = 0.1;
+  const auto distant = distant_light(light, scene);
+  if (!distant ||
+      min_cosine(bounds_of(light, scene.shapes), -distant->center.normalized(), target) >= kMinCosine)
+    return std::nullopt;
+  return Error(
+      ErrorCode::scene, light.name,
+      fmt::format(
+          "photons of a distant light must arrive within 84 degrees of one direction, but this light is "
+          "{:g} m across at a distance of {:g} m: use --integrator path",
+          2 * distant->radius, distant->distance));
+}
+
+// Error{scene} for lights in `traced`, a flag per light, whose photons cannot illuminate the scene; nothing
+// if all can. Set `light_only` if photons aim at all nearby shapes instead of the refracting and specular
+// ones. Photons of distant lights start outside of all shapes that refract them and are sent through the
+// nearby shapes. Distant shapes receive none, and a distant medium attenuates none. The precision of large
+// shapes is limited to that of floats there.
+std::optional<Error> photon_refusal(const Scene& scene, const std::vector<bool>& traced, bool light_only) {
+  constexpr double kSmallest = 1e-5;  // radian: smaller shapes may lack caustics
+  bool any_distant = false;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    any_distant =
+        any_distant || (traced[i] && (scene.lights[i].at_infinity() || scene.is_distant(scene.lights[i])));
+  if (!any_distant) return std::nullopt;
+  const TargetSphere target = distant_target(scene, light_only);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    if (traced[i])
+      if (auto refused = distant_light_error(scene, scene.lights[i], target)) return refused;
+  for (const ShapeInstance& shape : scene.shapes) {
+    const Imath::Box3d box = bounds(shape.shape);
+    const double size = box.size().length();
+    const Material& material = scene.materials[shape.material];
+    const bool relevant = lobes(material).delta || (light_only && shape.light < 0);
+    const bool far =
+        shape.distant && (relevant || is_boundary(material)) && size > kSmallest * box.center().length();
+    const bool large =
+        !shape.distant && (relevant || encloses_medium(material)) && size > 2 * scene.far_threshold_m;
+    if (far || large)
+      return Error(
+          ErrorCode::scene, shape.name,
+          fmt::format("photons of a distant light cannot illuminate a shape that is {:g} m across, {:g} m "
+                      "from the center of the scene, if other shapes are {:g} m from the camera: use "
+                      "--integrator path",
+                      size, box.center().length(), scene.far_threshold_m / WorkingRange::kGap));
+  }
+  return std::nullopt;
+}
+
+// A grid takes an eighth of a megabyte. If very many lights are traced, only the strongest are guided; the
+// others emit unguided.
+constexpr std::ptrdiff_t kMaxGuides = 128;
+
+// Guides before training, one per light. `traced_powers` is the power of each light, 0 if it emits no
+// photons. Lights without power, and all nearby lights but the 128 strongest, have unguided emission.
+// `light_only` is as for `photon_refusal`.
+std::vector<PhotonGuide> make_photon_guides(const Scene& scene, const std::vector<double>& traced_powers,
+                                            bool light_only) {
+  const Imath::Box3d box = bounds_where(scene, [](const Material& m) { return lobes(m).delta; });
+  const TargetSphere target = distant_target(scene, light_only);
+  std::vector<PhotonGuide> guides(scene.lights.size());
+  for (std::size_t i = 0; i < guides.size(); ++i)
+    if (traced_powers[i] > 0)
+      if (auto guide = guide_for_distant(scene, scene.lights[i], target)) guides[i] = std::move(*guide);
+  if (light_only || box.isEmpty() || guides.empty()) return guides;
+  std::vector<double> strongest(traced_powers);
+  const auto weakest = strongest.begin() + std::min<std::ptrdiff_t>(kMaxGuides, std::ssize(strongest)) - 1;
+  std::nth_element(strongest.begin(), weakest, strongest.end(), std::greater<>());
+  std::ptrdiff_t count = 0;
+  for (std::size_t i = 0; i < scene.lights.size(); ++i)
+    if (traced_powers[i] > 0 && traced_powers[i] >= *weakest && count++ < kMaxGuides) {
+      if (scene.lights[i].at_infinity() || scene.is_distant(scene.lights[i])) {
+        guides[i].enable_guiding();
+        continue;
+      }
+      const Imath::Box3d light_box = bounds_of(scene.lights[i], scene.shapes);
+      const std::optional<DirectionCone> cone = cone_at(scene.lights[i], 0);
+      guides[i] =
+          PhotonGuide(Imath::V3f(light_box.center()), static_cast<float>(light_box.size().length() / 2),
+                      Imath::V3f(box.center()), static_cast<float>(box.size().length() / 2),
+                      cone ? std::optional(cone->axis) : std::nullopt);
+    }
+  return guides;
+}
+
+// Integral of |emission x response|; a response may be negative.
+double sensor_integral(const Curve& emission, const Curve& response) {
+  const Curve both = product(emission, response);
+  std::vector<Knot> knots(both.knots().begin(), both.knots().end());
+  for (Knot& knot : knots) knot.value = std::abs(knot.value);
+  return Curve(std::move(knots)).integral();
+}
+
+bool is_before(const ScaledCurve& a, const ScaledCurve& b) {
+  if (&a.base() == &b.base()) return false;
+  const auto first = a.base().knots();
+  const auto second = b.base().knots();
+  return std::lexicographical_compare(
+      first.begin(), first.end(), second.begin(), second.end(), [](const Knot& x, const Knot& y) {
+        return std::tie(x.wavelength_nm, x.value) < std::tie(y.wavelength_nm, y.value);
+      });
+}
 
 // True for each light that emits photons.
 std::vector<bool> traced_lights(const Scene& scene) {
   std::vector<bool> traced(scene.lights.size(), false);
   const std::vector<Technique> techniques = chosen_techniques(scene);
   if (!starts_at_lights(techniques)) return traced;
-  const bool all = !uses(techniques, Technique::path);
-  const bool with_environment = !uses(techniques, Technique::light) && !uses(techniques, Technique::bdpt);
+  const bool all = techniques.size() == 1;
+  const bool with_environment = traits(techniques.back()).traces_environment;
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     traced[i] =
         (with_environment || !scene.lights[i].is_environment()) && (all || scene.features.light_is_traced[i]);
@@ -100,11 +268,11 @@ std::vector<double> sensor_weighted_powers(const Scene& scene, const Emissions& 
   return powers;
 }
 
-// Point and spot lights; their irradiance varies with the inverse squared distance along scattering segments.
+// Lights at a point, whose irradiance varies with the inverse squared distance along scattering segments.
 PowerLightSampler equiangular_light_sampler(const Scene& scene, const Emissions& emissions) {
   std::vector<double> powers = sensor_weighted_powers(scene, emissions);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
-    if (!scene.features.scattering || !scene.lights[i].is<PointLight, SpotLight>()) powers[i] = 0;
+    if (!scene.features.scattering || light_position(scene.lights[i]) == nullptr) powers[i] = 0;
   return PowerLightSampler(powers);
 }
 
@@ -153,31 +321,31 @@ void find_varying_media(Plan& plan) {
   for (const Light& light : scene.lights)
     plan.light_media_vary.push_back(
         !light.at_infinity() && !scene.is_distant(light) &&
-        media_may_change(scene, bounds_of(light, scene), motion_of(light, scene.shapes) != nullptr));
+        media_may_change(scene, bounds_of(light, scene.shapes), motion_of(light, scene.shapes) != nullptr));
 }
 
 // True if NEE of camera paths is balanced with emitter hits by BSDF sampling.
 bool balances_lights(const Scene& scene, const std::vector<Technique>& techniques) {
-  return uses(techniques, Technique::path)
-             ? scene.render.sampling.lights == LightStrategy::mis &&
-                   scene.render.sampling.directions == DirectionSampling::bsdf
-             : uses(techniques, Technique::bdpt) || uses(techniques, Technique::vcm);
+  const TracedPaths traced = traits(techniques.front()).traces;
+  return traced == TracedPaths::camera ? scene.render.sampling.lights == LightStrategy::mis &&
+                                             scene.render.sampling.directions == DirectionSampling::bsdf
+                                       : traced == TracedPaths::both;
 }
 
 // Makes a plan without the checks of `refusal`.
 Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissions& emissions,
              const std::vector<bool>& traced) {
-  const bool light_only = techniques == std::vector{Technique::light};
+  const bool light_only = techniques.size() == 1;  // if photons are guided
   const bool traces_light = starts_at_lights(techniques);
   const std::vector<Curve> equal_energy{Curve(1.0)};
   const std::span<const Curve> emission_curves =
-      uses(techniques, Technique::adjoint_brute) ? equal_energy : emissions.distinct;
+      traits(techniques.front()).traces == TracedPaths::camera_by_chance ? equal_energy : emissions.distinct;
   const std::uint64_t photons = photons_of(scene, techniques);
   std::vector<double> traced_powers = sensor_weighted_powers(scene, emissions);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (!traced[i]) traced_powers[i] = 0;
   const WavelengthDistribution wavelengths = make_wavelengths(scene, emission_curves);
-  const bool guides_photons = uses(techniques, Technique::light);
+  const bool guides_photons = traces(techniques, TracedPaths::light);
   Plan plan{
       scene,
       wavelengths,
@@ -196,7 +364,7 @@ Plan plan_of(const Scene& scene, std::vector<Technique> techniques, const Emissi
   plan.gather_radius = static_cast<float>(first_gather_radius(scene, photons));
   plan.camera_media_vary = camera_media_vary(scene);
   if (scene.features.motion) find_varying_media(plan);
-  if (uses(plan.techniques, Technique::path))
+  if (traces(plan.techniques, TracedPaths::camera))
     plan.equiangular_lights = equiangular_light_sampler(scene, emissions);
   for (std::size_t i = 0; i < scene.lights.size(); ++i)
     if (traced[i]) plan.light_media[i] = media_at_light(scene, scene.lights[i]).value();
@@ -222,13 +390,29 @@ std::optional<Error> refusal_of(const Scene& scene, const Emissions& emissions) 
   if (auto error = float_range_error(nominal_spectral, " J/(m^2 nm)")) return error;
   std::vector<bool> traced = traced_lights(scene);
   if (auto refused = photon_start_error(scene, traced)) return refused;
-  const bool guides_photons = uses(chosen_techniques(scene), Technique::light);
+  const bool guides_photons = traces(chosen_techniques(scene), TracedPaths::light);
   for (std::size_t i = 0; i < traced.size(); ++i)
     traced[i] = traced[i] && (guides_photons || scene.lights[i].at_infinity());  // other lights emit unguided
-  return refusal(scene, traced, scene.render.integrator != Integrator::automatic);
+  return photon_refusal(scene, traced, scene.render.integrator != Integrator::automatic);
 }
 
 }  // namespace
+
+Emissions emissions_of(const Scene& scene) {
+  Emissions emissions;
+  std::map<ScaledCurve, double, decltype(&is_before)> known(is_before);  // integral for a factor of 1
+  for (const Light& light : scene.lights) {
+    const ScaledCurve emission = mean_emission(light);
+    const auto [at, is_new] = known.emplace(emission, 0);
+    if (is_new) {
+      for (const Channel& channel : scene.channels)
+        at->second = std::max(at->second, sensor_integral(emission.base(), envelope(channel)));
+      emissions.distinct.push_back(emission.base());
+    }
+    emissions.sensor_emissions.push_back(at->second * emission.factor());
+  }
+  return emissions;
+}
 
 std::uint64_t photons_of_sample(const Scene& scene) {
   return photons_of(scene, chosen_techniques(scene));
@@ -251,7 +435,7 @@ Plan make_plan(const Scene& scene) {
 
 std::optional<Plan> make_photon_plan(const Scene& scene, const Emissions& emissions,
                                      const std::vector<bool>& lights) {
-  if (refusal(scene, lights, false) || photon_start_error(scene, lights)) return std::nullopt;
+  if (photon_refusal(scene, lights, false) || photon_start_error(scene, lights)) return std::nullopt;
   Plan plan = plan_of(scene, {Technique::path, Technique::light}, emissions, lights);
   if (plan.traced_lights.empty()) return std::nullopt;
   return plan;

@@ -6,20 +6,32 @@
 
 #include "io/error.h"
 #include "scene/scene.h"
+#include "spectral/curve.h"
 #include "spectral/wavelength_distribution.h"
-#include "transport/path/medium_stack.h"
+#include "transport/path/media.h"
 #include "transport/plan/caustic_guide.h"
-#include "transport/plan/emissions.h"
 #include "transport/plan/light_sampler.h"
 #include "transport/plan/photon_guide.h"
-#include "transport/plan/power_light_sampler.h"
 #include "transport/plan/techniques.h"
 
 namespace abbe {
 
+/// Emission of a scene's lights as weighted by its sensor.
+struct Emissions {
+  /// Mean emission curves, one of each set of curves that differ in a factor only, up to a factor. Many
+  /// lights of one kind then cost as much as one, and do not take wavelengths from other kinds.
+  std::vector<Curve> distinct;
+  /// Sensor-weighted emission, one per light in the order of `Scene::lights`: the integral of |emission x
+  /// response| over wavelength for the channel with the largest one. 0 if the sensor records nothing of the
+  /// light.
+  std::vector<double> sensor_emissions;
+};
+/// Emissions of all lights of a scene.
+[[nodiscard]] Emissions emissions_of(const Scene& scene);
+
 /// Distributions that guide photons and camera paths; uniform until pilots have trained them.
 struct GuidingData {
-  /// One per light of the scene if the plan uses `Technique::light`, otherwise empty.
+  /// One per light of the scene if the plan has light tracing, otherwise empty.
   std::vector<PhotonGuide> photon_guides;
   /// Wavelengths of photons whose packet is not that of camera paths.
   WavelengthDistribution photon_wavelengths;

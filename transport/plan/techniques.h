@@ -1,61 +1,53 @@
 #pragma once
 
-#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "scene/integrators.h"
+#include "scene/lost_light.h"
 #include "scene/scene.h"
-#include "scene/unsampled_paths.h"
 
 namespace abbe {
 
-/// Techniques from which a plan chooses. Each estimates the classes of paths that it owns; no path has two
-/// owners.
-enum class Technique : std::uint8_t {
-  path,   ///< Path tracing [Kajiya1986]: `PathTracer`.
-  light,  ///< Light tracing [Arvo1986]: `LightTracer`.
-  bdpt,   ///< Bidirectional path tracing [Veach1997]: `BidirectionalTracer`. Used alone.
-  /// Photon density estimation with the nearest photons [Jensen1996]: `PhotonGatherer`. Used alone.
-  photon_map,
-  /// Photon density estimation with a decreasing radius at the same points [Hachisuka2008]: `PhotonGatherer`.
-  /// Used alone.
-  ppm,
-  /// Photon density estimation with a decreasing radius at new points [Hachisuka2009]: `PhotonGatherer`. Used
-  /// alone.
-  sppm,
-  vcm,            ///< Vertex connection and merging [Georgiev2012]: `BidirectionalTracer`. Used alone.
-  photon_brute,   ///< Photons that enter the lens by chance: `BrutePhotonTracer`. Used alone.
-  adjoint_brute,  ///< Camera paths that hit lights by chance: `AdjointBruteTracer`. Used alone.
-};
-
-/// Name of a technique in scene files and answers.
-[[nodiscard]] std::string_view name_of(Technique technique);
+/// A technique from which a plan chooses: an integrator that is not `automatic`. Each estimates the classes
+/// of paths that it owns; no path has two owners. Only `path` and `light` are combined.
+using Technique = Integrator;
 
 /// Techniques of the scene's integrator, in the order of the enumeration; at least one.
 [[nodiscard]] std::vector<Technique> chosen_techniques(const Scene& scene);
 
 /// Classes of light paths of a scene that none of its `chosen_techniques` can sample.
-[[nodiscard]] std::vector<PathClass> unreached(const Scene& scene);
+[[nodiscard]] std::vector<PathClass> unsampled_paths(const Scene& scene);
 
-/// True if `techniques` contains `technique`.
-[[nodiscard]] bool uses(std::span<const Technique> techniques, Technique technique);
+/// True if one of the techniques traces such paths.
+[[nodiscard]] bool traces(std::span<const Technique> techniques, TracedPaths paths);
 
-/// True if one of the techniques starts paths at lights: all but `path` and `adjoint_brute` do.
+/// True if a technique traces camera paths.
+[[nodiscard]] bool starts_at_camera(Technique technique);
+
+/// True if one of the techniques starts paths at lights.
 [[nodiscard]] bool starts_at_lights(std::span<const Technique> techniques);
 
-/// True if a technique gathers photons that the light paths of a sample store first: `photon_map`, `ppm` and
-/// `sppm`.
+/// True if a technique gathers photons that the light paths of a sample store first.
 [[nodiscard]] bool gathers_photons(Technique technique);
 
 /// Reason why a technique's estimate is biased; "" if it is unbiased.
 [[nodiscard]] std::string_view bias_of(Technique technique);
 
 /// Classes of camera paths that a technique owns if a plan combines the techniques `active`, of which it is
-/// one. The notation is that of [Heckbert1990], e.g. "E (S|D)* L": E is the camera, S a delta event, D any
-/// other event, and L the light.
+/// one, in the notation of `IntegratorTraits`.
 [[nodiscard]] std::string owned_paths(Technique technique, std::span<const Technique> active,
                                       const Camera& camera);
+
+/// True if the scene file may set the number of photons per sample, because a technique traces them
+/// separately from the camera paths: brute-force photons and all that gather photons.
+[[nodiscard]] bool scene_sets_photon_count(std::span<const Technique> techniques);
+
+/// Keys of `render/photons` in the scene file, such as "radius", that the scene's integrator does not use
+/// although the scene sets them to other values than the defaults. With Integrator::automatic the radius
+/// counts as used if an integrator that merges paths may be chosen.
+[[nodiscard]] std::vector<std::string_view> unused_photon_settings(const Scene& scene);
 
 }  // namespace abbe

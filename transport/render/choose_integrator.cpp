@@ -12,7 +12,7 @@
 
 #include "transport/plan/plan.h"
 #include "transport/render/pilot.h"
-#include "transport/render/technique_pilots.h"
+#include "transport/render/technique_balance.h"
 #include "transport/render/trained_plan.h"
 
 namespace abbe {
@@ -34,8 +34,8 @@ constexpr double kProbeRayBudget = 1 << 21;
 
 // Light paths that only photon merging samples.
 std::vector<PathClass> paths_found_by_merging(const Scene& scene, const Scene& merging) {
-  std::vector<PathClass> merging_only = unreached(scene);
-  const std::vector<PathClass> unsampled_by_merging = unreached(merging);
+  std::vector<PathClass> merging_only = unsampled_paths(scene);
+  const std::vector<PathClass> unsampled_by_merging = unsampled_paths(merging);
   std::erase_if(merging_only, [&](const PathClass& path_class) {
     return std::find(unsampled_by_merging.begin(), unsampled_by_merging.end(), path_class) !=
            unsampled_by_merging.end();
@@ -106,9 +106,9 @@ std::optional<double> cost_ratio(const Plan& unidirectional, const Scene& altern
 // Bidirectional path tracing would not sample light that photons add by hitting a probe. Photons alone may
 // suffice.
 AlternativeIntegrator choose_alternative(const Plan& plan) {
-  if (is_probe(plan.scene.camera) && uses(plan.techniques, Technique::light))
-    return {Integrator::light, photon_cost, kProbeRayBudget};
-  return {Integrator::bdpt, bidirectional_cost, pilot_ray_budget(plan.scene.camera)};
+  if (is_probe(plan.scene.camera) && traces(plan.techniques, TracedPaths::light))
+    return {integrator_for(AutomaticChoice::probes), photon_cost, kProbeRayBudget};
+  return {integrator_for(AutomaticChoice::films), bidirectional_cost, pilot_ray_budget(plan.scene.camera)};
 }
 
 Scene with_integrator(Scene scene, Integrator integrator) {
@@ -127,16 +127,18 @@ IntegratorChoice choose_integrator(const Scene& scene, int threads) {
     return {scene.render.integrator, ""};
   }
   if (is_automatic && scene.render.consistent) {
-    const Scene merging = with_integrator(scene, Integrator::vcm);
+    const Integrator consistent = integrator_for(AutomaticChoice::consistent);
+    const Scene merging = with_integrator(scene, consistent);
     const std::vector<PathClass> merging_only = paths_found_by_merging(scene, merging);
     if (!merging_only.empty() && !refusal(merging))
-      return {Integrator::vcm, fmt::format("only photon merging samples {}", fmt::join(merging_only, "; "))};
+      return {consistent, fmt::format("only photon merging samples {}", fmt::join(merging_only, "; "))};
   }
   Plan plan = make_trained_plan(scene, threads);
   const AlternativeIntegrator alternative = choose_alternative(plan);
   const Integrator candidate = alternative.integrator;
   const Scene alternative_scene = with_integrator(scene, candidate);
-  const bool samples_all_light = candidate != Integrator::light || unreached(alternative_scene).empty();
+  const bool samples_all_light =
+      candidate != integrator_for(AutomaticChoice::probes) || unsampled_paths(alternative_scene).empty();
   std::optional<double> ratio;
   if (is_automatic && !refusal(alternative_scene) && samples_all_light)
     ratio = cost_ratio(plan, alternative_scene, alternative, threads);

@@ -15,7 +15,8 @@ struct IntegratorChoice {
   /// Cost of path tracing, with light tracing if the plan has it, divided by the cost of `alternative` at
   /// equal error. Pilots estimate it; empty if they were not run.
   std::optional<double> cost_ratio = {};
-  Integrator alternative = Integrator::bdpt;  ///< Integrator with which the pilots compared path tracing.
+  /// Integrator with which the pilots compared path tracing.
+  Integrator alternative = integrator_for(AutomaticChoice::films);
   /// Guiding data that pilots trained for `integrator`, to be passed on as `RenderOptions::guides`. Null if
   /// they trained none for it; the render then trains its own.
   std::shared_ptr<const GuidingData> guides = {};
@@ -24,11 +25,10 @@ struct IntegratorChoice {
 /// Chooses the integrator of a scene with Integrator::automatic. A scene that names its integrator is
 /// rendered with it.
 ///
-/// - Integrator::vcm if the scene allows consistent estimators (biased, converging) and photon merging
-///   samples light paths that cannot be sampled otherwise.
-/// - Integrator::light for a probe that photons can hit, if light tracing samples all light paths and is
-///   cheaper.
-/// - Integrator::bdpt for all other sensors, if it is cheaper.
+/// - `AutomaticChoice::consistent` if the scene allows consistent estimators (biased, converging) and photon
+///   merging samples light paths that cannot be sampled otherwise.
+/// - `AutomaticChoice::probes` for a probe that photons can hit, if it samples all light and is cheaper.
+/// - `AutomaticChoice::films` for all other sensors, if it is cheaper.
 /// - Integrator::automatic otherwise, and for films so small that pilots would cost more than they save.
 ///
 /// Pilots estimate the cost of error, sum V c, with the relative variance V of a sample's film values and its
@@ -37,7 +37,7 @@ struct IntegratorChoice {
 ///
 /// The result depends on the scene alone, not on its seed, its samples or `threads`, which is at least 1. A
 /// scene that `make_plan` rejects with Error{scene} throws nothing here. The result is then the scene's own
-/// integrator, or Integrator::path for a probe if that is possible. Throws Error{resource} if more than
+/// integrator, or path tracing for a probe if that is possible. Throws Error{resource} if more than
 /// `MediumStack::kMaxShapes` media nest.
 [[nodiscard]] IntegratorChoice choose_integrator(const Scene& scene, int threads);
 

@@ -4,9 +4,12 @@
 #include <functional>
 #include <utility>
 
-#include "transport/render/replay.h"
-
 namespace abbe {
+
+/// CPU time of this thread [s].
+[[nodiscard]] double thread_cpu_seconds();
+/// CPU time of the whole process [s].
+[[nodiscard]] double process_cpu_seconds();
 
 /// Wall-clock time and CPU time of all threads that some work took.
 struct Cost {

@@ -7,7 +7,7 @@
 
 #include "scene/scene.h"
 #include "sensor/film/film.h"
-#include "sensor/film/recorded_layers.h"
+#include "sensor/film/film_planes.h"
 #include "transport/path/film_response.h"
 
 namespace abbe {

@@ -15,8 +15,7 @@
 
 #include "io/part_file.h"
 #include "io/text.h"
-#include "sensor/film/recorded_error.h"
-#include "sensor/film/recorded_white.h"
+#include "sensor/film/recorded_attributes.h"
 #include "transport/render/layers.h"
 #include "transport/render/part_films.h"
 #include "transport/render/pass.h"
@@ -304,11 +303,13 @@ void merge(PartHeader& sum, const PartHeader& part, const fs::path& path) {
   require_same_film(path, without_crop(part.identity), without_crop(sum.identity));
   if (without_crop(part.shape) != without_crop(sum.shape))
     throw Error(ErrorCode::input, path.string(), "has a film of another shape");
+  SampledAreas areas = sum.areas;
   for (const SampledArea& area : part.areas)
-    if (const auto overlap = add(sum.areas, area))
+    if (const auto overlap = add(areas, area))
       throw Error(ErrorCode::input, path.string(),
                   fmt::format("has samples that are already included (got {}{})", to_text(overlap->samples),
                               of_pixels(overlap->pixels, part.shape)));
+  sum.areas = std::move(areas);
   if (stated_samples(part.identity) > stated_samples(sum.identity))
     sum.identity[kStatedSamplesKey] = part.identity.at(kStatedSamplesKey);
   set_crop(sum, bounds(sum.areas));
@@ -374,7 +375,7 @@ Image image_of(const RenderPart& part) {
 
 std::vector<LayerImage> layer_images(const RenderPart& part) {
   if (!part.result.layers) return {};
-  const std::vector<std::string> names = parse_layers(part.identity.at(kLayersKey));
+  const std::vector<std::string> names = split(part.identity.at(kLayersKey), ',');
   const std::vector<std::string> planes = film_planes(part.identity);
   std::vector<std::string> repeated;
   for (std::size_t i = 0; i < names.size(); ++i)

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "transport/render/render.h"
-#include "transport/render/sampled_areas.h"
+#include "transport/render/sample_ranges.h"
 
 namespace abbe {
 
@@ -78,7 +78,7 @@ void require_same_film(const std::filesystem::path& path, const FilmIdentity& id
 
 /// Adds the samples of `part` to those of `sum`, whose crop becomes the smallest around both. The larger
 /// number of stated samples remains. Throws Error{input} naming `path`, the file of `part`, for a part of
-/// another film or shape, and for samples that pixels of `sum` have already. `sum` is then undefined.
+/// another film or shape, and for samples that pixels of `sum` have already. `sum` is then unchanged.
 void merge(PartHeader& sum, const PartHeader& part, const std::filesystem::path& path);
 
 /// Memory [bytes] of the sums that a header describes, with those of layers and features; 0 if its features

@@ -6,7 +6,7 @@
 
 #include "io/text.h"
 #include "sensor/film/relative_error.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 #include "transport/render/layers.h"
 
 namespace abbe {
@@ -21,7 +21,7 @@ std::optional<std::vector<Feature>> features_of(const FilmIdentity& identity) {
 std::optional<FilmShape> shape_of_layers(const FilmIdentity& identity, const FilmShape& shape) {
   const auto entry = identity.find(kLayersKey);
   if (entry == identity.end()) return std::nullopt;
-  return layered(shape, parse_layers(entry->second).size());
+  return layered(shape, split(entry->second, ',').size());
 }
 
 // Calls `function` for the main film, for that of the layers and for that of the features.

@@ -1,14 +1,18 @@
 #include "transport/render/pass.h"
 
+#include <algorithm>
+#include <atomic>
+#include <mutex>
+#include <utility>
+#include <vector>
+
 #include <pmmintrin.h>
 
-#include <algorithm>
-#include <mutex>
-
 #include "io/error.h"
+#include "scene/scene_features.h"
 #include "transport/path/dimensions.h"
-#include "transport/render/light_subpaths.h"
 #include "transport/render/threads.h"
+#include "transport/technique/path_starts.h"
 
 namespace abbe {
 namespace {
@@ -20,9 +24,85 @@ constexpr std::uint32_t ceil_div(std::uint64_t whole, std::uint32_t piece) {
   return static_cast<std::uint32_t>((whole + piece - 1) / piece);
 }
 
-// True if the work items of a technique are tiles, false if they are batches of photons.
-bool uses_tiles(Technique technique) {
-  return technique != Technique::light && technique != Technique::photon_brute;
+// Returns the sampler of random numbers of one light subpath of a sample, by the index of the subpath.
+using LightPathSampler = std::function<Sampler(std::uint64_t path)>;
+
+// Calls `batch(tracer, first, last)` for all light subpaths, on `threads` threads. Each thread has its own
+// ray caster and `Tracer`.
+template <typename Tracer, typename Batch>
+void trace_all(const Plan& plan, int threads, PassCounts& counts, const Batch& batch) {
+  std::atomic<std::uint64_t> next = 0;
+  std::mutex mutex;
+  run_on_threads(threads, [&] {
+    RayCaster caster(plan.scene);
+    Tracer tracer(plan, caster);
+    for (std::uint64_t first = kBatchSize * next++; first < plan.photons; first = kBatchSize * next++)
+      batch(tracer, first, std::min(first + kBatchSize, plan.photons));
+    const std::scoped_lock lock(mutex);
+    counts.rays += caster.rays();
+    counts.cut += caster.truncated();
+  });
+  counts.paths += plan.photons;
+}
+
+// Records light subpaths with all their vertices.
+class LightRecorder {
+ public:
+  LightRecorder(const Plan& plan, RayCaster& caster)
+      : plan_(plan), caster_(caster), recorder_(plan.scene, caster) {}
+
+  std::vector<RecordedPath>& record(const std::vector<Sampler>& samplers, const PathPacket& packet,
+                                    float time) {
+    recorder_.paths().clear();
+    for (std::uint32_t i = 0; i < samplers.size(); ++i) {
+      RecordedPath& path = recorder_.paths().emplace_back(samplers[i], i);
+      path.packet = packet;
+      start_from_light(plan_, caster_, time, path);
+    }
+    recorder_.run();
+    return recorder_.paths();
+  }
+
+ private:
+  const Plan& plan_;
+  RayCaster& caster_;
+  PathRecorder<TransportMode::power> recorder_;
+};
+
+std::vector<Sampler> samplers_of(const LightPathSampler& samplers, std::uint64_t first, std::uint64_t last) {
+  std::vector<Sampler> batch_samplers;
+  for (std::uint64_t path = first; path < last; ++path) batch_samplers.push_back(samplers(path));
+  return batch_samplers;
+}
+
+// Traces the plan's light subpaths of one sample, all with the same `packet` and `time`, and returns the
+// photons that they deposit. `time` is a fraction of the exposure. The result does not depend on `threads`,
+// which is at least 1. Several threads call `samplers` concurrently. Adds paths, rays and truncated paths to
+// `counts`. Throws Error{resource} if more than `MediumStack::kMaxShapes` media nest.
+PhotonCloud trace_photon_cloud(const Plan& plan, const PathPacket& packet, float time,
+                               const LightPathSampler& samplers, int threads, PassCounts& counts) {
+  std::vector<std::vector<Photon>> batches((plan.photons + kBatchSize - 1) / kBatchSize);
+  trace_all<PhotonTracer>(
+      plan, threads, counts, [&](PhotonTracer& tracer, std::uint64_t first, std::uint64_t last) {
+        tracer.trace(samplers_of(samplers, first, last), packet, time, batches[first / kBatchSize]);
+      });
+  std::vector<Photon> photons;  // in the order of their subpaths, for any number of threads
+  for (const std::vector<Photon>& batch : batches) photons.insert(photons.end(), batch.begin(), batch.end());
+  return {std::move(photons), plan.photons, packet, time};
+}
+
+// Traces the plan's light subpaths of one sample and stores them in `light_paths`, replacing its content, to
+// be merged within `radius` [m]. Other arguments and errors are as for `trace_photon_cloud`.
+void trace_light_subpaths(const Plan& plan, const PathPacket& packet, float time, float radius,
+                          const LightPathSampler& samplers, int threads, LightSubpaths& light_paths,
+                          PassCounts& counts) {
+  light_paths.begin(plan.photons, packet, time);
+  trace_all<LightRecorder>(
+      plan, threads, counts, [&](LightRecorder& recorder, std::uint64_t first, std::uint64_t last) {
+        light_paths.store(first / kBatchSize,
+                          recorder.record(samplers_of(samplers, first, last), packet, time));
+      });
+  light_paths.finish(radius);
 }
 
 }  // namespace
@@ -61,13 +141,14 @@ Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleR
   tiles_ = tiles_x_ * ceil_div(static_cast<std::uint64_t>(film.height()), kTile);
   photons_ = plan.photons;
   path_interval_ = plan.path_interval;
-  sample_by_sample_ = uses(plan.techniques, Technique::vcm) ||
-                      std::any_of(plan.techniques.begin(), plan.techniques.end(), gathers_photons);
+  sample_by_sample_ = std::ranges::any_of(
+      plan.techniques, [](Technique technique) { return traits(technique).merging != Merging::none; });
+  repeats_paths_ = std::ranges::any_of(plan.techniques,
+                                       [](Technique technique) { return traits(technique).repeats_paths; });
   for (const Technique technique : plan.techniques) stages_.push_back(stage_of(technique));
   // Tiles trace the features of their pixels themselves, so that both have the same finished pixels. Without
   // tiles, features need a stage of their own.
-  if (auxiliary_.features != nullptr &&
-      std::none_of(plan.techniques.begin(), plan.techniques.end(), uses_tiles))
+  if (auxiliary_.features != nullptr && std::ranges::none_of(plan.techniques, starts_at_camera))
     stages_.push_back({tiles_, &Pass::trace_tile_features});
   for (const Stage& stage : stages_) items_ += stage.items;
 }
@@ -75,23 +156,20 @@ Pass::Pass(const Plan& plan, Film& film, std::optional<Crop> crop, const SampleR
 Pass::Stage Pass::stage_of(Technique technique) const {
   const std::uint32_t batches = ceil_div(photons_, kPhotonBatch);
   const std::uint32_t all_tiles = tiles_ * static_cast<std::uint32_t>(last_ - first_);
-  switch (technique) {
-    case Technique::path:
-      return {tiles_, &Pass::render_tile};
-    case Technique::light:
+  switch (traits(technique).traces) {
+    case TracedPaths::camera:
+      return {tiles_, &Pass::render_tile<&Worker::path_tracer>};
+    case TracedPaths::light:
       return {batches, &Pass::trace_batch};
-    case Technique::bdpt:
-      return {tiles_, &Pass::connect_tile};
-    case Technique::photon_map:
-    case Technique::ppm:
-    case Technique::sppm:
+    case TracedPaths::both:
+      return traits(technique).merging == Merging::none ? Stage{tiles_, &Pass::connect_tile}
+                                                        : Stage{all_tiles, &Pass::merge_tile};
+    case TracedPaths::photons:
       return {all_tiles, &Pass::gather_tile};
-    case Technique::vcm:
-      return {all_tiles, &Pass::merge_tile};
-    case Technique::photon_brute:
+    case TracedPaths::light_by_chance:
       return {batches, &Pass::trace_batch_brutely};
-    case Technique::adjoint_brute:
-      return {tiles_, &Pass::render_tile_brutely};
+    case TracedPaths::camera_by_chance:
+      return {tiles_, &Pass::render_tile<&Worker::adjoint_brute_tracer>};
   }
   throw Error(ErrorCode::internal, "", "no such technique");
 }
@@ -127,7 +205,7 @@ void Pass::trace_sample_subpaths(std::uint64_t sample, int threads, PassCounts& 
   const LightPathSampler samplers = [&](std::uint64_t path) { return photon_sampler(sample, path); };
   const std::array<float, 4> shared = sample_random_numbers(sample);
   const PathPacket packet = draw_packet(plan_.wavelengths, shared[0]);
-  if (uses(plan_.techniques, Technique::vcm)) {
+  if (!gathers_photons(plan_.techniques.front())) {
     trace_light_subpaths(plan_, packet, shared[1], gather_radius(plan_.gather_radius, sample), samplers,
                          threads, light_paths_, counts);
     return;
@@ -188,8 +266,7 @@ std::array<float, 4> Pass::sample_random_numbers(std::uint64_t sample) const {
 // Index of the camera path of a sample at a pixel; empty if the pixel skips the sample. A random phase for
 // each pixel and replicate selects the skipped samples, so that the mean over any samples is unbiased.
 std::optional<std::uint32_t> Pass::path_index(std::uint64_t sample, int x, int y) const {
-  // Progressive photon mapping repeats the same camera paths in all samples.
-  if (uses(plan_.techniques, Technique::ppm)) return 0;
+  if (repeats_paths_) return 0;
   if (path_interval_ == 1) return sequence_index(sample);
   const float u =
       Sampler(seed_, Purpose::camera, 0, pixel_index(x, y), 0, replicate(sample)).group(kPhaseGroup)[0];
@@ -318,28 +395,20 @@ void Pass::trace_tile_features(std::uint32_t number, Worker& worker) {
   for (std::uint64_t s = first_; s < last_; ++s) trace_features(tile(number), s, worker);
 }
 
+template <auto tracer>
 void Pass::render_tile(std::uint32_t number, Worker& worker) {
   for (std::uint64_t s = first_; s < last_; ++s) {
     trace_features(tile(number), s, worker);
     select_pixels(tile(number), s, worker);
-    worker.path_tracer.set_layer_sink(pixel_layer_deposit(s, worker));
-    worker.path_tracer.trace(worker.pixels, pixel_deposit(s, worker));
-  }
-}
-
-void Pass::render_tile_brutely(std::uint32_t number, Worker& worker) {
-  for (std::uint64_t s = first_; s < last_; ++s) {
-    trace_features(tile(number), s, worker);
-    select_pixels(tile(number), s, worker);
-    worker.adjoint_brute_tracer.set_layer_sink(pixel_layer_deposit(s, worker));
-    worker.adjoint_brute_tracer.trace(worker.pixels, pixel_deposit(s, worker));
+    (worker.*tracer).set_layer_sink(pixel_layer_deposit(s, worker));
+    (worker.*tracer).trace(worker.pixels, pixel_deposit(s, worker));
   }
 }
 
 void Pass::gather_tile(std::uint32_t item, Worker& worker) {
   const std::uint64_t sample = first_ + item / tiles_;
   GatherKernel kernel{gather_radius(plan_.gather_radius, sample)};
-  if (uses(plan_.techniques, Technique::photon_map)) {
+  if (traits(plan_.techniques.front()).merging == Merging::nearest) {
     kernel.nearest = static_cast<std::size_t>(scene_.render.photons.nearest);
     kernel.final_gather = scene_.render.photons.final_gather;
   }
@@ -389,6 +458,17 @@ void Pass::trace_batch_brutely(std::uint32_t batch, Worker& worker) {
     worker.brute_photon_tracer.set_layer_sink(splat_layer_deposit(s, worker));
     worker.brute_photon_tracer.trace(worker.photons, splat_deposit(s, worker));
   }
+}
+
+std::size_t bytes_of_light_paths(const Scene& scene) {
+  constexpr std::size_t kTypicalVertices = 4;
+  if (traits(scene.render.integrator).merging == Merging::none) return 0;
+  const std::size_t paths = photons_of_sample(scene);
+  const std::size_t polarisation_bytes = carries_polarisation(scene) ? sizeof(Polarisation) : 0;
+  if (gathers_photons(scene.render.integrator))
+    return paths * kTypicalVertices * (sizeof(Photon) + PhotonMap::kBytesOfPoint + polarisation_bytes);
+  return paths * (LightSubpaths::kBytesOfPath +
+                  kTypicalVertices * (LightSubpaths::kBytesOfVertex + polarisation_bytes));
 }
 
 }  // namespace abbe

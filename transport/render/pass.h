@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -17,7 +18,7 @@
 #include "transport/technique/features.h"
 #include "transport/technique/light.h"
 #include "transport/technique/path.h"
-#include "transport/technique/photon_gathering.h"
+#include "transport/technique/photon_mapping.h"
 
 namespace abbe {
 
@@ -123,8 +124,8 @@ class Pass {
   PassCounts work(std::uint32_t end, const std::function<bool()>& pause);
   void trace_sample_subpaths(std::uint64_t sample, int threads, PassCounts& counts);
   void do_item(std::uint32_t item, Worker& worker);
+  template <auto tracer>  // member of `Worker`
   void render_tile(std::uint32_t tile, Worker& worker);
-  void render_tile_brutely(std::uint32_t tile, Worker& worker);
   void gather_tile(std::uint32_t item, Worker& worker);
   void connect_tile(std::uint32_t tile, Worker& worker);
   void merge_tile(std::uint32_t item, Worker& worker);
@@ -180,6 +181,7 @@ class Pass {
   std::vector<Stage> stages_;
   std::uint32_t items_ = 0;  // of all stages
   bool sample_by_sample_;
+  bool repeats_paths_;  // all samples have the same camera paths
   // sample of the pass to which `cloud_` or `light_paths_` belongs
   std::optional<std::uint32_t> sample_of_cloud_;
   std::optional<PhotonCloud> cloud_;
@@ -188,5 +190,9 @@ class Pass {
   std::uint32_t path_interval_;
   std::atomic<std::uint32_t> next_;
 };
+
+/// Memory [bytes] for the light subpaths of one sample, if each has four vertices, as is usual; 0 if the
+/// scene's integrator stores none.
+[[nodiscard]] std::size_t bytes_of_light_paths(const Scene& scene);
 
 }  // namespace abbe

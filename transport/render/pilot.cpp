@@ -5,9 +5,11 @@
 #include <atomic>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numeric>
 #include <vector>
 
+#include "transport/render/cost.h"
 #include "transport/render/pass.h"
 #include "transport/render/threads.h"
 #include "transport/technique/bidirectional.h"
@@ -92,6 +94,38 @@ std::optional<Film> film_of(const Plan& plan, int threads, const std::optional<C
   return film;
 }
 
+// Traces paths spread evenly over the film, and as many photons.
+void trace_some(const Plan& plan, RayCaster& caster) {
+  constexpr std::uint32_t kReplayed = 1U << 15;
+  constexpr std::uint32_t kTogether = 256;
+  const Scene& scene = plan.scene;
+  const auto width = static_cast<std::uint32_t>(scene.camera.width);
+  const std::uint32_t pixels = width * static_cast<std::uint32_t>(scene.camera.height);
+  PathTracer path_tracer(plan, caster);
+  LightTracer light_tracer(plan, caster, 1);
+  BidirectionalTracer bidirectional_tracer(plan, caster);
+  const Deposit dropped = [](std::uint32_t, const FilmPoint&, std::span<const double>) {};
+  std::vector<PixelSample> samples;
+  std::vector<Sampler> photons;
+  std::vector<PixelPair> pairs;
+  for (std::uint32_t first = 0; first < kReplayed; first += kTogether) {
+    samples.clear();
+    photons.clear();
+    pairs.clear();
+    for (std::uint32_t i = first; i < first + kTogether; ++i) {
+      const auto pixel = static_cast<std::uint32_t>(std::uint64_t{i} * pixels / kReplayed);
+      samples.push_back({static_cast<int>(pixel % width), static_cast<int>(pixel / width),
+                         Sampler(scene.render.seed, Purpose::camera, 0, pixel, i / pixels)});
+      photons.emplace_back(scene.render.seed, Purpose::light, 0, 0, i);
+      pairs.push_back({samples.back().x, samples.back().y, samples.back().sampler, photons.back(), true});
+    }
+    if (traces(plan.techniques, TracedPaths::camera)) path_tracer.trace(samples, dropped);
+    if (traces(plan.techniques, TracedPaths::light)) light_tracer.trace(photons, dropped);
+    if (!traces(plan.techniques, TracedPaths::camera) && !traces(plan.techniques, TracedPaths::light))
+      bidirectional_tracer.trace(pairs, dropped);
+  }
+}
+
 }  // namespace
 
 std::pair<int, int> pilot_pixel(const Camera& camera, std::uint32_t stream, std::uint32_t pilot) {
@@ -135,9 +169,9 @@ void pilot_exposures(const Plan& plan, int threads, ExposureByLight& sums) {
   run_on_threads(threads, [&] {
     RayCaster caster(plan.scene);
     for (std::uint32_t batch = next++; batch < kPilotBatches; batch = next++) {
-      if (uses(plan.techniques, Technique::path)) expose_batch(plan, batch, caster, batches[batch]);
-      if (uses(plan.techniques, Technique::light)) expose_photons(plan, batch, caster, batches[batch]);
-      if (!uses(plan.techniques, Technique::path) && !uses(plan.techniques, Technique::light))
+      if (traces(plan.techniques, TracedPaths::camera)) expose_batch(plan, batch, caster, batches[batch]);
+      if (traces(plan.techniques, TracedPaths::light)) expose_photons(plan, batch, caster, batches[batch]);
+      if (!traces(plan.techniques, TracedPaths::camera) && !traces(plan.techniques, TracedPaths::light))
         expose_bidirectional(plan, batch, caster, batches[batch]);
     }
   });
@@ -145,6 +179,25 @@ void pilot_exposures(const Plan& plan, int threads, ExposureByLight& sums) {
   for (const ExposureByLight& batch : batches)
     for (std::size_t group = 0; group < sums.exposure.size(); ++group)
       sums.exposure[group] += batch.exposure[group];
+}
+
+double measure_replay_fraction(const Plan& plan) {
+  std::vector<LoggedRay> log;
+  RayCaster logging(plan.scene, &log);
+  trace_some(plan, logging);
+  double tracing = std::numeric_limits<double>::infinity();
+  double replaying = tracing;
+  for (int repeat = 0; repeat < 3; ++repeat) {
+    RayCaster plain(plan.scene);
+    const double t0 = thread_cpu_seconds();
+    trace_some(plan, plain);
+    const double t1 = thread_cpu_seconds();
+    plan.scene.replay(log);
+    const double t2 = thread_cpu_seconds();
+    tracing = std::min(tracing, t1 - t0);
+    replaying = std::min(replaying, t2 - t1);
+  }
+  return replaying / tracing;
 }
 
 }  // namespace abbe

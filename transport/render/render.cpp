@@ -12,12 +12,11 @@
 #include <vector>
 
 #include "io/error.h"
-#include "sensor/response/stokes_channels.h"
-#include "transport/render/choose_path_splitting.h"
+#include "sensor/response/polarised_channels.h"
+#include "transport/render/cost.h"
 #include "transport/render/part_films.h"
 #include "transport/render/pass.h"
 #include "transport/render/pilot.h"
-#include "transport/render/replay.h"
 #include "transport/render/technique_balance.h"
 #include "transport/render/threads.h"
 #include "transport/render/trained_plan.h"

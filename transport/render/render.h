@@ -12,7 +12,7 @@
 #include "sensor/film/feature_film.h"
 #include "sensor/film/film.h"
 #include "sensor/film/relative_error.h"
-#include "transport/path/truncated_paths.h"
+#include "transport/path/ray_caster.h"
 #include "transport/plan/plan.h"
 #include "transport/render/layers.h"
 #include "transport/render/mpi_group.h"

@@ -7,9 +7,9 @@
 
 #include <fmt/format.h>
 
-#include "scene/colors.h"
+#include "scene/white.h"
 #include "scene/working_range.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 #include "transport/path/film_response.h"
 #include "transport/render/pilot.h"
 #include "transport/render/trained_plan.h"

@@ -1,21 +1,77 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "sampling/sampler.h"
+#include "transport/path/connect.h"
 #include "transport/path/film_response.h"
-#include "transport/path/joined_vertices.h"
-#include "transport/path/path_radiance.h"
+#include "transport/path/mis_weight.h"
 #include "transport/path/path_recorder.h"
-#include "transport/path/strategies.h"
 #include "transport/plan/plan.h"
 #include "transport/technique/ghost_lights.h"
-#include "transport/technique/light_subpaths.h"
+#include "transport/technique/photon_map.h"
 
 namespace abbe {
+
+/// Light subpaths of a sample, all with one packet, for connection to any camera subpath of the sample. Only
+/// vertices and samplers are stored, in batches of `kBatchSize`. The next sample reuses the memory. The order
+/// of calls is `begin`, `store` for every batch, `finish`, and then the queries, which may run concurrently.
+class LightSubpaths {
+ public:
+  /// Completed subpath.
+  struct Path {
+    /// The first vertex is on the light; empty if no light was emitted. Valid until the next `store`.
+    std::span<const PathVertex> vertices;
+    Sampler sampler;  ///< Random numbers of the subpath.
+  };
+  /// Vertex on a scattering surface, to be queried by position.
+  struct Vertex {
+    std::uint32_t path;    ///< Index of the subpath.
+    std::uint32_t number;  ///< Index of the vertex in `Path::vertices`, at least 1.
+  };
+
+  /// Memory per subpath and per vertex, without polarisation [bytes].
+  static constexpr std::size_t kBytesOfPath = sizeof(Sampler) + sizeof(std::uint32_t);
+  static constexpr std::size_t kBytesOfVertex =
+      sizeof(PathVertex) + sizeof(Vertex) + PhotonMap::kBytesOfPoint;
+
+  /// Prepares for `paths` subpaths with the given packet and time (fraction of the exposure).
+  void begin(std::size_t paths, const PathPacket& packet, float time);
+  /// Stores batch number `batch`, the subpaths from index `batch` times `kBatchSize` on. Moves the vertices
+  /// out of `paths`. Threads may store different batches concurrently.
+  void store(std::size_t batch, std::span<RecordedPath> paths);
+  /// Builds the spatial index over all vertices on scattering surfaces; `radius` is the merging radius [m].
+  void finish(float radius);
+
+  /// Number of subpaths.
+  [[nodiscard]] std::size_t size() const { return size_; }
+  /// Subpath of an index below `size()`.
+  [[nodiscard]] Path operator[](std::size_t path) const;
+  /// Sets `found` to the vertices closer to `point` than the merging radius, in the order of their subpaths.
+  void find_nearby(const Imath::V3f& point, std::vector<Vertex>& found) const;
+
+  [[nodiscard]] float radius() const { return radius_; }              ///< Merging radius [m].
+  [[nodiscard]] const PathPacket& packet() const { return packet_; }  ///< Initial packet of all subpaths.
+  [[nodiscard]] float time() const { return time_; }                  ///< Time of all subpaths.
+
+ private:
+  struct Batch {
+    std::vector<PathVertex> vertices;  // of all subpaths in turn
+    std::vector<std::uint32_t> ends;   // end of each subpath
+    std::vector<Sampler> samplers;     // sampler of each subpath
+  };
+
+  std::vector<Batch> batches_;
+  std::size_t size_ = 0;
+  std::vector<Vertex> scattering_;
+  PhotonMap map_{{}};  // of `scattering_`
+  float radius_ = 0;
+  PathPacket packet_;
+  float time_ = 0;
+};
 
 /// Sample of a pixel: a camera subpath and a light subpath.
 struct PixelPair {
@@ -42,14 +98,10 @@ struct PixelPair {
 /// - with merging, which blurs, also those with a single vertex without a delta distribution, on a surface.
 ///
 /// Deposited values are those of one sample per pixel.
-class BidirectionalTracer {
+class BidirectionalTracer : public LayerSource {
  public:
   /// Plan and caster must outlive the tracer.
   BidirectionalTracer(const Plan& plan, RayCaster& caster);
-
-  /// Sets a callback that receives every contribution separately, in addition to the deposited sums. An empty
-  /// function removes it.
-  void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
   /// Traces the subpaths of all samples. Deposits each sum at its pixel, and connections to the camera at any
   /// pixel, all under the sample's index in `samples`. Throws Error{resource} if more than
@@ -94,7 +146,6 @@ class BidirectionalTracer {
   GhostLights ghosts_;
   const LightSubpaths* shared_subpaths_ = nullptr;  // nullptr if each sample traces its own
   const Deposit* deposit_ = nullptr;
-  ContributionDeposit layer_sink_;        // may be empty
   std::span<const PixelPair> samples_;    // samples of the current batch
   std::uint32_t first_ = 0;               // index of the first of them
   std::vector<FilmPoint> film_points_;    // film point of each sample

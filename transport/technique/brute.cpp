@@ -5,10 +5,10 @@
 #include <limits>
 
 #include "transport/path/dimensions.h"
-#include "transport/path/emitter_hit.h"
 #include "transport/path/free_path.h"
-#include "transport/path/polarised_ends.h"
-#include "transport/technique/subpaths.h"
+#include "transport/path/path_vertex.h"
+#include "transport/path/polarised_paths.h"
+#include "transport/technique/path_starts.h"
 
 namespace abbe {
 
@@ -26,7 +26,7 @@ std::optional<BsdfSample> BruteForceTechnique<mode>::scatter(RecordedPath& path,
   if (!event) return event;
   const int hero = path.packet.hero;
   if (mode == TransportMode::radiance) path.eta_scale *= vertex.squared_eta(*event, hero);
-  const float survival = throughput_estimate(path) * event->weight[hero];
+  const float survival = path.throughput_estimate() * event->weight[hero];
   if (survival >= 1 || !(survival > 0)) return event;
   if (path.sampler.group(absorption_group(path.depth))[0] >= survival) return std::nullopt;
   event->weight *= 1 / survival;

@@ -8,7 +8,6 @@
 
 #include "transport/path/film_response.h"
 #include "transport/path/path_batch.h"
-#include "transport/path/path_radiance.h"
 #include "transport/path/path_recorder.h"
 #include "transport/plan/plan.h"
 #include "transport/technique/path.h"
@@ -18,29 +17,16 @@ namespace abbe {
 /// Common part of both brute-force techniques [Marschner2021, ch. 14]. Paths have one wavelength each and are
 /// never connected. An event preserves the throughput or absorbs the path at random.
 template <TransportMode mode>
-class BruteForceTechnique {
+class BruteForceTechnique : public PathCallbacks<mode> {
  public:
   using Path = RecordedPath;
-  static constexpr TransportMode kMode = mode;
 
   /// Sets throughput and pdf of all wavelengths but the hero to 0.
   static void keep_hero_only(PathPacket& packet);
 
-  // Interface of PathTechnique.
-  void prepare_scatter(RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/) {}
-  void connect(RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/, const std::array<float, 4>& /*u*/) {}
-  void connect_in_medium(RecordedPath& /*path*/, const PhaseFunction& /*phase*/,
-                         const std::array<float, 4>& /*u*/) {}
+  // Callbacks (`PathCallbacks`).
   [[nodiscard]] std::optional<BsdfSample> scatter(RecordedPath& path, const SurfaceVertex& vertex,
                                                   const BsdfRandom& u) const;
-  [[nodiscard]] bool continues_after(RecordedPath& /*path*/, const BsdfSample& /*event*/) const {
-    return true;
-  }
-  [[nodiscard]] bool continues_in_medium(const RecordedPath& /*path*/) const { return true; }
-  [[nodiscard]] float throughput_estimate(const RecordedPath& path) const {
-    return path.throughput_estimate();
-  }
-  void resolve_connections() {}
 };
 
 /// Brute-force photon tracing: photons of one wavelength each that enter the camera's opening, or hit its
@@ -48,23 +34,17 @@ class BruteForceTechnique {
 ///
 /// Path classes owned: all, except light to a camera without an opening, and light from a directional or
 /// point light to a probe that is a point. Deposited values are those of one sample per pixel.
-class BrutePhotonTracer : public BruteForceTechnique<TransportMode::power> {
+class BrutePhotonTracer : public BruteForceTechnique<TransportMode::power>, public LayerSource {
  public:
   /// `sample_fraction` is the fraction of a sample per pixel that one photon represents: one over the number
   /// of photons per sample. Plan and caster must outlive the tracer.
   BrutePhotonTracer(const Plan& plan, RayCaster& caster, double sample_fraction);
 
-  /// Sets a callback that receives every contribution separately, in addition to the deposited sums. An empty
-  /// function removes it.
-  void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
-
   /// Traces a photon for each sampler and deposits those that the camera records, under the photon's index in
   /// `photons`. Throws Error{resource} if more than `MediumStack::kMaxShapes` media nest.
   void trace(std::span<const Sampler> photons, const Deposit& deposit);
 
-  // Remaining interface of PathTechnique.
-  void on_escape(RecordedPath& /*path*/) {}
-  void on_hit(RecordedPath& /*path*/, const SurfaceHit& /*hit*/) {}
+  // Callbacks (`PathCallbacks`).
   [[nodiscard]] float survival_weight(RecordedPath& path, const SurfaceVertex& /*vertex*/,
                                       const BsdfSample& /*event*/) {
     return record_camera_hit(path, path.depth + 1), 1.0F;
@@ -86,7 +66,6 @@ class BrutePhotonTracer : public BruteForceTechnique<TransportMode::power> {
   FilmResponse response_;
   PathBatch<BrutePhotonTracer> batch_;
   const Deposit* deposit_ = nullptr;
-  ContributionDeposit layer_sink_;  // may be empty
 };
 
 /// Brute-force adjoint tracing: paths of one wavelength each from the pixels that hit lights by chance. One
@@ -94,27 +73,22 @@ class BrutePhotonTracer : public BruteForceTechnique<TransportMode::power> {
 ///
 /// Path classes owned: all that end on an area, environment or sun light. Deposited values are those of one
 /// sample per pixel.
-class AdjointBruteTracer : public BruteForceTechnique<TransportMode::radiance> {
+class AdjointBruteTracer : public BruteForceTechnique<TransportMode::radiance>, public LayerSource {
  public:
   /// Plan and caster must outlive the tracer.
   AdjointBruteTracer(const Plan& plan, RayCaster& caster);
-
-  /// Sets a callback that receives every contribution separately, in addition to the deposited sums. An empty
-  /// function removes it.
-  void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
   /// Traces a path for each sample and deposits each sum under its sample's index in `samples`, without
   /// `PixelSample::weight`. Throws Error{resource} if more than `MediumStack::kMaxShapes` media nest.
   void trace(std::span<const PixelSample> samples, const Deposit& deposit);
 
-  // Remaining interface of PathTechnique.
+  // Callbacks (`PathCallbacks`).
   void on_escape(RecordedPath& path);
   void on_hit(RecordedPath& path, const SurfaceHit& hit);
   [[nodiscard]] float survival_weight(RecordedPath& /*path*/, const SurfaceVertex& /*vertex*/,
                                       const BsdfSample& /*event*/) const {
     return 1;
   }
-  [[nodiscard]] float survival_weight_in_medium(const RecordedPath& /*path*/) const { return 1; }
 
  private:
   void add_emission(const RecordedPath& path, std::uint32_t light);
@@ -128,7 +102,6 @@ class AdjointBruteTracer : public BruteForceTechnique<TransportMode::radiance> {
   std::vector<FilmPoint> film_points_;    // film point of each path
   std::vector<WavelengthImages> images_;  // film position per wavelength, for lenses that disperse them
   PathRadiance radiance_;                 // sums of each path
-  ContributionDeposit layer_sink_;        // may be empty
 };
 
 }  // namespace abbe

@@ -10,7 +10,7 @@
 #include "transport/path/path_batch.h"
 #include "transport/path/ray_caster.h"
 #include "transport/plan/plan.h"
-#include "transport/technique/photon_start.h"
+#include "transport/technique/path_starts.h"
 
 namespace abbe {
 
@@ -25,10 +25,9 @@ struct CausticPath : PathState {
 
 /// Photons that are traced as long as every event is a delta event. Their hits on scattering surfaces, after
 /// one delta event or more, train a `CausticGuide`. One instance per thread.
-class CausticPhotonTracer {
+class CausticPhotonTracer : public PathCallbacks<TransportMode::power> {
  public:
   using Path = CausticPath;
-  static constexpr TransportMode kMode = TransportMode::power;
 
   /// Hit of a photon, with the start of the photon.
   struct TracedPhoton {
@@ -44,30 +43,12 @@ class CausticPhotonTracer {
   /// Error{resource} if more than `MediumStack::kMaxShapes` media nest.
   [[nodiscard]] std::span<const TracedPhoton> trace(std::span<const Sampler> photons);
 
-  // Interface of PathTechnique.
-  void on_escape(CausticPath& /*path*/) {}
-  void on_hit(CausticPath& /*path*/, const SurfaceHit& /*hit*/) {}
+  // Callbacks (`PathCallbacks`).
   void prepare_scatter(CausticPath& path, const SurfaceVertex& vertex);
-  void connect(CausticPath& /*path*/, const SurfaceVertex& /*vertex*/, const std::array<float, 4>& /*u*/) {}
-  void connect_in_medium(CausticPath& /*path*/, const PhaseFunction& /*phase*/,
-                         const std::array<float, 4>& /*u*/) {}
-  [[nodiscard]] std::optional<BsdfSample> scatter(const CausticPath& path, const SurfaceVertex& vertex,
-                                                  const BsdfRandom& u) const {
-    return vertex.scatter(u, path.packet.hero, kMode);
-  }
   [[nodiscard]] bool continues_after(const CausticPath& /*path*/, const BsdfSample& event) const {
     return event.delta;
   }
   [[nodiscard]] bool continues_in_medium(const CausticPath& /*path*/) const { return false; }
-  [[nodiscard]] float survival_weight(const CausticPath& /*path*/, const SurfaceVertex& /*vertex*/,
-                                      const BsdfSample& event) const {
-    return event_throughput(event);
-  }
-  [[nodiscard]] float survival_weight_in_medium(const CausticPath& /*path*/) const { return 1; }
-  [[nodiscard]] float throughput_estimate(const CausticPath& path) const {
-    return path.packet.throughput_estimate();
-  }
-  void resolve_connections() {}
 
  private:
   const Plan& plan_;

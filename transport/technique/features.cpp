@@ -5,13 +5,13 @@
 #include <numeric>
 #include <variant>
 
-#include "materials/bsdf/bsdf.h"
+#include "materials/bsdf.h"
 #include "sampling/discrete.h"
-#include "sensor/response/stokes_channels.h"
+#include "sensor/response/polarised_channels.h"
 #include "transport/path/dimensions.h"
 #include "transport/path/roulette.h"
 #include "transport/path/vertex.h"
-#include "transport/technique/start_media.h"
+#include "transport/technique/path_starts.h"
 
 namespace abbe {
 namespace {

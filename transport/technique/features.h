@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "sensor/film/feature_film.h"
-#include "transport/path/interface.h"
 #include "transport/path/path_state.h"
 #include "transport/path/ray_caster.h"
+#include "transport/path/vertex.h"
 #include "transport/plan/plan.h"
 #include "transport/technique/path.h"
 

@@ -4,13 +4,13 @@
 #include <cmath>
 #include <optional>
 
-#include "scene/lights/emission.h"
-#include "scene/polarisation_cause.h"
+#include "scene/lights/light.h"
+#include "scene/scene_features.h"
 #include "transport/path/dimensions.h"
 #include "transport/path/free_path.h"
 #include "transport/path/mis_weight.h"
-#include "transport/path/polarised_ends.h"
-#include "transport/technique/start_media.h"
+#include "transport/path/polarised_paths.h"
+#include "transport/technique/path_starts.h"
 
 namespace abbe {
 

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "sampling/sampler.h"
@@ -12,7 +11,7 @@
 #include "transport/path/path_batch.h"
 #include "transport/path/ray_caster.h"
 #include "transport/plan/plan.h"
-#include "transport/technique/photon_start.h"
+#include "transport/technique/path_starts.h"
 
 namespace abbe {
 
@@ -23,6 +22,9 @@ struct LightPath : PathState {
   /// Hash of the specular events before the first event of another kind, and of their shapes.
   std::uint32_t branch = 0;
   bool scattered = false;  ///< True after an event that is not specular: the branch is complete.
+
+  /// Throughput relative to that at the start.
+  [[nodiscard]] float throughput_estimate() const { return packet.throughput_estimate() / power; }
   /// Adds an event at the shape of index `shape` to the branch by a step of the FNV-1a hash. After the first
   /// event that is not specular it does nothing.
   void extend_branch(std::uint32_t shape, const BsdfSample& event) {
@@ -38,10 +40,9 @@ struct LightPath : PathState {
 /// tracing, otherwise those whose last vertex is specular, and all of lights without area. If the plan
 /// selects it, photons split into their wavelengths at dispersive glass. Deposited values are those of one
 /// sample per pixel. One instance per thread.
-class LightTracer {
+class LightTracer : public PathCallbacks<TransportMode::power>, public LayerSource {
  public:
   using Path = LightPath;
-  static constexpr TransportMode kMode = TransportMode::power;
 
   /// `sample_fraction` is the fraction of a sample per pixel that one photon represents: 1/pixels if a sample
   /// has one photon per pixel. With a `ball_radius` [m], photons that enter or start within the ball of that
@@ -50,10 +51,6 @@ class LightTracer {
   LightTracer(const Plan& plan, RayCaster& caster, double sample_fraction,
               std::optional<double> ball_radius = {});
 
-  /// Sets a callback that receives every contribution with its light, depth and branch, in addition to the
-  /// deposits. An empty function removes it.
-  void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
-
   /// Traces a photon for each sampler and deposits its contributions under the photon's index in `photons`.
   /// The plan must have a light to trace. Throws Error{resource} if more than `MediumStack::kMaxShapes` media
   /// nest.
@@ -61,16 +58,9 @@ class LightTracer {
   /// Starts of all photons of the last call, in the order of its samplers; valid until the next call.
   [[nodiscard]] std::span<const PhotonStart> starts() const { return starts_; }
 
-  // Interface of PathTechnique.
-  void on_escape(LightPath& /*path*/) {}
-  void on_hit(LightPath& /*path*/, const SurfaceHit& /*hit*/) {}
-  void prepare_scatter(LightPath& /*path*/, const SurfaceVertex& /*vertex*/) {}
+  // Callbacks (`PathCallbacks`).
   void connect(LightPath& path, const SurfaceVertex& vertex, const std::array<float, 4>& u);
   void connect_in_medium(LightPath& path, const PhaseFunction& phase, const std::array<float, 4>& u);
-  [[nodiscard]] std::optional<BsdfSample> scatter(const LightPath& path, const SurfaceVertex& vertex,
-                                                  const BsdfRandom& u) const {
-    return vertex.scatter(u, path.packet.hero, kMode);
-  }
   // Photons that scatter at their first vertex continue only if this technique owns them.
   [[nodiscard]] bool continues_after(const LightPath& path, const BsdfSample& event) const {
     return event.delta || owns(path);
@@ -78,8 +68,7 @@ class LightTracer {
   [[nodiscard]] bool continues_in_medium(const LightPath& path) const { return owns(path); }
   // True if photons split into their wavelengths at dispersive glass.
   [[nodiscard]] bool splits_wavelengths() const { return plan_.photons_split_wavelengths; }
-  // The initial power of a photon does not predict its contribution, so roulette uses the throughput of the
-  // event. The path already has its new ray here.
+  // The path already has its new ray here.
   [[nodiscard]] float survival_weight(LightPath& path, const SurfaceVertex& vertex, const BsdfSample& event) {
     path.extend_branch(vertex.hit.shape, event);
     if (probe_opening_ && (event.delta || owns_scattered(path))) record_probe_hit(path, path.depth + 1);
@@ -89,9 +78,6 @@ class LightTracer {
     path.scattered = true;
     if (probe_opening_ && owns_scattered(path)) record_probe_hit(path, path.depth + 1);
     return 1;
-  }
-  [[nodiscard]] float throughput_estimate(const LightPath& path) const {
-    return path.packet.throughput_estimate() / path.power;
   }
   void resolve_connections();
 
@@ -138,7 +124,6 @@ class LightTracer {
   bool measures_polarisation_;
   PathBatch<LightTracer> batch_;
   const Deposit* deposit_ = nullptr;
-  ContributionDeposit layer_sink_;  // may be empty
   std::vector<PhotonStart> starts_;
   std::vector<Connection> connections_;          // connections of the current step
   std::vector<StokesSpectrum> measured_stokes_;  // measured polarisation of each, if carried

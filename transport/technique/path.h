@@ -5,17 +5,16 @@
 #include <cstdint>
 #include <optional>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include "sampling/sampler.h"
-#include "scene/camera/camera_rays.h"
-#include "transport/path/emitter_hit.h"
+#include "scene/camera/camera.h"
 #include "transport/path/film_response.h"
 #include "transport/path/mis_weight.h"
 #include "transport/path/path_batch.h"
+#include "transport/path/path_vertex.h"
 #include "transport/path/ray_caster.h"
-#include "transport/path/surface_directions.h"
+#include "transport/path/vertex.h"
 #include "transport/plan/plan.h"
 #include "transport/technique/ghost_lights.h"
 
@@ -46,6 +45,12 @@ struct CameraPath : PathState {
   GuidedScattering guided;  ///< Its lobes are empty if the guide could not have sampled the last direction.
   bool seeks_caustic = false;  ///< True if the guide sampled its direction: only specular events continue it.
   LensRoute route = 0;         ///< Route of the path through the lens; above 0 for a ghost.
+
+  /// Throughput without the loss of radiance by refraction into glass.
+  [[nodiscard]] float roulette_throughput() const { return packet.throughput_estimate() * eta_scale; }
+  /// `roulette_throughput`, but 0 for a path sampled from the guide, because BSDF sampling finds the same
+  /// light.
+  [[nodiscard]] float throughput_estimate() const { return seeks_caustic ? 0 : roulette_throughput(); }
 };
 
 /// Sample of a pixel.
@@ -71,23 +76,18 @@ struct PixelSample {
 /// to a traced light whose neighbouring vertex is specular. Of these, camera paths are owned only if their
 /// first vertex is specular too, and probe paths only if their first vertex scatters. Deposited values are
 /// those of one sample per pixel.
-class PathTracer {
+class PathTracer : public PathCallbacks<TransportMode::radiance>, public LayerSource {
  public:
   using Path = CameraPath;
-  static constexpr TransportMode kMode = TransportMode::radiance;
 
   /// Plan and caster must outlive the tracer.
   PathTracer(const Plan& plan, RayCaster& caster);
-
-  /// Sets a callback that receives every contribution separately, in addition to the deposited sums. An empty
-  /// function removes it.
-  void set_layer_sink(ContributionDeposit deposit) { layer_sink_ = std::move(deposit); }
 
   /// Traces a path for each sample and deposits each sum under its sample's index in `samples`, at least once
   /// per sample. Throws Error{resource} if more than `MediumStack::kMaxShapes` media nest.
   void trace(std::span<const PixelSample> samples, const Deposit& deposit);
 
-  // Interface of PathTechnique.
+  // Callbacks (`PathCallbacks`).
   void on_escape(CameraPath& path);
   void on_hit(CameraPath& path, const SurfaceHit& hit);
   void prepare_scatter(CameraPath& path, const SurfaceVertex& vertex) const;
@@ -116,7 +116,7 @@ class PathTracer {
   [[nodiscard]] float survival_weight(CameraPath& path, const SurfaceVertex& vertex,
                                       const BsdfSample& event) const;
   [[nodiscard]] float survival_weight_in_medium(const CameraPath& path) const {
-    return path.rr_scale * roulette_throughput(path);
+    return path.rr_scale * path.roulette_throughput();
   }
   [[nodiscard]] bool reuses_spare_dimensions(const CameraPath& path) const { return !path.seeks_caustic; }
   // A path splits once, at a surface.
@@ -130,17 +130,9 @@ class PathTracer {
     child.is_split_child = true;
     child.rr_scale *= std::exp2(0.75F * static_cast<float>(log2_count));
   }
-  // A path sampled from the guide is not counted when it is truncated: BSDF sampling finds the same light.
-  [[nodiscard]] float throughput_estimate(const CameraPath& path) const {
-    return path.seeks_caustic ? 0 : roulette_throughput(path);
-  }
   void resolve_connections();
 
  private:
-  // Throughput without the loss of radiance by refraction into glass.
-  [[nodiscard]] static float roulette_throughput(const CameraPath& path) {
-    return path.packet.throughput_estimate() * path.eta_scale;
-  }
   // Light sampled for a point: its index, a direction to it unless it is invisible, and the joint pdf.
   struct ChosenLight {
     std::uint32_t index;
@@ -240,7 +232,6 @@ class PathTracer {
   std::vector<CameraSample> camera_samples_;  // camera samples, for lenses that disperse wavelengths
   std::vector<CameraRay> rays_;               // their camera rays
   std::vector<WavelengthImages> images_;      // their film positions per wavelength
-  ContributionDeposit layer_sink_;            // may be empty
   std::vector<StokesSpectrum> stokes_;        // sums of each path, if the sensor distinguishes polarisation
   std::vector<Connection> connections_;       // connections of the current step
   std::vector<StokesSpectrum> measured_stokes_;  // measured polarisation of each, if carried

@@ -11,7 +11,7 @@
 #include <fmt/ranges.h>
 
 #include "io/text.h"
-#include "validation/statistics/students_interval.h"
+#include "validation/statistics.h"
 
 namespace abbe {
 namespace {

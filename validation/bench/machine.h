@@ -4,7 +4,7 @@
 
 namespace abbe {
 
-/// Machine and compiler of a benchmark.
+/// The machine, and the compiler that built this program.
 struct Machine {
   std::string cpu;       ///< Model name as the operating system reports it; "unknown" without one.
   int cores;             ///< Number of logical processors; 0 if unknown.

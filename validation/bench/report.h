@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "report/plot.h"
 #include "validation/bench/baseline.h"
 #include "validation/bench/machine.h"
 #include "validation/bench/other_renderers.h"
-#include "validation/plot/log_plot.h"
 
 namespace abbe {
 

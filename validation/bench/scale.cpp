@@ -7,10 +7,10 @@
 
 #include "description/load.h"
 #include "io/atomic_file.h"
+#include "transport/render/cost.h"
 #include "transport/render/render.h"
-#include "transport/render/replay.h"
 #include "transport/render/trained_plan.h"
-#include "validation/bench/meshes.h"
+#include "validation/bench/generated_scene.h"
 
 namespace abbe {
 namespace {

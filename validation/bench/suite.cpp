@@ -8,8 +8,7 @@
 #include "io/atomic_file.h"
 #include "io/data_directory.h"
 #include "io/text.h"
-#include "validation/bench/lights.h"
-#include "validation/bench/meshes.h"
+#include "validation/bench/generated_scene.h"
 
 namespace abbe {
 namespace {

@@ -7,11 +7,11 @@
 #include <fmt/format.h>
 
 #include "io/data_directory.h"
+#include "report/display_color.h"
 #include "transport/plan/techniques.h"
 #include "transport/render/cost.h"
 #include "transport/render/render.h"
 #include "validation/cases/suites.h"
-#include "validation/picture/color_map.h"
 
 namespace abbe {
 namespace {
@@ -73,8 +73,7 @@ CaseResult measure(const Case& item, const FilmMean&, const CaseSettings& settin
 
 // Path classes with light for this film that the scene's integrator cannot sample.
 std::vector<PathClass> missing_path_classes(const Scene& scene, const FilmMean& film) {
-  std::vector<PathClass> classes =
-      unsampled_paths(scene, scene.features, uses(chosen_techniques(scene), Technique::light));
+  std::vector<PathClass> classes = unsampled_paths(scene);
   std::erase_if(classes, [&](const PathClass& path_class) {
     const std::string expression = path_class.substr(0, path_class.find(':'));
     return std::find(film.absent.begin(), film.absent.end(), expression) != film.absent.end();
@@ -111,7 +110,7 @@ void set_verdict(CaseResult& result) {
     if (const Verdict verdict = verdict_of(figure, result.allowed(figure)); verdict != Verdict::pass)
       result.verdict = verdict;
     const double deviation = std::abs(figure.deviation()) / result.allowed(figure);
-    if (deviation <= worst) continue;  // NaN counts as the worst deviation
+    if (deviation <= worst || std::isnan(worst)) continue;  // NaN counts as the worst deviation
     worst = deviation;
     result.worst = i;
   }

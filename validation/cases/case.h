@@ -11,8 +11,8 @@
 
 #include "description/load.h"
 #include "io/image.h"
-#include "scene/unsampled_paths.h"
-#include "validation/statistics/equivalence.h"
+#include "scene/lost_light.h"
+#include "validation/statistics.h"
 
 namespace abbe {
 

@@ -5,12 +5,11 @@
 
 #include "calibration/chart/delta_e.h"
 #include "calibration/output/color_spaces.h"
-#include "io/reference_table.h"
+#include "io/table.h"
 #include "spectral/astm_e308.h"
 #include "spectral/color_temperature.h"
 #include "spectral/rgb.h"
 #include "spectral/sources.h"
-#include "validation/cases/figures.h"
 #include "validation/cases/suites.h"
 #include "validation/cases/tables.h"
 

@@ -4,13 +4,11 @@
 
 #include "calibration/metrics/appearance.h"
 #include "calibration/metrics/color_rendering.h"
-#include "calibration/metrics/itp.h"
-#include "io/reference_table.h"
+#include "io/table.h"
 #include "spectral/color_temperature.h"
 #include "spectral/interpolation.h"
 #include "spectral/rgb.h"
 #include "spectral/sources.h"
-#include "validation/cases/figures.h"
 #include "validation/cases/suites.h"
 #include "validation/cases/tables.h"
 

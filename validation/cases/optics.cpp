@@ -1,3 +1,4 @@
+// The suite optics: formulas of materials and surfaces, and single rays traced by the code of `abbe trace`.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,12 +8,13 @@
 
 #include <fmt/format.h>
 
-#include "io/reference_table.h"
+#include "io/table.h"
 #include "materials/interface/fresnel.h"
+#include "materials/interface/snell.h"
 #include "sampling/angle.h"
+#include "scene/shapes/basic.h"
 #include "spectral/colorimetry.h"
-#include "validation/cases/figures.h"
-#include "validation/cases/quadrature.h"
+#include "transport/path/ray_trace.h"
 #include "validation/cases/suites.h"
 #include "validation/cases/tables.h"
 
@@ -246,6 +248,225 @@ Case computed(std::string id, std::string title, std::string source, std::string
                        margin, figures);
 }
 
+using V3d = Imath::V3d;
+constexpr double kMillimetre = 1e-3;
+
+struct NamedLine {
+  const char* name;
+  double wavelength_nm;
+};
+constexpr NamedLine kC{"C", kLineC_nm};
+constexpr NamedLine kD{"d", kLineD_nm};
+constexpr NamedLine kF{"F", kLineF_nm};
+constexpr NamedLine kG{"g", kLineG_nm};
+constexpr NamedLine kH{"h", kLineH_nm};
+
+// Shapes of one glass of index n in air.
+Scene glass_scene(double n, std::vector<Shape> shapes) {
+  Scene scene{};
+  scene.materials.push_back({"glass", DielectricMaterial{"constant", RefractiveIndex(n)}});
+  for (Shape& shape : shapes) scene.shapes.push_back({"glass", std::move(shape), 0});
+  scene.commit();
+  return scene;
+}
+
+double index_at(const char* glass, const NamedLine& line) {
+  return shipped_index(glass).catalogued_n(line.wavelength_nm);
+}
+
+// A ray that hits the first face of a prism of side 30 mm from below its normal.
+struct PrismRay {
+  RayTrace trace;
+  double deviation_deg;
+
+  // True if the second face transmits the ray.
+  [[nodiscard]] bool leaves() const { return trace.events.at(1).kind == TraceEvent::Kind::refract; }
+};
+PrismRay trace_prism(double n, double apex_deg, double incidence_deg) {
+  constexpr double kSide = 30 * kMillimetre;
+  const double half = apex_deg / 2 * kDegree;
+  const double elevation = incidence_deg * kDegree - half;
+  const V3d direction(std::cos(elevation), 0, std::sin(elevation));
+  const V3d face_center(-kSide / 2 * std::sin(half), 1.25 * kMillimetre, kSide / 6 * std::cos(half));
+  const Scene scene = glass_scene(n, {make_prism(apex_deg, kSide, 40 * kMillimetre)});
+  const RayTrace trace = trace_ray(scene, {face_center - 0.1 * direction, direction}, kLineD_nm, 64);
+  return {trace, angle_deg(direction, trace.last.direction)};
+}
+
+// Angle of incidence [degrees] at which light crosses a prism symmetrically.
+double minimum_deviation_incidence(double n, double apex_deg) {
+  return std::asin(n * std::sin(apex_deg / 2 * kDegree)) / kDegree;
+}
+
+std::vector<Figure> minimum_deviations() {
+  const ReferenceTable table("prism_minimum_deviation");
+  std::vector<Figure> figures;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    if (table.text(row, "min_deviation_deg").empty()) continue;
+    const std::string& id = table.text(row, "id");
+    const double apex = table.number(row, "apex_deg");
+    const double n = shipped_index(id).catalogued_n(table.number(row, "wavelength_nm"));
+    figures.push_back(exact_figure(id + " " + table.text(row, "line"), table.number(row, "min_deviation_deg"),
+                                   trace_prism(n, apex, minimum_deviation_incidence(n, apex)).deviation_deg));
+  }
+  return figures;
+}
+
+std::vector<Figure> deviations_at_50() {
+  std::vector<Figure> figures;
+  for (const auto& [line, reference] :
+       {std::pair{kC, 38.43841}, std::pair{kD, 38.65364}, std::pair{kF, 39.14097}, std::pair{kH, 39.83544}})
+    figures.push_back(
+        exact_figure(line.name, reference, trace_prism(index_at("N-BK7", line), 60, 50).deviation_deg));
+  return figures;
+}
+
+// Distances [mm] from the d line on a screen 1 m away, at the minimum deviation of that line.
+std::vector<Figure> screen_positions() {
+  const double incidence = minimum_deviation_incidence(index_at("N-BK7", kD), 60);
+  const auto deviation = [&](const NamedLine& line) {
+    return trace_prism(index_at("N-BK7", line), 60, incidence).deviation_deg;
+  };
+  std::vector<Figure> figures;
+  for (const auto& [line, reference] :
+       {std::pair{kC, -3.79405}, std::pair{kF, 8.59336}, std::pair{kG, 15.28664}, std::pair{kH, 20.84728}})
+    figures.push_back(exact_figure(line.name, reference,
+                                   std::tan((deviation(line) - deviation(kD)) * kDegree) / kMillimetre));
+  return figures;
+}
+
+// Smallest incidence at which the second face transmits, by bisection.
+double edge_of_transmission(double n) {
+  double low = 20;
+  double high = 50;
+  while (high - low > 1e-9) {
+    const double midpoint = (low + high) / 2;
+    (trace_prism(n, 60, midpoint).leaves() ? high : low) = midpoint;
+  }
+  return high;
+}
+
+std::vector<Figure> edges_of_transmission() {
+  std::vector<Figure> figures;
+  for (const auto& [line, reference] :
+       {std::pair{kC, 29.00097}, std::pair{kD, 29.18821}, std::pair{kF, 29.61000}})
+    figures.push_back(exact_figure(line.name, reference, edge_of_transmission(index_at("N-BK7", line))));
+  return figures;
+}
+
+std::vector<Figure> prism_throughput() {
+  const double n = index_at("N-BK7", kD);
+  const RayTrace trace = trace_prism(n, 60, minimum_deviation_incidence(n, 60)).trace;
+  const Passage& in = trace.events.at(0).passage.value();
+  const Passage& out = trace.events.at(1).passage.value();
+  const double s = (1 - in.Rs) * (1 - out.Rs);
+  const double p = (1 - in.Rp) * (1 - out.Rp);
+  const double chained = (1 - (in.Rs + in.Rp) / 2) * (1 - (out.Rs + out.Rp) / 2);
+  return {exact_figure("s", 0.786084, s), exact_figure("p", 0.991278, p),
+          exact_figure("unpolarised", 0.888681, trace.polarisation.mueller.rows[0][0]),
+          exact_figure("polarisation off", 0.885710, chained)};
+}
+
+// Lateral shift by a plate 10 mm thick at 45 degrees.
+double lateral_shift_mm(double n) {
+  constexpr double kThickness = 10 * kMillimetre;
+  const Quad front{{0, -1, -1}, {0, 0, 2}, {0, 2, 0}};
+  const Quad back{{kThickness, -1, -1}, {0, 2, 0}, {0, 0, 2}};
+  const double c = std::sqrt(0.5);
+  const V3d origin(-0.01, 0.003, -0.01);
+  const RayTrace trace = trace_ray(glass_scene(n, {front, back}), {origin, {c, 0, c}}, kLineD_nm, 64);
+  const V3d moved = trace.last.origin - origin;
+  return (moved.x - moved.z) * c / kMillimetre;
+}
+
+std::vector<Figure> lateral_shifts() {
+  std::vector<Figure> figures;
+  for (const auto& [line, reference] :
+       {std::pair{kC, 3.337199}, std::pair{kD, 3.344994}, std::pair{kF, 3.362405}})
+    figures.push_back(exact_figure(line.name, reference, lateral_shift_mm(index_at("N-BK7", line))));
+  return figures;
+}
+
+// Focal length of a ball 10 mm wide, from a paraxial ray.
+double ball_focal_length_mm(double n) {
+  constexpr double kHeight = 1e-7;
+  const Scene scene = glass_scene(n, {Sphere{{0, 0, 0}, 5 * kMillimetre}});
+  const RayTrace trace = trace_ray(scene, {{-0.1, 0, kHeight}, {1, 0, 0}}, kLineD_nm, 64);
+  return kHeight / std::tan(angle_deg({1, 0, 0}, trace.last.direction) * kDegree) / kMillimetre;
+}
+
+std::vector<Figure> ball_lens() {
+  std::vector<Figure> figures;
+  for (const auto& [line, reference] :
+       {std::pair{kC, 7.360765}, std::pair{kD, 7.337461}, std::pair{kF, 7.285822}})
+    figures.push_back(exact_figure(line.name, reference, ball_focal_length_mm(index_at("N-BK7", line))));
+  return figures;
+}
+
+// Total deviation [degrees] of a ray that enters a ball of index n at this incidence and leaves after k
+// internal reflections.
+double droplet_deviation(double n, double incidence_deg, int k) {
+  const Sphere ball{V3d(0), 1};
+  const double i = incidence_deg * kDegree;
+  BasicRay<double> ray{V3d(std::sin(i), 0, 5), V3d(0, 0, -1)};
+  double turned = 0;
+  for (int event = 0; event <= k + 1; ++event) {
+    const auto hit = intersect(ball, ray, 1e-9);
+    if (!hit) return std::nan("");
+    const bool last = event == k + 1;
+    V3d next = event == 0 ? *refract(-ray.direction, hit->normal, n)
+                          : reflect(V3d(-ray.direction), V3d(-hit->normal));
+    if (last) next = *refract(-ray.direction, V3d(-hit->normal), 1 / n);
+    turned += angle_deg(ray.direction, next);
+    ray = {hit->point, next};
+  }
+  return turned;
+}
+
+std::vector<Figure> water_bows() {
+  const ReferenceTable table("rainbow_water_20C");
+  const RefractiveIndex water = shipped_index("water_20.0C");
+  std::vector<Figure> figures;
+  for (std::size_t row = 0; row < table.rows(); ++row) {
+    const double nm = table.number(row, "wavelength_nm");
+    const bool absolute = table.text(row, "index_used") == "absolute";
+    const double n = absolute ? water.catalogued_n(nm) : water.n(nm);
+    const int order = static_cast<int>(table.number(row, "order_k"));
+    figures.push_back(exact_figure(fmt::format("{} nm order {}{}", nm, order, absolute ? " in vacuum" : ""),
+                                   table.number(row, "deviation_deg"),
+                                   droplet_deviation(n, table.number(row, "incidence_deg"), order)));
+  }
+  return figures;
+}
+
+std::vector<Figure> printed_bows() {
+  constexpr std::array kIndices{1.331, 1.343};
+  constexpr std::array<std::array<double, 2>, 7> kPrinted{{{137.63, 139.35},
+                                                           {129.63, 126.52},
+                                                           {42.47, 38.11},
+                                                           {42.76, 48.34},
+                                                           {127.08, 133.86},
+                                                           {149.10, 141.13},
+                                                           {65.59, 56.45}}};
+  std::vector<Figure> figures;
+  for (std::size_t i = 0; i < kPrinted.size(); ++i)
+    for (std::size_t j = 0; j < kIndices.size(); ++j) {
+      const int order = static_cast<int>(i) + 1;
+      const double n = kIndices[j];
+      const double incidence = std::acos(std::sqrt((n * n - 1) / (order * (order + 2)))) / kDegree;
+      const double turned = std::fmod(droplet_deviation(n, incidence, order), 360);
+      figures.push_back(exact_figure(fmt::format("order {} n = {}", order, n), kPrinted[i][j],
+                                     std::min(turned, 360 - turned)));
+    }
+  return figures;
+}
+
+Case traced(std::string id, std::string title, std::string source, std::string unit, double margin,
+            std::vector<Figure> (*figures)()) {
+  return computed_case(Suite::optics, std::move(id), std::move(title), std::move(source), std::move(unit),
+                       {margin}, figures);
+}
+
 }  // namespace
 
 std::vector<Case> optics_cases() {
@@ -274,6 +495,31 @@ std::vector<Case> optics_cases() {
                printed, absorption),
       computed("T16", "reflectance of glass, n = 1.5, for diffuse light",
                "Fresnel's formulas over a hemisphere [Born1999, sec. 1.5.2]", "", {1e-8}, hemispherical),
+  };
+}
+
+std::vector<Case> traced_ray_cases() {
+  const std::string prism = "two refractions [Born1999, sec. 4.7.2]";
+  return {
+      traced("D1", "minimum deviation of 60° prisms, traced", prism, "°", 0.51e-6, minimum_deviations),
+      traced("D2", "N-BK7 prism, deviation at 50° of incidence, traced", prism, "°", 0.51e-5,
+             deviations_at_50),
+      traced("D3", "N-BK7 prism, lines on a screen 1 m away", prism, "mm", 0.51e-5, screen_positions),
+      traced("D4", "N-BK7 prism, incidence at which the second face begins to transmit", prism, "°", 0.51e-5,
+             edges_of_transmission),
+      traced("D5", "N-BK7 prism, throughput at minimum deviation",
+             prism + " and Fresnel's formulas [Born1999, sec. 1.5.2]", "", 0.51e-6, prism_throughput),
+      // The table evaluates the index of air at the nominal wavelength as if in vacuum: 1e-8 in n, 3e-6
+      // degrees here.
+      traced("D6", "rainbows of water, traced through a sphere", "Descartes' rays [VanDeHulst1957, chap. 13]",
+             "°", 5e-6, water_bows),
+      traced("D6-printed", "rainbows of seven orders as printed, traced through a sphere",
+             "as a textbook prints them for n = 1.331 and 1.343; Descartes' rays [VanDeHulst1957, chap. 13]",
+             "°", 0.0051, printed_bows),
+      traced("D7-plate", "N-BK7 plate of 10 mm at 45°, lateral shift, traced",
+             "t (sin i - cos i tan r) [Born1999, sec. 1.5.1]", "mm", 0.51e-6, lateral_shifts),
+      traced("D7-ball", "N-BK7 ball of 10 mm, focal length, traced", "nD/(4(n - 1)) [Born1999, sec. 4.4]",
+             "mm", 0.51e-6, ball_lens),
   };
 }
 

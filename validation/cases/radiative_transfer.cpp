@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "validation/cases/quadrature.h"
+#include "validation/cases/suites.h"
 
 namespace abbe {
 

@@ -1,3 +1,5 @@
+// The suite radiometry: films of enclosures, form factors, refracted light and scattering media.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -5,14 +7,42 @@
 
 #include "materials/interface/fresnel.h"
 #include "spectral/colorimetry.h"
-#include "validation/cases/figures.h"
-#include "validation/cases/film_case.h"
-#include "validation/cases/plate.h"
+#include "validation/cases/radiative_transfer.h"
 #include "validation/cases/suites.h"
 #include "validation/cases/tables.h"
 
 namespace abbe {
 namespace {
+
+// Power transmittance and reflectance of a plate, with all internal reflections [Born1999, sec. 7.6].
+struct Plate {
+  double transmittance;
+  double reflectance;
+};
+
+// Plate whose faces both reflect the fraction `r` < 1. `internal` is the transmittance of one crossing.
+Plate plate_of(double r, double internal) {
+  const double loop = 1 - r * r * internal * internal;
+  return {(1 - r) * (1 - r) * internal / loop, r + (1 - r) * (1 - r) * r * internal * internal / loop};
+}
+
+// Plate of index `n` relative to its surroundings, in unpolarised light: the mean of s and p, which do not
+// mix at parallel faces. `angle_deg` is the angle of incidence in [0, 90). `internal` is the transmittance
+// of one crossing at that angle.
+Plate plate(double angle_deg, double n, double internal) {
+  const FresnelPower<double> face = fresnel_dielectric(std::cos(angle_deg * std::numbers::pi / 180), n);
+  const Plate s = plate_of(face.Rs, internal);
+  const Plate p = plate_of(face.Rp, internal);
+  return {(s.transmittance + p.transmittance) / 2, (s.reflectance + p.reflectance) / 2};
+}
+
+// Fraction of unpolarised light that enters clear glass, is reflected inside `bounces` times and then
+// leaves. It is the mean of (1 - R)^2 R^bounces over s and p. All faces reflect as `face`: those of a plate,
+// or the points of a ball that a ray hits.
+double transmittance_after_bounces(const FresnelPower<double>& face, int bounces) {
+  const auto fraction = [&](double r) { return (1 - r) * (1 - r) * std::pow(r, bounces); };
+  return (fraction(face.Rs) + fraction(face.Rp)) / 2;
+}
 
 // Mean irradiance [lx] on a wall of a cubic room with edges of `side` m, direct and interreflected.
 // flux/area is the direct irradiance; 1/(1 - reflectance) sums the reflections.
@@ -217,6 +247,253 @@ Case phase_case(double phase_deg) {
                    std::numbers::pi / 4 * intensity / (width * width), 64);
 }
 
+std::vector<Case> integrating_sphere_cases() {
+  const double offset = 0.3;
+  const double distance2 = 1 + offset * offset;
+  const double uniform = 100 / (4 * std::numbers::pi);  // a light of 100 lm at the centre of a sphere of 1 m
+  const double direct = uniform / distance2 / std::sqrt(distance2);
+  const double reflectance = 0.98;
+  const double port = 0.01;  // fraction of the sphere's area, behind the disc
+  return {
+      film_case("T7", "integrating sphere, light off centre", "sphere multiplier [Goebel1967]",
+                "integrating_sphere.json", {}, direct + uniform * 0.5 / (1 - 0.5), 64),
+      film_case("T8", "integrating sphere with a port of 1 %, reflectance 0.98",
+                "1/(1 - ρ(1 - f)) [Goebel1967]", "port.json", {}, uniform / (1 - reflectance * (1 - port)),
+                256),
+  };
+}
+
+// The smaller of two concentric spheres with r1/r2 = 1/2 has exitance 1; the larger reflects 0.5.
+std::vector<Case> concentric_cases() {
+  const double view_factor = 0.25;  // fraction of the outer sphere's light that arrives at the inner one
+  const double outer = view_factor / (1 - 0.5 * (1 - view_factor));
+  const std::string source = "balance of two concentric spheres [Howell2010, app. C]";
+  return {
+      film_case("T9-outer", "concentric spheres, the outer one", source, "concentric.json", {}, outer, 64),
+      film_case("T9-inner", "concentric spheres, the inner one", source, "concentric.json",
+                {probe_at("[0, 0, 1.000001]", "[0, 0, 1]")}, 0.5 * outer, 64)};
+}
+
+// Illuminances [lx] of two infinite plates of reflectance 0.5; the lower one emits 1 lm/m^2. The light that
+// leaves a plate, emitted and reflected, arrives at the other one. `lower` is that of the lower plate.
+std::vector<Case> plate_cases() {
+  const std::string source = "balance of two infinite plates [Howell2010]";
+  const double lower = 1 / (1 - 0.5 * 0.5);
+  return {
+      film_case("T10-upper", "infinite plates, the dark one", source, "infinite_plates.json", {}, lower, 64),
+      film_case("T10-lower", "infinite plates, the emitting one", source, "infinite_plates.json",
+                {probe_at("[0.5, 0.5, 0.000001]", "[0, 0, 1]")}, 0.5 * lower, 64)};
+}
+
+std::vector<Case> furnace_cases() {
+  const std::string source = "geometric series [Howell2010]";
+  const auto truncated = [&](int vertices) {
+    return film_case(fmt::format("T11-{}", vertices),
+                     fmt::format("furnace, paths of at most {} vertices", vertices), source, "furnace.json",
+                     {{"/render/max_depth", fmt::format("{}", vertices - 1)}},
+                     std::numbers::pi * (1 - std::pow(0.8, vertices)), 16);
+  };
+  return {film_case("T11", "furnace: emission 0.2, reflectance 0.8", source, "furnace.json", {},
+                    std::numbers::pi, 64),
+          truncated(4), truncated(16)};
+}
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kGlass = 1.5;  // index of refraction in all of these scenes
+constexpr int kMidpoints = 100000;
+constexpr int kMaxChords = 24;  // about 1e-4 of grazing light remains after eight chords
+
+// A ray that hits a sphere of radius 1 at this incidence and leaves after `chords` chords through it
+// [VanDeHulst1957, sec. 12.21]. It stays in the plane of incidence. With 0 chords it is reflected at the
+// outside.
+// `turn` is the angle at the sphere's centre between the points of entry and exit. `power` is the fraction of
+// unpolarised power, averaged over s and p.
+struct LeavingRay {
+  double turn;
+  double power;
+};
+LeavingRay leaving_ray(double incidence, int chords) {
+  const FresnelPower<double> face = fresnel_dielectric(std::cos(incidence), kGlass);
+  const double inside = std::asin(std::sin(incidence) / kGlass);
+  return {chords * (kPi - 2 * inside),
+          chords == 0 ? face.R() : transmittance_after_bounces(face, chords - 1)};
+}
+
+// Distance from the axis at which a ray crosses the plane z = `height`; infinite if it never does. The ray
+// leaves the sphere at `position` in `direction`; both angles are measured from the +z axis.
+double distance_in_plane(double position, double direction, double height) {
+  const double distance = (height - std::cos(position)) / std::cos(direction);
+  return distance > 0 ? std::abs(std::sin(position) + distance * std::sin(direction)) : INFINITY;
+}
+
+// Irradiance over a disc of `radius` on the axis, at distance `below` under the centre of a ball of radius 1.
+// Parallel light of irradiance 1 arrives from above. A ring of incidence i has the fraction sin 2i di of the
+// ball's cross-section. All rays of 0 (reflected at the outside) to `max_chords` chords are summed.
+double irradiance_behind_ball(double below, double radius, int max_chords) {
+  const auto integrand = [&](double incidence) {
+    double sum = 0;
+    for (int chords = 0; chords <= max_chords; ++chords) {
+      const LeavingRay ray = leaving_ray(incidence, chords);
+      const double position = incidence + ray.turn;
+      if (distance_in_plane(position, position + incidence, -below) <= radius) sum += ray.power;
+    }
+    return sum * std::sin(2 * incidence);
+  };
+  return midpoint_integral(integrand, 0, kPi / 2, kMidpoints) / (radius * radius);
+}
+
+// Irradiance at a point on the axis, at distance `below` under the centre of a ball of radius 1. A disc of
+// radiance 1 and `radius` lies at height `above` the centre. Rays are traced backwards from the point. The
+// scene must ensure that the disc is not visible past the ball.
+double irradiance_below_ball(double below, double above, double radius) {
+  const auto integrand = [&](double theta) {
+    const double incidence = std::asin(below * std::sin(theta));
+    double sum = 0;
+    for (int chords = 1; chords <= kMaxChords; ++chords) {
+      const LeavingRay ray = leaving_ray(incidence, chords);
+      const double position = theta + kPi - incidence - ray.turn;
+      if (distance_in_plane(position, position - incidence, above) <= radius) sum += ray.power;
+    }
+    return sum * std::sin(2 * theta);
+  };
+  return kPi * midpoint_integral(integrand, 0, std::asin(1 / below), kMidpoints);
+}
+
+// Irradiance at a point from a parallel disc of radiance 1 and `radius`, through `air` of air and a pane of
+// the given `thickness`. A ray with k internal reflections is displaced by air tan theta + (k + 1) thickness
+// tan theta'.
+double irradiance_behind_pane(double air, double thickness, double radius) {
+  const auto integrand = [&](double theta) {
+    const FresnelPower<double> face = fresnel_dielectric(std::cos(theta), kGlass);
+    const double crossing = thickness * std::sin(theta) / kGlass / face.cos_t;
+    double sum = 0;
+    for (int bounces = 0; bounces < 40; bounces += 2)
+      if (air * std::tan(theta) + (bounces + 1) * crossing <= radius)
+        sum += transmittance_after_bounces(face, bounces);
+    return sum * std::sin(2 * theta);
+  };
+  return kPi * midpoint_integral(integrand, 0, std::atan(radius / air), kMidpoints);
+}
+
+// A ball of glass under the sun or under a disc; variants of `ball_lens.json`.
+std::vector<Case> ball_cases() {
+  constexpr double kBelow = 1.5;  // of the disc, which lies in the ball's shadow
+  constexpr double kRadius = 0.3;
+  constexpr double kElevation_deg = 20;  // of the camera above the disc, so that it looks past the ball
+  constexpr double kDistance = 100;
+  constexpr double kFov_deg = 0.4;
+  const std::string source = "rays through a sphere [VanDeHulst1957, sec. 12.21]";
+  const double elevation = kElevation_deg * kPi / 180;
+  const double width = 2 * kDistance * std::tan(kFov_deg / 2 * kPi / 180);
+  // Fraction of the film that the disc covers.
+  const double film_fraction = kPi * kRadius * kRadius * std::sin(elevation) / (width * width);
+  const auto with_absent_paths = [](Case item, std::vector<std::string> classes) {
+    std::get<FilmMean>(item.method).absent = std::move(classes);
+    return item;
+  };
+  const std::string disc =
+      fmt::format(R"({{"center": [0, 0, {}], "normal": [0, 0, 1], "radius": {}}})", -kBelow, kRadius);
+  return {with_absent_paths(
+              film_case(
+                  "ball-disc", "sun through a ball of glass onto a white disc, at most two events before it",
+                  source, "ball_lens.json",
+                  {{"/camera/from", fmt::format("[{}, 0, {}]", kDistance * std::cos(elevation),
+                                                kDistance * std::sin(elevation) - kBelow)}},
+                  [=] { return kPi / 4 * film_fraction * irradiance_behind_ball(kBelow, kRadius, 1) / kPi; },
+                  128),
+              {"E L", "E S (S|D)* L", "E S (S|D)* D (S|D)* S L"}),
+          film_case(
+              "ball-meter", "sun through a ball of glass onto a probe", source, "ball_lens.json",
+              {{"/camera", fmt::format(R"({{"irradiance_probe": {{"disc": {}}}}})", disc)},
+               {"/shapes", R"([{"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "glass"}])"},
+               {"/sensor/resolution", "[64, 64]"},
+               {"/render/max_depth", "100"}},
+              [] { return irradiance_behind_ball(kBelow, kRadius, kMaxChords); }, 128),
+          film_case(
+              "ball-axis", "disc of light through a ball of glass to a point", source, "ball_lens.json",
+              {probe_at(fmt::format("[0, 0, {}]", -kBelow), "[0, 0, 1]"),
+               {"/lights/0", R"({"disc": {"center": [0, 0, 3], "normal": [0, 0, -1], "radius": 0.5},
+                    "emission": {"illuminant": "E", "luminance": 1}})"},
+               {"/shapes", R"([{"sphere": {"center": [0, 0, 0], "radius": 1}, "material": "glass"}])"},
+               {"/render/max_depth", "100"}},
+              [] { return irradiance_below_ball(kBelow, 3, 0.5); }, 256)};
+}
+
+// A light disc of radius 0.5 m, 1 m above a point, and a pane between them; variants of `pane.json`.
+std::vector<Case> pane_cases() {
+  return {film_case(
+              "pane-thick", "disc of light behind a pane of 0.4 m",
+              "rays through a plate, s and p separate [Born1999, sec. 7.6]", "pane.json", {},
+              [] { return irradiance_behind_pane(0.6, 0.4, 0.5); }, 512),
+          film_case(
+              "pane-thin", "disc of light behind thin glass", "all internal bounces [Born1999, sec. 7.6]",
+              "pane.json", {{"/shapes", R"([{"quad": {"corner": [-1000, -1000, 0.5], "edge_u": [2000, 0, 0],
+                       "edge_v": [0, 2000, 0]}, "material": "thin"}])"}},
+              [] { return irradiance_behind_pane(1, 0, 0.5); }, 1024)};
+}
+
+// A probe in a ball of glass below a dome. It is so near the centre that total internal reflection traps no
+// ray to it.
+Case inside_case() {
+  return film_case("ball-inside", "probe inside a ball of glass under a uniform dome",
+                   "radiance grows with the square of the index, and nothing is lost [Pharr2023, sec. 9.5.2]",
+                   "dome.json",
+                   {{"/camera", R"({"irradiance_probe": {"disc": {"center": [0, 0, 0], "normal": [0, 0, 1],
+                                                                "radius": 0.5}}})"}},
+                   kPi * kGlass * kGlass, 256);
+}
+
+// A layer of albedo 0.9 below a sky of 1 cd/m^2, viewed at some cosines. It is deep enough to count as
+// infinite.
+std::vector<Case> layer_cases() {
+  constexpr double kAlbedo = 0.9;  // as in `deep_layer.json`
+  constexpr double kDistance = 5;
+  std::vector<Case> cases;
+  for (const double mu : {1.0, 0.2})
+    cases.push_back(film_case(
+        fmt::format("layer-{}", mu), fmt::format("deep isotropically scattering layer, cosine {}", mu),
+        "1 - H(μ) sqrt(1 - ϖ) [Chandrasekhar1960, sec. 33]", "deep_layer.json",
+        {{"/camera/from", fmt::format("[0, {}, {}]", -kDistance * std::sqrt(1 - mu * mu), kDistance * mu)}},
+        [mu] { return pinhole_exposure(0.1) * (1 - ChandrasekharH(kAlbedo)(mu) * std::sqrt(1 - kAlbedo)); },
+        768));
+  return cases;
+}
+
+// A light of 1 cd in fog, half a metre from the line of sight, with paths of one scattering event. The fog
+// scatters equally at all wavelengths, or blue more than red. The luminance of the latter is a mean over the
+// observer.
+std::vector<Case> single_cases() {
+  constexpr double kG = 0.5;  // mean cosine of the phase function [HenyeyGreenstein1941]
+  const auto phase = [](double cosine) {
+    return (1 - kG * kG) / (4 * std::numbers::pi * std::pow(1 + kG * kG - 2 * kG * cosine, 1.5));
+  };
+  constexpr double kAbsorption = 0.1;  // as in `lamp_in_fog.json`
+  const auto radiance = [phase](double scattering) {
+    return single_scattering_radiance({scattering, scattering + kAbsorption, phase}, 0.5, 5, 95);
+  };
+  const auto luminance = [radiance] {
+    const Curve& y = color_matching(Observer::cie1931).y;
+    double sum = 0;
+    double weights = 0;
+    for (double nm = 382.5; nm < 780; nm += 5) {
+      sum += y(nm) * radiance(1 - 0.9 * (std::clamp(nm, 440.0, 660.0) - 440) / 220);
+      weights += y(nm);
+    }
+    return sum / weights;
+  };
+  const std::string source = "the integral along the line of sight [Chandrasekhar1960, sec. 7]";
+  const double unit = pinhole_exposure(0.01);
+  return {film_case(
+              "scattered-once", "light in fog, single scattering", source, "lamp_in_fog.json", {},
+              [=] { return unit * radiance(0.3); }, 256),
+          film_case(
+              "scattered-blue", "light in fog that scatters blue light, single scattering", source,
+              "lamp_in_fog.json",
+              {{"/materials/fog/medium/scattering_per_m",
+                R"({"table": {"wavelength_nm": [440, 660], "values": [1, 0.1], "outside": "clamp"}})"}},
+              [=] { return unit * luminance(); }, 8192)};
+}
+
 }  // namespace
 
 double pinhole_exposure(double fov_deg) {
@@ -242,6 +519,27 @@ std::vector<Case> radiometry_cases() {
     for (Case& item : group()) all.push_back(std::move(item));
   for (const char* glass : {"N-BK7", "N-SF11"}) all.push_back(minimum_deviation_case(glass));
   for (const double phase : {0.0, 60.0, 90.0}) all.push_back(phase_case(phase));
+  return all;
+}
+
+std::vector<Case> enclosure_cases() {
+  std::vector<Case> all;
+  for (std::vector<Case> (*group)() :
+       {integrating_sphere_cases, concentric_cases, plate_cases, furnace_cases})
+    for (Case& item : group()) all.push_back(std::move(item));
+  return all;
+}
+
+std::vector<Case> refraction_cases() {
+  std::vector<Case> all = ball_cases();
+  all.push_back(inside_case());
+  for (Case& item : pane_cases()) all.push_back(std::move(item));
+  return all;
+}
+
+std::vector<Case> scattering_cases() {
+  std::vector<Case> all = layer_cases();
+  for (Case& item : single_cases()) all.push_back(std::move(item));
   return all;
 }
 

@@ -2,6 +2,7 @@
 
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "validation/cases/case.h"
@@ -47,5 +48,60 @@ namespace abbe {
 /// case `id`, if it does not load.
 [[nodiscard]] Scene load_case_scene(const std::string& id, const std::string& file,
                                     std::span<const Override> settings);
+
+/// A figure without sampling error. `what` is its name within the case.
+[[nodiscard]] inline Figure exact_figure(std::string what, double reference, double measured) {
+  return {std::move(what), reference, {measured, 0}};
+}
+
+/// A case measured by `Computed`; the arguments are the members of `Case`.
+[[nodiscard]] inline Case computed_case(Suite suite, std::string id, std::string title, std::string source,
+                                        std::string unit, Margin margin, std::vector<Figure> (*figures)()) {
+  return {suite,           std::move(id), std::move(title), std::move(source),
+          std::move(unit), margin,        Computed{figures}};
+}
+
+/// Spectral lines C, d, F, g and h: wavelengths in air. `kLineD_nm` is the helium line d, not the sodium line
+/// D.
+inline constexpr double kLineC_nm = 656.2725;
+inline constexpr double kLineD_nm = 587.5618;
+inline constexpr double kLineF_nm = 486.1327;
+inline constexpr double kLineG_nm = 435.8343;
+inline constexpr double kLineH_nm = 404.6561;
+
+/// Case of the suite radiometry: the mean of a film's channel against a closed form. By default the channel
+/// is Y, the illuminance times the exposure time [lx s]. The margin is 1 %, that of a thorough run 0.2 %.
+/// `scene` is relative to `data/scenes/validation`; `samples` are per pixel.
+[[nodiscard]] inline Case film_case(std::string id, std::string title, std::string source, std::string scene,
+                                    std::vector<Override> settings, Expected expected, int samples,
+                                    std::string channel = "Y") {
+  return {Suite::radiometry,
+          std::move(id),
+          std::move(title),
+          std::move(source),
+          "lx s",
+          {0.01, Margin::Kind::relative},
+          FilmMean{std::move(scene), std::move(settings), std::move(channel), std::move(expected), samples,
+                   0.002}};
+}
+
+/// Mean exposure behind a pinhole of f-number 1 with a square film, for unit luminance and exposure time:
+/// pi/4 times the mean of cos^4 over the film [sr]. `fov_deg` is the full angle between opposite edges of the
+/// film.
+[[nodiscard]] double pinhole_exposure(double fov_deg);
+
+/// Override that replaces the camera by an irradiance probe at `point`. The probe receives light from the
+/// side to which `normal` points. Both are JSON arrays of three numbers, such as "[0, 0, 1]".
+[[nodiscard]] Override probe_at(const std::string& point, const std::string& normal);
+
+/// Integral of f from a to b by the midpoint rule with `steps` >= 1 intervals. Swapping a and b changes its
+/// sign.
+template <typename Function>
+[[nodiscard]] double midpoint_integral(const Function& f, double a, double b, int steps) {
+  const double step = (b - a) / steps;
+  double sum = 0;
+  for (int i = 0; i < steps; ++i) sum += f(a + (i + 0.5) * step);
+  return sum * step;
+}
 
 }  // namespace abbe

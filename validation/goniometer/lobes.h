@@ -7,9 +7,9 @@
 #include <optional>
 #include <vector>
 
-#include "materials/bsdf/bsdf.h"
+#include "materials/bsdf.h"
 #include "validation/goniometer/sphere_cells.h"
-#include "validation/statistics/equivalence.h"
+#include "validation/statistics.h"
 
 namespace abbe {
 

@@ -6,10 +6,9 @@
 
 #include "io/picture.h"
 #include "io/text.h"
-#include "validation/plot/svg.h"
-#include "validation/report/matrix.h"
+#include "report/svg.h"
 #include "validation/report/report.h"
-#include "validation/statistics/equivalence.h"
+#include "validation/statistics.h"
 
 namespace abbe {
 namespace {
@@ -202,7 +201,7 @@ std::string suite_pictures(const ValidationReport& report, Suite suite) {
 
 std::string suite_section(const ValidationReport& report, Suite suite) {
   if (suite == Suite::techniques) {
-    const std::string matrix = matrix_html(technique_matrix(report.outcomes));
+    const std::string matrix = technique_table_html(report.outcomes);
     return matrix.empty() ? "" : fmt::format("<h2 id=\"{0}\">{0}</h2>\n", suite_name(suite)) + matrix;
   }
   std::string rows;

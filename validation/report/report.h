@@ -96,4 +96,8 @@ struct ChartSummary {
 /// without charts.
 [[nodiscard]] std::string chart_table(const std::vector<Outcome>& outcomes);
 
+/// Outcomes of `TechniqueMean` cases as an HTML table, with a row for each film and a column for each of
+/// `kIntegratorNames`, notes and failures. Empty without such outcomes.
+[[nodiscard]] std::string technique_table_html(const std::vector<Outcome>& outcomes);
+
 }  // namespace abbe

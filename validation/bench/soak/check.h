@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "validation/bench/soak/scene.h"
+#include "validation/bench/soak/drawing.h"
 
 namespace abbe::soak {
 

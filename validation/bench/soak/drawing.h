@@ -1,16 +1,59 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
+#include <iterator>
+#include <random>
 #include <string>
 #include <vector>
 
 #include <nlohmann/json.hpp>
 
-#include "validation/bench/soak/random.h"
-
 namespace abbe::soak {
+
+/// Random generator of a scene. A seed gives the same scene on every platform. The distributions below are
+/// written out, since those of the standard library differ between implementations. Only braced lists, whose
+/// order is defined, draw twice in one expression.
+using Random = std::mt19937_64;
+
+/// Uniform in [low, high); low <= high.
+inline double uniform(Random& random, double low, double high) {
+  return low + (high - low) * static_cast<double>(random() >> 11U) * 0x1p-53;
+}
+
+/// Log-uniform in [low, high), with 0 < low.
+inline double decades(Random& random, double low, double high) {
+  return std::exp(uniform(random, std::log(low), std::log(high)));
+}
+
+/// True with the given probability in [0, 1].
+inline bool chance(Random& random, double probability) {
+  return uniform(random, 0, 1) < probability;
+}
+
+/// Log-uniform absolute value in [low, high), with 0 < low, and either sign with probability 1/2.
+inline double signed_decades(Random& random, double low, double high) {
+  const double size = decades(random, low, high);
+  return chance(random, 0.5) ? -size : size;
+}
+
+/// Uniform integer in [low, high].
+inline int integer(Random& random, int low, int high) {
+  return low + static_cast<int>(uniform(random, 0, high - low + 1));
+}
+
+/// One of the values with equal probabilities; there must be at least one.
+template <typename T>
+const T& one_of(Random& random, const std::vector<T>& values) {
+  return values[static_cast<std::size_t>(integer(random, 0, static_cast<int>(values.size()) - 1))];
+}
+template <typename T>
+T one_of(Random& random, std::initializer_list<T> values) {
+  return *std::next(values.begin(), integer(random, 0, static_cast<int>(values.size()) - 1));
+}
 
 using Json = nlohmann::ordered_json;
 
@@ -90,5 +133,18 @@ void draw_render(Drawing& drawing);
 /// Emission of a light, sometimes polarised. `kind` is "area", "point" (also for spots), "sun", "directional"
 /// or "environment".
 [[nodiscard]] Json draw_emission(Drawing& drawing, const std::string& kind);
+
+/// A drawn scene and what a render of it must satisfy.
+struct DrawnScene {
+  std::filesystem::path path;  ///< The scene file, `soak_<seed>.json`.
+  /// The camera is in a closed opaque box, and `kOutsideChannel` records only light from outside.
+  bool closed;
+  bool signed_response;  ///< A channel may have a negative response.
+};
+
+/// Draws a scene from the whole scene language and writes it with its files to `folder`, which must exist and
+/// contain no files of another scene. Their contents depend on the seed only. Throws Error{output} if a file
+/// cannot be written.
+[[nodiscard]] DrawnScene draw_scene(std::uint64_t seed, const std::filesystem::path& folder);
 
 }  // namespace abbe::soak

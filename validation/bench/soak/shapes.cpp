@@ -110,41 +110,6 @@ Json prism(Drawing& drawing, double half) {
                             {"length", half * decades(drawing.random, 0.05, 5)}}}});
 }
 
-}  // namespace
-
-Json draw_shape(Drawing& drawing, const DrawnMaterial& drawn) {
-  Random& random = drawing.random;
-  const bool large = chance(random, 0.7);
-  const double half = drawing.size * decades(random, large ? 0.05 : drawn.has_interior ? 1e-3 : 1e-4, 1);
-  Json shape;
-  switch (integer(random, 0, 6)) {
-    case 0:
-      shape = prism(drawing, half);
-      break;
-    case 1:
-      shape =
-          drawn.needs_surface_uv ? sphere_shape(drawing, half) : placed(drawing, solid_mesh(drawing, half));
-      break;
-    case 2:
-      shape = drawn.needs_surface_uv ? prism(drawing, half) : mesh_file(drawing, half);
-      break;
-    case 3:
-      shape = drawn.has_interior ? sphere_shape(drawing, half) : flat_shape(drawing, half);
-      break;
-    case 4:
-      shape = drawn.has_interior || drawn.needs_surface_uv
-                  ? sphere_shape(drawing, half)
-                  : placed(drawing, {{"mesh", rubble(random, half)}});
-      break;
-    default:
-      shape = sphere_shape(drawing, half);
-  }
-  shape["material"] = drawn.name;
-  return shape;
-}
-
-namespace {
-
 Json wall_material(Drawing& drawing) {
   Random& random = drawing.random;
   if (chance(random, 0.15)) return {{"mirror", {{"reflectance", uniform(random, 0, 0.99)}}}};
@@ -266,6 +231,37 @@ void add_fog(Drawing& drawing) {
 }
 
 }  // namespace
+
+Json draw_shape(Drawing& drawing, const DrawnMaterial& drawn) {
+  Random& random = drawing.random;
+  const bool large = chance(random, 0.7);
+  const double half = drawing.size * decades(random, large ? 0.05 : drawn.has_interior ? 1e-3 : 1e-4, 1);
+  Json shape;
+  switch (integer(random, 0, 6)) {
+    case 0:
+      shape = prism(drawing, half);
+      break;
+    case 1:
+      shape =
+          drawn.needs_surface_uv ? sphere_shape(drawing, half) : placed(drawing, solid_mesh(drawing, half));
+      break;
+    case 2:
+      shape = drawn.needs_surface_uv ? prism(drawing, half) : mesh_file(drawing, half);
+      break;
+    case 3:
+      shape = drawn.has_interior ? sphere_shape(drawing, half) : flat_shape(drawing, half);
+      break;
+    case 4:
+      shape = drawn.has_interior || drawn.needs_surface_uv
+                  ? sphere_shape(drawing, half)
+                  : placed(drawing, {{"mesh", rubble(random, half)}});
+      break;
+    default:
+      shape = sphere_shape(drawing, half);
+  }
+  shape["material"] = drawn.name;
+  return shape;
+}
 
 void draw_shapes(Drawing& drawing) {
   Random& random = drawing.random;

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <tuple>
+
+#include "importers/mitsuba/spectra.h"
+
+namespace abbe::importers::mitsuba {
+
+// Errors go to `state.importer.diagnostics`; approximations and losses go to `SceneImporter::note`. Functions
+// throw Error{resource} if the memory limit of `state.importer.inputs` is exceeded.
+
+/// Adds the interior refractive indices of all dielectrics inside an element to `state.interior_indices`.
+/// Invalid ones are skipped without an error.
+void collect_dielectric_indices(const Element& element, ImportState& state);
+
+/// Converts the materials of shapes, each once per interior medium and v direction, and adds them to the
+/// scene. The state must outlive it.
+class Materials {
+ public:
+  explicit Materials(const ImportState& state) : import_(state) {}
+
+  /// Name of the converted material in the written scene. `bsdf` is a <bsdf> element; `interior` is the
+  /// <medium> inside the shape or nullptr; `v` is the direction of v in the shape's texture coordinates. A
+  /// material of an unknown type is reported, one without a counterpart is noted; both become diffuse.
+  /// Nothing, without an error, for a "null" surface without an interior medium.
+  [[nodiscard]] std::optional<std::string> name_of(const Element& bsdf, const Element* interior,
+                                                   VDirection v);
+
+ private:
+  spec::Material converted(const Object& bsdf, const Element* interior, VDirection v);
+  spec::Material mixture(const Object& blend, VDirection v);
+
+  const ImportState& import_;
+  std::map<std::tuple<const Element*, const Element*, VDirection>, std::string> names_{};
+};
+
+}  // namespace abbe::importers::mitsuba

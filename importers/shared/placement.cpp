@@ -1,0 +1,404 @@
+#include "importers/shared/placement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <utility>
+
+#include <ImathMatrixAlgo.h>
+#include <fmt/format.h>
+
+#include "description/meshes/mesh_file.h"
+#include "importers/shared/materials.h"
+#include "scene/shapes/mesh.h"
+
+namespace abbe::importers {
+namespace {
+
+using Imath::M44d;
+using Imath::V3d;
+
+constexpr int kFacetsPerTurn = 64;
+constexpr int kFacetsPerHalfTurn = 32;
+
+V3d row(const M44d& m, int i) {
+  return {m[i][0], m[i][1], m[i][2]};
+}
+
+// The scale factor if the matrix scales all lengths equally, within the precision of rotations in scene
+// files. Nothing otherwise.
+std::optional<double> uniform_scale(const M44d& m) {
+  constexpr double kTolerance = 1e-5;
+  const double s2 = row(m, 0).length2();
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (std::abs(row(m, i).dot(row(m, j)) - (i == j ? s2 : 0)) > kTolerance * s2) return std::nullopt;
+  return std::sqrt(s2);
+}
+
+V3d moved_point(const V3d& p, const M44d& m) {
+  return p * m;
+}
+V3d moved_vector(const V3d& v, const M44d& m) {
+  V3d to;
+  m.multDirMatrix(v, to);
+  return to;
+}
+
+// The step of a transform that equals a matrix with this uniform scale.
+spec::Similarity similarity_of(const M44d& m, double scale) {
+  spec::Similarity step;
+  if (scale != 1) step.scale = scale;
+  const Imath::Quatd turn = Imath::extractQuat(M44d(m) * scaling(V3d(1 / scale)));
+  const double angle = turn.angle();
+  if (angle != 0 && turn.axis().length2() > 0)
+    step.rotate = spec::Rotation{turn.axis(), angle * 180 / std::numbers::pi};
+  const V3d by = row(m, 3);
+  if (by != V3d(0)) step.translate = by;
+  return step;
+}
+
+// True if the matrix only translates and scales, so that longitudes and latitudes are preserved.
+bool preserves_axes(const M44d& m) {
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (i == j ? m[i][j] <= 0 : m[i][j] != 0) return false;
+  return true;
+}
+
+spec::InlineMesh triangles_of(const spec::Quad& quad) {
+  spec::InlineMesh mesh;
+  mesh.uv.emplace();
+  for (const auto& [u, v] : std::array<std::array<double, 2>, 4>{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}) {
+    const V3d at = quad.corner + quad.edge_u * u + quad.edge_v * v;
+    mesh.vertices.push_back({at.x, at.y, at.z});
+    mesh.uv->value.push_back({u, v});
+  }
+  mesh.triangles = {{0, 1, 2}, {0, 2, 3}};
+  return mesh;
+}
+
+// Sets the material and the emission of a body.
+template <typename Body>
+void describe(Body& body, const ImportedShape& shape) {
+  body.material = spec::MaterialName{{shape.material}, shape.where};
+  if (!shape.emission) return;
+  body.emission.emplace();
+  static_cast<spec::Emission&>(*body.emission) = *shape.emission;
+  body.two_sided = shape.two_sided;
+}
+
+template <typename Surface>
+spec::Shape shape_of(Surface surface, const ImportedShape& shape,
+                     const std::vector<spec::Similarity>& transform = {}) {
+  using AnalyticBody = std::conditional_t<std::is_same_v<Surface, spec::Cylinder>, spec::SolidBody<Surface>,
+                                          spec::PlainBody<Surface>>;
+  using Body = std::conditional_t<std::is_same_v<Surface, spec::Mesh>, spec::MeshBody, AnalyticBody>;
+  Body body;
+  body.surface = std::move(surface);
+  body.transform = transform;
+  describe(body, shape);
+  return {shape.name, std::move(body), shape.where};
+}
+
+spec::Mesh mesh_of(spec::Mesh::Wrapped mesh, const SourcePosition& where) {
+  spec::Mesh result;
+  result.value = std::move(mesh);
+  result.where = where;
+  return result;
+}
+
+spec::InlineMesh moved(spec::InlineMesh mesh, const M44d& m, bool reversed) {
+  for (std::array<double, 3>& vertex : mesh.vertices) {
+    const V3d p = moved_point({vertex[0], vertex[1], vertex[2]}, m);
+    vertex = {p.x, p.y, p.z};
+  }
+  if (reversed)
+    for (auto& triangle : mesh.triangles) std::swap(triangle[1], triangle[2]);
+  return mesh;
+}
+
+/// Adds each kind of surface unchanged. Returns false if the matrix does not allow that. Textures are
+/// preserved on spheres whose axes are preserved and on quads that are not reversed, but not on discs and
+/// cylinders.
+struct ShapeAppender {
+  const ImportedShape& shape;
+  bool textured;
+  std::vector<spec::Shape>& shapes;
+  SceneImporter& importer;
+  const M44d& m = shape.to_world;
+
+  bool operator()(const spec::Sphere& sphere) const {
+    const auto scale = uniform_scale(m);
+    if (!scale || (textured && !preserves_axes(m))) return false;
+    if (shape.reversed && shape.emission)
+      importer.note(shape.where, "a sphere emits outwards: in the source renderer it emits inwards");
+    shapes.push_back(shape_of(spec::Sphere{moved_point(sphere.center, m), sphere.radius * *scale}, shape));
+    return true;
+  }
+  bool operator()(const spec::Disc& disc) const {
+    const auto scale = uniform_scale(m);
+    if (!scale || textured) return false;
+    const V3d normal = moved_vector(disc.normal, m).normalized() * (shape.reversed ? -1.0 : 1.0);
+    shapes.push_back(shape_of(spec::Disc{moved_point(disc.center, m), normal, disc.radius * *scale}, shape));
+    return true;
+  }
+  bool operator()(const spec::Quad& quad) const {
+    V3d u = moved_vector(quad.edge_u, m);
+    V3d v = moved_vector(quad.edge_v, m);
+    if (mirrors(m) != shape.reversed) {
+      if (textured) return (*this)(triangles_of(quad));
+      std::swap(u, v);
+    }
+    shapes.push_back(shape_of(spec::Quad{moved_point(quad.corner, m), u, v, shape.where}, shape));
+    return true;
+  }
+  bool operator()(const spec::Cylinder& cylinder) const {
+    const auto scale = uniform_scale(m);
+    if (!scale || textured || (shape.reversed && shape.emission)) return false;
+    shapes.push_back(shape_of(spec::Cylinder{moved_point(cylinder.from, m), moved_point(cylinder.to, m),
+                                             cylinder.radius * *scale, cylinder.caps, shape.where},
+                              shape));
+    return true;
+  }
+  bool operator()(const spec::InlineMesh& mesh) const {
+    shapes.push_back(shape_of(mesh_of(moved(mesh, m, mirrors(m) != shape.reversed), shape.where), shape));
+    return true;
+  }
+  bool operator()(const MeshFileSurface& mesh) const {
+    const auto scale = uniform_scale(m);
+    if (!scale || mirrors(m) || (shape.reversed && shape.emission)) return false;
+    std::vector<spec::Similarity> steps;
+    if (m != M44d()) steps.push_back(similarity_of(m, *scale));
+    shapes.push_back(shape_of(mesh_of(importer.name_of(mesh.file), shape.where), shape, steps));
+    return true;
+  }
+};
+
+// Copies the triangles of a mesh file. Scene meshes have texture coordinates per vertex, files per corner: if
+// they are needed, each corner becomes a vertex.
+spec::InlineMesh copy_of(const Mesh& from, bool textured) {
+  spec::InlineMesh copy;
+  const auto add = [&copy](const V3d& v) { copy.vertices.push_back({v.x, v.y, v.z}); };
+  if (!textured) {
+    std::ranges::for_each(from.vertices, add);
+    copy.triangles = from.triangles;
+    return copy;
+  }
+  copy.uv.emplace();
+  for (std::size_t i = 0; i < from.triangles.size(); ++i) {
+    const auto first = static_cast<std::uint32_t>(copy.vertices.size());
+    copy.triangles.push_back({first, first + 1, first + 2});
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      add(from.vertices[from.triangles[i][corner]]);
+      const Imath::V2f& uv = from.coordinates[i][corner];
+      copy.uv->value.push_back({uv.x, uv.y});
+    }
+  }
+  return copy;
+}
+
+/// Converts a surface to triangles. Nothing after an error.
+struct Triangulator {
+  const ImportedShape& shape;
+  bool textured;
+  SceneImporter& importer;
+
+  std::optional<spec::InlineMesh> operator()(const spec::Sphere& sphere) const {
+    const spec::InlineMesh unit = swept_sphere(sphere.radius, -sphere.radius, sphere.radius, 360);
+    return moved(unit, translation(sphere.center), false);
+  }
+  std::optional<spec::InlineMesh> operator()(const spec::Disc& disc) const {
+    M44d turn = Imath::rotationMatrix(V3d(0, 0, 1), disc.normal.normalized());
+    spec::InlineMesh mesh = swept({{disc.radius, 0}, {0, 0}}, 360);
+    if (shape.u_is_radial)
+      for (auto& uv : mesh.uv->value) uv = {1 - uv[1], uv[0]};
+    return moved(std::move(mesh), turn * translation(disc.center), false);
+  }
+  std::optional<spec::InlineMesh> operator()(const spec::Quad& quad) const { return triangles_of(quad); }
+  std::optional<spec::InlineMesh> operator()(const spec::Cylinder& cylinder) const {
+    const V3d axis = cylinder.to - cylinder.from;
+    const M44d turn = Imath::rotationMatrix(V3d(0, 0, 1), axis.normalized());
+    spec::InlineMesh mesh = swept({{cylinder.radius, 0}, {cylinder.radius, axis.length()}}, 360);
+    return moved(std::move(mesh), turn * translation(cylinder.from), false);
+  }
+  std::optional<spec::InlineMesh> operator()(const spec::InlineMesh& mesh) const { return mesh; }
+  std::optional<spec::InlineMesh> operator()(const MeshFileSurface& mesh) const {
+    const auto read = load_mesh_file(mesh.file, FileMaterials::ignored, shape.where, importer.diagnostics,
+                                     FileCoordinates::wanted, importer.inputs);
+    if (!read || read->submeshes.empty()) return std::nullopt;
+    const Mesh& from = read->submeshes.front().mesh;
+    if (!from.normals.empty())
+      importer.note(shape.where,
+                    "a mesh file with a non-uniform scale, or reversed and emitting, is copied as triangles "
+                    "into the scene: its vertex normals are dropped");
+    return copy_of(from, textured);
+  }
+};
+
+// True if triangles lack texture coordinates, as in PLY files. Other surfaces have their own.
+bool lacks_coordinates(const ImportedShape& shape, const SceneImporter& importer) {
+  if (const auto* mesh = std::get_if<spec::InlineMesh>(&shape.surface)) return !mesh->uv;
+  const auto* file = std::get_if<MeshFileSurface>(&shape.surface);
+  if (file == nullptr) return false;
+  const auto read = load_mesh_file(file->file, FileMaterials::ignored, shape.where, importer.diagnostics,
+                                   FileCoordinates::wanted, importer.inputs);
+  return read && std::ranges::any_of(read->submeshes, [](const MeshFile::Submesh& part) {
+           return part.mesh.coordinates.empty();
+         });
+}
+
+// Number of JSON values of triangles in the scene file; 0 for other surfaces.
+std::size_t values_of(const ImportedShape& shape) {
+  const auto* mesh = std::get_if<spec::InlineMesh>(&shape.surface);
+  if (mesh == nullptr) return 0;
+  constexpr std::size_t kTriple = 4;  // A list of three numbers.
+  return kTriple * (mesh->vertices.size() + mesh->triangles.size() + (mesh->uv ? mesh->uv->value.size() : 0));
+}
+
+// Size of a shape's name, material and file name [bytes].
+std::size_t bytes_of_texts(const ImportedShape& shape) {
+  const auto* file = std::get_if<MeshFileSurface>(&shape.surface);
+  return shape.material.size() + shape.name.value_or("").size() +
+         (file != nullptr ? file->file.native().size() : 0);
+}
+
+// Adds an object that contains only this shape without its matrix, and an instance of it with the matrix.
+void append_as_object(const ImportedShape& shape, SceneImporter& importer) {
+  ImportedShape plain = shape;
+  plain.to_world = M44d();
+  const std::string name = fmt::format("object of one shape {}", importer.scene.objects.size() + 1);
+  spec::Object object;
+  append_shape(std::move(plain), ShapeOwner::object, object.shapes, importer);
+  importer.scene.objects.push_back({name, std::move(object), shape.where});
+  append_instance(name, shape.to_world, shape.where, importer);
+  importer.scene.shapes.back().name = shape.name;
+}
+
+}  // namespace
+
+M44d from_rows(const std::vector<double>& rows) {
+  M44d m;
+  for (std::size_t i = 0; i < rows.size() && i < 16; ++i) m[static_cast<int>(i % 4)][i / 4] = rows[i];
+  return m;
+}
+
+M44d scaling(const V3d& by) {
+  M44d m;
+  m.setScale(by);
+  return m;
+}
+
+M44d translation(const V3d& by) {
+  M44d m;
+  m.setTranslation(by);
+  return m;
+}
+
+M44d rotation(const V3d& axis, double deg) {
+  M44d m;
+  m.setAxisAngle(axis.normalized(), deg * std::numbers::pi / 180);
+  return m;
+}
+
+bool mirrors(const M44d& m) {
+  return row(m, 0).cross(row(m, 1)).dot(row(m, 2)) < 0;
+}
+
+void orient_by_normals(const Mesh& mesh, ImportedShape& shape, SceneImporter& importer) {
+  if (!shape.emission || shape.two_sided || mesh.normals.empty()) return;
+  double before = 0;
+  double behind = 0;
+  for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
+    const V3d area = area_vector(mesh, i);
+    const auto& [a, b, c] = mesh.normals[i];
+    (area.dot(V3d(a + b + c)) < 0 ? behind : before) += area.length();
+  }
+  if (before > 0 && behind > 0)
+    importer.note(shape.where,
+                  "vertex normals of a light are on both sides of its triangles: those of the larger area "
+                  "decide which side emits");
+  if (behind > before) shape.reversed = !shape.reversed;
+}
+
+void append_shape(ImportedShape shape, ShapeOwner owner, std::vector<spec::Shape>& shapes,
+                  SceneImporter& importer) {
+  importer.reserve_values(kValuesPerItem + values_of(shape), bytes_of_texts(shape));
+  bool textured = is_textured(shape.material, importer);
+  if (textured && lacks_coordinates(shape, importer)) {
+    importer.note(shape.where,
+                  "triangles without texture coordinates cannot have an image: a reflectance of 0.5 is used");
+    shape.material = without_images(shape.material, importer);
+    textured = false;
+  }
+  const bool stays = std::visit(ShapeAppender{shape, textured, shapes, importer}, shape.surface);
+  if (!stays && owner == ShapeOwner::scene && !shape.emission) return append_as_object(shape, importer);
+  if (shape.reversed && fills_interior(shape.material, importer))
+    importer.note(shape.where,
+                  "a medium fills a reversed shape, but surrounds it in the source renderer: for a cavity, "
+                  "use a separate material with the index of its content");
+  if (stays) return;
+  auto triangles = std::visit(Triangulator{shape, textured, importer}, shape.surface);
+  if (!triangles) return;
+  if (!std::holds_alternative<MeshFileSurface>(shape.surface))
+    importer.note(shape.where,
+                  "a curved shape with a non-uniform scale or an image is replaced by triangles");
+  shape.surface = *std::move(triangles);
+  importer.reserve_values(values_of(shape));
+  (void)ShapeAppender{shape, textured, shapes, importer}(std::get<spec::InlineMesh>(shape.surface));
+}
+
+void append_instance(const std::string& object, const M44d& to_world, const SourcePosition& where,
+                     SceneImporter& importer) {
+  importer.reserve_values(kValuesPerItem, object.size());
+  spec::Instance instance;
+  instance.of = {{object}, where};
+  instance.where = where;
+  spec::Matrix matrix;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 4; ++j) matrix.rows.value.push_back(to_world[j][i]);
+  if (to_world != M44d()) instance.transform.value.push_back(std::move(matrix));
+  importer.scene.shapes.push_back({std::nullopt, std::move(instance), where});
+}
+
+spec::InlineMesh swept(const std::vector<Imath::V2d>& line, double azimuth_deg) {
+  spec::InlineMesh mesh;
+  mesh.uv.emplace();
+  const int columns = std::max(3, static_cast<int>(std::ceil(kFacetsPerTurn * azimuth_deg / 360)));
+  const auto rows = static_cast<int>(line.size());
+  for (int j = 0; j < rows; ++j)
+    for (int i = 0; i <= columns; ++i) {
+      const double fraction = static_cast<double>(i) / columns;
+      // A full turn ends at azimuth 0, so that the seam is closed.
+      const double phi =
+          i == columns && azimuth_deg == 360 ? 0 : fraction * azimuth_deg * std::numbers::pi / 180;
+      const Imath::V2d& at = line[static_cast<std::size_t>(j)];
+      mesh.vertices.push_back({at.x * std::cos(phi), at.x * std::sin(phi), at.y});
+      mesh.uv->value.push_back({fraction, static_cast<double>(j) / (rows - 1)});
+    }
+  for (int j = 0; j + 1 < rows; ++j)
+    for (int i = 0; i < columns; ++i) {
+      const auto a = static_cast<std::uint32_t>(j * (columns + 1) + i);
+      const std::uint32_t b = a + static_cast<std::uint32_t>(columns) + 1;
+      // At the axis one of the two triangles is degenerate.
+      if (line[static_cast<std::size_t>(j)].x > 0) mesh.triangles.push_back({a, a + 1, b + 1});
+      if (line[static_cast<std::size_t>(j) + 1].x > 0) mesh.triangles.push_back({a, b + 1, b});
+    }
+  return mesh;
+}
+
+spec::InlineMesh swept_sphere(double radius, double low, double high, double azimuth_deg) {
+  const double from = std::asin(std::clamp(low / radius, -1.0, 1.0));
+  const double to = std::asin(std::clamp(high / radius, -1.0, 1.0));
+  std::vector<Imath::V2d> line;
+  for (int j = 0; j <= kFacetsPerHalfTurn; ++j) {
+    const double latitude = from + (to - from) * j / kFacetsPerHalfTurn;
+    const bool pole = std::abs(std::abs(latitude) - std::numbers::pi / 2) < 1e-9;
+    line.emplace_back(pole ? 0 : radius * std::cos(latitude), radius * std::sin(latitude));
+  }
+  return swept(line, azimuth_deg);
+}
+
+}  // namespace abbe::importers

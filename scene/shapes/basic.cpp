@@ -1,0 +1,139 @@
+#include "scene/shapes/basic.h"
+
+#include <utility>
+
+namespace abbe {
+
+SurfaceCoordinates coordinates_on(const Sphere& sphere, const Imath::V3d& point, std::size_t /*triangle*/) {
+  const Imath::V3d p = point - sphere.center;
+  const double ring = std::hypot(p.x, p.y);
+  const double longitude = std::atan2(p.y, p.x);
+  constexpr double kTau = 2 * std::numbers::pi;
+  SurfaceCoordinates at;
+  at.uv = {longitude / kTau + (longitude < 0 ? 1 : 0), 0.5 + std::atan2(p.z, ring) / std::numbers::pi};
+  if (ring == 0) return at;
+  at.dp_du = Imath::V3d(-p.y, p.x, 0) * kTau;
+  at.dp_dv = Imath::V3d(-p.x * p.z / ring, -p.y * p.z / ring, ring) * std::numbers::pi;
+  return at;
+}
+
+double enclosed_volume(const Sphere& sphere) {
+  return 4 * std::numbers::pi / 3 * sphere.radius * sphere.radius * sphere.radius;
+}
+
+bool may_intersect(const Sphere& sphere, const Imath::Box3d& box) {
+  Imath::V3d furthest;  // corner relative to the center
+  for (int k = 0; k < 3; ++k)
+    furthest[k] = std::max(std::abs(box.min[k] - sphere.center[k]), std::abs(box.max[k] - sphere.center[k]));
+  return furthest.length() >= sphere.radius;
+}
+
+double thickness(const Sphere& sphere) {
+  return sphere.radius;
+}
+
+OuterSide outer_side(const Sphere& sphere) {
+  return {std::numbers::pi * sphere.radius * sphere.radius, std::nullopt};
+}
+
+// The silhouette point in each direction u of the drawing: the image under `to_world` of the sphere's extreme
+// point along transpose(to_world) u.
+Outline outline(const Sphere& sphere, const Imath::M44d& to_world, const DrawingPlane& plane) {
+  std::vector<Imath::V3d> points;
+  for (int i = 0; i <= kOutlineCorners; ++i) {
+    const Imath::V3d u = std::cos(outline_angle(i)) * plane.right + std::sin(outline_angle(i)) * plane.up;
+    Imath::V3d local;
+    to_world.transposed().multDirMatrix(u, local);
+    points.push_back((sphere.center + sphere.radius * local.normalized()) * to_world);
+  }
+  return {points};
+}
+
+void shift(Sphere& sphere, const Imath::V3d& by) {
+  sphere.center += by;
+}
+
+void transform(Sphere& sphere, const Imath::M44d& by, double scale) {
+  sphere.center *= by;
+  sphere.radius *= scale;
+}
+
+SurfaceCoordinates coordinates_on(const Disc& disc, const Imath::V3d& point, std::size_t /*triangle*/) {
+  constexpr double kNearZ = 0.9;
+  const Imath::V3d up = std::abs(disc.normal.z) > kNearZ ? Imath::V3d(0, 1, 0) : Imath::V3d(0, 0, 1);
+  const Imath::V3d u = up.cross(disc.normal).normalized();
+  const Imath::V3d v = disc.normal.cross(u);
+  const Imath::V3d from_center = point - disc.center;
+  const double size = 2 * disc.radius;
+  return {{0.5 + from_center.dot(u) / size, 0.5 + from_center.dot(v) / size}, u * size, v * size};
+}
+
+std::optional<FlatFace> flat_face(const Disc& disc) {
+  const Basis<double> frame(disc.normal);
+  const Imath::V3d across = frame.x * disc.radius;
+  const Imath::V3d up = frame.y * disc.radius;
+  const Imath::V3d at = disc.center - across - up;
+  return FlatFace{{at, at + across * 2.0, at + up * 2.0, disc.center + across + up}, true};
+}
+
+OuterSide outer_side(const Disc& disc) {
+  return {area(disc), NormalCone{disc.normal, 0}};
+}
+
+Outline outline(const Disc& disc, const Imath::M44d& to_world, const DrawingPlane& /*plane*/) {
+  Imath::V3d side =
+      disc.normal.cross(std::abs(disc.normal.x) < 0.5 ? Imath::V3d(1, 0, 0) : Imath::V3d(0, 1, 0))
+          .normalized();
+  const Imath::V3d other = disc.normal.cross(side);
+  std::vector<Imath::V3d> points;
+  for (int i = 0; i <= kOutlineCorners; ++i)
+    points.push_back((disc.center + disc.radius * (std::cos(outline_angle(i)) * side +
+                                                   std::sin(outline_angle(i)) * other)) *
+                     to_world);
+  return {points};
+}
+
+void shift(Disc& disc, const Imath::V3d& by) {
+  disc.center += by;
+}
+
+void transform(Disc& disc, const Imath::M44d& by, double scale) {
+  disc.center *= by;
+  disc.normal = moved_direction(disc.normal, by).normalized();
+  disc.radius *= scale;
+}
+
+SurfaceCoordinates coordinates_on(const Quad& quad, const Imath::V3d& point, std::size_t /*triangle*/) {
+  const PlaneCoordinates at(point - quad.corner, quad.edge_u, quad.edge_v);
+  return {{at.first, at.second}, quad.edge_u, quad.edge_v};
+}
+
+std::optional<FlatFace> flat_face(const Quad& quad) {
+  const Imath::V3d& at = quad.corner;
+  return FlatFace{{at, at + quad.edge_u, at + quad.edge_v, at + quad.edge_u + quad.edge_v}};
+}
+
+OuterSide outer_side(const Quad& quad) {
+  return {area(quad), NormalCone{normal_of(quad), 0}};
+}
+
+Outline outline(const Quad& quad, const Imath::M44d& to_world, const DrawingPlane& /*plane*/) {
+  std::vector<Imath::V3d> points;
+  for (const auto& [u, v] : {std::pair{0, 0}, {1, 0}, {1, 1}, {0, 1}, {0, 0}})
+    points.push_back(
+        (quad.corner + static_cast<double>(u) * quad.edge_u + static_cast<double>(v) * quad.edge_v) *
+        to_world);
+  return {points};
+}
+
+void shift(Quad& quad, const Imath::V3d& by) {
+  quad.corner += by;
+}
+
+void transform(Quad& quad, const Imath::M44d& by, double /*scale*/) {
+  quad.corner *= by;
+  quad.edge_u = moved_direction(quad.edge_u, by);
+  quad.edge_v = moved_direction(quad.edge_v, by);
+}
+
+}  // namespace abbe
