@@ -75,24 +75,33 @@ TEST(AimedPhotons, AreNotRareWhereManyLampsAreShownByFewEach) {
   EXPECT_TRUE(make_trained_plan(floor_below_pane(0.5, 4), 2).guides.undertrained);
 }
 
-// A mirror of this width [m] that sends some of the light of one lamp into the view of 4 degrees.
-Scene floor_below_pane_and_mirror(double fov_deg, double width) {
+// A mirror of this width [m] that sends some of the light of one lamp into the view of 4 degrees. Beside it
+// there are tiny mirrors that send no light there.
+Scene floor_below_pane_and_mirror(double fov_deg, double width, int tiny_mirrors) {
+  std::string others;
+  for (int i = 0; i < tiny_mirrors; ++i)
+    others += fmt::format(
+        R"(, {{"quad": {{"corner": [-0.9, {}, 0.5], "edge_u": [1e-4, 0, 0], "edge_v": [0, 1e-4, 0]}}, "material": "mirror"}})",
+        0.01 * i);
   return test::load_text(fmt::format(R"({{"abbe": 1, "sensor": {{"resolution": [4, 4], "observer": "1931"}},
     "camera": {{"pinhole": {{"fov_deg": {4}}}, "from": [0.2, 0.1, 0.9], "to": [0.2, 0.1, 0], "up": [0, 1, 0]}},
     "materials": {{"pane": {{"thin_glass": {{"ior": 1.5}}}}, "white": {{"diffuse": {{"reflectance": 1}}}},
                   "mirror": {{"mirror": {{"reflectance": 1}}}}}},
     "shapes": [{{"quad": {{"corner": [-1, -1, 1], "edge_u": [2, 0, 0], "edge_v": [0, 2, 0]}}, "material": "pane"}},
                {{"quad": {{"corner": [-2, -2, 0], "edge_u": [4, 0, 0], "edge_v": [0, 4, 0]}}, "material": "white"}},
-               {{"quad": {{"corner": [0.5, 0.1, 0.3], "edge_u": [0, {0}, {1}], "edge_v": [{2}, 0, {3}]}}, "material": "mirror"}}],
+               {{"quad": {{"corner": [0.5, 0.1, 0.3], "edge_u": [0, {0}, {1}], "edge_v": [{2}, 0, {3}]}}, "material": "mirror"}}{5}],
     "lights": [{{"point": {{"at": [0, 0, 4]}}, "emission": {{"illuminant": "E", "intensity": 1}}}}]}})",
-                                     width, 0.094 * width, 0.32 * width, 0.947 * width, fov_deg));
+                                     width, 0.094 * width, 0.32 * width, 0.947 * width, fov_deg, others));
 }
 
-// A mirror of 5 mm brings about 1 % of the light by a few pilot photons; one of 3 cm is found by many.
+// A mirror of 5 mm brings about 1 % of the light. Few pilot photons find it among very many mirrors. If there
+// are few, it gets an equal part of the photons. A mirror of 3 cm is found by many.
 TEST(AimedPhotons, TellHowMuchLightFewPilotsFound) {
-  const Scene few = floor_below_pane_and_mirror(2, 0.005);
+  const Scene few = floor_below_pane_and_mirror(2, 0.005, 64);
   EXPECT_NEAR(make_trained_plan(few, 2).guides.undertrained_fraction, 0.01, 0.007);
-  const Scene many = floor_below_pane_and_mirror(2, 0.03);
+  const Scene stratified = floor_below_pane_and_mirror(2, 0.005, 0);
+  EXPECT_EQ(make_trained_plan(stratified, 2).guides.undertrained_fraction, 0);
+  const Scene many = floor_below_pane_and_mirror(2, 0.03, 64);
   EXPECT_EQ(make_trained_plan(many, 2).guides.undertrained_fraction, 0);
 }
 

@@ -64,6 +64,40 @@ double share_through(const PhotonGuide& aim, const Imath::V3f& from, const Imath
   return through / kCount;
 }
 
+// A caster of a hundredth of the size of another one gets a quarter of the photons before training.
+TEST(PhotonGuide, SendsAsManyPhotonsToASmallCasterAsToALargeOne) {
+  const BoundingSphere large{{5, 0.3F, 0}, 0.6F};
+  const BoundingSphere small{{5.2F, -0.8F, -0.2F}, 0.006F};
+  PhotonGuide aim({0, 0, 0}, 0, {5, 0, 0}, 1);
+  EXPECT_LT(share_through(aim, {0, 0, 0}, small.center, small.radius), 0.001);
+  aim.stratify({{large, small}});
+  EXPECT_GT(share_through(aim, {0, 0, 0}, small.center, small.radius), 0.95 * 0.25 * 0.7);
+  EXPECT_GT(share_through(aim, {0, 0, 0}, large.center, large.radius), 0.95 * 0.25 * 0.7);
+  const double cap = 2 * std::numbers::pi * 0.01;
+  EXPECT_NEAR(integral(aim, towards_target), cap, cap * 0.02);
+  aim.train(rays_through({5, 0.3F, 0.2F}, {{0, 0, 0}}, 4096));
+  EXPECT_GT(share_through(aim, {0, 0, 0}, {5, 0.3F, 0.2F}, 0.01F), 0.95 * 0.9 * 0.85);
+}
+
+TEST(PhotonGuide, StrataOfADistantLightKeepTheirIntegral) {
+  PhotonGuide aim = PhotonGuide::for_distant_light({0, 0, -1}, 0.9999, {0, 0, 0}, 1);
+  aim.enable_guiding();
+  const BoundingSphere small{{0.5F, 0.2F, 0.3F}, 0.02F};
+  aim.stratify({{small, {{-0.4F, 0, 0}, 0.5F}}});
+  constexpr std::uint32_t kCount = 1 << 15;
+  double area = 0;
+  double near_small = 0;
+  for (std::uint32_t i = 0; i < kCount; ++i) {
+    const auto u = Sampler(5, Purpose::pilot, 0, 0, i).group(0);
+    const GuidedPoint drawn = aim.point({u[0], u[1]});
+    area += 1 / static_cast<double>(drawn.pdf) / kCount;
+    const Imath::V3f offset = drawn.point - small.center;
+    near_small += offset.x * offset.x + offset.y * offset.y < 0.04F * 0.04F ? 1.0 / kCount : 0;
+  }
+  EXPECT_NEAR(area, 4 * static_cast<double>(aim.half_size()) * static_cast<double>(aim.half_size()), 0.1);
+  EXPECT_GT(near_small, 0.24);
+}
+
 TEST(PhotonGuide, LearningMovesDensityAndKeepsTheIntegral) {
   PhotonGuide aim({0, 0, 0}, 0, {5, 0, 0}, 1);
   const Imath::V3f hot(5, 0.3F, 0.2F);

@@ -23,6 +23,9 @@ constexpr float kEmissionFraction = 0.05F;
 // Fraction of the guided photons outside the windows, and the uniform fraction after training from few rays.
 constexpr float kOutsideFraction = 0.1F;
 constexpr float kUniformFractionOfFew = 0.5F;
+constexpr float kUniformFractionOfTrained = 0.1F;
+constexpr float kUniformFractionOfStrata = 0.5F;
+constexpr std::size_t kMaxStrata = 64;
 constexpr double kMinPhotonsOfWindow = 8;      // per branch
 constexpr double kUniformOverBranches = 0.25;  // fraction of the guided photons
 constexpr double kUniformCellFraction = 0.1;   // of the photons within a grid
@@ -205,12 +208,54 @@ void PhotonGuide::set_target_distance(float offset) {
   half_size_ = target_half_size_ + growth_ * offset;
 }
 
+void PhotonGuide::stratify(std::span<const BoundingSphere> casters) {
+  if (!guided_ || all_directions_ || casters.size() < 2 || casters.size() > kMaxStrata) return;
+  uniform_fraction_ = kUniformFractionOfStrata;
+  for (const BoundingSphere& caster : casters)
+    grids_.emplace_back(window_of(caster), (1 - uniform_fraction_) / static_cast<float>(casters.size()));
+  stratified_ = true;
+}
+
+// Part of the target through which the rays of the light that hit a sphere pass. From the center of a light
+// of radius R, at the distance D from the target, the sphere has the angular radius b. Its center is at the
+// angle a from the axis and at the distance z along it. The part has the radius
+//     D (tan(a + b) - tan a) + R |1 - D/z|.
+// Rays of a distant light deviate from the axis by at most the slope `growth_`.
+PhotonGuide::Window PhotonGuide::window_of(const BoundingSphere& caster) const {
+  Imath::V3f offset = caster.center - center_;
+  float radius = 0;
+  if (distant_) {
+    radius = caster.radius * std::sqrt(1 + growth_ * growth_) + growth_ * std::abs(offset.dot(axis_));
+    offset -= axis_ * offset.dot(axis_);
+  } else {
+    const Imath::V3f to_caster = offset + axis_ * distance_;
+    const float depth = to_caster.dot(axis_);
+    const float length = to_caster.length();
+    if (!(depth > 0 && caster.radius < length)) return {};
+    const float angle = std::acos(std::min(depth / length, 1.0F));
+    const float outer = angle + std::asin(caster.radius / length);
+    if (!(outer < std::numbers::pi_v<float> / 2)) return {};
+    const float light_radius = std::max(0.0F, growth_ * distance_ + target_half_size_);
+    radius = distance_ * (std::tan(outer) - std::tan(angle)) + light_radius * std::abs(1 - distance_ / depth);
+    offset = to_caster * (distance_ / depth) - axis_ * distance_;
+  }
+  const Imath::V2f center(0.5F + offset.dot(side_) / (2 * half_size_),
+                          0.5F + offset.dot(top_) / (2 * half_size_));
+  const float margin = radius / (2 * half_size_);
+  const Imath::V2f low(std::clamp(center.x - margin, 0.0F, 1.0F), std::clamp(center.y - margin, 0.0F, 1.0F));
+  const Imath::V2f high(std::clamp(center.x + margin, 0.0F, 1.0F), std::clamp(center.y + margin, 0.0F, 1.0F));
+  const Window window{low, high - low};
+  return window.area() > 0 ? window : Window();
+}
+
 void PhotonGuide::train(std::span<const PilotRay> pilot_rays, std::size_t max_branches) {
   if (!can_train() || pilot_rays.empty()) return;
   if (!all_directions_) minimise_footprint(pilot_rays);
   const std::vector<Branch> branches = branches_of(to_square(pilot_rays), max_branches);
   if (branches.empty()) return;
   guided_ = trained_ = true;
+  if (stratified_) uniform_fraction_ = kUniformFractionOfTrained;
+  stratified_ = false;
   grids_.clear();
   Branch outside_windows;
   double total = 0;
@@ -279,6 +324,7 @@ void PhotonGuide::train_from_few(std::span<const PilotRay> pilot_rays) {
   const std::vector<WeightedPoint> points = spread_over_scales(to_square(pilot_rays));
   if (points.empty()) return;
   guided_ = true;
+  stratified_ = false;
   uniform_fraction_ = kUniformFractionOfFew;
   grids_.clear();
   grids_.emplace_back(Window(), points).fraction = 1 - uniform_fraction_;
@@ -383,6 +429,7 @@ PhotonGuide::Grid::Grid(const Window& over, const std::vector<WeightedPoint>& po
 
 // A sample counts for the cell in which it was drawn, although rounding may move it into the next one.
 PhotonGuide::SquarePoint PhotonGuide::Grid::draw(Imath::V2f u) const {
+  if (density.empty()) return {window.corner + u * window.size, 1 / window.area()};
   const std::span<const float> columns(column_cdf);
   const CdfStep<float> row = invert_cdf(std::span<const float>(row_cdf), u.y);
   const CdfStep<float> column = invert_cdf(columns.subspan(row.index * kCells, kCells), u.x);
@@ -392,7 +439,8 @@ PhotonGuide::SquarePoint PhotonGuide::Grid::draw(Imath::V2f u) const {
 }
 
 float PhotonGuide::Grid::pdf(const Imath::V2f& at) const {
-  return window.holds(at) ? density[cell_of((at - window.corner) / window.size)] : 0;
+  if (!window.holds(at)) return 0;
+  return density.empty() ? 1 / window.area() : density[cell_of((at - window.corner) / window.size)];
 }
 
 // Point at which a ray passes through the target: ahead of the ray's origin, except for distant lights, whose

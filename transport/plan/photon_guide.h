@@ -24,6 +24,12 @@ struct GuidedPoint {
   float pdf;
 };
 
+/// Sphere around a specular shape, in world space [m].
+struct BoundingSphere {
+  Imath::V3f center;
+  float radius;
+};
+
 /// Ray of a pilot photon that trains a guide, with its weight.
 struct PilotRay {
   Imath::V3f from;           ///< Origin in world space.
@@ -53,6 +59,10 @@ class PhotonGuide {
                                                      const Imath::V3f& target_center, double target_radius);
   /// Lets a guide of a distant light be trained.
   void enable_guiding() { guided_ = true; }
+  /// Divides half of the photons that are sent before training equally among the `casters`, so that a small
+  /// caster is found as soon as a large one. The other half stays uniform. Does nothing for fewer than two
+  /// casters, for many, and for a light whose photons are not guided before training.
+  void stratify(std::span<const BoundingSphere> casters);
 
   /// Trains the distribution with pilot rays. A tenth of the photons stays uniform, or a half after
   /// `train_from_few`. The target moves to the distance at which the rays pass through its smallest part.
@@ -117,6 +127,8 @@ class PhotonGuide {
   };
   // Piecewise constant density over the cells of a window.
   struct Grid {
+    // A constant density, with empty arrays.
+    Grid(const Window& over, float of_samples) : window(over), fraction(of_samples) {}
     Grid(const Window& over, const std::vector<WeightedPoint>& points);
     [[nodiscard]] SquarePoint draw(Imath::V2f u) const;
     [[nodiscard]] float pdf(const Imath::V2f& at) const;
@@ -130,6 +142,7 @@ class PhotonGuide {
 
   void face(const Imath::V3f& axis, const Imath::V3f& target_center, float half_size);
   void set_target_distance(float offset);
+  [[nodiscard]] Window window_of(const BoundingSphere& caster) const;
   [[nodiscard]] float footprint_of(const Window& window, float offset) const;
   void minimise_footprint(std::span<const PilotRay> pilot_rays);
   [[nodiscard]] std::optional<Imath::V2f> to_square(const Imath::V3f& from,
@@ -164,6 +177,7 @@ class PhotonGuide {
   float half_size_ = 0;
   std::vector<Grid> grids_;        // empty before training
   bool trained_ = false;           // true after `train`
+  bool stratified_ = false;        // true from `stratify` until training
   float uniform_fraction_ = 0.1F;  // fraction of the guided photons
 };
 

@@ -132,6 +132,16 @@ std::optional<Error> photon_refusal(const Scene& scene, const std::vector<bool>&
 // others emit unguided.
 constexpr std::ptrdiff_t kMaxGuides = 128;
 
+std::vector<BoundingSphere> specular_spheres(const Scene& scene) {
+  std::vector<BoundingSphere> spheres;
+  for (const ShapeInstance& shape : scene.shapes) {
+    if (shape.distant || !lobes(scene.materials[shape.material]).delta) continue;
+    const Imath::Box3d box = bounds(shape.shape);
+    spheres.push_back({Imath::V3f(box.center()), static_cast<float>(box.size().length() / 2)});
+  }
+  return spheres;
+}
+
 // Guides before training, one per light. `traced_powers` is the power of each light, 0 if it emits no
 // photons. Lights without power, and all nearby lights but the 128 strongest, have unguided emission.
 // `light_only` is as for `photon_refusal`.
@@ -144,6 +154,7 @@ std::vector<PhotonGuide> make_photon_guides(const Scene& scene, const std::vecto
     if (traced_powers[i] > 0)
       if (auto guide = guide_for_distant(scene, scene.lights[i], target)) guides[i] = std::move(*guide);
   if (light_only || box.isEmpty() || guides.empty()) return guides;
+  const std::vector<BoundingSphere> casters = specular_spheres(scene);
   std::vector<double> strongest(traced_powers);
   const auto weakest = strongest.begin() + std::min<std::ptrdiff_t>(kMaxGuides, std::ssize(strongest)) - 1;
   std::nth_element(strongest.begin(), weakest, strongest.end(), std::greater<>());
@@ -152,6 +163,7 @@ std::vector<PhotonGuide> make_photon_guides(const Scene& scene, const std::vecto
     if (traced_powers[i] > 0 && traced_powers[i] >= *weakest && count++ < kMaxGuides) {
       if (scene.lights[i].at_infinity() || scene.is_distant(scene.lights[i])) {
         guides[i].enable_guiding();
+        guides[i].stratify(casters);
         continue;
       }
       const Imath::Box3d light_box = bounds_of(scene.lights[i], scene.shapes);
@@ -160,6 +172,7 @@ std::vector<PhotonGuide> make_photon_guides(const Scene& scene, const std::vecto
           PhotonGuide(Imath::V3f(light_box.center()), static_cast<float>(light_box.size().length() / 2),
                       Imath::V3f(box.center()), static_cast<float>(box.size().length() / 2),
                       cone ? std::optional(cone->axis) : std::nullopt);
+      guides[i].stratify(casters);
     }
   return guides;
 }
