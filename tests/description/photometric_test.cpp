@@ -28,13 +28,13 @@ constexpr double kGammaStep = 30;
 
 class PhotometricFileTest : public test::DescriptionTest {
  protected:
-  static std::string light(const std::string& file, const std::string& emission = R"({"illuminant": "D65"})",
+  static std::string light(const std::string& file, const std::string& emission = R"({"illuminant": "E"})",
                            const std::string& more = "") {
     return fmt::format(
         R"({{"lights": [{{"photometric": {{"at": [0, 0, 2], "file": "{}"{}}}, "emission": {}}}]}})", file,
         more, emission);
   }
-  Loaded loaded(const std::string& file, const std::string& emission = R"({"illuminant": "D65"})") {
+  Loaded loaded(const std::string& file, const std::string& emission = R"({"illuminant": "E"})") {
     return load(light(file, emission));
   }
   std::shared_ptr<const IntensityDistribution> distribution(const std::string& file) {
@@ -179,7 +179,7 @@ TEST_F(PhotometricFileTest, EmissionHasTheFluxOfTheFileUnlessScaled) {
     EXPECT_TRUE(scene.scene) << scene.text();
     return photometric(power(scene->lights.at(0), 1));
   };
-  EXPECT_NEAR(flux(R"({"illuminant": "D65"})") / lumens, 1, 1e-6);
+  EXPECT_NEAR(flux(R"({"illuminant": "E"})") / lumens, 1, 1e-6);
   EXPECT_NEAR(flux(R"({"spectrum": 7})") / lumens, 1, 1e-6) << "only its shape counts";
   EXPECT_NEAR(flux(R"({"blackbody_K": 3000, "luminous_flux_lm": 500})"), 500, 1e-3);
   EXPECT_NEAR(flux(R"({"illuminant": "A", "luminous_intensity": 200})") / lumens, 2, 1e-5)
@@ -222,7 +222,7 @@ TEST_F(PhotometricFileTest, Faults) {
        "a multiple of 4 with symmetry indicator 4"},
       {"short ldt", ies("n.ldt", "maker\n1\n1\n"), ErrorCode::input,
        "the file ends too early, at the number of C-planes"},
-      {"c0", light("o.ies", R"({"illuminant": "D65"})", R"(, "c0": [0, 0, 2])"), ErrorCode::scene,
+      {"c0", light("o.ies", R"({"illuminant": "E"})", R"(, "c0": [0, 0, 2])"), ErrorCode::scene,
        "c0 must not be parallel to the axis"},
   };
   write_ies("o.ies", 0, 0, about_axis);

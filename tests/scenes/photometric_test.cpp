@@ -31,12 +31,15 @@ std::string luminaire_scene(const std::string& meter, const std::string& file, c
 
 class CosineLuminaire : public ::testing::TestWithParam<LuminaireRun> {};
 
+// The files have steps of h = 2 degrees. Linear interpolation falls short of a cosine by h^2/12 on average.
+constexpr double kInterpolated = 1 - (kPi / 90) * (kPi / 90) / 12;
+
 // 1000 lm downwards: pi I sin^2 of the half angle at which a disc below is seen, 45 degrees.
 TEST_P(CosineLuminaire, IlluminatesADisc) {
   const std::string disc =
       R"({"measures": "flux", "disc": {"center": [0, 0, 0], "normal": [0, 0, 1], "radius": 1}})";
   for (const char* file : {"cosine.ies", "cosine.ldt"})
-    expect_equal(read(luminaire_scene(disc, file, GetParam())).whole.luminous, 500, 0.02);
+    expect_equal(read(luminaire_scene(disc, file, GetParam())).whole.luminous, 500 * kInterpolated, 0.02);
 }
 
 INSTANTIATE_TEST_SUITE_P(Integrators, CosineLuminaire,
@@ -48,7 +51,8 @@ INSTANTIATE_TEST_SUITE_P(Integrators, CosineLuminaire,
 TEST(Luminaire, EmitsTheFluxOfItsFile) {
   const std::string sphere =
       R"({"measures": "flux", "sphere": {"center": [0, 0, 1], "radius": 0.5, "facing": "inwards"}})";
-  expect_equal(read(luminaire_scene(sphere, "cosine.ies", {"path", 256})).whole.luminous, 1000);
+  expect_equal(read(luminaire_scene(sphere, "cosine.ies", {"path", 256})).whole.luminous,
+               1000 * kInterpolated);
 }
 
 // I cos^4/h^2 at 60 degrees from the axis.
