@@ -74,7 +74,7 @@ Profile profile(const Room& room) {
   const std::string command = fmt::format(
       "cd {} && valgrind -q --tool=callgrind --callgrind-out-file=counts --compress-strings=no "
       "--compress-pos=no "
-      "'--toggle-collect=abbe::PathTracer::trace_together(*' {} render room.json -o room.exr --threads 1 "
+      "'--toggle-collect=abbe::PathTracer::trace_batch(*' {} render room.json -o room.exr --threads 1 "
       "--quiet",
       folder.string(), ABBE_BINARY);
   EXPECT_EQ(std::system(command.c_str()), 0) << command;
