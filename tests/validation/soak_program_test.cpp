@@ -10,7 +10,7 @@ std::string soak(const std::string& paths, const std::string& seed, const std::s
 }
 
 TEST(Soak, NothingGoesWrongInDrawnScenes) {
-  const Outcome run = abbe(soak("300000", "15", "fine"));
+  const Outcome run = abbe(soak("300000", "51", "fine"));
   EXPECT_EQ(run.code, 0) << run.err;
   EXPECT_GE(run.json()["paths"], 300000);
   EXPECT_GE(run.json()["scenes"], 5);
