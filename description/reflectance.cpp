@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -238,6 +239,8 @@ std::optional<TextureFile> build(const spec::TextureFile& spec, LoadContext& con
   }
 }
 
+constexpr std::array<std::string_view, 3> kColours{"R", "G", "B"};
+
 std::optional<std::vector<float>> read_texels(const TextureFile& file, std::span<const std::string> channels,
                                               const Encoding& encoding, LoadContext& context) {
   context.take_memory(fmt::format("texture \"{}\"", file.name),
@@ -245,6 +248,8 @@ std::optional<std::vector<float>> read_texels(const TextureFile& file, std::span
   std::vector<float> texels(file.image.pixels() * channels.size());
   for (std::size_t c = 0; c < channels.size(); ++c) {
     const ImageChannel* channel = file.image.find(channels[c]);
+    if (channel == nullptr && std::ranges::find(kColours, channels[c]) != kColours.end())
+      channel = file.image.find("Y");  // a grey picture
     if (channel == nullptr) {
       std::vector<std::string> names;
       for (const ImageChannel& known : file.image.channels) names.push_back(known.name);

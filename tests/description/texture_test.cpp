@@ -65,6 +65,9 @@ TEST_F(TextureTest, FilesOfIntegersAreLinearWeightsAndEncodedColours) {
   EXPECT_NEAR(reflectance(R"({"image": "deep.png", "weights": {"R": 1}})", {0, 0})[0], 0.2, 1e-6);
   write_raw_picture(folder_ / "deep.tif", {1, 1, {{"Y", {13107}}}, {}});
   EXPECT_NEAR(reflectance(R"({"image": "deep.tif", "weights": {"Y": 1}})", {0, 0})[0], 0.2, 1e-6);
+  EXPECT_NEAR(reflectance(R"({"image": "deep.tif", "rgb": true})", {0, 0})[0], std::pow(0.255 / 1.055, 2.4),
+              1e-4)
+      << "grey";
   write_picture(folder_ / "photo.png", {1, 1, {{"R", {0.2F}}, {"G", {0.4F}}, {"B", {0.6F}}}, {}});
   const Curve encoded = rgb_spectrum({srgb_decoded(0.2), srgb_decoded(0.4), srgb_decoded(0.6)});
   const Curve linear = rgb_spectrum({0.2, 0.4, 0.6});
