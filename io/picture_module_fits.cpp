@@ -232,6 +232,39 @@ std::vector<std::uint16_t> read_codes(fitsfile* fits, const std::string& path, s
   return {numbers.begin(), numbers.end()};
 }
 
+// Reads an image of floats, as programs that calibrate frames write it. The codes are rounded. Unless all
+// values are whole, `corrected` becomes the values minus the black level, in the order of the file.
+std::vector<std::uint16_t> read_float_codes(fitsfile* fits, const std::string& path, std::size_t count,
+                                            double black_level_dn, std::vector<float>& corrected) {
+  constexpr float kMaxCode = 65535;
+  std::vector<float> numbers(count);
+  int status = 0;
+  fits_read_img(fits, TFLOAT, 1, static_cast<LONGLONG>(count), nullptr, numbers.data(), nullptr, &status);
+  if (status != 0) throw Error(ErrorCode::input, path, "truncated or corrupt");
+  if (!std::ranges::all_of(numbers, [](float value) { return std::isfinite(value); }))
+    throw Error(ErrorCode::input, path,
+                "pixels are undefined (they are not finite; every pixel needs a code)");
+  const float highest = *std::ranges::max_element(numbers);
+  if (!(highest > 1 && highest <= kMaxCode)) {
+    std::ostringstream range;
+    range << "the largest pixel is no code (got " << highest << ", allowed above 1, at most " << kMaxCode
+          << ')';
+    throw Error(ErrorCode::input, path, range.str());
+  }
+  std::vector<std::uint16_t> codes;
+  codes.reserve(count);
+  bool is_whole = true;
+  for (const float value : numbers) {
+    const float code = std::max(std::round(value), 0.0F);
+    is_whole = is_whole && code == value;
+    codes.push_back(static_cast<std::uint16_t>(code));
+  }
+  if (!is_whole)
+    for (const float value : numbers)
+      corrected.push_back(static_cast<float>(static_cast<double>(value) - black_level_dn));
+  return codes;
+}
+
 // Largest code of an image whose scaled values have that type.
 double greatest_code(fitsfile* fits, int type) {
   const double of_type = type == BYTE_IMG ? 255 : type == SHORT_IMG ? 32767 : 65535;
@@ -268,20 +301,29 @@ void open_image(fitsfile** fits, const std::string& path, int& status) {
 // Reverses the order of rows.
 void flip(RawPicture& raw) {
   const auto row = static_cast<std::ptrdiff_t>(raw.planes.size()) * raw.width;
-  for (std::ptrdiff_t y = 0; y < raw.height / 2; ++y)
-    std::swap_ranges(raw.codes.begin() + y * row, raw.codes.begin() + (y + 1) * row,
-                     raw.codes.begin() + (raw.height - 1 - y) * row);
+  const auto flip_rows = [&](auto& values) {
+    for (std::ptrdiff_t y = 0; y < raw.height / 2; ++y)
+      std::swap_ranges(values.begin() + y * row, values.begin() + (y + 1) * row,
+                       values.begin() + (raw.height - 1 - y) * row);
+  };
+  flip_rows(raw.codes);
+  if (!raw.corrected.empty()) flip_rows(raw.corrected);
+}
+
+template <typename T>
+std::vector<T> interleaved(const std::vector<T>& values, std::size_t planes) {
+  const std::size_t pixels = values.size() / planes;
+  std::vector<T> by_pixel;
+  by_pixel.reserve(values.size());
+  for (std::size_t i = 0; i < pixels; ++i)
+    for (std::size_t plane = 0; plane < planes; ++plane) by_pixel.push_back(values[plane * pixels + i]);
+  return by_pixel;
 }
 
 }  // namespace
 
 std::vector<std::uint16_t> pixel_by_pixel(const std::vector<std::uint16_t>& codes, std::size_t planes) {
-  const std::size_t pixels = codes.size() / planes;
-  std::vector<std::uint16_t> interleaved;
-  interleaved.reserve(codes.size());
-  for (std::size_t i = 0; i < pixels; ++i)
-    for (std::size_t plane = 0; plane < planes; ++plane) interleaved.push_back(codes[plane * pixels + i]);
-  return interleaved;
+  return interleaved(codes, planes);
 }
 
 RawPicture read_fits(const std::string& path) {
@@ -295,8 +337,10 @@ RawPicture read_fits(const std::string& path) {
   fits_get_img_dim(file.fits, &axes, &status);
   fits_get_img_size(file.fits, 3, size.data(), &status);
   if (status != 0) throw Error(ErrorCode::input, path, "not a FITS image, or damaged");
-  if (axes < 2 || axes > 3 || (type != USHORT_IMG && type != SHORT_IMG && type != BYTE_IMG))
-    throw Error(ErrorCode::input, path, "not an image of 8-bit or 16-bit integers with two or three axes");
+  const bool is_float = type == FLOAT_IMG || type == DOUBLE_IMG;
+  if (axes < 2 || axes > 3 || (type != USHORT_IMG && type != SHORT_IMG && type != BYTE_IMG && !is_float))
+    throw Error(ErrorCode::input, path,
+                "not an image of 8-bit or 16-bit integers or of floats with two or three axes");
   RawPicture raw;
   raw.width = size[0];
   raw.height = size[1];
@@ -304,11 +348,16 @@ RawPicture read_fits(const std::string& path) {
   require_image_size(path, raw.width, raw.height, planes);
   raw.planes = raw.channels = plane_names(text_of(file.fits, "PLANES"), planes);
   const std::size_t pixels = static_cast<std::size_t>(raw.width) * static_cast<std::size_t>(raw.height);
-  raw.codes = pixel_by_pixel(read_codes(file.fits, path, pixels * planes), planes);
+  raw.black_level_dn = pedestal_of(file.fits, path);
+  std::vector<float> corrected;
+  raw.codes =
+      interleaved(is_float ? read_float_codes(file.fits, path, pixels * planes, raw.black_level_dn, corrected)
+                           : read_codes(file.fits, path, pixels * planes),
+                  planes);
+  raw.corrected = interleaved(corrected, planes);
   if (text_of(file.fits, "ROWORDER") == "BOTTOM-UP") flip(raw);
   read_history(file.fits, raw);
   read_pattern(file.fits, path, raw);
-  raw.black_level_dn = pedestal_of(file.fits, path);
   raw.white_level_dn = white_level_of(file.fits, type, raw.black_level_dn);
   raw.gain_e_per_dn = number_of(file.fits, "GAIN", 1);
   if (const double seconds = number_of(file.fits, "EXPTIME", 0); seconds > 0) raw.exposure_s = seconds;

@@ -50,8 +50,8 @@ struct RawPicture {
   std::vector<std::uint16_t> linear_codes = {};
   bool is_linearised = false;  ///< True if the codes were read through the file's linearisation table.
   std::vector<DngOpcode> opcodes = {};  ///< All opcodes of a DNG; list 1 has been applied to `codes`.
-  /// Codes minus black level [DN] with opcode lists 2 and 3 applied, not clipped, in the order of `codes`.
-  /// Empty without such opcodes.
+  /// Values above the black level [DN], not clipped, in the order of `codes`: codes with opcode lists 2 and 3
+  /// applied, or the floats of a FITS file. Empty without such opcodes, and if all floats are whole.
   std::vector<float> corrected = {};
   double gain_e_per_dn = 1;
   double read_noise_e = 0;

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <bit>
+#include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -151,6 +154,49 @@ std::string cube_of(std::size_t planes, const std::vector<std::string>& more = {
   cards.insert(cards.end(), more.begin(), more.end());
   cards.emplace_back("END");
   return in_blocks(cards) + std::string(2880, '\1');
+}
+
+// An image of three by two 32-bit floats.
+std::string floats(const std::vector<float>& values, const std::vector<std::string>& more = {}) {
+  std::vector<std::string> cards{"SIMPLE  = T", "BITPIX  = -32", "NAXIS   = 2",
+                                 "NAXIS1  = 3", "NAXIS2  = 2",   "PEDESTAL= 100"};
+  cards.insert(cards.end(), more.begin(), more.end());
+  cards.emplace_back("END");
+  std::string bytes;
+  for (const float value : values)
+    for (int shift = 24; shift >= 0; shift -= 8)
+      bytes += static_cast<char>(std::bit_cast<std::uint32_t>(value) >> static_cast<unsigned>(shift) & 0xFFU);
+  bytes.resize(2880);
+  return in_blocks(cards) + bytes;
+}
+
+TEST(Fits, FloatsAreCodesOrKeepTheirFractions) {
+  const auto path = test_folder() / "f.fits";
+  put(path, floats({100, 300, 4095, 0, 1, 2}, {"SATURATE= 4095"}));
+  const RawPicture whole = read_raw_picture(path);
+  EXPECT_EQ(whole.codes, (std::vector<std::uint16_t>{100, 300, 4095, 0, 1, 2}));
+  EXPECT_TRUE(whole.corrected.empty());
+  EXPECT_EQ(whole.white_level_dn, 4095);
+  put(path, floats({100.25F, 300, 4095, -3, 1, 2}, {"ROWORDER= 'BOTTOM-UP'"}));
+  const RawPicture calibrated = read_raw_picture(path);
+  EXPECT_EQ(calibrated.codes, (std::vector<std::uint16_t>{0, 1, 2, 100, 300, 4095}));
+  EXPECT_EQ(calibrated.corrected, (std::vector<float>{-103, -99, -98, 0.25F, 200, 3995}));
+}
+
+TEST(Fits, FloatsThatAreNoCodesAreRefused) {
+  const auto path = test_folder() / "f.fits";
+  const auto fault = [&](const std::vector<float>& values) {
+    put(path, floats(values));
+    try {
+      static_cast<void>(read_raw_picture(path));
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_NE(fault({0, 0.5F, 1, 0, 0, 0}).find("got 1, allowed above 1"), std::string::npos);
+  EXPECT_NE(fault({0, 70000, 1, 0, 0, 0}).find("got 70000"), std::string::npos);
+  EXPECT_NE(fault({0, NAN, 1, 0, 0, 0}).find("not finite"), std::string::npos);
 }
 
 TEST(Fits, ThreePlanesWithoutNamesAreRedGreenAndBlue) {
