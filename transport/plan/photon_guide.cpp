@@ -312,7 +312,7 @@ PhotonGuide::Branch PhotonGuide::add_grid_of(Branch branch, bool from_few) {
   const Window window = window_of(branch);
   const auto first_outside = std::stable_partition(
       branch.begin(), branch.end(), [&](const WeightedPoint& one) { return window.holds(one.at); });
-  const Branch outside(first_outside, branch.end());
+  Branch outside(first_outside, branch.end());
   branch.erase(first_outside, branch.end());
   grids_.emplace_back(window, branch);
   return outside;
