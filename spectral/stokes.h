@@ -1,8 +1,13 @@
 #pragma once
 
+#include <array>
+
 #include "spectral/sampled_spectrum.h"
 
 namespace abbe {
+
+/// Stokes vector (I, Q, U, V) at one wavelength or in one channel; `StokesSpectrum` states the signs.
+using StokesVector = std::array<double, 4>;
 
 /// Stokes vector (I, Q, U, V) of each wavelength, or the row of weights of an analyser. Its reference frame
 /// is x and y = k cross x, where k is the unit vector along which the light travels. Q = |E_x|^2 - |E_y|^2; U

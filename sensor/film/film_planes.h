@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/image.h"
+#include "spectral/stokes.h"
 
 namespace abbe {
 
@@ -30,10 +31,6 @@ inline constexpr const char* kLayersKey = "layers";
 /// Prefix of the names of light-group layers.
 inline constexpr const char* kLightLayer = "light.";
 
-/// Stokes vector (I, Q, U, V) in the unit of the film. The x axis of its frame points to the right of the
-/// picture (`StokesSpectrum` states the signs).
-using StokesVector = std::array<double, 4>;
-
 /// Planes of a film with the Stokes vectors of one channel or band.
 struct StokesPlanes {
   std::string channel;  ///< Name of the intensity plane.
@@ -41,7 +38,8 @@ struct StokesPlanes {
   std::array<const ImageChannel*, 4> component;
 
   [[nodiscard]] bool has_circular() const { return component[3] != nullptr; }
-  /// Stokes vector of the pixel with this index; V is 0 without its plane.
+  /// Stokes vector of the pixel with this index, in the unit of the film. The x axis of its frame points to
+  /// the right of the picture. V is 0 without its plane.
   [[nodiscard]] StokesVector at(std::size_t pixel) const;
 };
 /// Stokes planes of all channels of a film, which must outlive them. Empty for a film that does not measure

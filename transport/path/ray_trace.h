@@ -10,11 +10,9 @@
 
 #include "materials/interface/mueller.h"
 #include "scene/scene.h"
+#include "spectral/stokes.h"
 
 namespace abbe {
-
-/// Stokes vector (I, Q, U, V) at one wavelength. `docs/physics/conventions.md` defines the signs.
-using StokesVector = std::array<double, 4>;
 
 /// Full Mueller matrix, for column vectors.
 struct FullMueller {

@@ -23,7 +23,6 @@ constexpr float kEmissionFraction = 0.05F;
 // Fraction of the guided photons outside the windows, and the uniform fraction after training from few rays.
 constexpr float kOutsideFraction = 0.1F;
 constexpr float kUniformFractionOfFew = 0.5F;
-constexpr float kUniformFractionOfTrained = 0.1F;
 constexpr float kUniformFractionOfStrata = 0.5F;
 constexpr std::size_t kMaxStrata = 64;
 constexpr double kMinPhotonsOfWindow = 8;      // per branch
@@ -254,7 +253,7 @@ void PhotonGuide::train(std::span<const PilotRay> pilot_rays, std::size_t max_br
   const std::vector<Branch> branches = branches_of(to_square(pilot_rays), max_branches);
   if (branches.empty()) return;
   guided_ = trained_ = true;
-  if (stratified_) uniform_fraction_ = kUniformFractionOfTrained;
+  if (stratified_) uniform_fraction_ = kUniformFraction;
   stratified_ = false;
   grids_.clear();
   Branch outside_windows;

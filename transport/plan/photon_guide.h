@@ -88,8 +88,9 @@ class PhotonGuide {
   /// `enable_guiding`.
   [[nodiscard]] bool can_train() const { return guided_ || all_directions_; }
 
-  /// True if photons are sent through the target, uniformly until training. A distant guide is guided from
-  /// `enable_guiding` on. A light within its target or close to it is guided only after training.
+  /// True if photons are sent through the target, until training uniformly or as `stratify` divides them. A
+  /// distant guide is guided from `enable_guiding` on. A light within its target or close to it is guided
+  /// only after training.
   [[nodiscard]] bool is_guided() const { return guided_; }
 
   /// Samples a point of the target in front of a distant light with `u` in [0, 1)^2. The guide must be one
@@ -175,10 +176,11 @@ class PhotonGuide {
   float growth_ = 0;            // Growth of the half size per metre of offset.
   Imath::V3f center_{0, 0, 0};  // Current center of the target.
   float half_size_ = 0;
-  std::vector<Grid> grids_;        // empty before training
-  bool trained_ = false;           // true after `train`
-  bool stratified_ = false;        // true from `stratify` until training
-  float uniform_fraction_ = 0.1F;  // fraction of the guided photons
+  std::vector<Grid> grids_;  // empty before `stratify` and training
+  bool trained_ = false;     // true after `train`
+  bool stratified_ = false;  // true from `stratify` until training
+  static constexpr float kUniformFraction = 0.1F;
+  float uniform_fraction_ = kUniformFraction;  // of the guided photons
 };
 
 }  // namespace abbe
