@@ -320,7 +320,7 @@ std::string reference(const CommandUsage& program, ReferenceFormat format) {
 
 std::string slurm_help(const std::string& name) {
   std::string all =
-      "Jobs for a render in parts on a Slurm cluster (docs/distributed.md). `abbe help slurm FILE >FILE` "
+      "Jobs for a render in parts on a Slurm cluster (docs/guide/machines.md). `abbe help slurm FILE >FILE` "
       "writes one of them.\n";
   std::vector<std::string> names;
   for (const auto& [file, text] : kSlurmFiles) {

@@ -252,7 +252,7 @@ void note_polarisation(const Scene& scene) {
   if (!scene.features.polarisation_relevant || scene.render.polarisation) return;
   print_message(fmt::format(
       "render/polarisation is \"off\", which affects the image after {}: a prism is 0.3 % too dark with "
-      "N-BK7, 3 % with N-SF11, and crossed mirrors by any factor (docs/physics/conventions.md)",
+      "N-BK7, 3 % with N-SF11, and crossed mirrors by any factor (docs/reference/physics.md)",
       scene.features.reasons.at("polarisation_matters")));
 }
 

@@ -25,9 +25,9 @@ add_custom_command(OUTPUT ${ABBE_DESCRIPTIONS}
   COMMAND sh -c "gzip -9nc '${PROJECT_SOURCE_DIR}/CHANGELOG.md' >share/changelog.gz"
   DEPENDS abbe CHANGELOG.md WORKING_DIRECTORY "${PROJECT_BINARY_DIR}" VERBATIM)
 add_custom_target(descriptions ALL DEPENDS ${ABBE_DESCRIPTIONS})
-add_custom_target(reference COMMAND sh -c "$<TARGET_FILE:abbe> help --format markdown >docs/reference.md"
-  COMMAND sh -c "$<TARGET_FILE:write_schema> >docs/scene.schema.json"
-  COMMAND sh -c "$<TARGET_FILE:write_schema> docs/scene.md >docs/scene.md.new && mv docs/scene.md.new docs/scene.md"
+add_custom_target(reference COMMAND sh -c "$<TARGET_FILE:abbe> help --format markdown >docs/reference/commands.md"
+  COMMAND sh -c "$<TARGET_FILE:write_schema> >docs/reference/scene.schema.json"
+  COMMAND sh -c "$<TARGET_FILE:write_schema> docs/reference/scene.md >docs/reference/scene.md.new && mv docs/reference/scene.md.new docs/reference/scene.md"
   DEPENDS abbe write_schema WORKING_DIRECTORY "${PROJECT_SOURCE_DIR}" VERBATIM)
 install(FILES "${PROJECT_BINARY_DIR}/share/abbe.1.gz" DESTINATION "${CMAKE_INSTALL_MANDIR}/man1" COMPONENT tool)
 install(FILES "${PROJECT_BINARY_DIR}/share/abbe.bash" DESTINATION "${CMAKE_INSTALL_DATADIR}/bash-completion/completions" RENAME abbe

@@ -11,7 +11,7 @@
 
 namespace abbe {
 
-/// Unit that a table declares in its line `# unit:`. docs/formats.md lists the allowed spellings.
+/// Unit that a table declares in its line `# unit:`. docs/reference/formats.md lists the allowed spellings.
 struct TableUnit {
   enum class Kind {
     unknown,      ///< No listed unit.

@@ -12,7 +12,7 @@ using StokesVector = std::array<double, 4>;
 /// Stokes vector (I, Q, U, V) of each wavelength, or the row of weights of an analyser. Its reference frame
 /// is x and y = k cross x, where k is the unit vector along which the light travels. Q = |E_x|^2 - |E_y|^2; U
 /// > 0 oscillates between +x and +y. V > 0 turns clockwise for a receiver who looks against k
-/// (`docs/physics/conventions.md`).
+/// (`docs/reference/physics.md`).
 struct StokesSpectrum {
   SampledSpectrum i{};
   SampledSpectrum q{};

@@ -82,7 +82,7 @@ class MuellerMean {
 ///     0 0 s  c.
 /// The Stokes vectors (I, Q, U, V) of the arriving and the leaving light use frames with a common first axis.
 /// It is a unit vector perpendicular to both directions. The second axis is k x axis, where the unit vector k
-/// is the direction of travel. `docs/physics/conventions.md` defines the signs. The matrix is the same for
+/// is the direction of travel. `docs/reference/physics.md` defines the signs. The matrix is the same for
 /// both directions of travel along the path.
 ///
 /// Every event that is symmetric about the plane of its directions has this form. Let an interface have the

@@ -1,7 +1,7 @@
 """Exports Blender scenes to Abbe: an add-on (File > Export > Abbe), and a script for the background, `blender -b scene.blend -P abbe_export.py -- scene.json`.
 
 Meshes and images go to a folder next to the scene file, scene_files. Standard output and the head of the scene file list what is approximated or
-dropped, each once with the number of occurrences. docs/importers.md of Abbe describes the mapping.
+dropped, each once with the number of occurrences. docs/reference/importers.md of Abbe describes the mapping.
 """
 import json
 import math

@@ -40,7 +40,7 @@ struct LightPolarisation {
 
 /// Normalised Stokes vector (1, q, u, v), in the frame whose first axis is the unit vector `axis`,
 /// perpendicular to the propagation direction. q is 1 for full linear polarisation along `axis`, and v is 1
-/// for full right-handed circular polarisation. `docs/physics/conventions.md` defines the signs.
+/// for full right-handed circular polarisation. `docs/reference/physics.md` defines the signs.
 struct PolarisationState {
   Imath::V3f axis;
   float q = 0;

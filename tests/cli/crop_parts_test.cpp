@@ -57,7 +57,7 @@ TEST(CropParts, AddUpWherePhotonsAreTraced) {
 
 // A smaller film saves time.
 TEST(CropParts, TheDocumentedExampleWorks) {
-  std::string text = read_file(source_tree() / "docs/distributed.md");
+  std::string text = read_file(source_tree() / "docs/guide/machines.md");
   const std::size_t begin = text.find("```sh\n", text.find("\nFilms are cut by `--crop`")) + 6;
   text = text.substr(begin, text.find("```", begin) - begin);
   for (const auto& [from, to] : {std::pair{std::string("./abbe"), std::string(ABBE_BINARY)},

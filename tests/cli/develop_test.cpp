@@ -314,7 +314,7 @@ bool runs_now(const std::string& command) {
 }
 
 TEST(Develop, TheGuidesCommandsWork) {
-  const std::string text = read_file(source_tree() / "docs/ccd.md");
+  const std::string text = read_file(source_tree() / "docs/guide/ccd.md");
   fs::remove(scratch() / "data");
   fs::create_directory_symlink(data_directory(), scratch() / "data");
   const std::regex line("(?:^|\n)abbe ([^\n]*)");

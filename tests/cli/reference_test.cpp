@@ -57,7 +57,7 @@ TEST(Reference, CompletionKnowsWhatValuesAre) {
 TEST(Help, TellsTheDocumentedJobs) {
   const std::string all = test::abbe("help slurm").out;
   for (const std::string name : {"render.sbatch", "merge.sbatch", "submit.sh"}) {
-    const std::string job = test::read_file(test::source_tree() / "docs/distributed" / name);
+    const std::string job = test::read_file(test::source_tree() / "docs/guide/slurm" / name);
     EXPECT_EQ(test::abbe("help slurm " + name).out, job);
     EXPECT_NE(all.find(fmt::format("\n{}:\n{}", name, job)), std::string::npos) << all;
   }

@@ -181,7 +181,7 @@ TEST(Merge, UsageErrors) {
 
 // First example of the documentation, on a smaller film.
 TEST(Merge, TheDocumentedParallelExampleWorks) {
-  std::string text = read_file(source_tree() / "docs/distributed.md");
+  std::string text = read_file(source_tree() / "docs/guide/machines.md");
   const std::size_t begin = text.find("```sh\n") + 6;
   text = text.substr(begin, text.find("```", begin) - begin);
   const auto replace_all = [&text](const std::string& from, const std::string& to) {
@@ -200,9 +200,9 @@ TEST(Merge, TheDocumentedParallelExampleWorks) {
 
 // The nightly test of the cluster runs this example.
 TEST(Merge, TheDocumentedJobsAreTheirFiles) {
-  const std::string text = read_file(source_tree() / "docs/distributed.md");
+  const std::string text = read_file(source_tree() / "docs/guide/machines.md");
   for (const char* name : {"render.sbatch", "merge.sbatch", "submit.sh"}) {
-    const std::string job = read_file(source_tree() / "docs/distributed" / name);
+    const std::string job = read_file(source_tree() / "docs/guide/slurm" / name);
     EXPECT_FALSE(job.empty()) << name;
     EXPECT_NE(text.find("```sh\n" + job + "```\n"), std::string::npos) << name;
   }

@@ -34,7 +34,7 @@ back() {  # back TASK WHY: it is put back into the queue once more
 start_cluster || fail "no cluster"
 mkdir "$folder/job"
 cd "$folder/job"
-cp "$docs"/distributed/* .
+cp "$docs"/guide/slurm/* .
 ln -s "$abbe" "$folder/abbe"
 export PATH=$folder:$PATH
 cat >scene.json <<'EOF'

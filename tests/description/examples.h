@@ -35,7 +35,7 @@ inline std::vector<fs::path> scene_files(const fs::path& folder) {
 }
 
 inline std::string scene_guide_text() {
-  return file_text(data_directory().parent_path() / "docs" / "scene.md");
+  return file_text(data_directory().parent_path() / "docs" / "reference" / "scene.md");
 }
 
 /// The examples of the guide to scene files. Most of them show only a part of a scene.

@@ -1,4 +1,4 @@
-"""Compares docs/scene.schema.json with the scene reader, by the validator of Debian's python3-jsonschema.
+"""Compares docs/reference/scene.schema.json with the scene reader, by the validator of Debian's python3-jsonschema.
 
 schema_agreement.py SCENE_VERDICTS SCHEMA
 

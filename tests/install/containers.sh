@@ -1,5 +1,5 @@
 # The Dockerfile and the Kubernetes jobs as far as no container engine is needed: what they name exists, their shell is sound, the tasks are
-# those of docs/distributed.md, and the jobs' scripts render and merge the film of a single run.
+# those of docs/guide/machines.md, and the jobs' scripts render and merge the film of a single run.
 . "$(dirname "$0")/check.sh"
 cd "$ABBE_SOURCE"
 dockerfile=$(sed -e '/^#/d' -e ':join' -e '/\\$/{N;s/\\\n//;b join' -e '}' containers/Dockerfile)
@@ -32,7 +32,7 @@ mkdir "$scratch/said"
 printf '#!/bin/sh\necho abbe "$@"\n' >"$scratch/said/abbe"
 printf '#!/bin/sh\nwhile [ "${1#-}" != "$1" ]; do shift; done\nexec "$@"\n' >"$scratch/said/srun"
 chmod +x "$scratch/said/"*
-awk '/^```/ {if (array) exit; text = ""; next} {text = text $0 "\n"; if (/#SBATCH --array=/) array = 1} END {printf "%s", text}' docs/distributed.md >"$scratch/array"
+awk '/^```/ {if (array) exit; text = ""; next} {text = text $0 "\n"; if (/#SBATCH --array=/) array = 1} END {printf "%s", text}' docs/guide/machines.md >"$scratch/array"
 array=$(sed -n 's/^#SBATCH.*--array=0-\([0-9]*\).*/\1/p' "$scratch/array")
 cpus=$(sed -n 's/^#SBATCH.*--cpus-per-task=\([0-9]*\).*/\1/p' "$scratch/array")
 . "$scratch/environment"

@@ -1,8 +1,8 @@
 # What is written of the command line is what the program says of it.
 . "$(dirname "$0")/check.sh"
 program=$ABBE_BUILD/cli/abbe
-"$program" help --format markdown | diff -u "$ABBE_SOURCE/docs/reference.md" - ||
-  fail "docs/reference.md is out of date; write it anew with: cmake --build --preset release --target reference"
+"$program" help --format markdown | diff -u "$ABBE_SOURCE/docs/reference/commands.md" - ||
+  fail "docs/reference/commands.md is out of date; write it anew with: cmake --build --preset release --target reference"
 
 "$program" help --format man >"$scratch/abbe.1"
 equal "complaints of groff" "$(groff -man -ww -z -b "$scratch/abbe.1" 2>&1)" ""

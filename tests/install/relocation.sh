@@ -11,7 +11,7 @@ mkdir "$scratch/path"
 ln -s "../second place/bin/abbe" "$scratch/path/abbe"
 equal "data folder through a link on PATH" "$(PATH="$scratch/path:$PATH" abbe --version | sed -n 's/^data //p')" "$data"
 
-for file in share/man/man1/abbe.1.gz share/bash-completion/completions/abbe share/doc/abbe/reference.md share/doc/abbe/copyright; do
+for file in share/man/man1/abbe.1.gz share/bash-completion/completions/abbe share/doc/abbe/reference/commands.md share/doc/abbe/copyright; do
   [ -s "$scratch/second place/$file" ] || fail "$file is not installed"
 done
 contains "manual page" "$(zcat "$scratch/second place/share/man/man1/abbe.1.gz")" ".TH ABBE 1 "

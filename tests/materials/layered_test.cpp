@@ -164,7 +164,7 @@ TEST(SchlickBsdf, IsTheNamedApproximation) {
   EXPECT_NEAR(s->weight[0], 0.07, 1e-6);
 }
 
-// The figure in docs/materials.md: the largest error over all wavelengths and angles.
+// The figure in docs/reference/materials.md: the largest error over all wavelengths and angles.
 TEST(SchlickBsdf, IsOffByTheFigureOfTheDocsForAluminium) {
   const RefractiveIndex aluminium = index_of("Al_Rakic");
   double largest = 0;

@@ -1,4 +1,4 @@
-// Interfaces in numerically difficult cases, in the float precision of the render. docs/validation.md lists
+// Interfaces in numerically difficult cases, in the float precision of the render. docs/reference/validation.md lists
 // all stress tests.
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-// Renders where numbers are at their worst. docs/validation.md lists all stress tests.
+// Renders where numbers are at their worst. docs/reference/validation.md lists all stress tests.
 #include <algorithm>
 #include <cmath>
 #include <utility>

@@ -1,4 +1,4 @@
-// docs/techniques.md lists every integrator and has a row of the matrix for every film.
+// docs/reference/integrators.md lists every integrator and has a row of the matrix for every film.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,7 +19,7 @@ struct Rows {
   std::ptrdiff_t cells = 0;
 };
 Rows rows_that_begin(const std::string& beginning) {
-  std::ifstream page(test::source_tree() / "docs" / "techniques.md");
+  std::ifstream page(test::source_tree() / "docs" / "reference" / "integrators.md");
   Rows rows;
   for (std::string line; std::getline(page, line);) {
     if (!line.starts_with(beginning)) continue;
@@ -51,7 +51,7 @@ TEST(TechniquesPage, HasEveryFilmAndAllOfItsCells) {
 }
 
 TEST(TechniquesPage, ShowsNoCellThatDoesNotPass) {
-  std::ifstream page(test::source_tree() / "docs" / "techniques.md");
+  std::ifstream page(test::source_tree() / "docs" / "reference" / "integrators.md");
   const std::string text{std::istreambuf_iterator<char>(page), {}};
   for (const char* verdict : {"FAIL", "UNDECIDED"})
     EXPECT_EQ(text.find(verdict), std::string::npos) << verdict;

@@ -77,7 +77,7 @@ enum class Tier {
   never      ///< No run: too little light arrives at any number of samples, or each path takes too long.
 };
 
-/// Mean of another case's film, rendered by one integrator: a cell of the table in `docs/techniques.md`.
+/// Mean of another case's film, rendered by one integrator: a cell of the table in `docs/reference/integrators.md`.
 struct TechniqueMean {
   std::string case_id;  ///< Id of the other case.
   Integrator integrator;
