@@ -1,4 +1,11 @@
-"""The tutorials of docs/tutorials: every command runs, and figures that the pages claim are beside their known answers."""
+"""The manual: commands of its pages run, print what the pages show and make their pictures; figures are beside their known answers.
+
+A page is Markdown of docs/guide or docs/reference, or the README. Its fenced blocks mean:
+  ```sh            commands, which run in their order in one folder a page; `data` and `docs` lie in it, `abbe` is found
+  ```sh not-run    commands that need what a test has not: files of the reader's own, several machines, a browser
+  ```json a.json   a file, written before the commands that follow; so for any language that is followed by a name
+  ```text          what the block before printed: its lines, in order; "…" stands for anything, on a line of its own for any lines
+"""
 import csv
 import json
 import os
@@ -16,8 +23,9 @@ import numpy as np
 import colour
 import spectra
 
-FOLDER = pathlib.Path(__file__).resolve().parents[2] / "docs" / "tutorials"
-SCRIPTS = sorted(path for path in FOLDER.glob("*.*") if path.suffix in (".sh", ".py") and path.name not in ("common.py", "plots.py"))
+ROOT = pathlib.Path(__file__).resolve().parents[2]
+PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*/*.md"))]
+FENCE = re.compile(r"^```(\w+)[ ]*([^\n]*)\n(.*?)^```$", re.MULTILINE | re.DOTALL)
 
 
 def words(text):
@@ -25,59 +33,91 @@ def words(text):
     return " ".join(text.replace("\\\n", " ").split())
 
 
-class Pages(unittest.TestCase):
-    def test_every_script_has_a_page_of_its_commands_and_a_test(self):
-        self.assertEqual(sorted(path.stem for path in FOLDER.glob("*.md") if path.name != "README.md"), [script.stem for script in SCRIPTS])
-        self.assertEqual({test.SCRIPT for test in Tutorial.__subclasses__()}, {script.name for script in SCRIPTS})
-        for script in SCRIPTS:
-            shown = re.findall(r"^```sh\n(.*?)^```", script.with_suffix(".md").read_text(), re.MULTILINE | re.DOTALL)
-            commands = [words(line) for block in shown for line in block.replace("\\\n", " ").splitlines() if line.strip()]
-            self.assertTrue(commands, script.name)
-            for command in commands:
-                self.assertIn(command, words(script.read_text()), script.name)
+def output_pattern(shown):
+    """The pattern of an output that shows these lines, among others."""
+    parts = []
+    for line in shown.splitlines():
+        if line.strip() == "…":
+            parts.append(r"(?:.*\n)*?")
+        else:
+            parts.append(r"[ ]*" + r"[ ]+".join(".*?".join(map(re.escape, word.split("…"))) for word in line.split()) + r"[ ]*\n")
+    return re.compile("".join(parts))
 
 
-class Tutorial(unittest.TestCase):
-    """Runs the script SCRIPT where `data` and `abbe` are found, which by day renders with the options BY_DAY too."""
+def picture(path):
+    return oiio.ImageBuf(str(path)).get_pixels(oiio.FLOAT)
 
-    SCRIPT = None
+
+class Page(unittest.TestCase):
+    """Runs the commands of PAGE, a path below docs, once. By day BY_DAY, options of a render, are added to every render."""
+
+    PAGE = None
     BY_DAY = None
 
-    def setUp(self):
-        if self.SCRIPT is None:
-            self.skipTest("of no script")
+    @classmethod
+    def setUpClass(cls):
+        if cls.PAGE is None:
+            raise unittest.SkipTest("no page")
         folder = tempfile.TemporaryDirectory()
-        self.addCleanup(folder.cleanup)
-        self.scratch = pathlib.Path(folder.name)
-        (self.scratch / "data").symlink_to(spectra.DATA)
+        cls.addClassCleanup(folder.cleanup)
+        cls.scratch = pathlib.Path(folder.name)
+        cls.text = (ROOT / "docs" / cls.PAGE).read_text(encoding="utf-8")
+        (cls.scratch / "data").symlink_to(spectra.DATA)
+        for name in ("docs", "python"):
+            (cls.scratch / name).symlink_to(ROOT / name)
         binary = pathlib.Path(os.environ["ABBE_BINARY"])
-        if self.BY_DAY is not None and "ABBE_NIGHTLY" not in os.environ:
-            binary = self.hurried(binary)
-        path = f"{binary.parent}{os.pathsep}{os.environ['PATH']}"
-        interpreter = "bash" if self.SCRIPT.endswith(".sh") else sys.executable
-        done = subprocess.run([interpreter, FOLDER / self.SCRIPT], cwd=self.scratch, env={**os.environ, "PATH": path, "PYTHONDONTWRITEBYTECODE": "1"},
-                              stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
-        self.assertEqual(done.returncode, 0, done.stdout)
-
-    def hurried(self, binary):
-        """A program that gives what a render is told more words."""
-        program = self.scratch / "bin" / "abbe"
-        program.parent.mkdir()
-        program.write_text(f'#!/bin/sh\n[ "$1" = render ] && set -- "$@" {self.BY_DAY}\nexec "{binary}" "$@"\n')
+        hurried = "" if cls.BY_DAY is None or "ABBE_NIGHTLY" in os.environ else cls.BY_DAY
+        program = cls.scratch / "abbe"
+        program.write_text(f"""#!/bin/sh
+[ "$1" = python ] && {{ shift; PYTHONPATH={binary.parents[1] / "python"} exec {sys.executable} -B "$@"; }}
+[ "$1" = render ] && set -- "$@" {hurried}
+exec "{binary}" "$@"
+""")
         program.chmod(0o755)
-        return program
+        cls.run_page({**os.environ, "PATH": f"{cls.scratch}{os.pathsep}{os.environ['PATH']}"})
+
+    @classmethod
+    def run_page(cls, environment):
+        printed = None
+        for language, name, body in FENCE.findall(cls.text):
+            if language == "sh" and name != "not-run":
+                done = subprocess.run(["bash", "-euo", "pipefail", "-c", body], cwd=cls.scratch, env=environment,
+                                      stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+                if done.returncode != 0:
+                    raise AssertionError(f"{cls.PAGE}: exit {done.returncode} of\n{body}\n{done.stdout}")
+                printed = done.stdout
+            elif language == "text" and printed is not None:
+                if not output_pattern(body).search(printed):
+                    raise AssertionError(f"{cls.PAGE} shows\n{body}\nand the program printed\n{printed}")
+            else:
+                printed = None
+                if name and language != "sh":
+                    (cls.scratch / name).write_text(body, encoding="utf-8")
 
     def read(self, name):
         return json.loads((self.scratch / name).read_text())
 
     def claimed(self, pattern):
         """The number that the page states where the pattern's group is."""
-        page = words((FOLDER / self.SCRIPT).with_suffix(".md").read_text())
-        return float(re.search(pattern, page)[1])
+        return float(re.search(pattern, words(self.text))[1])
+
+    def test_its_pictures_are_what_its_commands_make(self):
+        # A picture that links to another page is made there.
+        own = re.sub(r"\[!\[[^\]]*\]\([^)]*\)\]\([^)]*\)", "", self.text)
+        for shown in re.findall(r"!\[[^\]]*\]\(([^)]*)\)", own):
+            expected, made = (ROOT / "docs" / self.PAGE).parent / shown, self.scratch / pathlib.Path(shown).name
+            self.assertTrue(expected.is_file(), shown)
+            self.assertTrue(made.is_file(), f"no command makes {shown}")
+            if made.suffix == ".svg":
+                xml.etree.ElementTree.parse(made)
+                continue
+            a, b = picture(expected), picture(made)
+            self.assertEqual(a.shape, b.shape, shown)
+            self.assertLess(np.abs(a - b).mean(), 0.015, shown)  # noise of another machine's bits
 
 
-class BenchToColour(Tutorial):
-    SCRIPT = "bench_to_colour.sh"
+class guide_calibration(Page):
+    PAGE = "guide/calibration.md"
 
     def test_the_chart_is_seen_as_well_as_the_camera_can(self):
         limit, found, uneven = (self.read(name)["unseen_dE00_mean"] for name in ("limit.json", "found.json", "uneven.json"))
@@ -85,33 +125,6 @@ class BenchToColour(Tutorial):
         self.assertAlmostEqual(found, self.claimed(r"flat-fielded (\d+(?:\.\d+)?)"), delta=0.005)
         self.assertAlmostEqual(uneven, self.claimed(r"as it is (\d+(?:\.\d+)?)"), delta=0.005)
         self.assertLess(abs(found - limit), 0.1)
-
-
-class NarrowFilters(Tutorial):
-    SCRIPT = "narrow_filters.sh"
-
-    def test_the_chart_is_seen_as_well_as_the_filters_can(self):
-        limit, found = (self.read(name)["unseen_dE00_mean"] for name in ("limit.json", "found.json"))
-        self.assertAlmostEqual(limit, self.claimed(r"without noise (\d+(?:\.\d+)?)"), delta=0.005)
-        self.assertAlmostEqual(found, self.claimed(r"flat-fielded (\d+(?:\.\d+)?)"), delta=0.005)
-        self.assertLess(abs(found - limit), 0.1)
-
-
-class BayerNoise(Tutorial):
-    SCRIPT = "bayer_noise.sh"
-
-    def test_gain_and_read_noise_are_those_of_the_model(self):
-        found = self.read("transfer.json")
-        gain, noise = (np.average(found[key], weights=[1, 2, 1]) for key in ("gain_e_per_dn", "read_noise_e"))
-        # What 98304 pixels tell.
-        self.assertAlmostEqual(gain / self.claimed(r"planted gain is (\d+(?:\.\d+)?)"), 1, delta=0.01)
-        self.assertAlmostEqual(noise / 3, 1, delta=0.01)
-        model = json.loads((spectra.DATA / "sensor" / "dslr_apsc_bayer_14bit.json").read_text())["sensor"]["readout"]
-        self.assertEqual(model["read_noise_e"], 3)
-
-
-class ChooseFilters(Tutorial):
-    SCRIPT = "choose_filters.py"
 
     def test_numpy_finds_the_same_errors(self):
         choice = self.read("choice.json")
@@ -130,8 +143,27 @@ class ChooseFilters(Tutorial):
         self.assertAlmostEqual(choice["best"]["left_out_dE00_mean"], self.claimed(r"best 40 nm set (\d+(?:\.\d+)?)"), delta=0.005)
 
 
-class Spectrograph(Tutorial):
-    SCRIPT = "spectrograph.py"
+class guide_ccd(Page):
+    PAGE = "guide/ccd.md"
+
+    def test_the_chart_is_seen_as_well_as_the_filters_can(self):
+        limit, found = (self.read(name)["unseen_dE00_mean"] for name in ("limit.json", "found.json"))
+        self.assertAlmostEqual(limit, self.claimed(r"without noise (\d+(?:\.\d+)?)"), delta=0.005)
+        self.assertAlmostEqual(found, self.claimed(r"flat-fielded (\d+(?:\.\d+)?)"), delta=0.005)
+        self.assertLess(abs(found - limit), 0.1)
+
+    def test_gain_and_read_noise_are_those_of_the_model(self):
+        found = self.read("transfer.json")
+        gain, noise = (np.average(found[key], weights=[1, 2, 1]) for key in ("gain_e_per_dn", "read_noise_e"))
+        # What 98304 pixels tell.
+        self.assertAlmostEqual(gain / self.claimed(r"planted gain is (\d+(?:\.\d+)?)"), 1, delta=0.01)
+        self.assertAlmostEqual(noise / 3, 1, delta=0.01)
+        model = json.loads((spectra.DATA / "sensor" / "dslr_apsc_bayer_14bit.json").read_text())["sensor"]["readout"]
+        self.assertEqual(model["read_noise_e"], 3)
+
+
+class guide_spectrograph(Page):
+    PAGE = "guide/spectrograph.md"
 
     def test_the_lines_of_cadmium_are_found(self):
         found = self.read("found.json")
@@ -139,8 +171,8 @@ class Spectrograph(Tutorial):
         self.assertLess(miss, self.claimed(r"within (\d+(?:\.\d+)?) nm"))
 
 
-class Rainbow(Tutorial):
-    SCRIPT = "rainbow.py"
+class guide_prism(Page):
+    PAGE = "guide/prism.md"
 
     def test_the_bow_ends_where_descartes_says(self):
         edges = self.read("edges.json")
@@ -157,8 +189,8 @@ class Rainbow(Tutorial):
         self.assertAlmostEqual(spread, wanted, delta=self.claimed(r"differ by is right to (\d+(?:\.\d+)?) mm"))
 
 
-class Lens(Tutorial):
-    SCRIPT = "lens.py"
+class guide_lens(Page):
+    PAGE = "guide/lens.md"
     BY_DAY = "--spp 1 --integrator path"  # its figures are of traced rays
 
     def test_the_focus_is_where_the_lensmaker_says(self):
@@ -169,8 +201,8 @@ class Lens(Tutorial):
             self.assertAlmostEqual(self.read("focus.json")[nm], paraxial, delta=0.01, msg=nm)
 
 
-class Lessons(Tutorial):
-    SCRIPT = "lessons.py"
+class guide_light_paths(Page):
+    PAGE = "guide/light_paths.md"
 
     def test_the_textbook_is_right(self):
         found = self.read("found.json")
@@ -206,7 +238,7 @@ class Lessons(Tutorial):
 
     def check_claims(self, row, measured):
         """The last numbers of the page's row that begins so are those measured, to the digits stated or what other machines' bits change."""
-        page = (FOLDER / "lessons.md").read_text()
+        page = self.text
         cells = re.search(rf"^\| {re.escape(row)} \|(.*)\|$", page, re.MULTILINE)[1].split("|")
         for cell, value in zip(cells[-len(measured):], measured):
             stated = float(cell)
@@ -221,7 +253,7 @@ class Lessons(Tutorial):
                 self.assertAlmostEqual(variance, expected, delta=0.03 * expected + 1e-6, msg=f"{directions}, {exponent}")
         for directions, density in (("uniform", "1/(2π)"), ("cosine", "cos θ/π"), ("bsdf", "f cos θ/ρ")):
             for exponent, last in (("1", 3), ("20", 1)):
-                page = (FOLDER / "lessons.md").read_text()
+                page = self.text
                 cells = re.search(rf"^\| `{directions}` \| {re.escape(density)} \|(.*)\|$", page, re.MULTILINE)[1].split("|")
                 self.assertAlmostEqual(float(cells[-last]), found[directions][exponent], delta=0.006, msg=directions)
 
@@ -246,10 +278,10 @@ class Lessons(Tutorial):
             self.check_claims(f"{albedo} | {depth:.0f}", [expected, variance])
 
     def check_plots(self):
-        shown = set(re.findall(r"\(\.\./images/(lessons_\w+\.\w+)\)", (FOLDER / "lessons.md").read_text()))
+        shown = set(re.findall(r"\(\.\./images/(lessons_\w+\.\w+)\)", self.text))
         self.assertEqual(shown, {path.name for path in self.scratch.glob("lessons_*")})
         for name in shown:
-            self.assertTrue((FOLDER.parent / "images" / name).is_file(), name)
+            self.assertTrue((ROOT / "docs" / "images" / name).is_file(), name)
         for name, lines, dots in (("photons", 2, 15), ("maps", 2, 7), ("directions", 3, 12), ("roulette", 3, 7), ("lamps", 4, 0)):
             svg = xml.etree.ElementTree.parse(self.scratch / f"lessons_{name}.svg")
             drawn = {tag: svg.findall(f".//{{http://www.w3.org/2000/svg}}{tag}") for tag in ("polyline", "circle")}
@@ -262,21 +294,26 @@ class Lessons(Tutorial):
                 below = np.diff([y for _, y in points[9:15]])
                 self.assertLess(np.ptp(below), 0.05 * below.mean())
 
-    def picture(self, name):
-        return oiio.ImageBuf(str(self.scratch / name)).get_pixels(oiio.FLOAT)
-
     def check_pictures(self):
-        ways = np.hsplit(self.picture("lessons_plates.png")[..., 1], 3)
+        ways = np.hsplit(picture(self.scratch / "lessons_plates.png")[..., 1], 3)
         smooth, rough = ((slice(57, 66), slice(146, 166)), (slice(109, 118), slice(40, 100)))  # under the largest lamp, under the smallest
         noise = [[np.abs(np.diff(way[part], axis=1)).mean() for way in ways] for part in (smooth, rough)]
         for best, worst, both in (noise[0], (noise[1][1], noise[1][0], noise[1][2])):
             self.assertGreater(worst, 5 * best)
             self.assertLess(both, 3 * best)
-        cloud, air = (half[26:46, 26:46].mean(axis=(0, 1)) for half in np.hsplit(self.picture("lessons_sky.png"), 2))
+        cloud, air = (half[26:46, 26:46].mean(axis=(0, 1)) for half in np.hsplit(picture(self.scratch / "lessons_sky.png"), 2))
         self.assertGreater(cloud.min(), 0.5)
         self.assertLess(np.ptp(cloud), 0.01)
         self.assertGreater(air[2], 1.2 * air[1])
         self.assertGreater(air[1], 1.2 * air[0])
+
+
+def case_name(page):
+    return page.stem if page.parent == ROOT else f"{page.parent.name}_{page.stem}"
+
+
+for one in PAGES:
+    globals().setdefault(case_name(one), type(case_name(one), (Page,), {"PAGE": os.path.relpath(one, ROOT / "docs")}))
 
 
 if __name__ == "__main__":
