@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A prism spectrograph: the commands of spectrograph.md."""
+"""A prism spectrograph: the measurement of docs/guide/spectrograph.md."""
 import json
 import pathlib
 
@@ -27,8 +27,6 @@ def hartmann(columns, nm):
     return lambda column: (a * column + rest) / (column - b)
 
 
-EYE = '{"resolution": [1024, 64], "pixel_pitch_um": 28, "observer": "1931"}'  # what one would see in place of the array
-run(f"abbe render data/scenes/spectrograph.json --spp 64 -o eye.exr --display spectrum.png --quiet --set '/sensor={EYE}'")
 run("abbe render data/scenes/spectrograph.json --spp 4096 -o mercury.exr --quiet")
 pathlib.Path("cadmium.json").write_text(json.dumps({"radiance": 50, "lines": [{"nm": nm, "width_nm": 0.01, "power": 1} for nm in CADMIUM_NM]}))
 lamp = pathlib.Path("cadmium.json").read_text()
