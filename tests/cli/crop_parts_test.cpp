@@ -55,26 +55,6 @@ TEST(CropParts, AddUpWherePhotonsAreTraced) {
   EXPECT_EQ(read_file(file("sum.exr")), read_file(file("whole.exr")));
 }
 
-// A smaller film saves time.
-TEST(CropParts, TheDocumentedExampleWorks) {
-  std::string text = read_file(source_tree() / "docs/guide/machines.md");
-  const std::size_t begin = text.find("```sh\n", text.find("\nFilms are cut by `--crop`")) + 6;
-  text = text.substr(begin, text.find("```", begin) - begin);
-  for (const auto& [from, to] : {std::pair{std::string("./abbe"), std::string(ABBE_BINARY)},
-                                 {"data/scenes/prism.json", ball()},
-                                 {"400", "10"},
-                                 {"640", "24"},
-                                 {"360", "16"}}) {
-    ASSERT_NE(text.find(from), std::string::npos) << from;
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-      text.replace(at, from.size(), to);
-  }
-  const Outcome run = shell("cd " + file("") + "\n" + text);
-  ASSERT_EQ(run.code, 0) << run.err;
-  ASSERT_EQ(abbe("render " + ball() + " --quiet -o " + file("whole.exr")).code, 0);
-  EXPECT_EQ(read_file(file("prism.exr")), read_file(file("whole.exr")));
-}
-
 TEST(CropParts, HoldNoOtherPixels) {
   const auto bytes = [](const std::string& path) { return read_part_file(path).bytes.size(); };
   EXPECT_EQ(bytes(part_of(ball(), "a", "--crop 3,2,9,6")) * 24 * 16, bytes(part_of(ball(), "b", "")) * 6 * 4);

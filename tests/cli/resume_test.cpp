@@ -179,35 +179,6 @@ TEST(Merge, UsageErrors) {
   EXPECT_EQ(merged(part_of_ball("a", "--sample-range 0:2"), "/nowhere/no.exr").code, 5);
 }
 
-// First example of the documentation, on a smaller film.
-TEST(Merge, TheDocumentedParallelExampleWorks) {
-  std::string text = read_file(source_tree() / "docs/guide/machines.md");
-  const std::size_t begin = text.find("```sh\n") + 6;
-  text = text.substr(begin, text.find("```", begin) - begin);
-  const auto replace_all = [&text](const std::string& from, const std::string& to) {
-    ASSERT_NE(text.find(from), std::string::npos) << from;
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-      text.replace(at, from.size(), to);
-  };
-  replace_all("./abbe", ABBE_BINARY);
-  replace_all("data/scenes/prism.json", ball());
-  const Outcome run = shell("cd " + (scratch() / "").string() + "\n" + text);
-  EXPECT_EQ(run.code, 0) << run.err;
-  EXPECT_NE(run.err.find("samples 0:64 of every pixel"), std::string::npos) << run.err;
-  ASSERT_EQ(abbe("render " + ball() + " --spp 64 --quiet -o " + file("whole64.exr")).code, 0);
-  EXPECT_EQ(read_file(file("prism.exr")), read_file(file("whole64.exr")));
-}
-
-// The nightly test of the cluster runs this example.
-TEST(Merge, TheDocumentedJobsAreTheirFiles) {
-  const std::string text = read_file(source_tree() / "docs/guide/machines.md");
-  for (const char* name : {"render.sbatch", "merge.sbatch", "submit.sh"}) {
-    const std::string job = read_file(source_tree() / "docs/guide/slurm" / name);
-    EXPECT_FALSE(job.empty()) << name;
-    EXPECT_NE(text.find("```sh\n" + job + "```\n"), std::string::npos) << name;
-  }
-}
-
 /// A render with checkpoints that takes about one second.
 class Checkpoint : public testing::Test {
  protected:

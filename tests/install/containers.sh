@@ -32,7 +32,7 @@ mkdir "$scratch/said"
 printf '#!/bin/sh\necho abbe "$@"\n' >"$scratch/said/abbe"
 printf '#!/bin/sh\nwhile [ "${1#-}" != "$1" ]; do shift; done\nexec "$@"\n' >"$scratch/said/srun"
 chmod +x "$scratch/said/"*
-awk '/^```/ {if (array) exit; text = ""; next} {text = text $0 "\n"; if (/#SBATCH --array=/) array = 1} END {printf "%s", text}' docs/guide/machines.md >"$scratch/array"
+cp docs/guide/slurm/render.sbatch "$scratch/array"
 array=$(sed -n 's/^#SBATCH.*--array=0-\([0-9]*\).*/\1/p' "$scratch/array")
 cpus=$(sed -n 's/^#SBATCH.*--cpus-per-task=\([0-9]*\).*/\1/p' "$scratch/array")
 . "$scratch/environment"
