@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Choosing filters for a given accuracy: the commands of choose_filters.md."""
+"""Choosing filters for a given accuracy: the search of docs/guide/calibration.md."""
 import itertools
 import json
 import pathlib
@@ -38,5 +38,5 @@ widths = [judge(centres, width) for width in WIDTHS_NM]
 
 for one in [*tried, *widths]:
     print(f"{one['bands']:30} {one['left_out_dE00_mean']:.2f}")
-pathlib.Path("filters.svg").write_text(bars([*tried, *widths]))
+pathlib.Path("tutorial_filters.svg").write_text(bars([*tried, *widths]))
 pathlib.Path("choice.json").write_text(json.dumps({"tried": tried, "best": best, "widths": widths}))
