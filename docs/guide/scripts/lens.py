@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Parallel light and lenses by priority: the commands of lens.md."""
+"""Parallel light and lenses by priority: the rays of docs/guide/lens.md."""
 import json
 import pathlib
 
@@ -15,9 +15,6 @@ def back_focal_mm(nm):
     along_x, _, along_z = path["final_dir"]
     return FLAT_MM - (z - x / along_x * along_z)
 
-
-run("abbe draw data/scenes/lens.json -o lens.svg --rays 11")
-run("abbe render data/scenes/lens.json -o lens.exr --display lens.png --quiet")
 
 found = {nm: back_focal_mm(nm) for nm in ("486.1327", "587.5618", "656.2725")}
 print(found)
