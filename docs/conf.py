@@ -2,6 +2,8 @@
 import pathlib
 import re
 
+from pygments.lexers.javascript import JavascriptLexer
+
 project = "Abbe"
 html_title = "Abbe manual"
 extensions = ["myst_parser"]
@@ -35,4 +37,5 @@ def add_contents(app, name, source):
 
 
 def setup(app):
+    app.add_lexer("jsonc", JavascriptLexer)  # JSON with comments
     app.connect("source-read", add_contents)
