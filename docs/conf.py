@@ -18,6 +18,10 @@ html_theme_options = {
     "sidebar_width": "260px",
     "body_max_width": "none",
     "fixed_sidebar": True,
+    "font_family": "sans-serif",
+    "head_font_family": "sans-serif",
+    "font_size": "16px",
+    "code_font_size": "0.78em",
 }
 html_sidebars = {"**": ["about.html", "searchbox.html", "navigation.html"]}
 html_show_copyright = False
