@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""A rainbow by the sun: the commands of rainbow.md."""
+"""A rainbow by the sun: the angles of docs/guide/prism.md."""
 import json
 import pathlib
 
@@ -25,7 +25,6 @@ def outer_edge_mm(image):
     return ring[beyond - 1] + 0.5 + share
 
 
-run("abbe render data/scenes/rainbow.json --spp 16 -o rainbow.exr --display rainbow.png --quiet")
 run(f"abbe render data/scenes/rainbow.json --spp 64 -o bands.exr --display bands.png --quiet --set '/sensor={BANDS}' --set /lights/0/sun/angular_diameter_deg=0.05")
 
 film = planes("bands.exr")
