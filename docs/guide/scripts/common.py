@@ -1,4 +1,4 @@
-"""What the scripts of the tutorials share."""
+"""What the scripts of the guide share."""
 import pathlib
 import shlex
 import subprocess

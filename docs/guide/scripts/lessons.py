@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What light does, and how it is found: the commands of lessons.md."""
+"""What light does, and how it is found: the experiments of docs/guide/light_paths.md."""
 import json
 import pathlib
 import shlex

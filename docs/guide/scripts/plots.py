@@ -1,4 +1,4 @@
-"""Plots of the tutorials as SVG: curves of formulas, and dots where they were measured."""
+"""Plots of the guide as SVG: curves of formulas, and dots where they were measured."""
 import math
 import pathlib
 from typing import NamedTuple
