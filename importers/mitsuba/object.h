@@ -70,6 +70,15 @@ class Object {
   [[nodiscard]] const std::string& type() const { return (*element_)["type"]; }
   [[nodiscard]] const SourcePosition& where() const { return element_->where; }
   [[nodiscard]] const Element& element() const { return *element_; }
+  [[nodiscard]] const ImportState& state() const { return *import_; }
+  [[nodiscard]] SceneImporter& importer() const { return import_->importer; }
+
+  /// Notes an approximated or dropped property of the object.
+  void note(const std::string& text) const { importer().note(where(), text); }
+  /// Reports an error at the object; the result is nothing.
+  std::nullopt_t fail(std::string what, ErrorCode code = ErrorCode::scene) const {
+    return importer().fail(where(), std::move(what), code);
+  }
 
   /// The first property called `name`, with references resolved; nullptr, without an error, if there is none.
   /// Its tag must be one of `tags`. Reports another tag and an unresolved reference, and returns nullptr.

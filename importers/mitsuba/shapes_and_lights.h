@@ -20,16 +20,11 @@ namespace abbe::importers::mitsuba {
 /// `owner` is the kind of the owner of `shapes`. Reports unknown types, missing files and an instance without
 /// one shape group. A supported type without a counterpart and properties that Abbe cannot represent are
 /// noted and dropped.
-void add_shape(const Object& shape, ShapeOwner owner, std::vector<spec::Shape>& shapes, Materials& materials,
-               const ImportState& state);
-
-/// The emission of a surface with an area light, from its property "radiance". Reports a `light` of any other
-/// type than "area".
-[[nodiscard]] spec::Emission area_emission(const Object& light, const ImportState& state);
+void add_shape(const Object& shape, ShapeOwner owner, std::vector<spec::Shape>& shapes, Materials& materials);
 
 /// Adds an <emitter> that is not an area light to `state.importer.scene.lights`. A type of Mitsuba without a
 /// counterpart in Abbe is noted and dropped. Reports an unknown type, malformed properties and missing files;
 /// notes properties that Abbe cannot represent.
-void add_light(const Object& light, const ImportState& state);
+void add_light(const Object& light);
 
 }  // namespace abbe::importers::mitsuba

@@ -187,7 +187,7 @@ spec::Material Materials::converted(const MaterialUse& use) {
     material.model = medium_of(use.interior, directive.where, import_);
   } else {
     if (std::ranges::find(kMaterialTypes, type) == kMaterialTypes.end())
-      import_.importer.diagnostics.error(directive.where, unknown_name("material", type, kMaterialTypes));
+      import_.importer.fail(directive.where, unknown_name("material", type, kMaterialTypes));
     material.model = replacement(directive, import_);
   }
   return material;
@@ -199,7 +199,7 @@ spec::Material Materials::mixture(const Directive& directive) {
   const double second = number(directive.parameters, "amount", 0.5, import_);
   const Parameter* names = directive.parameters.find("materials", {"string"}, import_.importer);
   if (names == nullptr || names->texts.size() != 2) {
-    import_.importer.diagnostics.error(directive.where, "a mix needs \"materials\" with two names");
+    import_.importer.fail(directive.where, "a mix needs \"materials\" with two names");
     return {spec::Diffuse{curve_of(0.5, directive.where, import_.importer)}, {}, {}};
   }
   for (std::size_t i = 0; i < 2; ++i) {
@@ -207,8 +207,7 @@ spec::Material Materials::mixture(const Directive& directive) {
         find(import_.materials, "material", names->texts[i], names->where, import_.importer);
     if (part == nullptr) continue;
     if (part->type == "mix" || part->type == "dielectric" || part->type == "interface") {
-      import_.importer.diagnostics.error(names->where,
-                                         fmt::format("a mix with \"{}\" is not supported", part->type));
+      import_.importer.fail(names->where, fmt::format("a mix with \"{}\" is not supported", part->type));
       continue;
     }
     spec::MixturePart mixed;

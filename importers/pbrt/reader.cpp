@@ -227,8 +227,7 @@ bool Reader::read_named_directive(const Token& word, const Parameters& attribute
   if (!read_directive(word, directive)) return false;
   directive.parameters.add_defaults(attributes);
   const std::string name = std::exchange(directive.type, directive.parameters.text("type", "", importer_));
-  if (directive.type.empty())
-    importer_.diagnostics.error(word.where, fmt::format("{} needs \"string type\"", word.text));
+  if (directive.type.empty()) importer_.fail(word.where, fmt::format("{} needs \"string type\"", word.text));
   to[name] = std::move(directive);
   return true;
 }
@@ -335,7 +334,7 @@ bool Reader::object_instance(const Token& word) {
   std::vector<std::string> names;
   for (const auto& object : importer_.scene.objects) names.push_back(object.name);
   if (std::ranges::find(names, name[0]) == names.end())
-    importer_.diagnostics.error(word.where, unknown_name("object", name[0], names));
+    importer_.fail(word.where, unknown_name("object", name[0], names));
   else
     append_instance(name[0], graphics_state_.to_world * import_.world_mirror, word.where, importer_);
   return true;

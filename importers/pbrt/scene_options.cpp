@@ -90,10 +90,9 @@ void note_exposure(const Directive& camera, SceneImporter& importer) {
   const double opens = camera.parameters.number("shutteropen", 0, importer);
   const double closes = camera.parameters.number("shutterclose", 1, importer);
   if (!(closes > opens))
-    importer.diagnostics.error(
-        camera.where,
-        fmt::format("the shutter {} (got {} and {})",
-                    closes < opens ? "closes before it opens" : "does not open", closes, opens));
+    importer.fail(camera.where,
+                  fmt::format("the shutter {} (got {} and {})",
+                              closes < opens ? "closes before it opens" : "does not open", closes, opens));
   else if (closes - opens != 1)
     importer.note(
         camera.where,
@@ -109,7 +108,7 @@ void set_perspective_camera(const SceneOptions& options, ImportState& state) {
   if (camera.type != "perspective") {
     const std::vector<std::string> types{"orthographic", "perspective", "realistic", "spherical"};
     if (std::ranges::find(types, camera.type) == types.end())
-      importer.diagnostics.error(camera.where, unknown_name("camera", camera.type, types));
+      importer.fail(camera.where, unknown_name("camera", camera.type, types));
     else
       importer.note(
           camera.where,
@@ -126,7 +125,7 @@ void set_perspective_camera(const SceneOptions& options, ImportState& state) {
     imported.resolution = {1280, 720};
   }
   if (imported.resolution[0] < 1 || imported.resolution[1] < 1) {
-    importer.diagnostics.error(options.film->where, "a film needs at least one pixel along each axis");
+    importer.fail(options.film->where, "a film needs at least one pixel along each axis");
     return;
   }
   const Parameters& p = camera.parameters;

@@ -29,8 +29,7 @@ const std::vector<std::string> kShapeTypes{"bilinearmesh", "curve",   "cylinder"
                                            "loopsubdiv",   "plymesh", "sphere",   "trianglemesh"};
 
 void report_missing(const Directive& directive, std::string_view name, ImportState& state) {
-  state.importer.diagnostics.error(directive.where,
-                                   fmt::format("a shape \"{}\" needs \"{}\"", directive.type, name));
+  state.importer.fail(directive.where, fmt::format("a shape \"{}\" needs \"{}\"", directive.type, name));
 }
 
 std::vector<std::array<double, 3>> points(const Parameters& p, ImportState& state) {
@@ -47,12 +46,10 @@ std::vector<std::array<double, 3>> points(const Parameters& p, ImportState& stat
 std::optional<std::vector<std::uint32_t>> indices(const Directive& directive, std::size_t points,
                                                   std::size_t count, ImportState& state) {
   std::vector<std::uint32_t> indices;
-  if (!directive.parameters.has("indices") && points != count) {
-    state.importer.diagnostics.error(
+  if (!directive.parameters.has("indices") && points != count)
+    return state.importer.fail(
         directive.where, fmt::format("a shape \"{}\" needs \"indices\" unless it has {} points (got {})",
                                      directive.type, count, points));
-    return std::nullopt;
-  }
   if (!directive.parameters.has("indices")) indices.resize(count);
   std::iota(indices.begin(), indices.end(), 0U);
   for (const double index : directive.parameters.numbers("indices", state.importer)) {
@@ -60,9 +57,8 @@ std::optional<std::vector<std::uint32_t>> indices(const Directive& directive, st
       indices.push_back(static_cast<std::uint32_t>(index));
       continue;
     }
-    state.importer.diagnostics.error(
-        directive.where,
-        fmt::format("an index is out of range (got {}, allowed [0, {}])", index, points - 1));
+    state.importer.fail(directive.where,
+                        fmt::format("an index is out of range (got {}, allowed [0, {}])", index, points - 1));
     return std::nullopt;
   }
   const std::size_t excess = indices.size() % count;
@@ -217,10 +213,8 @@ std::optional<Surface> surface_of(const Directive& directive, ImportState& state
   if (type == "sphere") return sphere(directive, state);
   if (type == "disk") return disk(directive, state);
   if (type == "cylinder") return cylinder(directive, state);
-  if (std::ranges::find(kShapeTypes, type) == kShapeTypes.end()) {
-    state.importer.diagnostics.error(directive.where, unknown_name("shape", type, kShapeTypes));
-    return std::nullopt;
-  }
+  if (std::ranges::find(kShapeTypes, type) == kShapeTypes.end())
+    return state.importer.fail(directive.where, unknown_name("shape", type, kShapeTypes));
   state.importer.note(directive.where, fmt::format("a shape \"{}\" is not supported: dropped", type));
   directive.parameters.ignore(
       {"P", "N", "indices", "levels", "type", "width", "width0", "width1", "basis", "degree"});
@@ -411,8 +405,8 @@ void add_shape(const ShapeUse& use, ShapeOwner owner, std::vector<spec::Shape>& 
 
 spec::Emission area_emission(const Directive& light, const std::vector<double>& faces, ImportState& state) {
   if (light.type != "diffuse")
-    state.importer.diagnostics.error(
-        light.where, unknown_name("area light", light.type, std::vector<std::string>{"diffuse"}));
+    state.importer.fail(light.where,
+                        unknown_name("area light", light.type, std::vector<std::string>{"diffuse"}));
   ImportedLightSpectrum emitted = light_spectrum(light, "L", state);
   const double power = light.parameters.number("power", 0, state.importer);
   if (!(power > 0) || !emitted.photometric)
@@ -437,7 +431,7 @@ void add_light(const Directive& light, const Imath::M44d& to_world, ImportState&
   } else if (light.type == "infinite") {
     add_infinite(light, state);
   } else if (std::ranges::find(kLightTypes, light.type) == kLightTypes.end()) {
-    state.importer.diagnostics.error(light.where, unknown_name("light", light.type, kLightTypes));
+    state.importer.fail(light.where, unknown_name("light", light.type, kLightTypes));
   } else {
     state.importer.note(light.where, fmt::format("a light \"{}\" is not supported: dropped", light.type));
     return;

@@ -127,8 +127,7 @@ std::optional<Spectrum> file_or_name(const std::string& name, const SourcePositi
   for (const Renamed& entry : kMetals) add_metal(entry.source_name, names);
   add_metal(kMagnesia, names);
   add_names(kGlasses, names);
-  state.importer.diagnostics.error(where, unknown_name("spectrum", name, names));
-  return std::nullopt;
+  return state.importer.fail(where, unknown_name("spectrum", name, names));
 }
 
 std::optional<Spectrum> spectrum_of(const Parameter& parameter, ImportState& state) {
@@ -142,13 +141,10 @@ std::optional<Spectrum> spectrum_of(const Parameter& parameter, ImportState& sta
     samples.nm.push_back(parameter.numbers[i]);
     samples.values.push_back(parameter.numbers[i + 1]);
   }
-  if (parameter.numbers.size() % 2 != 0) {
-    state.importer.diagnostics.error(parameter.where,
-                                     fmt::format("\"{}\" takes pairs of wavelength and value (got "
-                                                 "{} numbers)",
-                                                 parameter.name, parameter.numbers.size()));
-    return std::nullopt;
-  }
+  if (parameter.numbers.size() % 2 != 0)
+    return state.importer.fail(parameter.where, fmt::format("\"{}\" takes pairs of wavelength and value (got "
+                                                            "{} numbers)",
+                                                            parameter.name, parameter.numbers.size()));
   if (!check_samples(samples, parameter.where, state.importer)) return std::nullopt;
   return samples;
 }
@@ -242,10 +238,7 @@ std::optional<spec::TextureFile> image_file(const Parameters& parameters, const 
                                             ImportState& state) {
   SceneImporter& importer = state.importer;
   const Parameter* name = parameters.find("filename", {"string"}, importer);
-  if (name == nullptr) {
-    importer.diagnostics.error(where, "an image needs \"filename\"");
-    return std::nullopt;
-  }
+  if (name == nullptr) return importer.fail(where, "an image needs \"filename\"");
   const auto path = state.folder / name->texts.front();
   if (!importer.check_file(path, name->where)) return std::nullopt;
   spec::TextureFile file;
@@ -255,7 +248,7 @@ std::optional<spec::TextureFile> image_file(const Parameters& parameters, const 
   const std::string wrap = parameters.text("wrap", "repeat", importer);
   const std::vector<std::string> wraps{"black", "clamp", "octahedralsphere", "repeat"};
   if (std::ranges::find(wraps, wrap) == wraps.end())
-    importer.diagnostics.error(where, unknown_name("wrap mode", wrap, wraps));
+    importer.fail(where, unknown_name("wrap mode", wrap, wraps));
   if (wrap != "repeat") file.mapping.wrap = TextureWrap::clamp;
   if (wrap == "black" || wrap == "octahedralsphere")
     importer.note(

@@ -30,14 +30,9 @@ struct Step {
 
 // World-to-camera matrix of LookAt, for a camera with x to the right, y up and z forward.
 Step look_at(const std::vector<double>& n) {
-  const V3d from(n[0], n[1], n[2]);
-  const V3d z = (V3d(n[3], n[4], n[5]) - from).normalized();
-  const V3d right = V3d(n[6], n[7], n[8]).normalized().cross(z);
-  if (z.length2() == 0 || right.length2() < 1e-24)
-    return {{}, "the view direction is zero or parallel to up"};
-  const V3d x = right.normalized();
-  const V3d y = z.cross(x);
-  return {M44d(x.x, x.y, x.z, 0, y.x, y.y, y.z, 0, z.x, z.y, z.z, 0, from.x, from.y, from.z, 1).inverse()};
+  const auto camera = looking_at({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, V3d(n[6], n[7], n[8]).normalized());
+  if (!camera) return {{}, "the view direction is zero or parallel to up"};
+  return {camera->inverse()};
 }
 
 Step translate(const std::vector<double>& n) {
@@ -215,7 +210,7 @@ void Tokens::open(const std::filesystem::path& file) {
 
 void Tokens::include(const std::filesystem::path& file, const SourcePosition& where) {
   if (files_.size() == kMaxFiles) {
-    importer_.diagnostics.error(where, fmt::format("files are included more than {} levels deep", kMaxFiles));
+    importer_.fail(where, fmt::format("files are included more than {} levels deep", kMaxFiles));
     failed_ = true;
   } else if (!importer_.count_include(where) || !is_file(file, where, importer_.diagnostics)) {
     failed_ = true;
@@ -276,7 +271,7 @@ std::optional<Token> Tokens::read_quoted(OpenFile& file) {
     if (text[i] == '\\' && i + 1 < text.size()) ++i;
     word += text[i];
   }
-  importer_.diagnostics.error(end_, "a quoted text without its closing quote");
+  importer_.fail(end_, "a quoted text without its closing quote");
   failed_ = true;
   return std::nullopt;
 }
@@ -342,8 +337,8 @@ const Parameter* Parameters::find(std::string_view name, std::initializer_list<c
   if (found == list_.end()) return nullptr;
   found->used = true;
   if (std::ranges::find(types, found->type) != types.end()) return &*found;
-  importer.diagnostics.error(found->where, fmt::format("\"{}\" has a wrong type (got {}, allowed {})", name,
-                                                       found->type, fmt::join(types, ", ")));
+  importer.fail(found->where, fmt::format("\"{}\" has a wrong type (got {}, allowed {})", name, found->type,
+                                          fmt::join(types, ", ")));
   return nullptr;
 }
 
@@ -354,9 +349,9 @@ const Parameter* Parameters::single(std::string_view name, std::initializer_list
   if (found == nullptr) return nullptr;
   const std::size_t values = found->numbers.size() + found->texts.size();
   if (values == count) return found;
-  importer.diagnostics.error(found->where,
-                             fmt::format("\"{}\" takes {} (got {})", name,
-                                         count == 1 ? "one value" : fmt::format("{} values", count), values));
+  importer.fail(found->where,
+                fmt::format("\"{}\" takes {} (got {})", name,
+                            count == 1 ? "one value" : fmt::format("{} values", count), values));
   return nullptr;
 }
 

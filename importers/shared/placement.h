@@ -25,6 +25,10 @@ namespace abbe::importers {
 [[nodiscard]] Imath::M44d translation(const Imath::V3d& by);
 /// A right-handed rotation by `deg` degrees about an axis through the origin, of any length except 0.
 [[nodiscard]] Imath::M44d rotation(const Imath::V3d& axis, double deg);
+/// Camera-to-world matrix of a view from one point to another, with z along the view, x along `up` x z and y
+/// = z x x. Nothing if the view direction is zero or parallel to `up`.
+[[nodiscard]] std::optional<Imath::M44d> looking_at(const Imath::V3d& from, const Imath::V3d& target,
+                                                    const Imath::V3d& up);
 /// True if the matrix changes handedness: the determinant of its linear part is negative.
 [[nodiscard]] bool mirrors(const Imath::M44d& matrix);
 

@@ -33,6 +33,16 @@ bool SceneImporter::refuse(const SourcePosition& where, std::string what) {
   return false;
 }
 
+std::nullopt_t SceneImporter::fail(const SourcePosition& where, std::string what, ErrorCode code) {
+  diagnostics.error(where, std::move(what), code);
+  return std::nullopt;
+}
+
+bool SceneImporter::is_known(std::string_view what, const std::string& name,
+                             const std::vector<std::string>& names, const SourcePosition& where) {
+  return std::ranges::find(names, name) != names.end() || refuse(where, unknown_name(what, name, names));
+}
+
 void SceneImporter::limit_depth(int depth, const SourcePosition& where) {
   if (depth < 1) note(where, "a maximum depth below 1 is not supported: 1 is used");
   scene.render->max_depth = std::max(1, depth);

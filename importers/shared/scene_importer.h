@@ -3,7 +3,9 @@
 #include <cstddef>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -39,8 +41,13 @@ struct SceneImporter {
 
   /// Notes an approximated or dropped property. Equal texts are stored once and counted.
   void note(const SourcePosition& where, const std::string& text);
-  /// Reports an error with ErrorCode::scene at `where` and returns false.
+  /// Reports an error at `where`; `refuse` returns false, `fail` nothing.
   bool refuse(const SourcePosition& where, std::string what);
+  std::nullopt_t fail(const SourcePosition& where, std::string what, ErrorCode code = ErrorCode::scene);
+  /// True if `name` is one of `names`. Otherwise reports it at `where` with the nearest one; `what` is the
+  /// noun for them.
+  bool is_known(std::string_view what, const std::string& name, const std::vector<std::string>& names,
+                const SourcePosition& where);
   /// Sets the maximum number of scattering events of a path. A value below 1 becomes 1, which is noted.
   /// `scene.render` must be set.
   void limit_depth(int depth, const SourcePosition& where);
@@ -100,17 +107,6 @@ class OwnedReservation {
   const SceneImporter* account_ = nullptr;
   std::size_t bytes_ = 0;
 };
-
-/// Adds a light to `importer.scene.lights`. `light_spec` is an alternative of `spec::Light::kind`. Throws
-/// Error{resource} if the memory limit of `importer.inputs` is exceeded.
-template <typename LightSpec>
-void append_light(LightSpec light_spec, const SourcePosition& where, SceneImporter& importer) {
-  importer.reserve_values(kValuesPerItem);
-  spec::Light light;
-  light.kind = std::move(light_spec);
-  light.where = where;
-  importer.scene.lights.push_back(std::move(light));
-}
 
 /// Falloff of a spot's intensity from 1 at an inner angle to 0 at an outer angle from its axis. At the angle
 /// a between them, let t = (cos a - cos outer)/(cos inner - cos outer). The intensity is

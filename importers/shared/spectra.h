@@ -17,7 +17,7 @@ namespace abbe::importers {
 
 /// Samples of a spectrum, linearly interpolated.
 struct Samples {
-  std::vector<double> nm;            ///< Wavelengths, strictly ascending, two or more; see `check_samples`.
+  std::vector<double> nm;            ///< Wavelengths, strictly ascending, two or more; see `checked`.
   std::vector<double> values;        ///< One value per wavelength, in the unit of the use.
   Outside outside = Outside::clamp;  ///< Values outside the wavelengths: those of the ends, or 0.
 };
@@ -37,10 +37,14 @@ using Spectrum = std::variant<double, LinearRgb, Samples, Temperature, ShippedTa
 /// The value of a property that may vary over a surface: a spectrum, or an image.
 using TextureValue = std::variant<Spectrum, spec::Texture>;
 
-/// True if there are two samples or more and wavelengths ascend strictly; otherwise reports an error at
-/// `where`.
-[[nodiscard]] bool check_samples(const Samples& samples, const SourcePosition& where,
-                                 SceneImporter& importer);
+/// The samples. Nothing, after an error at `where`, if there are fewer than two, or wavelengths do not ascend
+/// strictly.
+[[nodiscard]] std::optional<Samples> checked(Samples samples, const SourcePosition& where,
+                                             SceneImporter& importer);
+/// Samples from an even number of numbers, wavelength [nm] and value in turn, that are 0 outside. Checks them
+/// as `checked`.
+[[nodiscard]] std::optional<Samples> samples_of_pairs(const std::vector<double>& pairs,
+                                                      const SourcePosition& where, SceneImporter& importer);
 
 /// The spectrum of a linear Rec.709 colour as a mixture of `rgb_basis`, every 5 nm from 380 to 780 nm. Values
 /// are rounded to 1e-6. White (1, 1, 1) is 1 at all wavelengths.
@@ -104,18 +108,28 @@ struct ImportedLightSpectrum {
                                                                double y, const SourcePosition& where,
                                                                SceneImporter& importer);
 
-/// The emission of one type of light. Its scale is `light.photometric` as `quantity`, or none if that is
-/// absent.
-template <typename Emission, spec::Quantity quantity>
-[[nodiscard]] Emission emission_of(const ImportedLightSpectrum& light) {
-  Emission emission;
-  static_cast<spec::Emission&>(emission) = light.emission;
+/// The emission of a light. Its scale is `light.photometric` as `quantity`, or none if that is absent.
+template <spec::Quantity quantity>
+[[nodiscard]] spec::Emission emission_of(const ImportedLightSpectrum& light) {
+  spec::Emission emission = light.emission;
   if (light.photometric) emission.scale = spec::Amount<quantity>{{*light.photometric}};
   return emission;
 }
+/// Adds a light of the type `Light`, an alternative of `spec::Light::kind`, with the emission
+/// `emission_of<quantity>`.
+template <typename Light, spec::Quantity quantity>
+void append_light(decltype(Light::source) source, const ImportedLightSpectrum& emitted,
+                  const SourcePosition& where, SceneImporter& importer) {
+  using Emission = typename decltype(std::optional(Light::emission))::value_type;
+  importer.reserve_values(kValuesPerItem);
+  spec::Light light;
+  light.kind = Light{std::move(source), Emission{emission_of<quantity>(emitted)}};
+  light.where = where;
+  importer.scene.lights.push_back(std::move(light));
+}
 
 /// Reads a text file with a wavelength [nm] and a value per line, separated by blanks, tabs or a comma; `#`
-/// begins a comment. The samples clamp at their ends. Reports to `importer.diagnostics`:
+/// begins a comment. The samples are 0 outside. Reports to `importer.diagnostics`:
 /// - a missing or unreadable file, at `where`;
 /// - malformed lines, fewer than two samples and wavelengths that do not ascend, at their positions in the
 /// file. Returns nothing after an error. Throws Error{resource} if the memory limit of `importer.inputs` is
