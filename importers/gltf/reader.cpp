@@ -143,8 +143,7 @@ void add_light(const JsonValue& light, const M44d& transform, const Document& do
     append_light<spec::DirectionalLightSource, Quantity::illuminance>({-along, {}}, emitted, light.where,
                                                                       document.importer);
   } else {
-    document.importer.fail(
-        light.where, unknown_name("light", type, std::vector<std::string>{"directional", "point", "spot"}));
+    document.importer.is_known("light", type, {"directional", "point", "spot"}, light.where);
   }
 }
 

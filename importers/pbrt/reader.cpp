@@ -226,7 +226,7 @@ bool Reader::read_named_directive(const Token& word, const Parameters& attribute
   Directive directive;
   if (!read_directive(word, directive)) return false;
   directive.parameters.add_defaults(attributes);
-  const std::string name = std::exchange(directive.type, directive.parameters.text("type", "", importer_));
+  const std::string name = std::exchange(directive.type, directive.parameters.text("type", ""));
   if (directive.type.empty()) importer_.fail(word.where, fmt::format("{} needs \"string type\"", word.text));
   to[name] = std::move(directive);
   return true;
@@ -299,8 +299,7 @@ bool Reader::attribute_end(const Token& word) {
 bool Reader::attribute(const Token& word) {
   Directive target;
   if (!read_directive(word, target)) return false;
-  if (std::ranges::find(kAttributeTargets, target.type) == kAttributeTargets.end())
-    return importer_.refuse(word.where, unknown_name("target of attributes", target.type, kAttributeTargets));
+  if (!importer_.is_known("target of attributes", target.type, kAttributeTargets, word.where)) return false;
   target.parameters.add_defaults(graphics_state_.attributes[target.type]);
   graphics_state_.attributes[target.type] = target.parameters;
   return true;
@@ -333,9 +332,7 @@ bool Reader::object_instance(const Token& word) {
   if (std::ranges::find(empty_objects_, name[0]) != empty_objects_.end()) return true;
   std::vector<std::string> names;
   for (const auto& object : importer_.scene.objects) names.push_back(object.name);
-  if (std::ranges::find(names, name[0]) == names.end())
-    importer_.fail(word.where, unknown_name("object", name[0], names));
-  else
+  if (importer_.is_known("object", name[0], names, word.where))
     append_instance(name[0], graphics_state_.to_world * import_.world_mirror, word.where, importer_);
   return true;
 }
@@ -390,7 +387,7 @@ bool Reader::colour_space(const Token& word) {
 
 bool Reader::option(const Token& word) {
   const auto parameters = Parameters::read(tokens_, importer_);
-  if (parameters) parameters->note_unused(word.text, importer_);
+  if (parameters) parameters->note_unused(word.text);
   return parameters.has_value();
 }
 
@@ -462,7 +459,7 @@ bool Reader::texture(const Token& word) {
   TextureValue value = texture_of(directive, *kind, import_);
   importer_.reserve_memory(bytes_of_samples(value));
   import_.textures[*kind][names[0]] = std::move(value);
-  directive.parameters.note_unused(fmt::format("texture \"{}\"", directive.type), importer_);
+  directive.parameters.note_unused(fmt::format("texture \"{}\"", directive.type));
   return true;
 }
 
@@ -481,21 +478,22 @@ bool Reader::area_light(const Token& word) {
 }
 
 bool Reader::shape(const Token& word) {
-  ShapeUse use;
-  if (!read_directive(word, use.directive)) return false;
+  Directive directive;
+  if (!read_directive(word, directive)) return false;
   if (!in_world_) return importer_.refuse(word.where, "a shape before WorldBegin");
-  use.directive.parameters.add_defaults(graphics_state_.attributes["shape"]);
+  directive.parameters.add_defaults(graphics_state_.attributes["shape"]);
   const bool bare = graphics_state_.material.directive.type == "interface" ||
                     graphics_state_.material.directive.type.empty();
   if (bare && graphics_state_.interior.empty() && !graphics_state_.area_light)
     return true;  // There is neither a surface nor a medium.
   MaterialUse material = graphics_state_.material;
   if (bare || material.directive.type == "dielectric") material.interior = graphics_state_.interior;
-  use.material = materials_.name_of(material);
-  use.reversed = graphics_state_.reversed;
-  use.emission = graphics_state_.area_light;
-  use.to_world = object_ ? graphics_state_.to_world : graphics_state_.to_world * import_.world_mirror;
-  add_shape(use, object_ ? ShapeOwner::object : ShapeOwner::scene,
+  ImportedShape shape;
+  shape.material = materials_.name_of(material);
+  shape.reversed = graphics_state_.reversed;
+  shape.to_world = object_ ? graphics_state_.to_world : graphics_state_.to_world * import_.world_mirror;
+  add_shape(directive, graphics_state_.area_light, std::move(shape),
+            object_ ? ShapeOwner::object : ShapeOwner::scene,
             object_ ? object_->value.shapes : importer_.scene.shapes, import_);
   return true;
 }

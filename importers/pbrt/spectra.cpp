@@ -117,10 +117,7 @@ std::optional<Spectrum> file_or_name(const std::string& name, const SourcePositi
   if (const auto shipped = renamed(kMetals, metal)) return index_samples(*shipped, extinction, where, state);
   if (const auto glass = renamed(kGlasses, name)) return index_samples(*glass, false, where, state);
   if (name.find('.') != std::string::npos) {
-    auto samples = read_spectrum_file(state.folder / name, where, state.importer);
-    if (!samples) return std::nullopt;
-    samples->outside = Outside::zero;
-    return *samples;
+    return read_spectrum_file(state.folder / name, where, state.importer);
   }
   std::vector<std::string> names;
   add_names(kIlluminants, names);
@@ -136,17 +133,11 @@ std::optional<Spectrum> spectrum_of(const Parameter& parameter, ImportState& sta
   if (parameter.type == "rgb" || parameter.type == "color")
     return LinearRgb{parameter.numbers[0], parameter.numbers[1], parameter.numbers[2]};
   if (!parameter.texts.empty()) return file_or_name(parameter.texts.front(), parameter.where, state);
-  Samples samples{{}, {}, Outside::zero};
-  for (std::size_t i = 0; i + 1 < parameter.numbers.size(); i += 2) {
-    samples.nm.push_back(parameter.numbers[i]);
-    samples.values.push_back(parameter.numbers[i + 1]);
-  }
   if (parameter.numbers.size() % 2 != 0)
-    return state.importer.fail(parameter.where, fmt::format("\"{}\" takes pairs of wavelength and value (got "
-                                                            "{} numbers)",
-                                                            parameter.name, parameter.numbers.size()));
-  if (!check_samples(samples, parameter.where, state.importer)) return std::nullopt;
-  return samples;
+    return state.importer.fail(parameter.where,
+                               fmt::format("\"{}\" takes pairs of wavelength and value (got {} numbers)",
+                                           parameter.name, parameter.numbers.size()));
+  return samples_of_pairs(parameter.numbers, parameter.where, state.importer);
 }
 
 // The texture of that kind and name; an unknown one is reported.
@@ -161,7 +152,7 @@ TextureValue scaled_texture(const Directive& directive, TextureKind kind, Import
   TextureValue value = texture(directive.parameters, "tex", 1.0, kind, state);
   const double factor = number(directive.parameters, "scale", 1, state);
   if (auto* spectrum = std::get_if<Spectrum>(&value)) return scaled(*spectrum, factor);
-  if (factor != 1) state.importer.note(directive.where, "a scale of an image is not supported: dropped");
+  if (factor != 1) directive.note("a scale of an image is not supported: dropped");
   return value;
 }
 
@@ -173,14 +164,12 @@ TextureValue texture_of(const Directive& directive, TextureKind kind, ImportStat
   if (directive.type == "imagemap") {
     const auto file = image_file(directive.parameters, directive.where, state);
     if (!file) return Spectrum(0.5);
-    const std::string encoding = directive.parameters.text("encoding", "sRGB", state.importer);
+    const std::string encoding = directive.parameters.text("encoding", "sRGB");
     if (encoding != "linear" && encoding != "sRGB")
-      state.importer.note(directive.where, "a gamma encoding of an image is not supported: sRGB is used");
+      directive.note("a gamma encoding of an image is not supported: sRGB is used");
     return colours_of(*file, encoding == "linear", directive.where, state.importer);
   }
-  state.importer.note(
-      directive.where,
-      fmt::format("a texture \"{}\" is not supported: replaced by a constant", directive.type));
+  directive.note(fmt::format("a texture \"{}\" is not supported: replaced by a constant", directive.type));
   for (const std::string_view first : {"tex1", "inside", "value"})
     if (directive.parameters.has(first)) return texture(directive.parameters, first, 0.5, kind, state);
   return Spectrum(0.5);
@@ -188,15 +177,14 @@ TextureValue texture_of(const Directive& directive, TextureKind kind, ImportStat
 
 Spectrum spectrum(const Parameters& parameters, std::string_view name, const Spectrum& fallback,
                   ImportState& state) {
-  const Parameter* found =
-      parameters.find(name, {"float", "rgb", "color", "blackbody", "spectrum"}, state.importer);
+  const Parameter* found = parameters.find(name, {"float", "rgb", "color", "blackbody", "spectrum"});
   return found ? spectrum_of(*found, state).value_or(fallback) : fallback;
 }
 
 TextureValue texture(const Parameters& parameters, std::string_view name, const Spectrum& fallback,
                      TextureKind kind, ImportState& state) {
   const Parameter* found =
-      parameters.find(name, {"float", "rgb", "color", "blackbody", "spectrum", "texture"}, state.importer);
+      parameters.find(name, {"float", "rgb", "color", "blackbody", "spectrum", "texture"});
   if (found == nullptr) return fallback;
   if (found->type != "texture") return spectrum_of(*found, state).value_or(fallback);
   const TextureValue* known = find_texture(kind, found->texts.front(), found->where, state);
@@ -205,8 +193,7 @@ TextureValue texture(const Parameters& parameters, std::string_view name, const 
 
 spec::Reflectance reflectance(const Parameters& parameters, std::string_view name, double fallback,
                               ImportState& state) {
-  const Parameter* found =
-      parameters.find(name, {"float", "rgb", "color", "spectrum", "texture"}, state.importer);
+  const Parameter* found = parameters.find(name, {"float", "rgb", "color", "spectrum", "texture"});
   TextureValue value = texture(parameters, name, fallback, TextureKind::spectrum, state);
   if (auto* image = std::get_if<spec::Texture>(&value)) return *image;
   return curve_of(std::get<Spectrum>(value), found ? found->where : SourcePosition{}, state.importer);
@@ -215,7 +202,7 @@ spec::Reflectance reflectance(const Parameters& parameters, std::string_view nam
 double number(const Parameters& parameters, std::string_view name, double fallback, ImportState& state) {
   const TextureValue value = texture(parameters, name, fallback, TextureKind::number, state);
   if (const auto* spectrum = std::get_if<Spectrum>(&value)) return number_of(*spectrum).value_or(fallback);
-  const Parameter* found = parameters.find(name, {"texture"}, state.importer);
+  const Parameter* found = parameters.find(name, {"texture"});
   state.importer.note(found->where,
                       fmt::format("an image as \"{}\" is not supported: {} is used", name, fallback));
   return fallback;
@@ -237,32 +224,29 @@ std::optional<spec::TextureFile> image(const std::string& name, const SourcePosi
 std::optional<spec::TextureFile> image_file(const Parameters& parameters, const SourcePosition& where,
                                             ImportState& state) {
   SceneImporter& importer = state.importer;
-  const Parameter* name = parameters.find("filename", {"string"}, importer);
+  const Parameter* name = parameters.find("filename", {"string"});
   if (name == nullptr) return importer.fail(where, "an image needs \"filename\"");
   const auto path = state.folder / name->texts.front();
   if (!importer.check_file(path, name->where)) return std::nullopt;
   spec::TextureFile file;
   file.image = {{importer.name_of(path)}, name->where};
-  file.mapping.scale = {parameters.number("uscale", 1, importer), parameters.number("vscale", 1, importer)};
-  file.mapping.offset = {parameters.number("udelta", 0, importer), parameters.number("vdelta", 0, importer)};
-  const std::string wrap = parameters.text("wrap", "repeat", importer);
-  const std::vector<std::string> wraps{"black", "clamp", "octahedralsphere", "repeat"};
-  if (std::ranges::find(wraps, wrap) == wraps.end())
-    importer.fail(where, unknown_name("wrap mode", wrap, wraps));
+  file.mapping.scale = {parameters.number("uscale", 1), parameters.number("vscale", 1)};
+  file.mapping.offset = {parameters.number("udelta", 0), parameters.number("vdelta", 0)};
+  const std::string wrap = parameters.text("wrap", "repeat");
+  importer.is_known("wrap mode", wrap, {"black", "clamp", "octahedralsphere", "repeat"}, where);
   if (wrap != "repeat") file.mapping.wrap = TextureWrap::clamp;
   if (wrap == "black" || wrap == "octahedralsphere")
     importer.note(
         where, fmt::format("the wrap mode \"{}\" is not supported: the image is clamped at its edges", wrap));
-  if (parameters.text("filter", "bilinear", importer) == "point")
-    file.mapping.filter = TextureFilter::nearest;
+  if (parameters.text("filter", "bilinear") == "point") file.mapping.filter = TextureFilter::nearest;
   return file;
 }
 
 spec::Ior metal_index(const Parameters& parameters, std::string_view eta, std::string_view k,
                       ImportState& state) {
   static constexpr std::initializer_list<const char*> kTypes{"spectrum", "rgb", "float"};
-  const Parameter* n = parameters.find(eta, kTypes, state.importer);
-  const Parameter* extinction = parameters.find(k, kTypes, state.importer);
+  const Parameter* n = parameters.find(eta, kTypes);
+  const Parameter* extinction = parameters.find(k, kTypes);
   const auto name_of = [](const Parameter* parameter, const char* fallback) {
     if (parameter == nullptr) return std::string(fallback);
     return parameter->texts.empty() ? std::string() : parameter->texts.front();
@@ -286,7 +270,7 @@ spec::Ior metal_index(const Parameters& parameters, std::string_view eta, std::s
 }
 
 spec::Ior glass_index(const Parameters& parameters, std::string_view eta, ImportState& state) {
-  const Parameter* n = parameters.find(eta, {"spectrum", "float", "rgb", "texture"}, state.importer);
+  const Parameter* n = parameters.find(eta, {"spectrum", "float", "rgb", "texture"});
   spec::Ior ior;
   ior.value = 1.5;
   if (n == nullptr) return ior;

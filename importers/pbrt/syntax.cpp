@@ -311,7 +311,7 @@ bool apply_transform(const Token& word, Tokens& tokens, M44d& to_world, SceneImp
 }
 
 std::optional<Parameters> Parameters::read(Tokens& tokens, SceneImporter& importer) {
-  Parameters parameters;
+  Parameters parameters(importer);
   while (tokens.peek() && tokens.peek()->quoted) {
     Parameter parameter;
     if (!read_head(*tokens.next(), parameter, importer) || !read_values(tokens, parameter, importer))
@@ -331,62 +331,57 @@ bool Parameters::has(std::string_view name) const {
   return std::ranges::find(list_, name, &Parameter::name) != list_.end();
 }
 
-const Parameter* Parameters::find(std::string_view name, std::initializer_list<const char*> types,
-                                  SceneImporter& importer) const {
+const Parameter* Parameters::find(std::string_view name, std::initializer_list<const char*> types) const {
   const auto found = std::ranges::find(list_, name, &Parameter::name);
   if (found == list_.end()) return nullptr;
   found->used = true;
   if (std::ranges::find(types, found->type) != types.end()) return &*found;
-  importer.fail(found->where, fmt::format("\"{}\" has a wrong type (got {}, allowed {})", name, found->type,
-                                          fmt::join(types, ", ")));
+  importer_->fail(found->where, fmt::format("\"{}\" has a wrong type (got {}, allowed {})", name, found->type,
+                                            fmt::join(types, ", ")));
   return nullptr;
 }
 
 // The parameter called `name` if it has `count` values; others are reported.
 const Parameter* Parameters::single(std::string_view name, std::initializer_list<const char*> types,
-                                    std::size_t count, SceneImporter& importer) const {
-  const Parameter* found = find(name, types, importer);
+                                    std::size_t count) const {
+  const Parameter* found = find(name, types);
   if (found == nullptr) return nullptr;
   const std::size_t values = found->numbers.size() + found->texts.size();
   if (values == count) return found;
-  importer.fail(found->where,
-                fmt::format("\"{}\" takes {} (got {})", name,
-                            count == 1 ? "one value" : fmt::format("{} values", count), values));
+  importer_->fail(found->where,
+                  fmt::format("\"{}\" takes {} (got {})", name,
+                              count == 1 ? "one value" : fmt::format("{} values", count), values));
   return nullptr;
 }
 
-double Parameters::number(std::string_view name, double fallback, SceneImporter& importer) const {
-  const Parameter* found = single(name, {"float"}, 1, importer);
+double Parameters::number(std::string_view name, double fallback) const {
+  const Parameter* found = single(name, {"float"}, 1);
   return found ? found->numbers.front() : fallback;
 }
 
-double Parameters::integer(std::string_view name, double fallback, SceneImporter& importer) const {
-  const Parameter* found = single(name, {"integer"}, 1, importer);
-  return found ? found->numbers.front() : fallback;
+int Parameters::integer(std::string_view name, int fallback) const {
+  const Parameter* found = single(name, {"integer"}, 1);
+  return found ? static_cast<int>(std::clamp(found->numbers.front(), -1e9, 1e9)) : fallback;
 }
 
-bool Parameters::boolean(std::string_view name, bool fallback, SceneImporter& importer) const {
-  const Parameter* found = single(name, {"bool"}, 1, importer);
+bool Parameters::boolean(std::string_view name, bool fallback) const {
+  const Parameter* found = single(name, {"bool"}, 1);
   return found ? found->texts.front() == "true" : fallback;
 }
 
-std::string Parameters::text(std::string_view name, const std::string& fallback,
-                             SceneImporter& importer) const {
-  const Parameter* found = single(name, {"string", "texture"}, 1, importer);
+std::string Parameters::text(std::string_view name, const std::string& fallback) const {
+  const Parameter* found = single(name, {"string", "texture"}, 1);
   return found ? found->texts.front() : fallback;
 }
 
-Imath::V3d Parameters::point(std::string_view name, const Imath::V3d& fallback,
-                             SceneImporter& importer) const {
-  const Parameter* found = single(name, {"point3", "point", "vector3", "vector"}, 3, importer);
+Imath::V3d Parameters::point(std::string_view name, const Imath::V3d& fallback) const {
+  const Parameter* found = single(name, {"point3", "point", "vector3", "vector"}, 3);
   return found ? Imath::V3d(found->numbers[0], found->numbers[1], found->numbers[2]) : fallback;
 }
 
-std::vector<double> Parameters::numbers(std::string_view name, SceneImporter& importer) const {
-  const Parameter* found = find(
-      name,
-      {"float", "integer", "point2", "vector2", "point3", "point", "vector3", "vector", "normal3", "normal"},
-      importer);
+std::vector<double> Parameters::numbers(std::string_view name) const {
+  const Parameter* found = find(name, {"float", "integer", "point2", "vector2", "point3", "point", "vector3",
+                                       "vector", "normal3", "normal"});
   return found ? found->numbers : std::vector<double>{};
 }
 
@@ -395,11 +390,11 @@ void Parameters::ignore(std::initializer_list<std::string_view> names) const {
     parameter.used = parameter.used || std::ranges::find(names, parameter.name) != names.end();
 }
 
-void Parameters::note_unused(const std::string& of, SceneImporter& importer) const {
+void Parameters::note_unused(const std::string& of) const {
   for (const Parameter& parameter : list_)
     if (!parameter.used)
-      importer.note(parameter.where,
-                    fmt::format("\"{}\" of {} is not supported: dropped", parameter.name, of));
+      importer_->note(parameter.where,
+                      fmt::format("\"{}\" of {} is not supported: dropped", parameter.name, of));
 }
 
 }  // namespace abbe::importers::pbrt
