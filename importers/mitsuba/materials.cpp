@@ -31,7 +31,6 @@ constexpr std::array<NamedIndex, 23> kDielectrics{
      {"bk7", 1.5046},      {"sodium chloride", 1.544},  {"amber", 1.55},
      {"pet", 1.575},       {"diamond", 2.419}}};
 
-/// A metal of Mitsuba for which Abbe ships a table.
 struct NamedMetal {
   std::string_view source_name;  ///< Case-sensitive name in Mitsuba.
   std::string_view table_name;   ///< Name of the table of n and k that Abbe ships.

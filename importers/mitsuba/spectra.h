@@ -8,9 +8,6 @@
 
 namespace abbe::importers::mitsuba {
 
-// Errors go to `state.importer.diagnostics`; approximations and losses go to `SceneImporter::note`. Functions
-// throw Error{resource} if the memory limit of `state.importer.inputs` is exceeded.
-
 /// Direction in which v increases on images, for the texture coordinates that a shape has in Abbe's scene.
 /// Abbe's images have v upwards, Mitsuba's downwards.
 enum class VDirection {
@@ -23,19 +20,17 @@ enum class VDirection {
 /// The spectrum of an <rgb>, <spectrum>, <float>, <integer> or <texture> element. Samples are 0 outside their
 /// wavelengths. A texture is noted and becomes a constant. Nothing after an error.
 [[nodiscard]] std::optional<Spectrum> spectrum_of(const Element& element, const ImportState& state);
-/// The spectrum of the property called `name`; `fallback` if it is absent, and after an error.
+
+// Values of the property called `name`; `fallback` if it is absent, and after an error. `v` is that of the
+// shape.
 [[nodiscard]] Spectrum spectrum(const Object& object, std::string_view name, const Spectrum& fallback);
-/// The spectrum or bitmap of the property called `name`; `fallback` if it is absent, and after an error.
-/// Other textures are noted and become a constant; an unreadable bitmap becomes 0.5. `v` is that of the
-/// shape.
+/// A spectrum or a bitmap. Other textures are noted and become a constant; an unreadable bitmap becomes 0.5.
 [[nodiscard]] TextureValue texture(const Object& object, std::string_view name, const Spectrum& fallback,
                                    VDirection v);
-/// The reflectance of the property called `name`: an image, or a spectrum converted to a curve by `curve_of`.
-/// `fallback` if it is absent, and after an error. `v` is that of the shape.
+/// A reflectance: an image, or a spectrum converted to a curve by `curve_of`.
 [[nodiscard]] spec::Reflectance reflectance(const Object& object, std::string_view name, double fallback,
                                             VDirection v);
-/// The number of the property called `name`. A spectrum is reduced by `number_of`; a texture becomes a
-/// constant, which is noted. `fallback` if the property is absent, has no such number, or has an error.
+/// A number. A spectrum is reduced by `number_of`; a texture becomes a constant, which is noted.
 [[nodiscard]] double number(const Object& object, std::string_view name, double fallback);
 /// The file of a bitmap texture, with its mapping for a shape with the direction `v`. Nothing, after an
 /// error, for a missing file; nothing, after a note, for another type of texture.

@@ -97,7 +97,7 @@ spec::Conductor coated_conductor(const Directive& directive, ImportState& state)
 
 spec::CoatedDiffuse coated_diffuse(const Directive& directive, ImportState& state) {
   const Parameters& p = directive.parameters;
-  spec::CoatedDiffuse coated{glass_index(p, "eta", state), reflectance(p, "reflectance", 0.5, state)};
+  spec::CoatedDiffuse coated{glass_index(p, state), reflectance(p, "reflectance", 0.5, state)};
   if (roughness(p, directive.where, state))
     directive.note("roughness of a clear coat is not supported: dropped");
   p.ignore(
@@ -108,7 +108,7 @@ spec::CoatedDiffuse coated_diffuse(const Directive& directive, ImportState& stat
 
 spec::Dielectric dielectric(const Directive& directive, const std::string& interior, ImportState& state) {
   spec::Dielectric glass;
-  glass.ior.ior = glass_index(directive.parameters, "eta", state);
+  glass.ior.ior = glass_index(directive.parameters, state);
   glass.roughness = roughness(directive.parameters, directive.where, state);
   if (interior.empty()) return glass;
   const spec::Medium medium = medium_of(interior, directive.where, state);
@@ -119,7 +119,7 @@ spec::Dielectric dielectric(const Directive& directive, const std::string& inter
 
 spec::ThinGlass thin_glass(const Directive& directive, ImportState& state) {
   spec::ThinGlass pane;
-  pane.ior.ior = glass_index(directive.parameters, "eta", state);
+  pane.ior.ior = glass_index(directive.parameters, state);
   return pane;
 }
 

@@ -11,9 +11,6 @@
 
 namespace abbe::importers::pbrt {
 
-// Errors go to `state.importer.diagnostics`; approximations and losses go to `SceneImporter::note`. Functions
-// throw Error{resource} if the memory limit of `state.importer.inputs` is exceeded.
-
 /// Adds the shape of a directive to `shapes`, which belongs to an owner of the kind `owner`. `shape` has its
 /// matrix, material and orientation, `light` is its area light. Some shapes become an object and an instance
 /// instead; see `append_shape`. Reports unknown types, missing parameters and missing files; such a shape is
@@ -22,9 +19,9 @@ namespace abbe::importers::pbrt {
 void add_shape(const Directive& directive, const std::optional<Directive>& light, ImportedShape shape,
                ShapeOwner owner, std::vector<spec::Shape>& shapes, ImportState& state);
 
-/// Adds a LightSource to `state.importer.scene.lights`. `to_world` leads from its coordinates to those of the
-/// written scene. A type of pbrt without a counterpart in Abbe is noted and dropped. Reports an unknown type
-/// and unreadable images; notes parameters that Abbe cannot represent.
+/// Adds a LightSource to the scene. `to_world` leads from its coordinates to those of the written scene. A
+/// type of pbrt without a counterpart in Abbe is noted and dropped. Reports an unknown type and unreadable
+/// images.
 void add_light(const Directive& light, const Imath::M44d& to_world, ImportState& state);
 
 }  // namespace abbe::importers::pbrt

@@ -147,6 +147,39 @@ const TextureValue* find_texture(TextureKind kind, const std::string& name, cons
   return find(state.textures[kind], what, name, where, state.importer);
 }
 
+// The spectrum of a parameter, or the texture that it names.
+TextureValue texture(const Parameters& parameters, std::string_view name, const Spectrum& fallback,
+                     TextureKind kind, ImportState& state) {
+  const Parameter* found =
+      parameters.find(name, {"float", "rgb", "color", "blackbody", "spectrum", "texture"});
+  if (found == nullptr) return fallback;
+  if (found->type != "texture") return spectrum_of(*found, state).value_or(fallback);
+  const TextureValue* known = find_texture(kind, found->texts.front(), found->where, state);
+  return known ? *known : TextureValue(fallback);
+}
+
+// The image file of an "imagemap" texture with its mapping. Nothing after an error.
+std::optional<spec::TextureFile> image_file(const Parameters& parameters, const SourcePosition& where,
+                                            ImportState& state) {
+  SceneImporter& importer = state.importer;
+  const Parameter* name = parameters.find("filename", {"string"});
+  if (name == nullptr) return importer.fail(where, "an image needs \"filename\"");
+  const auto path = state.folder / name->texts.front();
+  if (!importer.check_file(path, name->where)) return std::nullopt;
+  spec::TextureFile file;
+  file.image = {{importer.name_of(path)}, name->where};
+  file.mapping.scale = {parameters.number("uscale", 1), parameters.number("vscale", 1)};
+  file.mapping.offset = {parameters.number("udelta", 0), parameters.number("vdelta", 0)};
+  const std::string wrap = parameters.text("wrap", "repeat");
+  importer.is_known("wrap mode", wrap, {"black", "clamp", "octahedralsphere", "repeat"}, where);
+  if (wrap != "repeat") file.mapping.wrap = TextureWrap::clamp;
+  if (wrap == "black" || wrap == "octahedralsphere")
+    importer.note(
+        where, fmt::format("the wrap mode \"{}\" is not supported: the image is clamped at its edges", wrap));
+  if (parameters.text("filter", "bilinear") == "point") file.mapping.filter = TextureFilter::nearest;
+  return file;
+}
+
 // The value of a "scale" texture.
 TextureValue scaled_texture(const Directive& directive, TextureKind kind, ImportState& state) {
   TextureValue value = texture(directive.parameters, "tex", 1.0, kind, state);
@@ -181,16 +214,6 @@ Spectrum spectrum(const Parameters& parameters, std::string_view name, const Spe
   return found ? spectrum_of(*found, state).value_or(fallback) : fallback;
 }
 
-TextureValue texture(const Parameters& parameters, std::string_view name, const Spectrum& fallback,
-                     TextureKind kind, ImportState& state) {
-  const Parameter* found =
-      parameters.find(name, {"float", "rgb", "color", "blackbody", "spectrum", "texture"});
-  if (found == nullptr) return fallback;
-  if (found->type != "texture") return spectrum_of(*found, state).value_or(fallback);
-  const TextureValue* known = find_texture(kind, found->texts.front(), found->where, state);
-  return known ? *known : TextureValue(fallback);
-}
-
 spec::Reflectance reflectance(const Parameters& parameters, std::string_view name, double fallback,
                               ImportState& state) {
   const Parameter* found = parameters.find(name, {"float", "rgb", "color", "spectrum", "texture"});
@@ -221,27 +244,6 @@ std::optional<spec::TextureFile> image(const std::string& name, const SourcePosi
   return std::nullopt;
 }
 
-std::optional<spec::TextureFile> image_file(const Parameters& parameters, const SourcePosition& where,
-                                            ImportState& state) {
-  SceneImporter& importer = state.importer;
-  const Parameter* name = parameters.find("filename", {"string"});
-  if (name == nullptr) return importer.fail(where, "an image needs \"filename\"");
-  const auto path = state.folder / name->texts.front();
-  if (!importer.check_file(path, name->where)) return std::nullopt;
-  spec::TextureFile file;
-  file.image = {{importer.name_of(path)}, name->where};
-  file.mapping.scale = {parameters.number("uscale", 1), parameters.number("vscale", 1)};
-  file.mapping.offset = {parameters.number("udelta", 0), parameters.number("vdelta", 0)};
-  const std::string wrap = parameters.text("wrap", "repeat");
-  importer.is_known("wrap mode", wrap, {"black", "clamp", "octahedralsphere", "repeat"}, where);
-  if (wrap != "repeat") file.mapping.wrap = TextureWrap::clamp;
-  if (wrap == "black" || wrap == "octahedralsphere")
-    importer.note(
-        where, fmt::format("the wrap mode \"{}\" is not supported: the image is clamped at its edges", wrap));
-  if (parameters.text("filter", "bilinear") == "point") file.mapping.filter = TextureFilter::nearest;
-  return file;
-}
-
 spec::Ior metal_index(const Parameters& parameters, std::string_view eta, std::string_view k,
                       ImportState& state) {
   static constexpr std::initializer_list<const char*> kTypes{"spectrum", "rgb", "float"};
@@ -255,11 +257,10 @@ spec::Ior metal_index(const Parameters& parameters, std::string_view eta, std::s
   const std::string k_name = name_of(extinction, kCopperK);
   spec::Ior ior;
   if (n != nullptr || extinction != nullptr) ior.where = n != nullptr ? n->where : extinction->where;
-  if (metal_of(n_name, kEta) == metal_of(k_name, kK)) {
-    if (const auto metal = renamed(kMetals, metal_of(n_name, kEta))) {
-      ior.value = *metal;
-      return ior;
-    }
+  const auto metal = renamed(kMetals, metal_of(n_name, kEta));
+  if (metal && metal_of(n_name, kEta) == metal_of(k_name, kK)) {
+    ior.value = *metal;
+    return ior;
   }
   const auto spectrum_or_copper = [&](const Parameter* parameter, const char* copper) {
     return (parameter ? spectrum_of(*parameter, state) : file_or_name(copper, ior.where, state))
@@ -269,12 +270,12 @@ spec::Ior metal_index(const Parameters& parameters, std::string_view eta, std::s
                   state.importer);
 }
 
-spec::Ior glass_index(const Parameters& parameters, std::string_view eta, ImportState& state) {
-  const Parameter* n = parameters.find(eta, {"spectrum", "float", "rgb", "texture"});
+spec::Ior glass_index(const Parameters& parameters, ImportState& state) {
+  const Parameter* n = parameters.find("eta", {"spectrum", "float", "rgb", "texture"});
   spec::Ior ior;
   ior.value = 1.5;
   if (n == nullptr) return ior;
-  const Spectrum value = spectrum(parameters, eta, 1.5, state);
+  const Spectrum value = spectrum(parameters, "eta", 1.5, state);
   ior = index_of(value, 0.0, n->where, state.importer);
   if (const auto* constant = std::get_if<spec::MetalIor>(&ior.value)) ior.value = double{constant->n};
   return ior;

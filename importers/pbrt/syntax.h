@@ -16,9 +16,6 @@
 
 namespace abbe::importers::pbrt {
 
-// Errors go to `importer.diagnostics`. Functions throw Error{resource} if the memory limit of
-// `importer.inputs` is exceeded.
-
 /// A word, number, bracket or quoted string.
 struct Token {
   std::string text;  ///< Without quotes.
@@ -31,16 +28,14 @@ struct Token {
   [[nodiscard]] bool ends_import() const { return is(""); }
 };
 
-/// The tokens of a file and of the files it includes, without comments. Errors go to the importer's
-/// diagnostics. The importer must outlive it. Functions throw Error{resource} if the memory limit of its
-/// inputs is exceeded.
+/// The tokens of a file and of the files it includes, without comments. The importer must outlive it.
 class Tokens {
  public:
   /// Opens the file. Reports an error if it cannot be read; then `failed()` is true.
   Tokens(const std::filesystem::path& file, SceneImporter& importer);
 
-  /// Reads the next token. Nothing at the end of all files, and after an error; `failed()` distinguishes
-  /// them. Reports a quoted text without its closing quote.
+  /// Nothing at the end of all files, and after an error; `failed()` distinguishes them. Reports a quoted
+  /// text without its closing quote.
   [[nodiscard]] std::optional<Token> next();
   /// The token that `next` will return, without consuming it. The reference is valid until the next call.
   [[nodiscard]] const std::optional<Token>& peek();
@@ -82,7 +77,7 @@ bool read_numbers(std::size_t count, const Token& word, Tokens& tokens, std::vec
 /// LookAt, Translate, Scale, Rotate and ConcatTransform apply to points before the old `to_world`; Identity
 /// and Transform replace it. Angles are in degrees. Reports singular matrices, a zero axis or scale factor, a
 /// view direction along up, and the errors of `read_numbers`; then returns false and leaves `to_world`
-/// unchanged. Throws Error{internal} for any other directive.
+/// unchanged.
 bool apply_transform(const Token& word, Tokens& tokens, Imath::M44d& to_world, SceneImporter& importer);
 
 /// A parameter `"type name" [ values ]` of the file. At least one of the two lists of values is empty, unless

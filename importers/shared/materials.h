@@ -10,9 +10,6 @@
 
 namespace abbe::importers {
 
-// Errors go to `importer.diagnostics`; approximations and losses go to `SceneImporter::note`. Functions throw
-// Error{resource} if the memory limit of `importer.inputs` is exceeded.
-
 /// Microfacet roughness with alpha `along` the surface coordinate u and `across` it. Values outside [0, 1]
 /// are clamped, which is noted. Nothing if both are then 0: the surface is smooth.
 [[nodiscard]] std::optional<spec::Roughness> roughness_of(double along, double across,

@@ -12,9 +12,6 @@
 #include "scene/shapes/shape.h"
 
 // Matrices apply to row vectors, as everywhere in Abbe: p' = p M, with the translation in the last row.
-//
-// Errors go to `importer.diagnostics`; approximations and losses go to `SceneImporter::note`. Functions throw
-// Error{resource} if the memory limit of `importer.inputs` is exceeded.
 namespace abbe::importers {
 
 /// The matrix whose rows, written for column vectors, are 16 numbers. Missing numbers are those of the

@@ -12,9 +12,6 @@
 
 namespace abbe::importers {
 
-// Errors go to `importer.diagnostics`; approximations and losses go to `SceneImporter::note`. Functions throw
-// Error{resource} if the memory limit of `importer.inputs` is exceeded.
-
 /// Samples of a spectrum, linearly interpolated.
 struct Samples {
   std::vector<double> nm;            ///< Wavelengths, strictly ascending, two or more; see `checked`.
