@@ -180,7 +180,7 @@ ImportedLightSpectrum light_spectrum(const Object& object, std::string_view name
                              object.importer());
   if (const auto* table = std::get_if<ShippedTable>(&given))
     return light_spectrum_of(given, table->factor * y_integral(), object.where(), object.importer());
-  return absolute_light_spectrum_of(given, 1, y_integral(), object.where(), object.importer());
+  return absolute_light_spectrum_of(given, y_integral(), object.where(), object.importer());
 }
 
 }  // namespace abbe::importers::mitsuba

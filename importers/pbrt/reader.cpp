@@ -54,8 +54,8 @@ struct SavedState {
   std::map<std::string, M44d> coordinate_systems;
 };
 
-/// Executes the directives of a file of pbrt-v4 and fills `SceneImporter::scene`. Errors go to the importer's
-/// diagnostics. The importer must outlive it; call `read` once.
+/// Executes the directives of a file of pbrt-v4 and fills `SceneImporter::scene`. The importer must outlive
+/// it; call `read` once.
 class Reader {
  public:
   Reader(const std::filesystem::path& file, SceneImporter& importer)
@@ -64,7 +64,7 @@ class Reader {
   }
 
   /// Reads the file to its end. False after an error, of which the first that makes the syntax ambiguous ends
-  /// the reading. Throws Error{resource} if the memory limit of the importer's inputs is exceeded.
+  /// the reading.
   bool read();
 
  private:
@@ -86,9 +86,8 @@ class Reader {
            importer_.refuse(state_stack_.back().second, "the block that begins here is not closed");
   }
   bool require_outside_object(const Token& word) {
-    return object_
-               ? importer_.refuse(word.where, fmt::format("{} is not allowed inside an object", word.text))
-               : true;
+    return !object_ ||
+           importer_.refuse(word.where, fmt::format("{} is not allowed inside an object", word.text));
   }
 
   bool transform(const Token& word);
@@ -220,7 +219,6 @@ bool Reader::read_directive(const Token& word, Directive& to) {
   return true;
 }
 
-// Reads a directive whose type is one of its parameters.
 bool Reader::read_named_directive(const Token& word, const Parameters& attributes,
                                   std::map<std::string, Directive>& to) {
   Directive directive;
@@ -308,15 +306,13 @@ bool Reader::attribute(const Token& word) {
 bool Reader::object_begin(const Token& word) {
   std::vector<std::string> name;
   if (!read_names(1, 1, word, name) || !require_outside_object(word)) return false;
-  state_stack_.emplace_back(graphics_state_, word.where);
   object_ = {name[0], {}, word.where};
-  return true;
+  return attribute_begin(word);
 }
 
 bool Reader::object_end(const Token& word) {
   if (!object_ || state_stack_.empty()) return importer_.refuse(word.where, "ObjectEnd without ObjectBegin");
-  graphics_state_ = std::move(state_stack_.back().first);
-  state_stack_.pop_back();
+  attribute_end(word);
   // An object whose shapes were all dropped has no instances.
   if (object_->value.shapes.empty())
     empty_objects_.push_back(object_->name);

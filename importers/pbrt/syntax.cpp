@@ -76,6 +76,9 @@ constexpr std::array<TransformDirective, 7> kTransformDirectives{{{"Identity", 0
                                                                   {"ConcatTransform", 16, matrix, false}}};
 
 enum class Values { numbers, integers, texts, booleans, either };
+// Nouns for messages, in the order of `Values`.
+constexpr std::array<const char*, 5> kExpected{"a number", "an integer", "a quoted text", "true or false",
+                                               "a number or a quoted text"};
 struct Type {
   const char* name;
   Values values;
@@ -102,28 +105,6 @@ constexpr std::array<Type, 17> kParameterTypes{{{"float", Values::numbers, 1},
 const Type* type_of(const std::string& name) {
   const auto* type = std::ranges::find_if(kParameterTypes, [&](const Type& t) { return name == t.name; });
   return type == kParameterTypes.end() ? nullptr : type;
-}
-
-std::vector<std::string> type_names() {
-  std::vector<std::string> names;
-  for (const Type& type : kParameterTypes) names.emplace_back(type.name);
-  return names;
-}
-
-std::string_view expected(Values values) {
-  switch (values) {
-    case Values::numbers:
-      return "a number";
-    case Values::integers:
-      return "an integer";
-    case Values::texts:
-      return "a quoted text";
-    case Values::booleans:
-      return "true or false";
-    case Values::either:
-      break;
-  }
-  return "a number or a quoted text";
 }
 
 // Adds a value to the parameter. False if it is not of its type.
@@ -155,7 +136,9 @@ bool read_head(const Token& token, Parameter& parameter, SceneImporter& importer
   while (parameter.name.ends_with(' ')) parameter.name.pop_back();
   parameter.where = token.where;
   if (type_of(parameter.type) != nullptr) return true;
-  return importer.refuse(token.where, unknown_name("type of parameter", parameter.type, type_names()));
+  std::vector<std::string> names;
+  for (const Type& type : kParameterTypes) names.emplace_back(type.name);
+  return importer.is_known("type of parameter", parameter.type, names, token.where);
 }
 
 std::size_t bytes_of_lists(const Parameter& parameter) {
@@ -173,9 +156,10 @@ bool read_values(Tokens& tokens, Parameter& parameter, SceneImporter& importer) 
     const std::size_t before = bytes_of_lists(parameter);
     const bool added = add(*token, type.values, parameter);
     parameter.memory.grow_by(bytes_of_lists(parameter) - before + (token->quoted ? token->text.size() : 0));
-    return added || importer.refuse(token->where, fmt::format("expected {} of \"{} {}\" (got \"{}\")",
-                                                              expected(type.values), parameter.type,
-                                                              parameter.name, token->text));
+    return added ||
+           importer.refuse(token->where, fmt::format("expected {} of \"{} {}\" (got \"{}\")",
+                                                     kExpected.at(static_cast<std::size_t>(type.values)),
+                                                     parameter.type, parameter.name, token->text));
   };
   std::optional<Token> token = tokens.next();
   if (!token || !token->is("[")) {

@@ -46,8 +46,7 @@ std::optional<double> mean(const ImageChannel& channel, const Encoding& encoding
 std::optional<LinearRgb> mean_of(const Image& image, const Encoding& encoding, const SourcePosition& where,
                                  SceneImporter& importer) {
   constexpr std::array<std::string_view, 3> kNames{"R", "G", "B"};
-  const auto refuse = [&](const std::string& what) return importer.fail(where, what, ErrorCode::input);
-  ;
+  const auto refuse = [&](const std::string& what) { return importer.fail(where, what, ErrorCode::input); };
   LinearRgb colour{};
   for (std::size_t c = 0; c < 3; ++c) {
     const ImageChannel* channel = image.find(image.find("R") ? kNames.at(c) : "Y");
@@ -189,7 +188,9 @@ std::optional<LinearRgb> mean_colour(const std::filesystem::path& file, const So
     const Image image = read_image(file, importer.inputs);
     if (const auto fault = rec709_fault(image)) return importer.fail(where, *fault, ErrorCode::input);
     return mean_of(image, recorded_encoding(image).value_or(Encoding{}), where, importer);
-  } catch (const Error& fault) return importer.fail(where, fault.what(), fault.code);
+  } catch (const Error& fault) {
+    return importer.fail(where, fault.what(), fault.code);
+  }
 }
 
 }  // namespace abbe::importers

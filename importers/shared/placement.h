@@ -50,9 +50,9 @@ struct ImportedShape {
   SourcePosition where;
 };
 
-/// Inverts `shape.reversed` if the vertex normals of `mesh` are behind its triangles for most of their area:
-/// vertex normals decide which side emits. `mesh` holds the triangles of `shape`. Notes normals on both
-/// sides. Does nothing for a shape that does not emit or is two-sided, and for a mesh without vertex normals.
+/// Inverts `shape.reversed` if the vertex normals of its triangles `mesh` are behind them for most of their
+/// area: vertex normals decide which side emits. Notes normals on both sides. Does nothing without such
+/// normals, and for a shape that does not emit or is two-sided.
 void orient_by_normals(const Mesh& mesh, ImportedShape& shape, SceneImporter& importer);
 
 /// Container of a shape: the scene, or an object, which may not contain instances.

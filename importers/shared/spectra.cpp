@@ -310,17 +310,17 @@ ImportedLightSpectrum light_spectrum_of(const Spectrum& given, double y, const S
   return light;
 }
 
-ImportedLightSpectrum absolute_light_spectrum_of(const Spectrum& given, double factor, double y,
-                                                 const SourcePosition& where, SceneImporter& importer) {
+ImportedLightSpectrum absolute_light_spectrum_of(const Spectrum& given, double y, const SourcePosition& where,
+                                                 SceneImporter& importer) {
   if (const auto* value = std::get_if<double>(&given))
     return coloured_light({*value, *value, *value}, y, where, importer);
   if (std::holds_alternative<LinearRgb>(given)) return light_spectrum_of(given, y, where, importer);
   ImportedLightSpectrum light;
   const auto* body = std::get_if<Temperature>(&given);
-  if (body != nullptr && body->factor * factor == 1)
+  if (body != nullptr && body->factor == 1)
     light.emission.spectrum = spec::Blackbody{{body->K}};
   else
-    light.emission.spectrum = spectrum(curve_of(scaled(given, factor), where, importer));
+    light.emission.spectrum = spectrum(curve_of(given, where, importer));
   return light;
 }
 

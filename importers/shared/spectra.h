@@ -43,17 +43,16 @@ using TextureValue = std::variant<Spectrum, spec::Texture>;
 [[nodiscard]] std::optional<Samples> samples_of_pairs(const std::vector<double>& pairs,
                                                       const SourcePosition& where, SceneImporter& importer);
 
-/// The spectrum of a linear Rec.709 colour as a mixture of `rgb_basis`, every 5 nm from 380 to 780 nm. Values
-/// are rounded to 1e-6. White (1, 1, 1) is 1 at all wavelengths.
+/// The spectrum of a linear Rec.709 colour as a mixture of `rgb_basis`, every 5 nm from 380 to 780 nm and
+/// rounded to 1e-6.
 [[nodiscard]] Samples samples_of(const LinearRgb& rgb);
-/// Converts a spectrum to a curve with the same values. A grey colour becomes a constant; any other colour
-/// becomes a smooth spectrum with that colour under D65 (`rgb_spectrum`), which is noted. A temperature
-/// becomes Planck's spectral radiance [W/(m2 sr nm)] times its factor. Reports no errors.
+/// The curve of a spectrum. A grey colour becomes a constant; any other colour a smooth spectrum with that
+/// colour under D65 (`rgb_spectrum`), which is noted. A temperature becomes Planck's spectral radiance [W/(m2
+/// sr nm)].
 [[nodiscard]] spec::Curve curve_of(const Spectrum& spectrum, const SourcePosition& where,
                                    SceneImporter& importer);
 /// The texture of a colour image. If `linear`, integer codes are taken as linear instead of sRGB: the
-/// channels then weight the spectra of `rgb_basis`, which is noted. `linear` has no effect on files of
-/// floats, which are linear anyway.
+/// channels then weight the spectra of `rgb_basis`, which is noted.
 [[nodiscard]] spec::Texture colours_of(spec::TextureFile file, bool linear, const SourcePosition& where,
                                        SceneImporter& importer);
 /// Applies a function to the samples. Values interpolated every 5 nm are added before, since linear
@@ -69,7 +68,6 @@ using TextureValue = std::variant<Spectrum, spec::Texture>;
                                                          const std::function<double(double)>& function,
                                                          const SourcePosition& where,
                                                          SceneImporter& importer);
-/// The spectrum times a factor.
 [[nodiscard]] Spectrum scaled(Spectrum spectrum, double factor);
 /// A single number for a spectrum: the value at 589.3 nm for samples, the mean of the components for colours.
 /// Nothing, without an error, for a temperature or a shipped table.
@@ -93,16 +91,15 @@ struct ImportedLightSpectrum {
 /// radiance, intensity or irradiance times the CIE 1931 y equals `y`, in W/(m2 sr), W/sr or W/m2.
 /// - A colour is D65 times its smooth spectrum. `y` belongs to (1, 1, 1); other colours give their luminance
 ///   relative to it.
-/// - A number is the equal-energy spectrum E, whatever its value.
-/// - The factor of a temperature or a shipped table has no effect.
+/// - A number is the equal-energy spectrum E, whatever its value; factors have no effect either.
 /// Throws Error{input} if the table of D65 cannot be read, for a colour that is not grey.
 [[nodiscard]] ImportedLightSpectrum light_spectrum_of(const Spectrum& spectrum, double y,
                                                       const SourcePosition& where, SceneImporter& importer);
-/// An emission spectrum whose samples, temperatures and shipped tables are absolute, in W and nm, times
-/// `factor`; `photometric` is then absent. A number c counts as the colour (c, c, c). Colours are as in
-/// `light_spectrum_of`: (1, 1, 1) gives `y`, and `factor` has no effect.
-[[nodiscard]] ImportedLightSpectrum absolute_light_spectrum_of(const Spectrum& spectrum, double factor,
-                                                               double y, const SourcePosition& where,
+/// An emission spectrum whose samples, temperatures and shipped tables are absolute, in W and nm;
+/// `photometric` is then absent. A number c counts as the colour (c, c, c). Colours are as in
+/// `light_spectrum_of`.
+[[nodiscard]] ImportedLightSpectrum absolute_light_spectrum_of(const Spectrum& spectrum, double y,
+                                                               const SourcePosition& where,
                                                                SceneImporter& importer);
 
 /// The emission of a light. Its scale is `light.photometric` as `quantity`, or none if that is absent.
@@ -126,11 +123,8 @@ void append_light(decltype(Light::source) source, const ImportedLightSpectrum& e
 }
 
 /// Reads a text file with a wavelength [nm] and a value per line, separated by blanks, tabs or a comma; `#`
-/// begins a comment. The samples are 0 outside. Reports to `importer.diagnostics`:
-/// - a missing or unreadable file, at `where`;
-/// - malformed lines, fewer than two samples and wavelengths that do not ascend, at their positions in the
-/// file. Returns nothing after an error. Throws Error{resource} if the memory limit of `importer.inputs` is
-/// exceeded.
+/// begins a comment. The samples are 0 outside. Nothing after an error: a missing or unreadable file, at
+/// `where`, a malformed line, and the errors of `checked`.
 [[nodiscard]] std::optional<Samples> read_spectrum_file(const std::filesystem::path& file,
                                                         const SourcePosition& where, SceneImporter& importer);
 
