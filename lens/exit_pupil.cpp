@@ -59,7 +59,6 @@ std::optional<StopImage> finite_stop_image(const SpectralSystem& system, double 
   return std::isfinite(image.magnification) ? std::optional(image) : std::nullopt;
 }
 
-// Square around the paraxial exit pupil.
 Box paraxial_box(const PupilRays& rays) {
   const SpectralSystem& system = rays.system;
   const std::optional<StopImage> image = finite_stop_image(system, rays.wavelength_nm);
@@ -72,7 +71,6 @@ Box paraxial_box(const PupilRays& rays) {
 struct Grid {
   Box box;
   [[nodiscard]] V2d cell() const { return box.size() / kGridSide; }
-  // Centers of the cells.
   [[nodiscard]] std::vector<V2d> centers() const {
     std::vector<V2d> all;
     for (int j = 0; j < kGridSide; ++j)
@@ -226,7 +224,6 @@ struct PupilView {
   [[nodiscard]] bool is_illuminated() const { return !points.empty(); }
 };
 
-// Collects the pupils of several image points, and bounds the rays that enter the lens.
 class PupilCollector {
  public:
   PupilCollector(const SpectralSystem& system, std::span<const double> wavelengths_nm)
@@ -263,14 +260,12 @@ class PupilCollector {
     return rim;
   }
 
-  // The smallest of the discs.
   [[nodiscard]] EntranceDisc entrance() const {
     EntranceDisc best = planes_.front();
     for (const EntranceDisc& plane : planes_)
       if (plane.radius < best.radius) best = plane;
     return {best.z, best.radius * kMargin};
   }
-  // Radius of the disc in the plane of the first vertex.
   [[nodiscard]] double front_radius() const { return planes_.front().radius * kMargin; }
   [[nodiscard]] double min_cosine() const { return min_cosine_ * kCosineMargin; }
 

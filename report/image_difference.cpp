@@ -26,7 +26,6 @@
 namespace abbe {
 namespace {
 
-// Throws Error{input} if the images differ in size.
 void require_same_size(const Image& image, const Image& reference) {
   if (image.width != reference.width || image.height != reference.height)
     throw Error(ErrorCode::input, "",
@@ -194,7 +193,6 @@ FilmColors colors_by_matrix(const Image& image, const std::vector<std::string>& 
   return {channels, parse_matrix3(matrix->second), true, white};
 }
 
-// Mean and maximum of some numbers; 0 without numbers.
 struct MeanAndMax {
   double sum = 0;
   double max = 0;

@@ -48,7 +48,6 @@ Imath::Box3d drawn_box(const Scene& scene) {
   return {box.min - padding, box.max + padding};
 }
 
-// Projection of points in space into the drawing.
 struct Projection {
   DrawingPlane plane;
   Imath::Box3d box;

@@ -281,7 +281,6 @@ void set_surface(const JsonValue* material, const SourcePosition& where, spec::M
   to.model = std::move(surface);
 }
 
-// Notes the remaining properties that Abbe cannot represent.
 void note_unsupported_keys(const JsonValue* material, const SourcePosition& where, const Document& document) {
   SceneImporter& importer = document.importer;
   for (const std::string_view texture :

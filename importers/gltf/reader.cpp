@@ -88,7 +88,6 @@ void set_view_camera(const View& view, const Document& document) {
   set_camera(imported, importer);
 }
 
-// Sets the first perspective camera or, without any, the first camera.
 void set_camera_from_views(const std::vector<View>& views, const Document& document) {
   const auto perspective = std::ranges::find_if(views, is_perspective);
   const auto chosen = perspective == views.end() ? views.begin() : perspective;
@@ -158,7 +157,6 @@ void note_extensions(const JsonValue& object, std::string_view of, const Documen
                              fmt::format("{} of {} is not supported: dropped", member.first, of));
 }
 
-// Notes attributes of a primitive that Abbe cannot represent.
 void note_unsupported_attributes(const JsonValue& primitive, const Document& document) {
   SceneImporter& importer = document.importer;
   if (find(&primitive, "targets") != nullptr)
@@ -228,7 +226,6 @@ SceneContents traverse_nodes(const Document& document) {
   return contents;
 }
 
-// Adds the triangles of one material as a shape.
 void add_shape(std::optional<std::size_t> number, const std::string& name, const Document& document) {
   SceneImporter& importer = document.importer;
   const JsonValue* material = number ? &list(&document.root, "materials")[*number] : nullptr;

@@ -92,7 +92,6 @@ Samples one_minus(Samples fraction) {
   return extend_constant(std::move(fraction), 1);
 }
 
-// 1 - fraction.
 Spectrum one_minus(const Spectrum& fraction) {
   if (const auto* rgb = std::get_if<LinearRgb>(&fraction))
     return LinearRgb{1 - (*rgb)[0], 1 - (*rgb)[1], 1 - (*rgb)[2]};
@@ -147,7 +146,6 @@ std::optional<double> interior_index(const Element& bsdf) {
   return number ? number : named_index(value);
 }
 
-// True if `index` is the interior index of another dielectric of the scene.
 bool matches_other_dielectric(double index, const Object& bsdf) {
   constexpr double kSameIndex = 0.005;  // 1.33 and 1.333 both mean water.
   return std::ranges::any_of(bsdf.state().interior_indices, [&](const auto& entry) {
@@ -185,7 +183,6 @@ SurfaceIndex surface_index(const Object& bsdf, std::string_view fallback) {
   return index;
 }
 
-// Notes reflectance factors, which have no physical counterpart.
 void note_reflectance_factors(const Object& bsdf) {
   for (const char* name : {"specular_reflectance", "specular_transmittance"})
     if (bsdf.has(name) && number_of(spectrum(bsdf, name, 1.0)) != 1.0)
@@ -283,7 +280,6 @@ spec::Principled principled(const Object& bsdf, VDirection v) {
   return model;
 }
 
-// The material inside a wrapper; nullptr if there is none.
 const Element* inner_bsdf(const Object& bsdf) {
   const auto inner = bsdf.all("bsdf");
   return inner.empty() ? nullptr : inner.front();

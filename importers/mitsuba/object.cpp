@@ -185,7 +185,6 @@ std::optional<M44d> matrix(const Element& element, const ImportState& state) {
   return state.importer.fail(element.where, "a matrix takes 9 or 16 numbers");
 }
 
-// The matrix of one step of a transform.
 std::optional<M44d> transform_step(const Element& step, const ImportState& state) {
   if (step.tag == "translate") return translation(vector_of(step, {0, 0, 0}, state));
   if (step.tag == "lookat" || step.tag == "look_at") return look_at(step, state);

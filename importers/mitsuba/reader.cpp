@@ -15,12 +15,10 @@ namespace abbe::importers {
 namespace mitsuba {
 namespace {
 
-// An integer property, clamped to [-1e9, 1e9].
 int count(const Object& object, std::string_view name, int fallback) {
   return static_cast<int>(std::clamp(object.number(name, fallback), -1e9, 1e9));
 }
 
-// Registers the ids of elements, for references.
 void register_ids(const Element& element, ImportState& state) {
   for (const Element& child : element.children) {
     const std::string& id = child["id"];
@@ -64,7 +62,6 @@ void note_film(const Object& film) {
   film.ignore({"pixel_format", "component_format", "file_format", "sample_border", "compensate", "banner"});
 }
 
-// Reads the film and the sampler of a sensor; returns the resolution.
 std::array<std::int64_t, 2> read_film(const Object& sensor) {
   SceneImporter& importer = sensor.importer();
   importer.scene.sensor.emplace().counts = spec::StandardObserver{{{Observer::cie1931}, sensor.where()}};
@@ -86,7 +83,6 @@ std::array<std::int64_t, 2> read_film(const Object& sensor) {
 
 constexpr double kFarClip = 1e4;
 
-// Notes clip planes that are tighter than the defaults.
 void note_clip_planes(const Object& sensor) {
   constexpr double kNear = 1e-2;
   const double near = sensor.number("near_clip", kNear);

@@ -67,7 +67,6 @@ spec::InlineMesh cube() {
   return mesh;
 }
 
-// True if triangles that share a vertex are in different planes.
 bool is_bent(const Mesh& mesh) {
   constexpr double kFlat = 1 - 1e-6;
   std::vector<std::optional<V3d>> normals(mesh.vertices.size());
@@ -129,7 +128,6 @@ std::optional<LocalSurface> surface_of(const Object& shape) {
   return std::nullopt;
 }
 
-// The interior medium; nullptr if there is none.
 const Element* interior_medium(const Object& shape) {
   if (shape.has("exterior")) shape.note("an exterior medium of a shape is not supported: dropped");
   shape.ignore({"exterior"});
@@ -143,7 +141,6 @@ std::optional<std::string> material_of(const Object& shape, VDirection v, Materi
   return materials.name_of(bsdfs.empty() ? kDefault : *bsdfs.front(), interior, v);
 }
 
-// Adds a shape group as an object and returns its name.
 std::string add_group(const Object& group, Materials& materials) {
   std::string name = group.element()["id"];
   if (name.empty()) name = fmt::format("shape group {}", group.importer().scene.objects.size() + 1);

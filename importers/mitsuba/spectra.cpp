@@ -17,7 +17,6 @@
 namespace abbe::importers::mitsuba {
 namespace {
 
-// The property called `name`, if it can be a spectrum.
 const Element* find_spectrum(const Object& object, std::string_view name) {
   return object.find(name, {"rgb", "spectrum", "float", "integer", "texture"});
 }
@@ -75,7 +74,6 @@ std::optional<Spectrum> samples_of_lists(const Object& object) {
   return checked(std::move(samples), object.where(), object.importer());
 }
 
-// The spectrum of an object with a type.
 std::optional<Spectrum> typed_spectrum(const Object& object) {
   const std::string& type = object.type();
   if (type == "uniform") return object.number("value", 1);
@@ -88,7 +86,6 @@ std::optional<Spectrum> typed_spectrum(const Object& object) {
   return std::nullopt;
 }
 
-// A constant that replaces an unsupported texture; noted.
 Spectrum constant_replacement(const Object& texture) {
   texture.note(fmt::format("a texture \"{}\" is not supported: replaced by a constant", texture.type()));
   if (texture.has("color0")) return spectrum(texture, "color0", 0.5);

@@ -53,7 +53,6 @@ spec::Medium medium_of(const std::string& name, const SourcePosition& where, Imp
   return medium;
 }
 
-// Microfacet width alpha for a roughness parameter.
 double slope_width(double value, bool remapped) {
   return remapped && value > 0 ? std::sqrt(value) : value;
 }
@@ -69,7 +68,6 @@ std::optional<spec::Roughness> roughness(const Parameters& p, const SourcePositi
   return roughness_of(u, v, FacetShape::ggx, where, state.importer);
 }
 
-// Index of a metal from its reflectance or from the parameters called `eta` and `k`.
 spec::Ior conductor_index(const Directive& directive, std::string_view eta, std::string_view k,
                           ImportState& state) {
   const Parameters& p = directive.parameters;
@@ -129,7 +127,6 @@ spec::Diffuse replacement(const Directive& directive, ImportState& state) {
   return {reflectance(directive.parameters, "reflectance", 0.5, state)};
 }
 
-// Adds a normal or bump map.
 void add_relief(const Directive& directive, spec::Material& material, ImportState& state) {
   const Parameters& p = directive.parameters;
   if (const Parameter* map = p.find("normalmap", {"string"})) {

@@ -76,7 +76,6 @@ class Reader {
   // `min_count`.
   bool read_names(std::size_t min_count, std::size_t max_count, const Token& word,
                   std::vector<std::string>& to);
-  // Reads a quoted type and the parameters.
   bool read_directive(const Token& word, Directive& to);
   // Reads a quoted name and the parameters, one of which is the type; adds `attributes` as defaults.
   bool read_named_directive(const Token& word, const Parameters& attributes,

@@ -141,7 +141,6 @@ void read_integrator(const Directive& integrator, SceneImporter& importer) {
   p.note_unused("integrator");
 }
 
-// Samples per pixel, with pbrt's defaults.
 int pixel_samples(const Directive& sampler) {
   const Parameters& p = sampler.parameters;
   if (sampler.type != "stratified")

@@ -116,7 +116,6 @@ bool is_parallelogram(const Imath::V3d& p00, const Imath::V3d& p10, const Imath:
   return (p00 + p11 - p10 - p01).length() <= 1e-6 * (p11 - p00).length();
 }
 
-// True if the corners have the default texture coordinates of a parallelogram.
 bool has_plain_coordinates(const spec::InlineMesh& mesh, const std::vector<std::uint32_t>& corners) {
   constexpr std::array<std::array<double, 2>, 4> kPlain{{{0, 0}, {1, 0}, {0, 1}, {1, 1}}};
   if (!mesh.uv) return true;

@@ -180,7 +180,6 @@ std::optional<spec::TextureFile> image_file(const Parameters& parameters, const 
   return file;
 }
 
-// The value of a "scale" texture.
 TextureValue scaled_texture(const Directive& directive, TextureKind kind, ImportState& state) {
   TextureValue value = texture(directive.parameters, "tex", 1.0, kind, state);
   const double factor = number(directive.parameters, "scale", 1, state);

@@ -107,7 +107,6 @@ const Type* type_of(const std::string& name) {
   return type == kParameterTypes.end() ? nullptr : type;
 }
 
-// Adds a value to the parameter. False if it is not of its type.
 bool add(const Token& token, Values values, Parameter& parameter) {
   const bool boolean = token.text == "true" || token.text == "false";
   if (values == Values::booleans) {
@@ -124,7 +123,6 @@ bool add(const Token& token, Values values, Parameter& parameter) {
   return true;
 }
 
-// Reads "type name".
 bool read_head(const Token& token, Parameter& parameter, SceneImporter& importer) {
   const auto gap = token.text.find_first_of(" \t");
   const auto name = gap == std::string::npos ? gap : token.text.find_first_not_of(" \t", gap);
