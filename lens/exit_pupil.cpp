@@ -301,8 +301,8 @@ PupilBound around(const std::vector<V2d>& points) {
   return bound;
 }
 
-// Ellipse around the pupils of image points near `center`, as seen from there. A pupil moves by `shift` times
-// the movement of the image point.
+// Ellipse around the pupils of image points near `center`, for light to `center`. A pupil moves by `shift`
+// times the movement of the image point.
 PupilBound around(std::span<const PupilView> views, const V2d& center, double shift) {
   std::vector<V2d> points;
   for (const PupilView& from : views)

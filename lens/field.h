@@ -25,9 +25,9 @@ struct Speed {
 /// f-numbers ignore clear apertures. Nothing if the axial beam does not arrive at the image.
 [[nodiscard]] std::optional<Speed> speed(const SystemAt& at, double stop_radius_mm, int side);
 
-/// Path of the first ray of the axial beam that does not arrive at the image, of those along +x, +y, -x and
-/// -y in the stop at its radius times 1 - `kNominalRounding`. Rays that cannot be aimed are skipped. Nothing
-/// if all arrive, or if there is no axial beam.
+/// Path of the first of four rim rays of the axial beam that does not arrive at the image. They are along +x,
+/// +y, -x and -y in the stop, at its radius times 1 - `kNominalRounding`. Rays that cannot be aimed are
+/// skipped. Nothing if all arrive, or if there is no axial beam.
 [[nodiscard]] std::optional<RayPath> cut_rim_ray(const SystemAt& at, double stop_radius_mm);
 
 /// Chief ray of a field in the image plane.

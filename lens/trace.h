@@ -59,7 +59,7 @@ template <typename Real>
 /// the medium from which it arrives.
 [[nodiscard]] FresnelPower<double> surface_power(const SurfaceBetween<double>& at, double wavelength_nm,
                                                  double cos_i, bool forwards);
-/// The same for each lane of two packets, computed in double precision.
+/// Computes each lane of two packets in double precision.
 [[nodiscard]] FresnelPower<Floats> surface_power(const SurfaceBetween<Floats>& at,
                                                  const Floats& wavelengths_nm, const Floats& cos_i,
                                                  bool forwards);
