@@ -11,15 +11,15 @@
 namespace abbe {
 namespace {
 
-// The model's answer to `ask`, or `otherwise` if it has no such member function.
+// The model's answer to `ask`, or a value-initialised one if it has no such member function.
 template <typename T, typename Ask>
-T answer(const Material& material, Ask ask, T otherwise) {
+T answer(const Material& material, Ask ask) {
   return std::visit(
       [&]<typename Model>(const Model& model) -> T {
         if constexpr (std::invocable<Ask, const Model&>)
           return ask(model);
         else
-          return otherwise;
+          return T{};
       },
       material.model);
 }
@@ -35,12 +35,9 @@ Lobes lobes(const Material& material) {
 }
 
 bool needs_coordinates(const Material& material) {
-  return material.relief || answer(
-                                material,
-                                [](const auto& model) -> decltype(model.needs_coordinates()) {
-                                  return model.needs_coordinates();
-                                },
-                                false);
+  return material.relief || answer<bool>(material, [](const auto& m) -> decltype(m.needs_coordinates()) {
+           return m.needs_coordinates();
+         });
 }
 
 bool is_dispersive(const Material& material) {
@@ -49,49 +46,39 @@ bool is_dispersive(const Material& material) {
 }
 
 bool depends_on_outside(const Material& material) {
-  return answer(
-      material,
-      [](const auto& model) -> decltype(model.depends_on_outside()) { return model.depends_on_outside(); },
-      false);
+  return answer<bool>(
+      material, [](const auto& m) -> decltype(m.depends_on_outside()) { return m.depends_on_outside(); });
 }
 
 bool opaque(const Material& material) {
-  return answer(
-      material, [](const auto& model) -> decltype(model.opaque()) { return model.opaque(); }, false);
+  return answer<bool>(material, [](const auto& m) -> decltype(m.opaque()) { return m.opaque(); });
 }
 
 bool preserves_polarisation(const Material& material) {
-  return answer(
-      material,
-      [](const auto& model) -> decltype(model.preserves_polarisation()) {
-        return model.preserves_polarisation();
-      },
-      false);
+  return answer<bool>(material, [](const auto& m) -> decltype(m.preserves_polarisation()) {
+    return m.preserves_polarisation();
+  });
 }
 
 bool polarises(const Material& material) {
-  return answer(
-      material, [](const auto& model) -> decltype(model.polarises()) { return model.polarises(); },
-      lobes(material).delta && !preserves_polarisation(material));
+  return answer<std::optional<bool>>(material,
+                                     [](const auto& m) -> decltype(m.polarises()) { return m.polarises(); })
+      .value_or(lobes(material).delta && !preserves_polarisation(material));
 }
 
 const RefractiveIndex* interior_index(const Material& material) {
-  return answer(
-      material, [](const auto& model) -> decltype(model.interior_index()) { return model.interior_index(); },
-      static_cast<const RefractiveIndex*>(nullptr));
+  return answer<const RefractiveIndex*>(
+      material, [](const auto& m) -> decltype(m.interior_index()) { return m.interior_index(); });
 }
 
 const Medium* medium(const Material& material) {
-  return answer(
-      material, [](const auto& model) -> decltype(model.medium()) { return model.medium(); },
-      static_cast<const Medium*>(nullptr));
+  return answer<const Medium*>(material, [](const auto& m) -> decltype(m.medium()) { return m.medium(); });
 }
 
 std::optional<std::string> transparency_fault(const Material& material, double wavelength_nm) {
   constexpr double kTolerance = 1e-4;
-  const RefractiveIndex* sheet = answer(
-      material, [](const auto& model) -> decltype(model.clear_index()) { return model.clear_index(); },
-      static_cast<const RefractiveIndex*>(nullptr));
+  const auto* sheet = answer<const RefractiveIndex*>(
+      material, [](const auto& m) -> decltype(m.clear_index()) { return m.clear_index(); });
   const RefractiveIndex* index = sheet != nullptr ? sheet : interior_index(material);
   if (index == nullptr) return std::nullopt;
   const double n = index->n(wavelength_nm);
@@ -106,15 +93,13 @@ std::optional<std::string> transparency_fault(const Material& material, double w
 }
 
 std::vector<IndexUse> indices(const Material& material) {
-  return answer(
-      material, [](const auto& model) -> decltype(model.indices()) { return model.indices(); },
-      std::vector<IndexUse>());
+  return answer<std::vector<IndexUse>>(material,
+                                       [](const auto& m) -> decltype(m.indices()) { return m.indices(); });
 }
 
 std::size_t texture_bytes(const Material& material) {
-  std::size_t bytes = answer(
-      material, [](const auto& model) -> decltype(model.texture_bytes()) { return model.texture_bytes(); },
-      std::size_t{0});
+  auto bytes = answer<std::size_t>(
+      material, [](const auto& m) -> decltype(m.texture_bytes()) { return m.texture_bytes(); });
   if (material.relief)
     bytes += std::visit([](const auto& map) { return map.image.memory_bytes(); }, *material.relief);
   return bytes;

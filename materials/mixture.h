@@ -41,6 +41,8 @@ class MixtureBsdf {
 
  private:
   [[nodiscard]] SurfaceLookup at() const { return {wavelengths_nm_, uv_, outside_}; }
+  template <typename Quantity>
+  [[nodiscard]] SampledSpectrum weighted(Quantity quantity) const;
 
   const MixtureMaterial* material_;
   SampledSpectrum wavelengths_nm_;
