@@ -22,12 +22,11 @@ namespace abbe {
 /// function throws. The free functions of these names below describe the functions.
 /// - Required: `sample` and two constants. `kScatters` is true if the model scatters into more than single
 ///   directions; it then has `eval` and `pdf`. `kDelta` is true if it scatters into single directions; it
-///   then has `delta_power` and `mueller`.
+///   then has `delta_power`.
 /// - Optional functions, with defaults: `index_inside` (1), `delta_probability` (1 if `kDelta`, else 0) and
 ///   `mueller` (depolarises).
 /// - Optional constants, declared only if true: `kGlossy` if all lobes are glossy, `kBothSides` if it
-/// scatters
-///   to both sides, and `kAbsorbingFilms` if its delta lobes may cross absorbing films.
+///   scatters to both sides, and `kAbsorbingFilms` if its delta lobes may cross absorbing films.
 template <typename Model>
 concept BsdfModel = requires(const Model& model, const Imath::V3f& w, const BsdfRandom& u) {
   { model.sample(w, u, 0, TransportMode::radiance) } -> std::same_as<std::optional<BsdfSample>>;
@@ -40,9 +39,8 @@ concept BsdfModel = requires(const Model& model, const Imath::V3f& w, const Bsdf
        { model.eval(w, w, TransportMode::radiance) } -> std::same_as<SampledSpectrum>;
        { model.pdf(w, w) } -> std::same_as<SampledSpectrum>;
      }) &&
-    (!Model::kDelta || requires(const Model& model, const Imath::V3f& w, std::optional<int> lane) {
+    (!Model::kDelta || requires(const Model& model, const Imath::V3f& w) {
       { model.delta_power(w, true) } -> std::same_as<SampledSpectrum>;
-      { model.mueller(w, w, true, lane) } -> std::same_as<std::optional<MuellerMatrix>>;
     });
 
 /// The closed list of scattering models, evaluated at a packet of wavelengths. A new model is a struct in

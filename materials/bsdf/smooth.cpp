@@ -45,16 +45,9 @@ BsdfSample together(const Imath::V3f& wi, const SampledSpectrum& part, const Pow
           .delta = true};
 }
 
-// Reflectance for unpolarised light from `wo`.
-inline SampledSpectrum reflectance(const ConductorBsdf& metal, const Imath::V3f& wo) {
-  const float cos_i = std::min(std::abs(wo.z), 1.0F);
-  return SampledSpectrum::map(metal.n, metal.k,
-                              [cos_i](float n, float k) { return fresnel_conductor(cos_i, n, k).R(); });
-}
-
 // Fresnel power for light from `wo` at the surface of a medium of relative index n.
 FresnelPower<float> fresnel(const Imath::V3f& wo, float n) {
-  return fresnel_dielectric(std::min(std::abs(wo.z), 1.0F), wo.z < 0 ? 1 / n : n);
+  return fresnel_dielectric(cosine_of(wo), wo.z < 0 ? 1 / n : n);
 }
 
 // The reflected direction is the same at every wavelength, so all wavelengths continue. Each draws reflection
@@ -132,11 +125,14 @@ SampledSpectrum CoatedConductorBsdf::delta_power(const Imath::V3f& wo, bool thro
 std::optional<BsdfSample> ConductorBsdf::sample(const Imath::V3f& wo, const BsdfRandom& /*u*/, int /*hero*/,
                                                 TransportMode /*mode*/) const {
   if (wo.z == 0) return std::nullopt;
-  return BsdfSample{.wi = mirrored(wo), .weight = reflectance(*this, wo), .pdf = 1, .delta = true};
+  return BsdfSample{.wi = mirrored(wo), .weight = delta_power(wo, false), .pdf = 1, .delta = true};
 }
 
 SampledSpectrum ConductorBsdf::delta_power(const Imath::V3f& wo, bool through) const {
-  return through ? SampledSpectrum() : reflectance(*this, wo);
+  if (through) return {};
+  return SampledSpectrum::map(n, k, [cos_i = cosine_of(wo)](float lane_n, float lane_k) {
+    return fresnel_conductor(cos_i, lane_n, lane_k).R();
+  });
 }
 
 float DielectricBsdf::reflectance(const Imath::V3f& wo, int lane) const {

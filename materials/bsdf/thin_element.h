@@ -50,13 +50,7 @@ struct WavePlateBsdf : ThinElement {
 };
 
 /// A sheet that depolarises the light it transmits.
-struct DepolariserBsdf : ThinElement {
-  [[nodiscard]] static std::optional<MuellerMatrix> mueller(const Imath::V3f& /*wo*/,
-                                                            const Imath::V3f& /*wi*/, bool /*delta*/,
-                                                            std::optional<int> /*lane*/) {
-    return std::nullopt;
-  }
-};
+struct DepolariserBsdf : ThinElement {};
 
 /// A sheet of transparent or absorbing glass with the same medium on both sides. It reflects light or
 /// transmits it undeflected, in the same directions at all wavelengths. Its powers include all reflections
@@ -100,12 +94,14 @@ struct ThinElementMaterial {
   Curve transmittance;  ///< In [0, 1]; the model defines for which light.
 
   [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }
+  [[nodiscard]] std::optional<FresnelPower<double>> smooth_power(const SmoothLookup& at) const {
+    return at.undeflected(transmittance(at.wavelength_nm));
+  }
 };
 
 /// A linear polariser; `transmittance` is that of light polarised along its axis.
 struct PolariserMaterial : ThinElementMaterial {
-  Curve
-      blocked;   ///< Transmittance perpendicular to the axis divided by that along it, in [0, 1]; 0 is ideal.
+  Curve blocked;  ///< Transmittance perpendicular to the axis divided by that along it, in [0, 1].
   double angle;  ///< Angle of the transmission axis [rad].
 
   /// Transmittance for unpolarised light.
@@ -134,16 +130,18 @@ struct WavePlateMaterial : ThinElementMaterial {
   /// plate is treated as thin, so the value holds for all directions.
   [[nodiscard]] double retardance(double wavelength_nm) const;
   [[nodiscard]] WavePlateBsdf bsdf(const SurfaceLookup& at) const;
-  [[nodiscard]] std::optional<FresnelPower<double>> smooth_power(const SmoothLookup& at) const;
   [[nodiscard]] SmoothMueller smooth_mueller(const SmoothLookup& at) const;
   [[nodiscard]] static constexpr bool needs_coordinates() { return true; }
 };
 
 /// A sheet that depolarises light.
 struct DepolariserMaterial : ThinElementMaterial {
-  [[nodiscard]] DepolariserBsdf bsdf(const SurfaceLookup& at) const;
-  [[nodiscard]] std::optional<FresnelPower<double>> smooth_power(const SmoothLookup& at) const;
-  [[nodiscard]] SmoothMueller smooth_mueller(const SmoothLookup& at) const;
+  [[nodiscard]] DepolariserBsdf bsdf(const SurfaceLookup& at) const {
+    return {{transmittance(at.wavelengths_nm)}};
+  }
+  [[nodiscard]] static SmoothMueller smooth_mueller(const SmoothLookup& /*at*/) {
+    return {{{}, {0, 0, 0, 0}}};
+  }
 };
 
 }  // namespace abbe
