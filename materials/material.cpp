@@ -1,8 +1,6 @@
 #include "materials/material.h"
 
 #include <cmath>
-#include <concepts>
-#include <utility>
 
 #include <fmt/format.h>
 

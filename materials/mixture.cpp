@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "materials/bsdf.h"
-#include "materials/interface/mueller.h"
 #include "materials/material.h"
 
 namespace abbe {

@@ -1,13 +1,7 @@
 #include "materials/bsdf/diffuse.h"
 
 #include <algorithm>
-#include <cmath>
-#include <numbers>
-#include <vector>
 
-#include "materials/bsdf/event.h"
-#include "materials/bsdf/warp.h"
-#include "materials/index/relative_index.h"
 #include "materials/interface/fresnel.h"
 #include "materials/interface/mueller.h"
 

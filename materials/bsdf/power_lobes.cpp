@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "materials/bsdf/event.h"
 #include "materials/bsdf/warp.h"
 
 namespace abbe {

@@ -1,17 +1,11 @@
 #include "materials/bsdf/rough.h"
 
-#include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <numbers>
 #include <utility>
-#include <vector>
 
-#include "materials/bsdf/event.h"
-#include "materials/index/relative_index.h"
 #include "materials/interface/fresnel.h"
 #include "materials/interface/mueller.h"
 #include "sampling/sampler.h"

@@ -1,10 +1,8 @@
 #include "materials/bsdf/thin_element.h"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 
-#include "materials/bsdf/event.h"
 #include "materials/interface/thin_sheet.h"
 
 namespace abbe {

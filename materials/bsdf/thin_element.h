@@ -1,6 +1,5 @@
 #pragma once
 
-#include <cmath>
 #include <optional>
 #include <variant>
 #include <vector>
@@ -102,7 +101,7 @@ struct ThinElementMaterial {
 /// A linear polariser; `transmittance` is that of light polarised along its axis.
 struct PolariserMaterial : ThinElementMaterial {
   Curve blocked;  ///< Transmittance perpendicular to the axis divided by that along it, in [0, 1].
-  double angle;  ///< Angle of the transmission axis [rad].
+  double angle;   ///< Angle of the transmission axis [rad].
 
   /// Transmittance for unpolarised light.
   [[nodiscard]] double mean_transmittance(double wavelength_nm) const {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <filesystem>
 #include <mutex>
 #include <utility>
 #include <vector>
@@ -14,7 +13,6 @@
 #include "io/text.h"
 #include "io/yaml.h"
 #include "spectral/air.h"
-#include "spectral/library.h"
 
 namespace abbe {
 

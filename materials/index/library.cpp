@@ -7,7 +7,6 @@
 
 #include "io/table.h"
 #include "io/text.h"
-#include "materials/index/catalogue.h"
 #include "spectral/library.h"
 
 namespace abbe {

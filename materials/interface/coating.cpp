@@ -4,7 +4,6 @@
 #include <span>
 
 #include "materials/index/relative_index.h"
-#include "materials/interface/mueller.h"
 
 namespace abbe {
 namespace {

@@ -46,8 +46,7 @@ struct Coating {
                                                       double k, double cos_i, bool inside,
                                                       double outside = 1);
 
-/// Amplitude reflection coefficients of the coated surface of `coated_power`, with the same arguments and
-/// with the signs of `FresnelAmplitudes`.
+/// Amplitude reflection coefficients of the coated surface of `coated_power`, with the same arguments.
 [[nodiscard]] FilmReflection<double> coated_reflection(const Coating& coating, double wavelength_nm, double n,
                                                        double k, double cos_i, bool inside,
                                                        double outside = 1);

@@ -35,8 +35,9 @@ template <typename T>
 [[nodiscard]] FresnelPower<T> film_power(const T& cos_i, std::span<const FilmLayer<T>> layers, const T& eta,
                                          const T& k);
 
-/// Amplitude reflection coefficients of coherent layers on a substrate, with the signs of
-/// `FresnelAmplitudes`.
+/// Amplitude reflection coefficients of coherent layers on a substrate: the reflected electric field divided
+/// by the incident one. s and p have opposite signs at normal incidence. Fields vary in time as
+/// exp(-i omega t).
 template <typename T>
 struct FilmReflection {
   Complex<T> s, p;

@@ -1,7 +1,6 @@
 #include "materials/texture/spectral_texture.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "io/error.h"
 

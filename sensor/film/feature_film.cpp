@@ -1,7 +1,6 @@
 #include "sensor/film/feature_film.h"
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include <fmt/format.h>

@@ -1,9 +1,7 @@
 #include "sensor/film/recorded_attributes.h"
 
 #include <algorithm>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 

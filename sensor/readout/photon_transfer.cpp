@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <deque>
 #include <limits>
 #include <numbers>
 #include <set>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -54,17 +52,17 @@ std::optional<WeightedLine> fitted_line(const std::vector<Sample>& samples) {
                       wxx / determinant, w / determinant};
 }
 
-std::size_t distinct(std::span<const LinearityPoint> points, double LinearityPoint::*value) {
+std::size_t distinct(std::span<const TransferPoint> points, double TransferPoint::*value) {
   std::set<double> unique_values;
-  for (const LinearityPoint& p : points) unique_values.insert(p.*value);
+  for (const TransferPoint& p : points) unique_values.insert(p.*value);
   return unique_values.size();
 }
 
 // Relative curvature b of y/t = c (1 + b t) over the exposure time, and its standard error from the residuals
 // of the parabola.
-std::optional<RelativeBias> curvature_over_time(std::span<const LinearityPoint> points) {
+std::optional<RelativeBias> curvature_over_time(std::span<const TransferPoint> points) {
   std::vector<Sample> samples;
-  for (const LinearityPoint& p : points) samples.push_back({p.exposure_s, p.signal_dn / p.exposure_s, 1});
+  for (const TransferPoint& p : points) samples.push_back({p.exposure_s, p.signal_dn / p.exposure_s, 1});
   const auto line = fitted_line(samples);
   if (!line || !(line->at_zero > 0)) return std::nullopt;
   double squares = 0;
@@ -74,10 +72,10 @@ std::optional<RelativeBias> curvature_over_time(std::span<const LinearityPoint> 
 }
 
 // Relative bias of the gain for a curvature b over the exposure time.
-double bias_of(std::span<const LinearityPoint> points, double curvature) {
+double bias_of(std::span<const TransferPoint> points, double curvature) {
   double squares = 0;
   double products = 0;
-  for (const LinearityPoint& p : points) {
+  for (const TransferPoint& p : points) {
     const double light = p.exposure_s;
     const double signal = light * (1 + curvature * light);
     const double slope = 1 + 2 * curvature * light;
@@ -87,7 +85,7 @@ double bias_of(std::span<const LinearityPoint> points, double curvature) {
   return squares / products - 1;
 }
 
-std::optional<RelativeBias> bias_by_times(std::span<const LinearityPoint> points) {
+std::optional<RelativeBias> bias_by_times(std::span<const TransferPoint> points) {
   const auto curvature = curvature_over_time(points);
   if (!curvature) return std::nullopt;
   const double bias = bias_of(points, curvature->value);
@@ -95,11 +93,11 @@ std::optional<RelativeBias> bias_by_times(std::span<const LinearityPoint> points
   return RelativeBias{bias, std::abs(moved - bias)};
 }
 
-std::optional<RelativeBias> bias_by_variances(std::span<const LinearityPoint> points) {
+std::optional<RelativeBias> bias_by_variances(std::span<const TransferPoint> points) {
   std::vector<Sample> samples;
   double squares = 0;
   double products = 0;
-  for (const LinearityPoint& p : points) {
+  for (const TransferPoint& p : points) {
     if (!(p.variance_error2 > 0)) return std::nullopt;
     const double y2 = p.signal_dn * p.signal_dn;
     samples.push_back({p.signal_dn, p.variance_dn2 / p.signal_dn, y2 / p.variance_error2});
@@ -364,21 +362,6 @@ double pattern(std::span<const FlatPair> pairs, const std::vector<PairMoments>& 
   return noise > kPatternNoise * by_nearest ? by_nearest : variance(line);
 }
 
-// Adds the linearity of the illuminated pairs. `below` are the pairs that the gain is fitted to.
-void assess_linearity(const std::vector<PairMoments>& illuminated, const std::vector<PairMoments>& below,
-                      const Line& dark_mean, const Line& dark_variance, double saturation_dn,
-                      PhotonTransfer& transfer) {
-  const auto points_of = [&](const std::vector<PairMoments>& pairs) {
-    std::vector<LinearityPoint> points;
-    for (const PairMoments& m : pairs)
-      points.push_back({m.exposure_s, m.mean - dark_mean.at(m.exposure_s),
-                        m.temporal - dark_variance.at(m.exposure_s), m.temporal_error2});
-    return points;
-  };
-  transfer.linearity_error_percent = linearity_error_percent(points_of(illuminated), saturation_dn);
-  transfer.gain_bias = gain_bias(points_of(below), transfer.linearity_error_percent.has_value());
-}
-
 // Result for pairs without unexpectedly full pixels.
 struct Analysis {
   PhotonTransfer transfer;
@@ -433,17 +416,24 @@ Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair>
   // below the pair does not limit it.
   const double above_half = (full ? brightest.mean : white_dn) - half_pair->mean;
   const double room_dn = above_half > 0 ? above_half : std::numeric_limits<double>::infinity();
-  std::vector<TransferPoint> points;
-  for (const PairMoments& m : illuminated)
-    points.push_back({signal(m), m.temporal - dark_variance.at(m.exposure_s)});
+  const auto points_of = [&](const std::vector<PairMoments>& pairs) {
+    std::vector<TransferPoint> points;
+    for (const PairMoments& m : pairs)
+      points.push_back(
+          {m.exposure_s, signal(m), m.temporal - dark_variance.at(m.exposure_s), m.temporal_error2});
+    return points;
+  };
   const double read_noise = root(read_variance) * gain;
   Analysis all{
       {gain, read_noise, dark_mean.slope * gain,
        100 * root(pattern(dark_pairs, dark, levels, half.exposure_s, &half, room_dn)) / signal(*half_pair),
-       root(pattern(dark_pairs, dark, levels, 0)) * gain, full_well_e, std::move(points), errors.gain * gain,
-       errors.read_noise ? std::optional(*errors.read_noise * read_noise) : std::nullopt, saturation_e},
+       root(pattern(dark_pairs, dark, levels, 0)) * gain, full_well_e, points_of(illuminated),
+       errors.gain * gain, errors.read_noise ? std::optional(*errors.read_noise * read_noise) : std::nullopt,
+       saturation_e},
       full_dn};
-  assess_linearity(illuminated, below, dark_mean, dark_variance, saturation, all.transfer);
+  PhotonTransfer& transfer = all.transfer;
+  transfer.linearity_error_percent = linearity_error_percent(transfer.points, saturation);
+  transfer.gain_bias = gain_bias(points_of(below), transfer.linearity_error_percent.has_value());
   return all;
 }
 
@@ -476,15 +466,15 @@ struct SelectedPairs {
 };
 }  // namespace
 
-std::optional<double> linearity_error_percent(std::span<const LinearityPoint> points, double saturation_dn) {
-  std::vector<LinearityPoint> counted;
+std::optional<double> linearity_error_percent(std::span<const TransferPoint> points, double saturation_dn) {
+  std::vector<TransferPoint> counted;
   std::vector<Sample> samples;
-  for (const LinearityPoint& p : points) {
+  for (const TransferPoint& p : points) {
     if (p.signal_dn < kLowest * saturation_dn || p.signal_dn > kHighest * saturation_dn) continue;
     counted.push_back(p);
     samples.push_back({p.exposure_s, p.signal_dn, 1 / (p.signal_dn * p.signal_dn)});
   }
-  if (distinct(counted, &LinearityPoint::exposure_s) < kMinTimes) return std::nullopt;
+  if (distinct(counted, &TransferPoint::exposure_s) < kMinTimes) return std::nullopt;
   const auto line = fitted_line(samples);
   if (!line) return std::nullopt;
   double sum = 0;
@@ -493,10 +483,10 @@ std::optional<double> linearity_error_percent(std::span<const LinearityPoint> po
   return percent <= kSteadyLight ? std::optional(percent) : std::nullopt;
 }
 
-std::optional<RelativeBias> gain_bias(std::span<const LinearityPoint> points, bool is_light_constant) {
-  if (is_light_constant && distinct(points, &LinearityPoint::exposure_s) >= kMinSignals)
+std::optional<RelativeBias> gain_bias(std::span<const TransferPoint> points, bool is_light_constant) {
+  if (is_light_constant && distinct(points, &TransferPoint::exposure_s) >= kMinSignals)
     return bias_by_times(points);
-  if (distinct(points, &LinearityPoint::signal_dn) < kMinSignals) return std::nullopt;
+  if (distinct(points, &TransferPoint::signal_dn) < kMinSignals) return std::nullopt;
   return bias_by_variances(points);
 }
 

@@ -1,11 +1,7 @@
 #include "sensor/readout/readout.h"
 
-#include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <boost/random/normal_distribution.hpp>

@@ -1,11 +1,8 @@
 #include "sensor/response/channel.h"
 
 #include <algorithm>
-#include <cmath>
-#include <limits>
 #include <numbers>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,7 +13,6 @@
 #include "io/text.h"
 #include "sensor/response/table_range.h"
 #include "spectral/curve_use.h"
-#include "spectral/library.h"
 #include "spectral/sources.h"
 
 namespace abbe {

@@ -18,6 +18,10 @@ Analyser analyser_of(int component) {
   return {0, component == 1 ? 1.0F : 0.0F, component == 2 ? 1.0F : 0.0F, component == 3 ? 1.0F : 0.0F};
 }
 
+bool counts_light(const Channel& channel) {
+  return !channel.analyser || channel.analyser->i > 0;
+}
+
 bool behind_polariser(const Channel& channel) {
   return channel.analyser && counts_light(channel) && channel.weight.integral() != 0;
 }
@@ -35,14 +39,6 @@ bool of_one_response(const Channel& a, const Channel& b) {
 
 std::string name_of(const StokesPlane& plane) {
   return fmt::format("{}{}", kPrefixes.at(static_cast<std::size_t>(plane.component)), plane.channel);
-}
-
-StokesPlane stokes_plane(std::string_view name) {
-  for (int component = 1; component < 4; ++component)
-    if (const std::string_view prefix = kPrefixes.at(static_cast<std::size_t>(component));
-        name.starts_with(prefix))
-      return {component, std::string(name.substr(prefix.size()))};
-  return {0, std::string(name)};
 }
 
 std::vector<Channel> with_stokes(std::vector<Channel> channels) {
@@ -69,8 +65,10 @@ std::vector<Channel> intensities(std::span<const Channel> channels) {
 
 std::vector<std::string> intensities(std::span<const std::string> planes) {
   std::vector<std::string> selected;
-  std::copy_if(planes.begin(), planes.end(), std::back_inserter(selected),
-               [](const std::string& name) { return stokes_plane(name).component == 0; });
+  std::copy_if(planes.begin(), planes.end(), std::back_inserter(selected), [](const std::string& name) {
+    return std::none_of(kPrefixes.begin() + 1, kPrefixes.end(),
+                        [&](std::string_view prefix) { return name.starts_with(prefix); });
+  });
   return selected;
 }
 
