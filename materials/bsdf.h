@@ -52,7 +52,6 @@ using Bsdf = std::variant<DiffuseBsdf, DielectricBsdf, ConductorBsdf, CoatedDiel
                           PolariserBsdf, WavePlateBsdf, DepolariserBsdf>;
 static_assert(sizeof(Bsdf) <= 4 * sizeof(SampledSpectrum));  // every path vertex stores one
 
-/// True if `List` is a variant whose types all satisfy `BsdfModel`.
 template <typename List>
 inline constexpr bool kAllBsdfModels = false;
 template <typename... Models>

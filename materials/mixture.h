@@ -53,9 +53,8 @@ class MixtureBsdf {
 struct Material;
 
 /// Several materials side by side, too fine to be resolved: f = sum_i w_i f_i. No component is a mixture, and
-/// light enters none. `SurfaceModel` describes the member functions.
+/// light enters none.
 struct MixtureMaterial {
-  /// A material with its weight.
   struct Component {
     Curve weight;  ///< In [0, 1]; the sum over the components is at most 1 at every wavelength.
     std::shared_ptr<const Material> material;

@@ -26,8 +26,7 @@ struct DiffuseBsdf {
   [[nodiscard]] SampledSpectrum pdf(const Imath::V3f& wo, const Imath::V3f& wi) const;
 };
 
-// These functions are inline: Lambertian surfaces are so frequent that calls would cost more than the
-// scattering.
+// Inline, because Lambertian surfaces are so frequent that calls would cost more than the scattering.
 
 // f = reflectance/pi, sampled with pdf cos/pi, so the weight is the reflectance for every direction.
 
@@ -96,16 +95,13 @@ struct CoatedDiffuseBsdf {
                                                      std::optional<int> lane) const;
 };
 
-/// The model at one packet. `n` is the index of the coat relative to the outside, `rho` the reflectance of
-/// the ground, in [0, 1]. `inner` is the internal diffuse reflectance of the coat
-/// (`diffuse_reflectance_inside`); rho * inner must be below 1.
+/// The model with these n and rho; `inner` is r (`diffuse_reflectance_inside`). rho * inner must be below 1.
 [[nodiscard]] inline CoatedDiffuseBsdf coated_diffuse(const SampledSpectrum& n, const SampledSpectrum& rho,
                                                       const SampledSpectrum& inner, bool dispersive) {
   return {n, rho / (n * n * (SampledSpectrum(1) - rho * inner)), dispersive};
 }
 
-/// A Lambertian surface; `reflectance` is its hemispherical reflectance. `SurfaceModel` describes the member
-/// functions.
+/// A Lambertian surface; `reflectance` is its hemispherical reflectance.
 struct DiffuseMaterial : OpaqueSurface {
   [[nodiscard]] DiffuseBsdf bsdf(const SurfaceLookup& at) const;
   [[nodiscard]] static constexpr Lobes lobes() { return {.spread = true}; }
@@ -123,8 +119,7 @@ struct OrenNayarMaterial : OpaqueSurface {
 /// air, every 1 nm from 300 to 1100 nm.
 [[nodiscard]] Curve inner_reflectance(const RefractiveIndex& index);
 
-/// A Lambertian ground under a smooth transparent coat, such as glazed or varnished paint. `SurfaceModel`
-/// describes the member functions.
+/// A Lambertian ground under a smooth transparent coat, such as glazed or varnished paint.
 struct CoatedDiffuseMaterial {
   std::string index_name;
   RefractiveIndex index;        ///< Index of the coat: n in [1, 100), without k.

@@ -12,25 +12,15 @@ std::optional<double> reflectance_at(const OpaqueSurface& mirror, const SmoothLo
 
 }  // namespace
 
-std::optional<FresnelPower<double>> MirrorMaterial::smooth_power(const SmoothLookup& at) const {
-  const auto r = reflectance_at(*this, at);
-  if (!r) return std::nullopt;
-  return FresnelPower<double>{*r, *r, 0, 0, 0};
-}
-
-SmoothMueller MirrorMaterial::smooth_mueller(const SmoothLookup& /*at*/) const {
-  return {{kIdealMirror<double>, {}}};
-}
-
-std::optional<FresnelPower<double>> SchlickMaterial::smooth_power(const SmoothLookup& at) const {
-  const auto r0 = reflectance_at(*this, at);
-  if (!r0) return std::nullopt;
-  const double r = schlick(at.cos_i, *r0);
+template <MirrorKind Kind>
+std::optional<FresnelPower<double>> IdealMirrorMaterial<Kind>::smooth_power(const SmoothLookup& at) const {
+  const auto reflectance = reflectance_at(*this, at);
+  if (!reflectance) return std::nullopt;
+  const double r = Kind == MirrorKind::ideal ? *reflectance : schlick(at.cos_i, *reflectance);
   return FresnelPower<double>{r, r, 0, 0, 0};
 }
 
-SmoothMueller SchlickMaterial::smooth_mueller(const SmoothLookup& /*at*/) const {
-  return {{kIdealMirror<double>, {}}};
-}
+template struct IdealMirrorMaterial<MirrorKind::ideal>;
+template struct IdealMirrorMaterial<MirrorKind::schlick>;
 
 }  // namespace abbe

@@ -54,7 +54,7 @@ using CosinePowerBsdf = PowerLobeBsdf<Reciprocal ? PowerLobe::reciprocal_cosine 
 using PhongBsdf = PowerLobeBsdf<PowerLobe::phong>;
 using RetroreflectorBsdf = PowerLobeBsdf<PowerLobe::retroreflector>;
 
-/// A surface that scatters by `Model`. `SurfaceModel` describes the member functions.
+/// A surface that scatters by `Model`.
 template <typename Model>
 struct PowerLobeMaterial : OpaqueSurface {
   double exponent;  ///< In [0, 1e4].
@@ -67,7 +67,7 @@ struct PowerLobeMaterial : OpaqueSurface {
 using PhongMaterial = PowerLobeMaterial<PhongBsdf>;
 using RetroreflectorMaterial = PowerLobeMaterial<RetroreflectorBsdf>;
 
-/// A lobe about the normal. `SurfaceModel` describes the member functions.
+/// A lobe about the normal.
 struct CosinePowerMaterial : OpaqueSurface {
   double exponent;  ///< In [0, 1e4].
   bool reciprocal;  ///< True if the cosines of both directions are factors.

@@ -19,12 +19,8 @@
 
 namespace abbe {
 
-// The models below satisfy `BsdfModel` of `materials/bsdf.h`, which describes `sample`, `eval`, `pdf`
-// and `index_inside`. `eval` returns f(wo, wi) [1/sr] without the cosine of wi.
-
 /// Reflecting microfacets with their table of lost energy, computed once for all wavelengths.
 struct RoughMetal {
-  /// Tabulates the lost energy.
   explicit RoughMetal(const Microfacets<float>& facets);
 
   Microfacets<float> facets;
@@ -41,7 +37,6 @@ struct RoughMetal {
 struct RoughInterface {
   static constexpr std::size_t kMaxIndices = 17;  ///< Largest number of tabulated indices.
 
-  /// Tabulates the lost energy for relative indices in [low_n, high_n].
   RoughInterface(const Microfacets<float>& facets, float low_n, float high_n);
 
   /// The coordinate x of a relative index n.
@@ -70,7 +65,7 @@ struct RoughConductorBsdf {
   static constexpr bool kDelta = false;
   static constexpr bool kGlossy = true;
 
-  SampledSpectrum wavelengths_nm;    ///< Wavelengths in standard air [nm].
+  SampledSpectrum wavelengths_nm;    ///< In standard air.
   SampledSpectrum mean_reflectance;  ///< `diffuse_reflectance` relative to the outside.
   const RefractiveIndex* index;      ///< Complex index of the conductor.
   const RefractiveIndex* outside;    ///< Index outside; nullptr is air.
@@ -120,9 +115,8 @@ struct RoughDielectricBsdf {
 };
 
 /// A rough dielectric interface; alpha_x of the facets is the roughness along u, alpha_y that perpendicular
-/// to it. `SurfaceModel` describes the member functions. If both alphas are below `kMinAlpha`, the scene uses
-/// a `DielectricMaterial` instead. A relative index within 1e-3 of 1 is replaced by the nearest one that
-/// differs by 1e-3.
+/// to it. If both are below `kMinAlpha`, the scene uses a `DielectricMaterial` instead. A relative index
+/// within 1e-3 of 1 is replaced by the nearest one that differs by 1e-3.
 class RoughDielectricMaterial {
  public:
   /// Tabulates multiple scattering in air, which takes some tens of milliseconds.
@@ -154,7 +148,6 @@ class RoughDielectricMaterial {
 };
 
 /// A rough conductor; alpha_x of the facets is the roughness along u, alpha_y that perpendicular to it.
-/// `SurfaceModel` describes the member functions.
 class RoughConductorMaterial {
  public:
   RoughConductorMaterial(std::string index_name, RefractiveIndex index, const Microfacets<float>& facets);

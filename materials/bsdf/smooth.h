@@ -30,7 +30,6 @@ struct DielectricBsdf {
   [[nodiscard]] float index_inside(int lane) const { return n[lane]; }
   /// Index of the far side divided by that of the side of `wo`.
   [[nodiscard]] float eta(const Imath::V3f& wo, int lane) const { return wo.z < 0 ? 1 / n[lane] : n[lane]; }
-  /// Reflectance for unpolarised light.
   [[nodiscard]] float reflectance(const Imath::V3f& wo, int lane) const;
 };
 
@@ -40,7 +39,7 @@ struct ConductorBsdf {
   static constexpr bool kDelta = true;
 
   SampledSpectrum n;  ///< Real part of the index relative to the outside.
-  SampledSpectrum k;  ///< Imaginary part of that index, 0 or more.
+  SampledSpectrum k;  ///< Imaginary part, 0 or more.
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
                                                  TransportMode mode) const;
@@ -49,9 +48,8 @@ struct ConductorBsdf {
                                                      std::optional<int> lane) const;
 };
 
-/// A smooth dielectric interface under thin films, which may absorb. It refers to the material, which must
-/// outlive it, and holds the wavelengths of the packet. Films do not scatter; they absorb what they neither
-/// reflect nor transmit.
+/// A smooth dielectric interface under thin films, which absorb what they neither reflect nor transmit. It
+/// refers to the material, which must outlive it, and holds the wavelengths of the packet.
 struct CoatedDielectricBsdf {
   static constexpr bool kScatters = false;
   static constexpr bool kDelta = true;
@@ -90,8 +88,7 @@ struct CoatedConductorBsdf {
                                                      std::optional<int> lane) const;
 };
 
-/// A smooth interface to a transparent or absorbing medium, optionally under thin films. `SurfaceModel`
-/// describes the member functions.
+/// A smooth interface to a transparent or absorbing medium, optionally under thin films.
 struct DielectricMaterial {
   std::string index_name;
   RefractiveIndex index;
@@ -110,7 +107,6 @@ struct DielectricMaterial {
 };
 
 /// Thin films with the same medium on both sides, such as a soap bubble. Light crosses them undeflected.
-/// `SurfaceModel` describes the member functions.
 struct FilmMaterial {
   Coating layers;
 
@@ -122,7 +118,7 @@ struct FilmMaterial {
   [[nodiscard]] std::vector<IndexUse> indices() const { return indices_of(layers); }
 };
 
-/// A smooth metal, optionally under thin films. `SurfaceModel` describes the member functions.
+/// A smooth metal, optionally under thin films.
 struct ConductorMaterial {
   std::string index_name;
   RefractiveIndex index;
@@ -139,11 +135,9 @@ struct ConductorMaterial {
 };
 
 /// The boundary of a medium without an interface, such as fog or smoke. Light passes it unchanged.
-/// `SurfaceModel` describes the member functions.
 struct MediumMaterial {
   Medium interior_medium;
 
-  /// The interface between equal media, which changes nothing.
   [[nodiscard]] static DielectricBsdf bsdf(const SurfaceLookup& /*at*/) {
     return {SampledSpectrum(1.0F), false};
   }

@@ -32,7 +32,7 @@ struct ThinElement {
   }
 };
 
-/// A linear polariser. It absorbs what it does not transmit.
+/// A linear polariser.
 struct PolariserBsdf : ThinElement {
   SampledSpectrum blocked;  ///< Transmittance perpendicular to the axis divided by that along it, in [0, 1].
   Imath::V2f axis;          ///< Unit vector along which fields are transmitted.
@@ -40,7 +40,6 @@ struct PolariserBsdf : ThinElement {
                                                      std::optional<int> lane) const;
 };
 
-/// A wave plate.
 struct WavePlateBsdf : ThinElement {
   SampledSpectrum retardance;  ///< Phase lag of fields perpendicular to the fast axis [rad].
   Imath::V2f axis;             ///< Unit vector along the fast axis.
@@ -72,8 +71,7 @@ struct ThinGlassBsdf {
                                                      std::optional<int> lane) const;
 };
 
-/// A pane of glass modelled as one surface that does not deflect light, by `ThinGlassBsdf`. `SurfaceModel`
-/// describes the member functions.
+/// A pane of glass modelled as one surface that does not deflect light, by `ThinGlassBsdf`.
 struct ThinGlassMaterial {
   std::string index_name;
   RefractiveIndex index;  ///< k makes the pane absorb.
@@ -88,7 +86,6 @@ struct ThinGlassMaterial {
   [[nodiscard]] std::vector<IndexUse> indices() const { return {{&index_name, &index}}; }
 };
 
-/// The part common to all thin elements. `SurfaceModel` describes the member functions.
 struct ThinElementMaterial {
   Curve transmittance;  ///< In [0, 1]; the model defines for which light.
 
@@ -103,7 +100,6 @@ struct PolariserMaterial : ThinElementMaterial {
   Curve blocked;  ///< Transmittance perpendicular to the axis divided by that along it, in [0, 1].
   double angle;   ///< Angle of the transmission axis [rad].
 
-  /// Transmittance for unpolarised light.
   [[nodiscard]] double mean_transmittance(double wavelength_nm) const {
     return transmittance(wavelength_nm) * (1 + blocked(wavelength_nm)) / 2;
   }
@@ -133,7 +129,6 @@ struct WavePlateMaterial : ThinElementMaterial {
   [[nodiscard]] static constexpr bool needs_coordinates() { return true; }
 };
 
-/// A sheet that depolarises light.
 struct DepolariserMaterial : ThinElementMaterial {
   [[nodiscard]] DepolariserBsdf bsdf(const SurfaceLookup& at) const {
     return {{transmittance(at.wavelengths_nm)}};

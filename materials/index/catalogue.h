@@ -12,7 +12,6 @@
 
 namespace abbe {
 
-/// A refractive index with its name and source.
 struct NamedIndex {
   std::string name;
   std::string source;  ///< Text that identifies the origin of the data.
@@ -23,7 +22,7 @@ struct NamedIndex {
 /// its data.
 inline constexpr NeededRange kAnyWavelength{kMaxWavelengthNm, kMinWavelengthNm};
 
-/// The data folder of transparent materials.
+/// Data folder of transparent materials.
 inline constexpr const char* kGlassFolder = "glass";
 
 /// A table of `data/glass` with one dispersion formula per row. Rows are numbered from 0. Columns: id,

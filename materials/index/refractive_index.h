@@ -12,7 +12,7 @@ namespace abbe {
 /// A value of k larger than that of any glass or varnish, smaller than that of any metal.
 inline constexpr double kLargestGlassK = 1e-3;
 
-/// The medium relative to which an index is tabulated.
+/// The medium relative to which a tabulated index holds.
 enum class IndexMedium { air, vacuum };
 
 /// An error message if `n` and `k` cannot be a refractive index: n <= 0 or k < 0 somewhere in [300, 1100] nm.
@@ -66,17 +66,14 @@ class RefractiveIndex {
   [[nodiscard]] double absorption_per_m(double wavelength_nm) const;
   [[nodiscard]] SampledSpectrum absorption_per_m(const SampledSpectrum& wavelengths_nm) const;
 
-  /// True if n depends on wavelength.
-  [[nodiscard]] bool dispersive() const;
-  [[nodiscard]] bool absorbing() const;  ///< True if k > 0 somewhere in [300, 1100] nm.
-  /// The medium relative to which the catalogued values hold.
+  [[nodiscard]] bool dispersive() const;  ///< True if n depends on wavelength.
+  [[nodiscard]] bool absorbing() const;   ///< True if k > 0 somewhere in [300, 1100] nm.
   [[nodiscard]] IndexMedium medium() const { return medium_; }
   /// The range in which n is valid [nm]; 0 to infinity for a constant.
   [[nodiscard]] double low_nm() const { return low_nm_; }
   [[nodiscard]] double high_nm() const { return high_nm_; }
   /// Range in which k was measured; empty if k was never measured.
   [[nodiscard]] const std::optional<DataRange>& k_range() const { return k_range_; }
-  /// True if k was measured at a wavelength [nm].
   [[nodiscard]] bool has_measured_k(double wavelength_nm) const {
     return k_range_ && k_range_->contains(wavelength_nm);
   }

@@ -16,15 +16,13 @@ namespace abbe {
 /// `kMaxMaterials` materials. Without layers the surface is bare. Layers of the same material refer to one
 /// entry of `materials`.
 struct Coating {
-  /// A material of the layers under its name in the scene.
   struct Material {
     std::string index_name;
     RefractiveIndex index;
   };
-  /// A layer of `materials[material]`.
   struct Layer {
-    std::uint32_t material;
-    double thickness_nm;  ///< Above 0.
+    std::uint32_t material;  ///< Index in `materials`.
+    double thickness_nm;     ///< Above 0.
   };
   static constexpr std::size_t kMaxMaterials = 16;
   static constexpr std::size_t kMaxLayers = 256;
@@ -73,7 +71,7 @@ class CoatingAt {
   std::array<SampledSpectrum, Coating::kMaxMaterials> k_;
 };
 
-/// Allowed thickness of a thin film: above 0 and at most 1e5 nm. Thicker layers are not coherent.
+/// Allowed thickness of a thin film. Thicker layers are not coherent.
 inline constexpr Range kFilmThickness{0, 1e5, true, false, "nm"};
 
 }  // namespace abbe

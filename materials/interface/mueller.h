@@ -18,7 +18,6 @@ template <std::floating_point T>
 [[nodiscard]] T quotient(T a, T b) {
   return b > 0 ? a / b : T(0);
 }
-/// The quotient at each wavelength.
 [[nodiscard]] inline SampledSpectrum quotient(const SampledSpectrum& a, const SampledSpectrum& b) {
   return SampledSpectrum::map(a, b, quotient<float>);
 }
@@ -64,7 +63,6 @@ class MuellerMean {
   /// Adds a contribution that depolarises.
   void add_unpolarised(const T& power) { power_ += power; }
 
-  /// The weighted mean of all contributions.
   [[nodiscard]] MuellerElements<T> mean() const {
     return {quotient(sum_.d, power_), quotient(sum_.p, power_), quotient(sum_.c, power_),
             quotient(sum_.s, power_)};

@@ -15,7 +15,6 @@ namespace abbe {
 /// the channels of an image.
 class SpectralTexture {
  public:
-  /// A quantity that is uniform over the surface.
   SpectralTexture(Curve curve) : curve_(std::move(curve)) {}
   /// The sum over channels c of the image of (value of c) * spectra[c]. Throws Error{internal} unless each
   /// channel has a spectrum.
@@ -26,7 +25,6 @@ class SpectralTexture {
     return image_ ? of_image(at) : curve_(at.wavelengths_nm);
   }
 
-  /// True if the quantity varies over the surface.
   [[nodiscard]] bool textured() const { return image_ != nullptr; }
   /// The uniform value; zero if `textured`.
   [[nodiscard]] const Curve& curve() const { return curve_; }

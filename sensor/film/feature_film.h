@@ -52,8 +52,8 @@ class FeatureFilm {
   /// Creates feature sums for a film of this shape with these planes. Throws Error{resource} if memory does
   /// not suffice, and like `feature_planes`.
   FeatureFilm(std::vector<Feature> features, const FilmShape& film, std::span<const std::string> film_planes);
-  /// Feature film whose sums have these bytes, or nothing if their number does not fit the shape. Throws like
-  /// the constructor.
+  /// Feature film with the bytes of its sums; nothing if their number does not fit. Throws like the
+  /// constructor.
   [[nodiscard]] static std::optional<FeatureFilm> from_bytes(std::vector<Feature> features,
                                                              const FilmShape& film,
                                                              std::span<const std::string> film_planes,
@@ -85,8 +85,7 @@ class FeatureFilm {
   Film sums_;
 };
 
-/// Memory [bytes] of the feature sums for a film of this shape with these planes; 0 without features. Throws
-/// like `feature_planes`.
+/// Memory of the feature sums [bytes]; 0 without features. Throws like `feature_planes`.
 [[nodiscard]] std::size_t bytes_of_features(std::span<const Feature> features, const FilmShape& film,
                                             std::span<const std::string> film_planes);
 

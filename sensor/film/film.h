@@ -47,7 +47,7 @@ struct FilmShape {
 
 /// Pixels for which a film of this shape has sums.
 [[nodiscard]] Crop pixels_of(const FilmShape& shape);
-/// Memory [bytes] of the sums of a film of this shape.
+/// Memory of the sums of such a film.
 [[nodiscard]] std::size_t bytes_of_sums(const FilmShape& shape);
 
 /// Sums of film values per pixel, channel and replicate in 128-bit fixed point. Integer addition is
@@ -89,7 +89,7 @@ class Film {
   [[nodiscard]] std::string_view bytes() const;
   [[nodiscard]] static std::optional<Film> from_bytes(const FilmShape& shape, std::string_view bytes);
 
-  /// Sum of a channel over the samples of a pixel; 0 outside the crop.
+  /// Sum over the samples of a pixel; 0 outside the crop.
   [[nodiscard]] double total(std::size_t pixel, int channel) const;
   /// Mean of a channel over the samples of a pixel, and the variance of that mean. Both are 0 outside the
   /// crop and without samples. The variance is also 0 with fewer than two filled replicates.
@@ -105,16 +105,13 @@ class Film {
     double standard_error;
     double degrees_of_freedom;
   };
-  /// Average over the whole film.
   [[nodiscard]] Average average(int channel) const;
   /// Average over x0 <= x < x1, y0 <= y < y1, where pixels outside the crop count as 0. `divisors`, one per
   /// pixel of the film if any, divide each pixel by a number of its own.
   [[nodiscard]] Average average(int channel, int x0, int y0, int x1, int y1,
                                 std::span<const double> divisors = {}) const;
-  /// Samples per pixel, summed over the replicates.
-  [[nodiscard]] double samples() const;
-  /// Number of replicates that have samples.
-  [[nodiscard]] int filled_replicates() const;
+  [[nodiscard]] double samples() const;         ///< Samples per pixel, summed over the replicates.
+  [[nodiscard]] int filled_replicates() const;  ///< Number of replicates that have samples.
 
   /// Film as an image: the means of all channels under their `names`, then their variances under
   /// `Variance.<name>`. There is at least one name per channel. Pixels outside the crop are 0.
@@ -124,7 +121,6 @@ class Film {
   void develop(Image& image, const Crop& area, std::span<const std::uint64_t> samples) const;
 
   [[nodiscard]] const FilmShape& shape() const { return shape_; }
-  /// Pixels that have sums.
   [[nodiscard]] Crop crop() const { return pixels_of(shape_); }
   /// Index of a pixel in the whole film.
   [[nodiscard]] std::size_t pixel_at(int x, int y) const {
@@ -134,7 +130,6 @@ class Film {
   [[nodiscard]] int height() const { return shape_.height; }
   [[nodiscard]] int channels() const { return shape_.channels; }
   [[nodiscard]] int replicates() const { return shape_.replicates; }
-  /// Memory of the sums.
   [[nodiscard]] std::size_t memory_bytes() const { return sums_.size() * sizeof(Int128); }
 
  private:

@@ -20,7 +20,7 @@ namespace abbe {
 /// tristimulus values.
 [[nodiscard]] bool may_hold_tristimulus_values(const Image& film);
 
-/// Name of the channel of a film with the variance of another channel.
+/// Name of the channel with the variance of another channel.
 [[nodiscard]] inline std::string variance_of(const std::string& channel) {
   return "Variance." + channel;
 }
@@ -46,14 +46,13 @@ struct StokesPlanes {
 /// polarisation. Throws Error{input} if Q or U of a channel is missing, or if only some channels have V.
 [[nodiscard]] std::vector<StokesPlanes> stokes_planes(const Image& film);
 
-/// State of polarisation. Noise can make the degrees exceed 1.
+/// State of polarisation of a Stokes vector. Noise can make the degrees exceed 1.
 struct PolarisationFigures {
   double degree;         ///< sqrt(Q^2 + U^2 + V^2)/I; 0 without light.
   double linear_degree;  ///< sqrt(Q^2 + U^2)/I; 0 without light.
   double angle_deg;      ///< Plane of oscillation of the electric field, atan2(U, Q)/2 in [0, 180),
                          ///< counterclockwise from the right of the picture.
 };
-/// State of polarisation of a Stokes vector.
 [[nodiscard]] PolarisationFigures polarisation_of(const StokesVector& stokes);
 
 }  // namespace abbe

@@ -13,7 +13,7 @@ namespace abbe {
 
 /// JSON pointer of the requested white, in a scene and in the options of development.
 inline constexpr const char* kWhitePointer = "/output/white";
-/// Attributes with the name of a film's white and with its chromaticity x, y, separated by a blank.
+/// Attributes with the name of a film's white and with its x and y, separated by a blank.
 inline constexpr const char* kWhiteKey = "white";
 inline constexpr const char* kWhiteXyKey = "white_xy";
 /// Attribute of a film whose scene requests its white, "yes". Other films are displayed with their main light
@@ -25,8 +25,7 @@ inline constexpr const char* kLightsXyKey = "lights_xy";
 /// Attribute with the reason why a film cannot be displayed, instead of its display matrix.
 inline constexpr const char* kNoPictureKey = "no_picture";
 
-/// Records the name and chromaticity of a white, and if the scene requests it (`requested`). Replaces an
-/// earlier one.
+/// Records a white, and if the scene requests it. Replaces an earlier one.
 void record_white(const std::string& name, const Chromaticity& xy, bool requested,
                   std::map<std::string, std::string>& metadata);
 
@@ -49,7 +48,6 @@ inline constexpr const char* kHalfNoiseSamplesKey = "half_noise_samples";
   return error != attributes.end() && error->second == "inf";
 }
 
-/// Records that the error of a film is unknown.
 inline void record_unknown_error(std::map<std::string, std::string>& attributes) {
   attributes[kFrameMeanErrorKey] = "inf";
 }

@@ -14,7 +14,6 @@ namespace abbe {
 /// Floor of relMSE: the mean of (x - r)^2 / (r^2 + kUsualFloor * mean(r)^2) for values x and reference r.
 inline constexpr double kUsualFloor = 0.01;
 
-/// Selects all planes of a film.
 inline constexpr std::size_t kAllPlanes = std::numeric_limits<std::size_t>::max();
 
 /// Deviation of a film from its expectation: standard deviations divided by means.

@@ -123,13 +123,6 @@ constexpr const char* kNoLight =
   throw Error(ErrorCode::input, "photon transfer", what);
 }
 
-[[noreturn]] void refuse_bright_pairs(double saturation_dn, std::size_t illuminated_pairs) {
-  refuse(
-      fmt::format("no illuminated pair is below {} of the saturation signal, taken as the {:.5g} DN where "
-                  "the codes scatter most: add pairs at weaker light ({} illuminated pair{} given)",
-                  kFitted, saturation_dn, illuminated_pairs, illuminated_pairs == 1 ? "" : "s"));
-}
-
 // Moments of a pair [DN, DN^2]: mean, temporal variance without rounding, spatial variance without both, and
 // the squared standard error of the temporal variance [DN^4].
 struct PairMoments {
@@ -391,7 +384,11 @@ Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair>
       products += signal(m) * (m.temporal - dark_variance.at(m.exposure_s));
       squares += signal(m) * signal(m);
     }
-  if (below.empty()) refuse_bright_pairs(saturation, illuminated.size());
+  if (below.empty())
+    refuse(
+        fmt::format("no illuminated pair is below {} of the saturation signal, taken as the {:.5g} DN where "
+                    "the codes scatter most: add pairs at weaker light ({} illuminated pair{} given)",
+                    kFitted, saturation, illuminated.size(), illuminated.size() == 1 ? "" : "s"));
   if (!(products > 0)) refuse(kNoLight);
   const double gain = squares / products;
   const double read_variance = dark_variance.at_zero;

@@ -61,7 +61,7 @@ struct Readout {
 
 /// One exposure of a sensor. Another seed or frame gives independent noise and the same fixed patterns.
 struct Exposure {
-  double seconds = 1;       ///< Exposure time.
+  double seconds = 1;
   std::uint64_t seed = 0;   ///< Seed of the noise.
   std::uint32_t frame = 0;  ///< Number of the exposure in a series.
   std::size_t width = 0;    ///< Pixels per row, for row noise; 0 if all pixels are one row.

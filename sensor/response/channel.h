@@ -32,10 +32,8 @@ struct InterferenceFilter {
   double effective_index;  ///< That of `blue_shift`, at least 1.
 };
 
-/// A stack of filters: the transmittance of those that do not depend on the angle, and the others.
 struct FilterStack {
-  /// Product of all factors that do not depend on the angle.
-  Curve fixed = Curve(1.0);
+  Curve fixed = Curve(1.0);  ///< Product of all factors that do not depend on the angle.
   std::vector<InterferenceFilter> shifting = {};
 };
 
@@ -57,7 +55,6 @@ struct Analyser {
 /// Weights (i, c q, c u, c v) of an analyser at several wavelengths [nm].
 [[nodiscard]] StokesSpectrum row_of(const Analyser& analyser, const SampledSpectrum& wavelengths_nm);
 
-/// A linear polariser in front of a film.
 struct Polariser {
   double angle_deg = 0;  ///< Transmission axis in degrees, counterclockwise from the right of the picture.
   Curve transmittance = Curve(1.0);  ///< Transmittance of light polarised along the axis, in [0, 1].
@@ -76,7 +73,6 @@ struct Polariser {
 /// 1964.
 enum class ResponseKind { energy, quantum, photometric, photometric_1964 };
 
-/// Dependence of the weight of a channel on the angle of incidence.
 struct AngularResponse {
   FilterStack filters;  ///< `fixed` is the part of the weight that does not depend on the angle.
   Curve envelope;       ///< Curve whose magnitude bounds that of the weight over all angles that occur.
@@ -114,11 +110,10 @@ struct Channel {
   return channel.angular ? channel.angular->envelope : channel.weight;
 }
 
-/// A channel whose response multiplies energy: weight = response.
+/// A channel of `ResponseKind::energy`: weight = response.
 [[nodiscard]] Channel energy_channel(std::string name, Curve response);
 
-/// A channel whose response (quantum efficiency times filters, electrons per photon) multiplies photons:
-/// weight = response lambda/(hc).
+/// A quantum channel: weight = response lambda/(hc). The response is in electrons per photon.
 [[nodiscard]] Channel quantum_channel(std::string name, const Curve& response);
 
 /// The channel behind filters that receive light at all angles. A stack with shifting filters leaves
@@ -127,7 +122,6 @@ struct Channel {
 /// The channel behind a polariser: `mean_transmittance` multiplies its weight. It must not have an analyser
 /// yet.
 [[nodiscard]] Channel behind(Channel channel, const Polariser& polariser);
-/// The channel with its weight multiplied by `factor`.
 [[nodiscard]] Channel scaled(Channel channel, double factor);
 /// The channel with its exposure time multiplied by `ratio`, which also multiplies its weight.
 [[nodiscard]] Channel exposed(Channel channel, double ratio);
@@ -185,7 +179,7 @@ struct Incidence {
 /// empty, and its fractions must add up to 1.
 [[nodiscard]] Channel averaged(Channel channel, std::span<const Incidence> angles);
 
-/// True if the weight of some channel depends on the angle of incidence.
+/// True if a channel depends on the angle of incidence.
 [[nodiscard]] bool any_angular(std::span<const Channel> channels);
 
 }  // namespace abbe

@@ -17,7 +17,7 @@ struct StokesPlane {
   int component;  ///< 0 to 3 for I, Q, U and V.
   std::string channel;
 };
-/// Name of a plane: "R" for the intensity I of channel R, "S1.R", "S2.R" and "S3.R" for Q, U and V.
+/// "R" for the intensity I of channel R, "S1.R", "S2.R" and "S3.R" for Q, U and V.
 [[nodiscard]] std::string name_of(const StokesPlane& plane);
 
 /// The channels, which measure intensities, followed by copies that respond to component 1, then 2, then 3.
@@ -30,7 +30,6 @@ struct StokesPlane {
 [[nodiscard]] std::vector<Channel> intensities(std::span<const Channel> channels);
 /// Names of intensity planes: those without the prefix of another component.
 [[nodiscard]] std::vector<std::string> intensities(std::span<const std::string> planes);
-/// True if some channel depends on polarisation.
 [[nodiscard]] bool any_analyser(std::span<const Channel> channels);
 
 /// Row of a channel behind a polariser for light (I, Q, U) of constant spectrum: weight (I + q Q + u U), in
