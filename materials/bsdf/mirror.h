@@ -48,7 +48,12 @@ struct IdealMirrorMaterial : OpaqueSurface {
   [[nodiscard]] IdealMirrorBsdf<Kind> bsdf(const SurfaceLookup& at) const { return {reflectance(at)}; }
   [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true}; }
   [[nodiscard]] static constexpr bool preserves_polarisation() { return true; }
-  [[nodiscard]] std::optional<FresnelPower<double>> smooth_power(const SmoothLookup& at) const;
+  [[nodiscard]] std::optional<FresnelPower<double>> smooth_power(const SmoothLookup& at) const {
+    const std::optional<double> value = reflectance.at(at.wavelength_nm, at.coordinates);
+    if (!value) return std::nullopt;
+    const double r = Kind == MirrorKind::ideal ? *value : schlick(at.cos_i, *value);
+    return FresnelPower<double>{r, r, 0, 0, 0};
+  }
   [[nodiscard]] static SmoothMueller smooth_mueller(const SmoothLookup& /*at*/) {
     return {{kIdealMirror<double>, {}}};
   }

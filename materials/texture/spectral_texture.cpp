@@ -12,6 +12,13 @@ SpectralTexture::SpectralTexture(TextureImage image, std::vector<Curve> spectra)
     throw Error(ErrorCode::internal, "texture", "a spectrum is needed for each channel");
 }
 
+std::optional<double> SpectralTexture::at(double wavelength_nm, std::optional<Imath::V2f> coordinates) const {
+  if (!textured()) return curve_(wavelength_nm);
+  if (!coordinates) return std::nullopt;
+  const SampledSpectrum wavelengths_nm(static_cast<float>(wavelength_nm));
+  return of_image({wavelengths_nm, *coordinates})[0];
+}
+
 SampledSpectrum SpectralTexture::of_image(const SurfaceLookup& at) const {
   const TextureImage::Blend blend = image_->image.blend(at.uv);
   SampledSpectrum sum;

@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -24,6 +25,9 @@ class SpectralTexture {
   [[nodiscard]] SampledSpectrum operator()(const SurfaceLookup& at) const {
     return image_ ? of_image(at) : curve_(at.wavelengths_nm);
   }
+
+  /// The value at one wavelength [nm]; empty if `textured` and the coordinates are unknown.
+  [[nodiscard]] std::optional<double> at(double wavelength_nm, std::optional<Imath::V2f> coordinates) const;
 
   [[nodiscard]] bool textured() const { return image_ != nullptr; }
   /// The uniform value; zero if `textured`.

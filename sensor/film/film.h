@@ -72,10 +72,10 @@ class Film {
   /// True if a value is finite and small enough for the film.
   [[nodiscard]] bool holds(double value) const { return std::abs(value) < limit_; }
 
-  /// Sets the number of samples per pixel of each replicate, one element each. They are 0 in a new film.
+  /// Sets the number of samples per pixel of each replicate, 0 in a new film.
   void set_samples(std::vector<std::uint64_t> per_replicate);
-  /// Adds the sums of a film that differs at most in its crop, for the pixels that both have. The caller adds
-  /// up the samples. Throws Error{scene} if a sum overflows.
+  /// Adds the sums of a film that differs at most in its crop, for the pixels that both have; not the numbers
+  /// of samples. Throws Error{scene} if a sum overflows.
   void add(const Film& other);
   /// `only` copies the sums of some replicates, in this order, without numbers of samples. It throws
   /// Error{resource} if memory does not suffice. `put_back` restores the sums from such a copy.
@@ -113,8 +113,8 @@ class Film {
   [[nodiscard]] double samples() const;         ///< Samples per pixel, summed over the replicates.
   [[nodiscard]] int filled_replicates() const;  ///< Number of replicates that have samples.
 
-  /// Film as an image: the means of all channels under their `names`, then their variances under
-  /// `Variance.<name>`. There is at least one name per channel. Pixels outside the crop are 0.
+  /// The means of all channels under their `names`, at least one each, then their variances under
+  /// `Variance.<name>`. Pixels outside the crop are 0.
   [[nodiscard]] Image image(std::span<const std::string> names) const;
   /// Updates the pixels of an area within the crop in such an image for samples per replicate that differ
   /// from those of `set_samples`.

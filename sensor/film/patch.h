@@ -31,8 +31,8 @@ struct PatchOutline {
   std::array<Imath::V2d, 4> corners;
 };
 
-/// Statistics of one channel in a patch. Mean, median and deviation exclude black and saturated pixels if
-/// these are so few that they count as defective (`exceeds_defects`).
+/// Statistics of one channel in a patch. Mean, median and deviation exclude defective black and saturated
+/// pixels (`exceeds_defects`).
 struct PatchChannel {
   std::size_t pixels = 0;                ///< All pixels.
   double mean = 0;                       ///< In units of the plane, like all values here.
@@ -93,8 +93,7 @@ struct MeasuredPlanes {
 [[nodiscard]] std::vector<std::optional<double>> clipping_levels(
     std::span<const std::vector<PatchChannel>> channels, std::optional<double> saturation);
 
-/// Clipping level of each channel of measured patches, by the function above; nothing for a channel unless
-/// the pixels of the image above it are few enough to be defective.
+/// The same for measured patches; nothing for a channel with more pixels above the level than are defective.
 [[nodiscard]] std::vector<std::optional<double>> clipping_levels(const Image& image,
                                                                  const MeasuredPlanes& planes,
                                                                  std::span<const PatchValues> patches);

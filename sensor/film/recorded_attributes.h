@@ -33,13 +33,11 @@ void record_white(const std::string& name, const Chromaticity& xy, bool requeste
 /// Error{input} unless x and y are two positive numbers.
 [[nodiscard]] std::optional<Chromaticity> recorded_white(const Image& film);
 
-/// Attribute of a film with the relative error of its mean over the frame (`frame_mean_error`). "inf" means
-/// unknown. An example is a film with pixels whose samples are in fewer than two replicates, where variances
-/// of 0 mean nothing.
+/// Attribute with the relative error of a film's mean over the frame (`frame_mean_error`); "inf" if unknown,
+/// as with pixels whose samples are in fewer than two replicates.
 inline constexpr const char* kFrameMeanErrorKey = "frame_mean_error";
 
-/// Attribute of a film with too few effective samples to estimate its error: the effective number of samples
-/// that carry half of the variance of its mean (`few_samples`). Absent for other films.
+/// Attribute with the result of `few_samples`; absent if there is none.
 inline constexpr const char* kHalfNoiseSamplesKey = "half_noise_samples";
 
 /// True if the attributes of a film or of a file developed from it record an unknown error.

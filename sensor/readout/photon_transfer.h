@@ -61,10 +61,8 @@ struct PhotonTransfer {
   /// Electrons at which wells are full or codes end; nothing if the brightest illuminated pair reaches
   /// neither.
   std::optional<double> saturation_e = {};
-  /// Result of the function `linearity_error_percent` for the illuminated pairs.
-  std::optional<double> linearity_error_percent = {};
-  /// Result of the function `gain_bias` for the pairs that K is fitted to.
-  std::optional<RelativeBias> gain_bias = {};
+  std::optional<double> linearity_error_percent = {};  ///< Of the illuminated pairs.
+  std::optional<RelativeBias> gain_bias = {};          ///< Of the pairs that K is fitted to.
 };
 
 /// Photon-transfer method of [EMVA1288].

@@ -37,13 +37,12 @@ struct FilterStack {
   std::vector<InterferenceFilter> shifting = {};
 };
 
-/// Upper bound of the transmittance over all angles whose cosine is at least `min_cosine`, piecewise constant
-/// in steps of at most a nanometre. It is zero exactly where all these transmittances are zero.
+/// Upper bound of the transmittance over all angles whose cosine is at least `min_cosine`, in steps of at
+/// most a nanometre. It is zero exactly where all these transmittances are zero.
 [[nodiscard]] Curve envelope(const InterferenceFilter& filter, double min_cosine);
 
-/// Response of a channel to polarised light relative to unpolarised light. A Stokes vector (I, Q, U, V) in
-/// the frame of the film counts i I + c (q Q + u U + v V), where c is the contrast. A channel without an
-/// analyser measures I.
+/// Response to polarised light relative to unpolarised light. A Stokes vector (I, Q, U, V) in the frame of
+/// the film counts i I + c (q Q + u U + v V), where c is the contrast.
 struct Analyser {
   float i = 1;  ///< 0 for a channel of one signed component (`with_stokes`).
   float q = 0;
@@ -69,8 +68,7 @@ struct Polariser {
 [[nodiscard]] Analyser analyser_of(const Polariser& polariser);
 
 /// Quantity that a response multiplies: the incident energy, the incident photons, or the luminous exposure
-/// for the colour-matching functions of 1931. `photometric_1964` is the corresponding integral with those of
-/// 1964.
+/// for the colour-matching functions of 1931 or 1964.
 enum class ResponseKind { energy, quantum, photometric, photometric_1964 };
 
 struct AngularResponse {
@@ -79,9 +77,9 @@ struct AngularResponse {
 };
 
 /// One channel of a sensor. Its film value for a spectral irradiance E over the exposure time t of the sensor
-/// is t * integral of E(lambda) weight(lambda). The weight includes lambda/(hc) for a quantum channel and
-/// 683.002 lm/W for an observer. The unit is J/m^2 weighted by the response for an energy channel, electrons
-/// per m^2 for a quantum channel, and lx s for a channel of the 1931 observer.
+/// is t * integral of E(lambda) weight(lambda). The unit is J/m^2 weighted by the response for an energy
+/// channel, electrons per m^2 for a quantum channel (whose weight includes lambda/(hc)), and lx s for a
+/// channel of the 1931 observer (whose weight includes 683.002 lm/W).
 struct Channel {
   std::string name;
   ResponseKind kind = ResponseKind::energy;
@@ -92,8 +90,7 @@ struct Channel {
   std::optional<Analyser> analyser = {};
 };
 
-/// Weight for unpolarised light at several wavelengths [nm], whose angle of incidence on the film has this
-/// cosine.
+/// Weight for unpolarised light at several wavelengths [nm], at this cosine of incidence on the film.
 [[nodiscard]] inline SampledSpectrum weight_at(const Channel& channel, const SampledSpectrum& wavelengths_nm,
                                                float cos_film) {
   if (!channel.angular) return channel.weight(wavelengths_nm);
@@ -129,8 +126,7 @@ struct Channel {
 /// `peak`. Responses to energy S become efficiencies proportional to S(lambda)/lambda; responses to photons
 /// keep their shape. Throws Error{input} if no channel responds at any wavelength.
 [[nodiscard]] std::vector<Channel> with_peak_efficiency(std::vector<Channel> channels, double peak);
-/// Sets the channel's envelope for angles of incidence whose cosine is at least `min_cosine`. No effect on a
-/// channel without shifting filters.
+/// Sets the envelope of a channel with shifting filters for cosines of incidence of at least `min_cosine`.
 void limit_angles(Channel& channel, double min_cosine);
 
 /// Scale of quantum efficiencies. `absolute`: their values count; `relative`: only their ratios.
@@ -153,8 +149,7 @@ enum class ResponseScale { absolute, relative };
 /// Standard observer as a sensor: X, Y, Z with weights of 683.002 times the colour-matching functions. Y of
 /// 1931 is in lx s.
 [[nodiscard]] std::vector<Channel> observer_channels(Observer observer);
-/// Observer of three channels made by `observer_channels`, possibly behind filters. Nothing for other
-/// channels of the same names.
+/// Observer of three channels made by `observer_channels`, possibly behind filters; nothing for others.
 [[nodiscard]] std::optional<Observer> standard_observer(std::span<const Channel> channels);
 
 /// Reads the spectral sensitivities of a camera from the JSON of rawtoaces and physlight. Curves are named by
@@ -175,8 +170,7 @@ struct Incidence {
 };
 
 /// Channel of a pixel that receives light under several angles: its weight is the mean over them and no
-/// longer depends on the angle. A channel that does not depend on it stays unchanged. `angles` must not be
-/// empty, and its fractions must add up to 1.
+/// longer depends on the angle. `angles` must not be empty, and its fractions must add up to 1.
 [[nodiscard]] Channel averaged(Channel channel, std::span<const Incidence> angles);
 
 /// True if a channel depends on the angle of incidence.

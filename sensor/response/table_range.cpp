@@ -7,12 +7,12 @@
 namespace abbe {
 namespace {
 
-/// Largest fraction of a response outside the rows of a table, and the name of that response.
 struct LostFraction {
   double fraction = 0;
   std::string response;
 };
 
+// Largest fraction of a response outside the rows of a table.
 LostFraction largest_loss(const NamedCurve& table, const Curve& light,
                           std::span<const NamedResponse> responses) {
   LostFraction largest;
@@ -41,11 +41,6 @@ std::vector<NamedResponse> named_responses(std::span<const Channel> channels) {
   return responses;
 }
 
-bool check_table_range(const NamedCurve& table, const Curve& light, std::span<const Channel> channels,
-                       const SourcePosition& where, Diagnostics& diagnostics) {
-  return check_table_range(table, light, named_responses(channels), where, diagnostics);
-}
-
 bool check_table_range(const NamedCurve& table, const Curve& light, std::span<const NamedResponse> responses,
                        const SourcePosition& where, Diagnostics& diagnostics) {
   if (table.outside == Outside::clamp) return true;
@@ -70,7 +65,7 @@ bool check_table_range(const NamedCurve& table, const Curve& light, std::span<co
 
 bool check_light_range(const NamedCurve& light, std::span<const Channel> channels,
                        const SourcePosition& where, Diagnostics& diagnostics) {
-  return check_table_range(light, extrapolated(light), channels, where, diagnostics);
+  return check_table_range(light, extrapolated(light), named_responses(channels), where, diagnostics);
 }
 
 }  // namespace abbe
