@@ -161,10 +161,7 @@ OrenNayarBsdf OrenNayarMaterial::bsdf(const SurfaceLookup& at) const {
 }
 
 Curve inner_reflectance(const RefractiveIndex& index) {
-  std::vector<Knot> knots;
-  for (int nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; ++nm)
-    knots.push_back({static_cast<double>(nm), diffuse_reflectance_inside(index.n(nm))});
-  return Curve(std::move(knots));
+  return each_nm([&](double nm) { return diffuse_reflectance_inside(index.n(nm)); });
 }
 
 CoatedDiffuseBsdf CoatedDiffuseMaterial::bsdf(const SurfaceLookup& at) const {

@@ -132,8 +132,7 @@ std::optional<BsdfSample> DielectricBsdf::sample(const Imath::V3f& wo, const Bsd
         dispersive ? delta_power(wo, false) / SampledSpectrum(R) : SampledSpectrum(1);
     return BsdfSample{.wi = mirrored(wo), .weight = ratio, .lane_pdf = ratio, .pdf = R, .delta = true};
   }
-  // Refraction follows the hero wavelength. The other wavelengths can continue only if all have the same
-  // index.
+  // Refraction follows the hero. The other wavelengths can continue only if all have the same index.
   const float relative = eta(wo, hero);
   const BsdfSample s{.wi = refracted_direction(wo, relative, f.cos_t),
                      .weight = SampledSpectrum(f.transmitted() / (1 - R) * refraction_scale(relative, mode)),

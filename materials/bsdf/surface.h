@@ -46,7 +46,7 @@ struct SmoothMueller {
   std::optional<Imath::V2d> axis = {};
 };
 
-/// The power of an opaque surface, which transmits nothing.
+/// `power` without what enters an opaque surface.
 [[nodiscard]] inline FresnelPower<double> without_transmission(const FresnelPower<double>& power) {
   return {power.Rs, power.Rp, 0, 0, 0};
 }

@@ -18,8 +18,7 @@ struct NamedIndex {
   RefractiveIndex index;
 };
 
-/// No wavelength range is required of an index table: RefractiveIndex extrapolates n and reports the range of
-/// its data.
+/// Required of an index table is no range: RefractiveIndex extrapolates n and reports the range of its data.
 inline constexpr NeededRange kAnyWavelength{kMaxWavelengthNm, kMinWavelengthNm};
 
 /// Data folder of transparent materials.

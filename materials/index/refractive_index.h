@@ -2,7 +2,9 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
+#include <vector>
 
 #include "materials/index/dispersion.h"
 #include "spectral/curve.h"
@@ -11,6 +13,14 @@ namespace abbe {
 
 /// A value of k larger than that of any glass or varnish, smaller than that of any metal.
 inline constexpr double kLargestGlassK = 1e-3;
+
+/// Tabulates a function of the wavelength [nm] every 1 nm from 300 to 1100 nm.
+template <typename F>
+[[nodiscard]] Curve each_nm(F quantity) {
+  std::vector<Knot> knots;
+  for (double nm = kMinWavelengthNm; nm <= kMaxWavelengthNm; nm += 1) knots.push_back({nm, quantity(nm)});
+  return Curve(std::move(knots));
+}
 
 /// The medium relative to which a tabulated index holds.
 enum class IndexMedium { air, vacuum };

@@ -49,17 +49,15 @@ struct Coating {
                                                        double k, double cos_i, bool inside,
                                                        double outside = 1);
 
-/// A coating at the wavelengths of a packet [nm in air]. It refers to the coating, which must outlive it. The
-/// constructor looks up its indices once for all wavelengths, relative to the medium `outside`, or to air if
-/// that is nullptr.
+/// A coating at the wavelengths of a packet [nm in air], relative to the medium `outside`, or to air if that
+/// is nullptr. It refers to the coating, which must outlive it.
 class CoatingAt {
  public:
   CoatingAt(const Coating& coating, const SampledSpectrum& wavelengths_nm,
             const RefractiveIndex* outside = nullptr);
 
-  /// Reflectance and transmittance at wavelength sample `lane`. The medium inside has the index n + ik
-  /// relative to that outside. Light arrives at an angle of cosine `cos_i` in [0, 1], from within if `inside`
-  /// is true; k is then ignored.
+  /// Reflectance and transmittance at wavelength sample `lane`, as by `coated_power`. n + ik is relative to
+  /// the medium outside.
   [[nodiscard]] FresnelPower<float> power(int lane, float n, float k, float cos_i, bool inside) const;
   /// Mueller matrices of reflection and transmission, with the arguments of `power`.
   [[nodiscard]] InterfaceMueller<float> mueller(int lane, float n, float k, float cos_i, bool inside) const;

@@ -28,8 +28,7 @@ namespace abbe {
 /// Attribute with the layers that add up to a film, separated by commas; absent if it has none. Each layer
 /// has channels `<layer>.<plane>` in the same file.
 inline constexpr const char* kLayersKey = "layers";
-/// Prefix of the names of light-group layers.
-inline constexpr const char* kLightLayer = "light.";
+inline constexpr const char* kLightLayer = "light.";  ///< Prefix of the names of light-group layers.
 
 /// Planes of a film with the Stokes vectors of one channel or band.
 struct StokesPlanes {

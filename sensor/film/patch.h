@@ -93,7 +93,7 @@ struct MeasuredPlanes {
 [[nodiscard]] std::vector<std::optional<double>> clipping_levels(
     std::span<const std::vector<PatchChannel>> channels, std::optional<double> saturation);
 
-/// The same for measured patches; nothing for a channel with more pixels above the level than are defective.
+/// These levels for measured patches. A channel with more pixels above its level than are defective has none.
 [[nodiscard]] std::vector<std::optional<double>> clipping_levels(const Image& image,
                                                                  const MeasuredPlanes& planes,
                                                                  std::span<const PatchValues> patches);

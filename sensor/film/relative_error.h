@@ -44,10 +44,10 @@ struct RelativeError {
 [[nodiscard]] std::vector<std::size_t> nonzero_values(const Film& pilot,
                                                       std::size_t intensity_planes = kAllPlanes);
 
-/// Sets `frame_mean` and `few_samples` for the first `intensity_planes` planes, and the percentiles `median`
-/// and `p95` of the relative errors of the `nonzero` values (indices of `nonzero_values`), corrected for the
-/// few replicates by `quantiles_of_deviation`. A nonzero value that is 0 in the film has an infinite error.
-/// The percentiles are infinite without nonzero values and with fewer than two filled replicates.
+/// Sets `frame_mean` and `few_samples` for the first `intensity_planes` planes. Sets the percentiles `median`
+/// and `p95` of the relative errors of the `nonzero` values, which `quantiles_of_deviation` corrects for the
+/// few replicates. A nonzero value that is 0 in the film has an infinite error. The percentiles are infinite
+/// without nonzero values and with fewer than two filled replicates.
 [[nodiscard]] RelativeError relative_error(const Film& film, std::span<const std::size_t> nonzero,
                                            std::size_t intensity_planes = kAllPlanes);
 

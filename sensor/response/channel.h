@@ -77,9 +77,9 @@ struct AngularResponse {
 };
 
 /// One channel of a sensor. Its film value for a spectral irradiance E over the exposure time t of the sensor
-/// is t * integral of E(lambda) weight(lambda). The unit is J/m^2 weighted by the response for an energy
-/// channel, electrons per m^2 for a quantum channel (whose weight includes lambda/(hc)), and lx s for a
-/// channel of the 1931 observer (whose weight includes 683.002 lm/W).
+/// is t * integral of E(lambda) weight(lambda). The weight includes lambda/(hc) for a quantum channel and
+/// 683.002 lm/W for an observer. The unit is J/m^2 weighted by the response for an energy channel, electrons
+/// per m^2 for a quantum channel, and lx s for a channel of the 1931 observer.
 struct Channel {
   std::string name;
   ResponseKind kind = ResponseKind::energy;
