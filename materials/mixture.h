@@ -21,8 +21,6 @@ struct MixtureMaterial;
 /// Where the weights sum to less than 1, the rest of the light is absorbed.
 class MixtureBsdf {
  public:
-  static constexpr bool kScatters = true;
-  static constexpr bool kDelta = true;
   static constexpr bool kAbsorbingFilms = true;
 
   MixtureBsdf(const MixtureMaterial& material, const SurfaceLookup& at)

@@ -15,9 +15,6 @@ namespace abbe {
 
 /// Lambertian reflection on the side of `wo`. Both sides reflect alike.
 struct DiffuseBsdf {
-  static constexpr bool kScatters = true;
-  static constexpr bool kDelta = false;
-
   SampledSpectrum reflectance;  ///< Directional-hemispherical reflectance, in [0, 1].
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& u, int hero,
@@ -52,9 +49,6 @@ inline SampledSpectrum DiffuseBsdf::pdf(const Imath::V3f& wo, const Imath::V3f& 
 /// loses energy, so a lobe for light scattered repeatedly among the facets is added. A white surface reflects
 /// all light. [Portsmouth2025]
 struct OrenNayarBsdf {
-  static constexpr bool kScatters = true;
-  static constexpr bool kDelta = false;
-
   SampledSpectrum reflectance;  ///< Reflectance of the facets, in [0, 1].
   float roughness;              ///< In [0, 1]; 0 is Lambertian.
 
@@ -78,9 +72,6 @@ struct OrenNayarBsdf {
 /// reflectance of the ground, and r the internal diffuse reflectance of the coat. The model conserves energy
 /// for rho = 1. [Saunderson1942]
 struct CoatedDiffuseBsdf {
-  static constexpr bool kScatters = true;
-  static constexpr bool kDelta = true;
-
   SampledSpectrum n;       ///< Index of the coat relative to the outside, 1 or more.
   SampledSpectrum ground;  ///< rho/(n^2 (1 - rho r)).
   bool dispersive;         ///< True if n may differ between wavelengths.

@@ -18,9 +18,6 @@ enum class MirrorKind { ideal, schlick };
 
 template <MirrorKind Kind>
 struct IdealMirrorBsdf {
-  static constexpr bool kScatters = false;
-  static constexpr bool kDelta = true;
-
   SampledSpectrum reflectance;  ///< In [0, 1]; along the normal for `schlick`.
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& /*u*/, int /*hero*/,

@@ -31,8 +31,6 @@ enum class PowerLobe {
 /// Samples below the surface are empty.
 template <PowerLobe Lobe>
 struct PowerLobeBsdf {
-  static constexpr bool kScatters = true;
-  static constexpr bool kDelta = false;
   static constexpr bool kGlossy = true;
   /// True if f(wo, wi) = f(wi, wo).
   static constexpr bool kReciprocal =

@@ -76,9 +76,6 @@ class Principled {
 /// This leaves f unchanged where both directions conserve energy, makes all directions conserve it, and
 /// preserves reciprocity.
 struct PrincipledBsdf {
-  static constexpr bool kScatters = true;
-  static constexpr bool kDelta = false;
-
   SampledSpectrum base;          ///< In [0, 1].
   const Principled* principled;  ///< Model of the material, which must outlive this.
 

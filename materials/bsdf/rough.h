@@ -61,8 +61,6 @@ struct RoughInterface {
 /// height-correlated masking [Heitz2014, eq. 99]. Multiple scattering [Kulla2017] is coloured by the
 /// conductor's diffuse reflectance.
 struct RoughConductorBsdf {
-  static constexpr bool kScatters = true;
-  static constexpr bool kDelta = false;
   static constexpr bool kGlossy = true;
 
   SampledSpectrum wavelengths_nm;    ///< In standard air.
@@ -95,8 +93,6 @@ struct RoughConductorBsdf {
 /// not accumulate along long paths. The pdf of multiple scattering is as accurate as the tables, about 1e-3
 /// of the light.
 struct RoughDielectricBsdf {
-  static constexpr bool kScatters = true;
-  static constexpr bool kDelta = false;
   static constexpr bool kGlossy = true;
   static constexpr bool kBothSides = true;
 

@@ -15,9 +15,6 @@ namespace abbe {
 
 /// A smooth dielectric interface with its normal towards the outside.
 struct DielectricBsdf {
-  static constexpr bool kScatters = false;
-  static constexpr bool kDelta = true;
-
   SampledSpectrum n;  ///< Inside index relative to the outside.
   /// True if n may differ between wavelengths; then only the hero continues after refraction.
   bool dispersive;
@@ -35,9 +32,6 @@ struct DielectricBsdf {
 
 /// A smooth conductor, opaque, reflecting on both sides.
 struct ConductorBsdf {
-  static constexpr bool kScatters = false;
-  static constexpr bool kDelta = true;
-
   SampledSpectrum n;  ///< Real part of the index relative to the outside.
   SampledSpectrum k;  ///< Imaginary part, 0 or more.
 
@@ -51,8 +45,6 @@ struct ConductorBsdf {
 /// A smooth dielectric interface under thin films, which absorb what they neither reflect nor transmit. It
 /// refers to the material, which must outlive it, and holds the wavelengths of the packet.
 struct CoatedDielectricBsdf {
-  static constexpr bool kScatters = false;
-  static constexpr bool kDelta = true;
   static constexpr bool kAbsorbingFilms = true;
 
   SampledSpectrum wavelengths_nm;  ///< Wavelengths in standard air [nm].
@@ -73,9 +65,6 @@ struct CoatedDielectricBsdf {
 /// A smooth conductor under thin films, opaque, reflecting on both sides. It refers to the material, which
 /// must outlive it.
 struct CoatedConductorBsdf {
-  static constexpr bool kScatters = false;
-  static constexpr bool kDelta = true;
-
   SampledSpectrum wavelengths_nm;  ///< Wavelengths in standard air [nm].
   const RefractiveIndex* index;    ///< Complex index of the conductor.
   const Coating* coating;

@@ -17,9 +17,6 @@ namespace abbe {
 
 /// The part common to all thin elements: their action on unpolarised light.
 struct ThinElement {
-  static constexpr bool kScatters = false;
-  static constexpr bool kDelta = true;
-
   SampledSpectrum transmittance;  ///< Transmittance of unpolarised light, in [0, 1].
 
   [[nodiscard]] std::optional<BsdfSample> sample(const Imath::V3f& wo, const BsdfRandom& /*u*/, int /*hero*/,
@@ -54,9 +51,6 @@ struct DepolariserBsdf : ThinElement {};
 /// transmits it undeflected, in the same directions at all wavelengths. Its powers include all reflections
 /// between the faces, without interference (`sheet_power`).
 struct ThinGlassBsdf {
-  static constexpr bool kScatters = false;
-  static constexpr bool kDelta = true;
-
   SampledSpectrum n;  ///< Index relative to the medium outside.
   /// Optical depth of one passage along the normal, 0 or more: -ln a, where a is the internal transmittance.
   SampledSpectrum depth;
