@@ -110,11 +110,11 @@ struct OrenNayarMaterial : OpaqueSurface {
 /// air, every 1 nm from 300 to 1100 nm.
 [[nodiscard]] Curve inner_reflectance(const RefractiveIndex& index);
 
-/// A Lambertian ground under a smooth transparent coat, such as glazed or varnished paint.
-struct CoatedDiffuseMaterial {
+/// A Lambertian ground under a smooth transparent coat, such as glazed or varnished paint; `reflectance` is
+/// that of the uncoated ground.
+struct CoatedDiffuseMaterial : OpaqueSurface {
   std::string index_name;
-  RefractiveIndex index;        ///< Index of the coat: n in [1, 100), without k.
-  SpectralTexture reflectance;  ///< Reflectance of the uncoated ground, in [0, 1].
+  RefractiveIndex index;  ///< Index of the coat: n in [1, 100), without k.
   /// Internal diffuse reflectance in air; other media have their own.
   Curve inner = inner_reflectance(index);
 
@@ -122,11 +122,8 @@ struct CoatedDiffuseMaterial {
   [[nodiscard]] static constexpr Lobes lobes() { return {.delta = true, .spread = true}; }
   [[nodiscard]] std::optional<FresnelPower<double>> smooth_power(const SmoothLookup& at) const;
   [[nodiscard]] SmoothMueller smooth_mueller(const SmoothLookup& at) const;
-  [[nodiscard]] bool needs_coordinates() const { return reflectance.textured(); }
   [[nodiscard]] static constexpr bool depends_on_outside() { return true; }
-  [[nodiscard]] static constexpr bool opaque() { return true; }
   [[nodiscard]] std::vector<IndexUse> indices() const { return {{&index_name, &index}}; }
-  [[nodiscard]] std::size_t texture_bytes() const { return reflectance.memory_bytes(); }
 };
 
 }  // namespace abbe

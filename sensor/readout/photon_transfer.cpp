@@ -123,6 +123,13 @@ constexpr const char* kNoLight =
   throw Error(ErrorCode::input, "photon transfer", what);
 }
 
+[[noreturn]] void refuse_bright_pairs(double saturation_dn, std::size_t illuminated_pairs) {
+  refuse(
+      fmt::format("no illuminated pair is below {} of the saturation signal, taken as the {:.5g} DN where "
+                  "the codes scatter most: add pairs at weaker light ({} illuminated pair{} given)",
+                  kFitted, saturation_dn, illuminated_pairs, illuminated_pairs == 1 ? "" : "s"));
+}
+
 // Moments of a pair [DN, DN^2]: mean, temporal variance without rounding, spatial variance without both, and
 // the squared standard error of the temporal variance [DN^4].
 struct PairMoments {
@@ -324,9 +331,8 @@ double pattern_variance(const std::vector<WeightedPair>& darkness, const FlatPai
 }
 
 // Spatial variance [DN^2] of darkness at an exposure time, or of an illuminated pair minus that darkness,
-// pixel by pixel. The darkness is that of the pairs of the same exposure time. Without these it is the value
-// of the line through all dark pairs, since the dark signal of each pixel is proportional to time. If the
-// line adds too much noise, it is the pair nearest in time.
+// pixel by pixel. The dark signal of each pixel is proportional to time, hence the line through all dark
+// pairs.
 double pattern(std::span<const FlatPair> pairs, const std::vector<PairMoments>& dark,
                const std::vector<CodeLevel>& levels, double exposure_s, const FlatPair* illuminated = nullptr,
                double room_dn = std::numeric_limits<double>::infinity()) {
@@ -347,12 +353,19 @@ double pattern(std::span<const FlatPair> pairs, const std::vector<PairMoments>& 
     noise += weights[j] * weights[j] * dark[j].temporal;
   }
   noise /= std::sqrt(static_cast<double>(pairs.front().first.size()));
-  const auto nearer = [&](const WeightedPair& a, const WeightedPair& b) {
-    return std::abs(a.pair->exposure_s - exposure_s) < std::abs(b.pair->exposure_s - exposure_s);
-  };
-  const WeightedPair& nearest = *std::min_element(line.begin(), line.end(), nearer);
+  const auto distance = [&](const WeightedPair& p) { return std::abs(p.pair->exposure_s - exposure_s); };
+  const WeightedPair& nearest = *std::ranges::min_element(line, {}, distance);
   const double by_nearest = variance({{nearest.pair, nearest.moments, 1}});
   return noise > kPatternNoise * by_nearest ? by_nearest : variance(line);
+}
+
+std::vector<TransferPoint> points_of(const std::vector<PairMoments>& pairs, const Line& dark_mean,
+                                     const Line& dark_variance) {
+  std::vector<TransferPoint> points;
+  for (const PairMoments& m : pairs)
+    points.push_back({m.exposure_s, m.mean - dark_mean.at(m.exposure_s),
+                      m.temporal - dark_variance.at(m.exposure_s), m.temporal_error2});
+  return points;
 }
 
 // Result for pairs without unexpectedly full pixels.
@@ -370,32 +383,25 @@ Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair>
   const auto signal = [&](const PairMoments& m) { return m.mean - dark_mean.at(m.exposure_s); };
 
   // The variance is largest at saturation.
-  const auto by = [](auto value) {
-    return [value](const PairMoments& a, const PairMoments& b) { return value(a) < value(b); };
-  };
-  const auto variance = [](const PairMoments& m) { return m.temporal; };
-  const double saturation = signal(*std::max_element(illuminated.begin(), illuminated.end(), by(variance)));
+  const double saturation = signal(*std::ranges::max_element(illuminated, {}, &PairMoments::temporal));
+  std::vector<PairMoments> below;
+  std::ranges::copy_if(illuminated, std::back_inserter(below),
+                       [&](const PairMoments& m) { return signal(m) <= kFitted * saturation; });
+  const std::vector<TransferPoint> fitted_points = points_of(below, dark_mean, dark_variance);
   double products = 0;
   double squares = 0;
-  std::vector<PairMoments> below;
-  for (const PairMoments& m : illuminated)
-    if (signal(m) <= kFitted * saturation) {
-      below.push_back(m);
-      products += signal(m) * (m.temporal - dark_variance.at(m.exposure_s));
-      squares += signal(m) * signal(m);
-    }
-  if (below.empty())
-    refuse(
-        fmt::format("no illuminated pair is below {} of the saturation signal, taken as the {:.5g} DN where "
-                    "the codes scatter most: add pairs at weaker light ({} illuminated pair{} given)",
-                    kFitted, saturation, illuminated.size(), illuminated.size() == 1 ? "" : "s"));
+  for (const TransferPoint& p : fitted_points) {
+    products += p.signal_dn * p.variance_dn2;
+    squares += p.signal_dn * p.signal_dn;
+  }
+  if (below.empty()) refuse_bright_pairs(saturation, illuminated.size());
   if (!(products > 0)) refuse(kNoLight);
   const double gain = squares / products;
   const double read_variance = dark_variance.at_zero;
   const RelativeErrors errors = relative_errors(dark, below, dark_mean, products, read_variance);
   if (errors.gain > kMaxGainError) refuse(kNoLight);
 
-  const PairMoments& brightest = *std::max_element(illuminated.begin(), illuminated.end(), by(signal));
+  const PairMoments& brightest = *std::ranges::max_element(illuminated, {}, signal);
   const auto root = [](double x) { return std::sqrt(std::max(0.0, x)); };
   const std::size_t highest_code = (1U << static_cast<unsigned>(bits)) - 1;
   // All full wells hold the same number of electrons, so their variance is far below that of the light.
@@ -407,30 +413,23 @@ Analysis analyse(std::span<const FlatPair> dark_pairs, std::span<const FlatPair>
 
   const double full_dn = full ? dark_mean.at_zero + kFull * (brightest.mean - dark_mean.at_zero) : white_dn;
   const auto from_half = [&](const PairMoments& m) { return std::abs(signal(m) - kPatternsAt * saturation); };
-  const auto half_pair = std::min_element(illuminated.begin(), illuminated.end(), by(from_half));
+  const auto half_pair = std::ranges::min_element(illuminated, {}, from_half);
   const FlatPair& half = illuminated_pairs[static_cast<std::size_t>(half_pair - illuminated.begin())];
   // Dark signal above the mean that a pixel may have and still hold the light of that pair. A white level
   // below the pair does not limit it.
   const double above_half = (full ? brightest.mean : white_dn) - half_pair->mean;
   const double room_dn = above_half > 0 ? above_half : std::numeric_limits<double>::infinity();
-  const auto points_of = [&](const std::vector<PairMoments>& pairs) {
-    std::vector<TransferPoint> points;
-    for (const PairMoments& m : pairs)
-      points.push_back(
-          {m.exposure_s, signal(m), m.temporal - dark_variance.at(m.exposure_s), m.temporal_error2});
-    return points;
-  };
   const double read_noise = root(read_variance) * gain;
   Analysis all{
       {gain, read_noise, dark_mean.slope * gain,
        100 * root(pattern(dark_pairs, dark, levels, half.exposure_s, &half, room_dn)) / signal(*half_pair),
-       root(pattern(dark_pairs, dark, levels, 0)) * gain, full_well_e, points_of(illuminated),
-       errors.gain * gain, errors.read_noise ? std::optional(*errors.read_noise * read_noise) : std::nullopt,
-       saturation_e},
+       root(pattern(dark_pairs, dark, levels, 0)) * gain, full_well_e,
+       points_of(illuminated, dark_mean, dark_variance), errors.gain * gain,
+       errors.read_noise ? std::optional(*errors.read_noise * read_noise) : std::nullopt, saturation_e},
       full_dn};
   PhotonTransfer& transfer = all.transfer;
   transfer.linearity_error_percent = linearity_error_percent(transfer.points, saturation);
-  transfer.gain_bias = gain_bias(points_of(below), transfer.linearity_error_percent.has_value());
+  transfer.gain_bias = gain_bias(fitted_points, transfer.linearity_error_percent.has_value());
   return all;
 }
 

@@ -343,8 +343,7 @@ Channel averaged(Channel channel, std::span<const Incidence> angles) {
 }
 
 bool any_angular(std::span<const Channel> channels) {
-  return std::any_of(channels.begin(), channels.end(),
-                     [](const Channel& c) { return c.angular.has_value(); });
+  return std::ranges::any_of(channels, [](const Channel& c) { return c.angular.has_value(); });
 }
 
 }  // namespace abbe

@@ -73,8 +73,7 @@ std::vector<std::string> intensities(std::span<const std::string> planes) {
 }
 
 bool any_analyser(std::span<const Channel> channels) {
-  return std::any_of(channels.begin(), channels.end(),
-                     [](const Channel& channel) { return channel.analyser.has_value(); });
+  return std::ranges::any_of(channels, [](const Channel& c) { return c.analyser.has_value(); });
 }
 
 std::vector<std::optional<PolariserRow>> polariser_rows(std::span<const Channel> channels) {

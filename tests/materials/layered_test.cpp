@@ -74,8 +74,8 @@ TEST(CoatedDiffuseBsdf, WithoutACoatIsLamberts) {
 
 TEST(CoatedDiffuseMaterial, SeesTheIndexAtEachWavelength) {
   const CoatedDiffuseMaterial material{
-      "glass", RefractiveIndex(Curve({{300, 1.8}, {1100, 1.3}}), Curve(0.0), IndexMedium::air, 300, 1100),
-      Curve(0.6)};
+      Curve(0.6), "glass",
+      RefractiveIndex(Curve({{300, 1.8}, {1100, 1.3}}), Curve(0.0), IndexMedium::air, 300, 1100)};
   EXPECT_NEAR(material.inner(500), diffuse_reflectance_inside(material.index.n(500)), 1e-9);
   const SampledSpectrum wavelengths = packet();
   const Bsdf bsdf = material.bsdf({wavelengths});
