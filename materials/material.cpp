@@ -112,30 +112,14 @@ bool is_boundary(const Material& material) {
 }
 
 std::optional<FresnelPower<double>> smooth_power(const Material& material, const SmoothLookup& at) {
-  return std::visit(
-      [&at]<typename Model>(const Model& model) -> std::optional<FresnelPower<double>> {
-        if constexpr (requires { model.smooth_power(at); }) {
-          return model.smooth_power(at);
-        } else {
-          static_assert(!Model::lobes().delta);
-          return std::nullopt;
-        }
-      },
-      material.model);
+  return answer<std::optional<FresnelPower<double>>>(
+      material, [&](const auto& m) -> decltype(m.smooth_power(at)) { return m.smooth_power(at); });
 }
 
 std::optional<SmoothMueller> smooth_mueller(const Material& material, const SmoothLookup& at) {
   if (!smooth_power(material, at)) return std::nullopt;
-  return std::visit(
-      [&at]<typename Model>(const Model& model) -> std::optional<SmoothMueller> {
-        if constexpr (requires { model.smooth_mueller(at); }) {
-          return model.smooth_mueller(at);
-        } else {
-          static_assert(!Model::lobes().delta);
-          return std::nullopt;
-        }
-      },
-      material.model);
+  return answer<std::optional<SmoothMueller>>(
+      material, [&](const auto& m) -> decltype(m.smooth_mueller(at)) { return m.smooth_mueller(at); });
 }
 
 }  // namespace abbe

@@ -33,9 +33,13 @@ template <BsdfModel... Models>
 /// - Optional, nullptr or empty if absent: `interior_index`; `clear_index`, the index of a sheet that light
 ///   does not enter but crosses; `medium`; `indices`; `texture_bytes`.
 template <typename Model>
-concept SurfaceModel = requires(const Model& model, const SurfaceLookup& at) {
+concept SurfaceModel = requires(const Model& model, const SurfaceLookup& at, const SmoothLookup& ray) {
   { as_bsdf(model.bsdf(at)) } -> std::same_as<Bsdf>;
   { model.lobes() } -> std::same_as<Lobes>;
+  requires requires {
+    model.smooth_power(ray);
+    model.smooth_mueller(ray);
+  } || !Model::lobes().delta;
 };
 
 using MaterialModel =

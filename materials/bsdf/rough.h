@@ -27,7 +27,7 @@ struct RoughMetal {
   EnergyCompensation lost;
 };
 
-/// Microfacets between two media, with tables of lost energy. The inner index relative to the outer one is in
+/// Microfacets between two media, with tables of lost energy for inner indices relative to the outer one in
 /// [low_n, high_n].
 ///
 /// Energies are tabulated at an odd number of indices. From one even-numbered index to the next, they are
@@ -45,7 +45,7 @@ struct RoughInterface {
   [[nodiscard]] float distance_to(float low, float high) const {
     return std::max({low_n - low, high - high_n, 0.0F});
   }
-  /// Position in `coordinates` of the index whose tables sample multiple scattering.
+  /// Index in `coordinates` of the tables that sample multiple scattering.
   [[nodiscard]] std::size_t sampling_index() const { return coordinates.size() / 2; }
 
   Microfacets<float> facets;

@@ -17,10 +17,9 @@ struct SheetOrders {
   }
 };
 
-/// Reflectance and transmittance of a plane sheet with the same medium on both sides, cos_i in [0, 1]. The
-/// sheet is transparent or absorbs. `eta` is its index relative to the medium outside, `depth` its optical
-/// depth along the normal, 0 or more. The reflections between the faces add up without interference, for s
-/// and p separately:
+/// Reflectance and transmittance of a plane sheet with the same medium on both sides, cos_i in [0, 1]. `eta`
+/// is its index relative to the medium outside, `depth` its optical depth along the normal, 0 or more. The
+/// reflections between the faces add up without interference, for s and p separately:
 ///
 ///   R = r + t^2 r a^2/(1 - r^2 a^2),  T = t^2 a/(1 - r^2 a^2).
 ///

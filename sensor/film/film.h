@@ -18,8 +18,8 @@ namespace abbe {
 
 __extension__ using Int128 = __int128;
 
-/// Conversion between doubles and fixed point in units of 2^`unit_exponent`, rounded to nearest. The caller
-/// ensures that `value` is finite and |value| < 2^(unit_exponent + 126).
+/// Conversion between doubles and fixed point in units of 2^`unit_exponent`, rounded to nearest. `value` must
+/// be finite and |value| < 2^(unit_exponent + 126).
 [[nodiscard]] Int128 to_fixed(double value, int unit_exponent);
 [[nodiscard]] double from_fixed(Int128 fixed, int unit_exponent);
 /// Adds to a sum. Returns false on overflow, and then leaves the sum unchanged.
@@ -77,8 +77,8 @@ class Film {
   /// Adds the sums of a film that differs at most in its crop, for the pixels that both have; not the numbers
   /// of samples. Throws Error{scene} if a sum overflows.
   void add(const Film& other);
-  /// `only` copies the sums of some replicates, in this order, without numbers of samples. It throws
-  /// Error{resource} if memory does not suffice. `put_back` restores the sums from such a copy.
+  /// `only` copies the sums of some replicates, without numbers of samples. It throws Error{resource} if
+  /// memory does not suffice. `put_back` restores the sums from such a copy.
   [[nodiscard]] Film only(std::span<const int> replicates) const;
   void put_back(std::span<const int> replicates, const Film& saved);
   /// The sums in the internal order of the film, for processes that add them up.

@@ -37,10 +37,9 @@ struct RelativeError {
   return !error.few_samples && error.hidden_noise == 0;
 }
 
-/// Values that are not 0 in a pilot, by their index pixel * planes + plane. The pilot must be independent of
-/// the film to be judged. Of very many values, an evenly spread subset is returned. Considers only the first
-/// `intensity_planes` planes (all if there are fewer): the others are signed, and small where there is much
-/// light.
+/// Values that are not 0 in a pilot, by their index pixel * planes + plane; of very many, an evenly spread
+/// subset. The pilot must be independent of the film to be judged. Only the first `intensity_planes` planes
+/// count (all if there are fewer): the others are signed, and small where there is much light.
 [[nodiscard]] std::vector<std::size_t> nonzero_values(const Film& pilot,
                                                       std::size_t intensity_planes = kAllPlanes);
 

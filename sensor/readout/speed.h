@@ -18,8 +18,8 @@ inline constexpr const char* kIsoSpeedKey = "isoSpeed";
 [[nodiscard]] std::optional<double> daylight_sensitivity(std::span<const Channel> channels,
                                                          double gathering_area_m2);
 
-/// Warns if channels respond to a non-negligible fraction of daylight outside the table of D55, which a speed
-/// ignores. Throws Error if that table is missing.
+/// Warns if channels respond to a non-negligible fraction of daylight outside the table of D55. Throws Error
+/// if that table is missing.
 void check_daylight(std::span<const Channel> channels, const SourcePosition& where, Diagnostics& diagnostics);
 
 /// Electrons that saturate a pixel: those of a full well or of the highest code, whichever are fewer.
