@@ -72,9 +72,11 @@ struct Material {
 /// True if the scattering depends on surface coordinates: through a texture, a relief or a direction along
 /// the surface.
 [[nodiscard]] bool needs_coordinates(const Material& material);
+/// The kinds of lobes into which the surface scatters.
 [[nodiscard]] Lobes lobes(const Material& material);
 /// True if the index inside the surface depends on wavelength, so that refraction disperses light.
 [[nodiscard]] bool is_dispersive(const Material& material);
+/// True if the scattering depends on the index of the medium outside.
 [[nodiscard]] bool depends_on_outside(const Material& material);
 /// The refractive index inside a closed surface of this material, or nullptr if light does not enter it.
 [[nodiscard]] const RefractiveIndex* interior_index(const Material& material);

@@ -37,6 +37,7 @@ struct BsdfSample {
   bool dispersive = false;   ///< True if wi depends on wavelength, so that only the hero continues.
 };
 
+/// Mirror direction of the local direction `wo`.
 [[nodiscard]] inline Imath::V3f mirrored(const Imath::V3f& wo) {
   return {-wo.x, -wo.y, wo.z};
 }

@@ -78,12 +78,13 @@ class RefractiveIndex {
 
   [[nodiscard]] bool dispersive() const;  ///< True if n depends on wavelength.
   [[nodiscard]] bool absorbing() const;   ///< True if k > 0 somewhere in [300, 1100] nm.
-  [[nodiscard]] IndexMedium medium() const { return medium_; }
+  [[nodiscard]] IndexMedium medium() const { return medium_; }  ///< That of the catalogued values.
   /// The range in which n is valid [nm]; 0 to infinity for a constant.
   [[nodiscard]] double low_nm() const { return low_nm_; }
   [[nodiscard]] double high_nm() const { return high_nm_; }
   /// Range in which k was measured; empty if k was never measured.
   [[nodiscard]] const std::optional<DataRange>& k_range() const { return k_range_; }
+  /// True if k was measured at a wavelength [nm].
   [[nodiscard]] bool has_measured_k(double wavelength_nm) const {
     return k_range_ && k_range_->contains(wavelength_nm);
   }

@@ -18,6 +18,7 @@ template <std::floating_point T>
 [[nodiscard]] T quotient(T a, T b) {
   return b > 0 ? a / b : T(0);
 }
+/// The quotient at each wavelength.
 [[nodiscard]] inline SampledSpectrum quotient(const SampledSpectrum& a, const SampledSpectrum& b) {
   return SampledSpectrum::map(a, b, quotient<float>);
 }

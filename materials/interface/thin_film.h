@@ -155,6 +155,7 @@ template <typename T>
   return {Rs, Rp, Ts, Tp, k > T(0) ? T(0) : refracted_cosine(cos_i, eta)};
 }
 
+/// Amplitude reflection coefficients, with the arguments of `film_power`.
 template <typename T>
 [[nodiscard]] FilmReflection<T> film_reflection(const T& cos_i, std::span<const FilmLayer<T>> layers,
                                                 const T& eta, const T& k) {

@@ -29,7 +29,7 @@ class SpectralTexture {
   /// The value at one wavelength [nm]; empty if `textured` and the coordinates are unknown.
   [[nodiscard]] std::optional<double> at(double wavelength_nm, std::optional<Imath::V2f> coordinates) const;
 
-  [[nodiscard]] bool textured() const { return image_ != nullptr; }
+  [[nodiscard]] bool textured() const { return image_ != nullptr; }  ///< True if it varies over the surface.
   /// The uniform value; zero if `textured`.
   [[nodiscard]] const Curve& curve() const { return curve_; }
   /// Size of the image in bytes; 0 without an image.

@@ -35,6 +35,7 @@ inline constexpr const char* kAreasKey = "areas";
 /// negative edges and for empty rectangles; it knows no film size.
 [[nodiscard]] std::string to_text(const Crop& crop);
 [[nodiscard]] std::optional<Crop> parse_crop(std::string_view text);
+/// Text of several rectangles, separated by spaces.
 [[nodiscard]] std::string to_text(const std::vector<Crop>& areas);
 
 /// Recorded pixels of a film, or of a file developed from it, as disjoint rectangles. A film merged from

@@ -105,7 +105,7 @@ class Film {
     double standard_error;
     double degrees_of_freedom;
   };
-  [[nodiscard]] Average average(int channel) const;
+  [[nodiscard]] Average average(int channel) const;  ///< Average over the whole film.
   /// Average over x0 <= x < x1, y0 <= y < y1, where pixels outside the crop count as 0. `divisors`, one per
   /// pixel of the film if any, divide each pixel by a number of its own.
   [[nodiscard]] Average average(int channel, int x0, int y0, int x1, int y1,
@@ -121,7 +121,7 @@ class Film {
   void develop(Image& image, const Crop& area, std::span<const std::uint64_t> samples) const;
 
   [[nodiscard]] const FilmShape& shape() const { return shape_; }
-  [[nodiscard]] Crop crop() const { return pixels_of(shape_); }
+  [[nodiscard]] Crop crop() const { return pixels_of(shape_); }  ///< Pixels that have sums.
   /// Index of a pixel in the whole film.
   [[nodiscard]] std::size_t pixel_at(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(shape_.width) + static_cast<std::size_t>(x);

@@ -45,13 +45,14 @@ struct StokesPlanes {
 /// polarisation. Throws Error{input} if Q or U of a channel is missing, or if only some channels have V.
 [[nodiscard]] std::vector<StokesPlanes> stokes_planes(const Image& film);
 
-/// State of polarisation of a Stokes vector. Noise can make the degrees exceed 1.
+/// State of polarisation. Noise can make the degrees exceed 1.
 struct PolarisationFigures {
   double degree;         ///< sqrt(Q^2 + U^2 + V^2)/I; 0 without light.
   double linear_degree;  ///< sqrt(Q^2 + U^2)/I; 0 without light.
   double angle_deg;      ///< Plane of oscillation of the electric field, atan2(U, Q)/2 in [0, 180),
                          ///< counterclockwise from the right of the picture.
 };
+/// The figures of a Stokes vector.
 [[nodiscard]] PolarisationFigures polarisation_of(const StokesVector& stokes);
 
 }  // namespace abbe

@@ -46,6 +46,7 @@ inline constexpr const char* kHalfNoiseSamplesKey = "half_noise_samples";
   return error != attributes.end() && error->second == "inf";
 }
 
+/// Records that the error of a film is unknown.
 inline void record_unknown_error(std::map<std::string, std::string>& attributes) {
   attributes[kFrameMeanErrorKey] = "inf";
 }

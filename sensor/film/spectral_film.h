@@ -17,6 +17,7 @@ struct SpectralBins {
   [[nodiscard]] double center_nm(int bin) const { return from_nm + (bin + 0.5) * step_nm; }
 };
 
+/// Edges of the bins [nm], one more than bins.
 [[nodiscard]] std::vector<double> edges_nm(const SpectralBins& bins);
 
 /// One energy channel for each bin, with weight 1 inside it. Its film value is the radiant exposure in the

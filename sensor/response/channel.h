@@ -119,6 +119,7 @@ struct Channel {
 /// The channel behind a polariser: `mean_transmittance` multiplies its weight. It must not have an analyser
 /// yet.
 [[nodiscard]] Channel behind(Channel channel, const Polariser& polariser);
+/// The channel with its weight multiplied by `factor`.
 [[nodiscard]] Channel scaled(Channel channel, double factor);
 /// The channel with its exposure time multiplied by `ratio`, which also multiplies its weight.
 [[nodiscard]] Channel exposed(Channel channel, double ratio);

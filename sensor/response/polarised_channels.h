@@ -30,6 +30,7 @@ struct StokesPlane {
 [[nodiscard]] std::vector<Channel> intensities(std::span<const Channel> channels);
 /// Names of intensity planes: those without the prefix of another component.
 [[nodiscard]] std::vector<std::string> intensities(std::span<const std::string> planes);
+/// True if a channel depends on polarisation.
 [[nodiscard]] bool any_analyser(std::span<const Channel> channels);
 
 /// Row of a channel behind a polariser for light (I, Q, U) of constant spectrum: weight (I + q Q + u U), in
