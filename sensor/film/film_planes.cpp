@@ -18,8 +18,8 @@ namespace {
 
 // Name of a component. In spectral files, the names of intensities have the prefix of their component too.
 std::string component_of(const std::string& intensity, int component) {
-  if (intensity.starts_with("S0.")) return name_of({component, intensity.substr(3)});
-  return name_of({component, intensity});
+  if (intensity.starts_with("S0.")) return stokes_plane_name(component, intensity.substr(3));
+  return stokes_plane_name(component, intensity);
 }
 
 }  // namespace

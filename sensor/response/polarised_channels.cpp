@@ -37,8 +37,8 @@ bool of_one_response(const Channel& a, const Channel& b) {
 }
 }  // namespace
 
-std::string name_of(const StokesPlane& plane) {
-  return fmt::format("{}{}", kPrefixes.at(static_cast<std::size_t>(plane.component)), plane.channel);
+std::string stokes_plane_name(int component, std::string_view channel) {
+  return fmt::format("{}{}", kPrefixes.at(static_cast<std::size_t>(component)), channel);
 }
 
 std::vector<Channel> with_stokes(std::vector<Channel> channels) {
@@ -46,7 +46,7 @@ std::vector<Channel> with_stokes(std::vector<Channel> channels) {
   for (int component = 1; component < 4; ++component)
     for (std::size_t k = 0; k < count; ++k) {
       Channel channel = channels[k];
-      channel.name = name_of({component, channel.name});
+      channel.name = stokes_plane_name(component, channel.name);
       channel.analyser = analyser_of(component);
       channels.push_back(std::move(channel));
     }

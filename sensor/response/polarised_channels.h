@@ -11,14 +11,9 @@
 
 namespace abbe {
 
-/// A plane of a film that measures Stokes vectors: the component (0 to 3) of the light to which a channel
-/// responds.
-struct StokesPlane {
-  int component;  ///< 0 to 3 for I, Q, U and V.
-  std::string channel;
-};
-/// "R" for the intensity I of channel R, "S1.R", "S2.R" and "S3.R" for Q, U and V.
-[[nodiscard]] std::string name_of(const StokesPlane& plane);
+/// Name of the plane of a film with a component (0 to 3 for I, Q, U and V) of the light to which a channel
+/// responds: "R" for the intensity of channel R, "S1.R", "S2.R" and "S3.R" for Q, U and V.
+[[nodiscard]] std::string stokes_plane_name(int component, std::string_view channel);
 
 /// The channels, which measure intensities, followed by copies that respond to component 1, then 2, then 3.
 /// No channel may have an analyser.
