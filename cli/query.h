@@ -42,7 +42,7 @@ int query_brewster(const IndexOptions& options);
 
 /// Options of `query reflectance`: a polished surface, optionally under thin films, for light from air. The
 /// phases of the reflected fields follow exp(-i omega t); the sign of the field in the plane of incidence is
-/// that of `FresnelAmplitudes`.
+/// that of `FilmReflection`.
 struct ReflectanceOptions {
   std::string name;
   std::vector<double> at_nm;

@@ -303,6 +303,15 @@ M44d rotation(const V3d& axis, double deg) {
   return m;
 }
 
+std::optional<M44d> looking_at(const V3d& from, const V3d& target, const V3d& up) {
+  const V3d z = (target - from).normalized();
+  const V3d right = up.cross(z);
+  if (z.length2() == 0 || right.length2() < 1e-24) return std::nullopt;
+  const V3d x = right.normalized();
+  const V3d y = z.cross(x);
+  return M44d(x.x, x.y, x.z, 0, y.x, y.y, y.z, 0, z.x, z.y, z.z, 0, from.x, from.y, from.z, 1);
+}
+
 bool mirrors(const M44d& m) {
   return row(m, 0).cross(row(m, 1)).dot(row(m, 2)) < 0;
 }

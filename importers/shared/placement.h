@@ -12,9 +12,6 @@
 #include "scene/shapes/shape.h"
 
 // Matrices apply to row vectors, as everywhere in Abbe: p' = p M, with the translation in the last row.
-//
-// Errors go to `importer.diagnostics`; approximations and losses go to `SceneImporter::note`. Functions throw
-// Error{resource} if the memory limit of `importer.inputs` is exceeded.
 namespace abbe::importers {
 
 /// The matrix whose rows, written for column vectors, are 16 numbers. Missing numbers are those of the
@@ -25,6 +22,10 @@ namespace abbe::importers {
 [[nodiscard]] Imath::M44d translation(const Imath::V3d& by);
 /// A right-handed rotation by `deg` degrees about an axis through the origin, of any length except 0.
 [[nodiscard]] Imath::M44d rotation(const Imath::V3d& axis, double deg);
+/// Camera-to-world matrix of a view from one point to another, with z along the view, x along `up` x z and y
+/// = z x x. Nothing if the view direction is zero or parallel to `up`.
+[[nodiscard]] std::optional<Imath::M44d> looking_at(const Imath::V3d& from, const Imath::V3d& target,
+                                                    const Imath::V3d& up);
 /// True if the matrix changes handedness: the determinant of its linear part is negative.
 [[nodiscard]] bool mirrors(const Imath::M44d& matrix);
 
@@ -49,9 +50,9 @@ struct ImportedShape {
   SourcePosition where;
 };
 
-/// Inverts `shape.reversed` if the vertex normals of `mesh` are behind its triangles for most of their area:
-/// vertex normals decide which side emits. `mesh` holds the triangles of `shape`. Notes normals on both
-/// sides. Does nothing for a shape that does not emit or is two-sided, and for a mesh without vertex normals.
+/// Inverts `shape.reversed` if the vertex normals of its triangles `mesh` are behind them for most of their
+/// area: vertex normals decide which side emits. Notes normals on both sides. Does nothing without such
+/// normals, and for a shape that does not emit or is two-sided.
 void orient_by_normals(const Mesh& mesh, ImportedShape& shape, SceneImporter& importer);
 
 /// Container of a shape: the scene, or an object, which may not contain instances.

@@ -114,7 +114,7 @@ TYPED_TEST(BsdfLaws, DeltaPowerIsWhatDeltaEventsCarry) {
       const int hero = i % kLanes;
       const auto event = sample(bsdf, wo, random.event(), hero, TransportMode::power);
       if (!event || !event->delta) continue;
-      ASSERT_TRUE(TypeParam::kDelta);
+      ASSERT_TRUE(DeltaModel<TypeParam>);
       const SampledSpectrum told = delta_power(bsdf, wo, event->transmitted);
       const SampledSpectrum carried = event->weight * event->pdf;
       for (int lane = 0; lane < kLanes; ++lane)
