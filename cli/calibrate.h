@@ -9,16 +9,15 @@
 
 namespace abbe::cli {
 
-/// Options of `abbe calibrate`.
+/// Options of `abbe calibrate`, which its help explains.
 struct CalibrateOptions : CalibrationSource {
-  bool all_cameras = false;  ///< Print the quality of a calibration for every shipped camera instead.
-  /// Name of an illuminant; for a simulated camera also several names separated by commas.
-  std::string illuminants = "D65";
-  std::filesystem::path transfer{};  ///< Answer of `abbe transfer --json` for the page; empty for none.
-  std::filesystem::path mtf{};       ///< Answer of `abbe mtf --json` for the page; empty for none.
-  std::filesystem::path output;  ///< Folder for the OpenColorIO configuration and the report; empty for none.
-  std::size_t max_memory_bytes = default_memory_limit();  ///< Maximum memory of photographs.
-  bool json = false;                                      ///< Print the answer as JSON instead of plain text.
+  bool all_cameras = false;
+  std::string illuminants = "D65";  ///< Several, separated by commas, for a simulated camera only.
+  std::filesystem::path transfer{};
+  std::filesystem::path mtf{};
+  std::filesystem::path output;
+  std::size_t max_memory_bytes = default_memory_limit();
+  bool json = false;
 };
 
 /// Calibrates a camera on a colour chart, prints CIEDE2000 per patch and writes the configuration. Several

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -37,9 +38,16 @@ struct Subcommand {
   Options* operator->() const { return options.get(); }
 };
 
+/// Adds an option or argument. `type` is the placeholder of its value in the help. Returns the option, which
+/// `app` owns.
+template <typename T>
+CLI::Option* add_value(CLI::App& app, const std::string& flag, T& value, const std::string& help,
+                       const std::string& type) {
+  return app.add_option(flag, value, help)->type_name(type);
+}
+
 /// Adds an option or argument whose text `parse` converts to a value, as `parse(flag, text)`. `value` must
-/// outlive the parsing. `type` is the placeholder of the text in the help. Returns the option, which `app`
-/// owns.
+/// outlive the parsing.
 template <typename T, typename Parse>
 CLI::Option* add_parsed(CLI::App& app, const std::string& flag, T& value, Parse parse,
                         const std::string& help, const std::string& type) {
@@ -96,6 +104,11 @@ inline Imath::V3d parse_vector(const std::string& option, const std::string& tex
   return {v[0], v[1], v[2]};
 }
 
+/// Adds the argument for the scene file.
+inline void add_scene(CLI::App& app, std::filesystem::path& scene) {
+  add_value(app, "scene", scene, "Scene file, or - for standard input", "SCENE")->required();
+}
+
 /// Adds the flag `--json`.
 inline void add_json(CLI::App& app, bool& json) {
   app.add_flag("--json", json, "Print the answer as one JSON object");
@@ -125,25 +138,22 @@ void add_overrides(CLI::App& app, const std::shared_ptr<Options>& options,
       ->type_name("/POINTER=VALUE");
 }
 
-// The commands that are defined outside `commands.cpp`, by file.
-
-// render_commands.cpp
+// The commands that are defined outside `commands.cpp`, in the order of the help.
 void add_render(CLI::App& app, Command& command);
 void add_meter(CLI::App& app, Command& command);
-
-// ray_commands.cpp
+void add_merge(CLI::App& app, Command& command);
+void add_convert(CLI::App& app, Command& command);
+void add_info(CLI::App& app, Command& command);
 void add_trace(CLI::App& app, Command& command);
 void add_draw(CLI::App& app, Command& command);
 void add_lens(CLI::App& app, Command& command);
-
-// film_commands.cpp
-void add_develop(CLI::App& app, Command& command);
-void add_measure(CLI::App& app, Command& command);
-
-// material_commands.cpp
 void add_query(CLI::App& app, Command& command);
 void add_lab(CLI::App& app, Command& command);
+void add_develop(CLI::App& app, Command& command);
+void add_measure(CLI::App& app, Command& command);
 void add_transfer(CLI::App& app, Command& command);
 void add_mtf(CLI::App& app, Command& command);
+void add_validate(CLI::App& app, Command& command);
+void add_bench(CLI::App& app, Command& command);
 
 }  // namespace abbe::cli

@@ -1,5 +1,3 @@
-#include "cli/lens.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
+#include "cli/command_options.h"
 #include "cli/output_files.h"
 #include "description/lens_files.h"
 #include "io/atomic_file.h"
@@ -19,6 +18,15 @@ namespace {
 
 using lens::FirstOrder;
 using lens::Speed;
+
+struct LensOptions {
+  std::string lens;
+  std::vector<double> wavelengths_nm;
+  std::vector<double> frequencies_per_mm{10, 20, 40};
+  std::filesystem::path html;
+  std::filesystem::path drawing;
+  bool json = false;
+};
 
 constexpr double kUmPerMm = 1000;
 
@@ -294,8 +302,6 @@ void print_tables(const LensFigures& figures) {
              text(tables.ghosts, false));
 }
 
-}  // namespace
-
 int lens(const LensOptions& options) {
   if (!options.html.empty()) require_extension(options.html, {".html"});
   if (!options.drawing.empty()) require_extension(options.drawing, {".svg"});
@@ -310,6 +316,28 @@ int lens(const LensOptions& options) {
   else
     print_tables(figures);
   return 0;
+}
+
+}  // namespace
+
+void add_lens(CLI::App& app, Command& command) {
+  const Subcommand<LensOptions> sub(
+      app, "lens", "Report the first-order properties, aberrations, spots and losses of a lens", command,
+      lens);
+  add_value(*sub.app, "lens", sub->lens,
+            "Prescription (.json), lens of Zemax (.zmx), table of pbrt (.dat), or a name in data/lens",
+            "FILE.json|FILE.zmx|FILE.dat")
+      ->required();
+  add_parsed(*sub.app, "--lambda", sub->wavelengths_nm, numbers_in(kMinWavelengthNm, kMaxWavelengthNm),
+             "Wavelengths in nm that replace those of the lens; the primary one is at the centre of the "
+             "list, and stop and focus stay as set at the lens's own",
+             "NM,...");
+  add_parsed(*sub.app, "--frequencies", sub->frequencies_per_mm, numbers_in(1e-3, 1e4),
+             "Spatial frequencies of the modulation transfer function in cycles per mm (default 10,20,40)",
+             "N,...");
+  add_value(*sub.app, "--html", sub->html, "HTML page to write", "FILE.html");
+  add_value(*sub.app, "-o,--output", sub->drawing, "Drawing of the lens to write", "FILE.svg");
+  add_json(*sub.app, sub->json);
 }
 
 }  // namespace abbe::cli

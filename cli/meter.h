@@ -7,12 +7,12 @@
 
 namespace abbe::cli {
 
-/// Options of `abbe meter`.
+/// Options of `abbe meter`, which its help explains.
 struct MeterOptions : SamplingOptions {
-  std::filesystem::path scene;      ///< Scene file; "-" is standard input.
-  std::vector<std::string> meters;  ///< Names of the meters to read; empty for all.
-  std::filesystem::path spectra;    ///< CSV table of the meters' spectra; empty for none.
-  bool json = false;                ///< Print the answer as JSON instead of plain text.
+  std::filesystem::path scene;
+  std::vector<std::string> meters;
+  std::filesystem::path spectra;
+  bool json = false;
 };
 
 /// Prints the readings of a scene's meters. Returns the exit code of the command:

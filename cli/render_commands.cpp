@@ -73,10 +73,9 @@ void add_film(CLI::App& render, RenderOptions& settings) {
 }
 
 void add_checkpoints(CLI::App& render, RenderOptions& settings) {
-  CLI::Option* checkpoint = render
-                                .add_option("--checkpoint", settings.checkpoint,
-                                            "File in which the finished samples are saved during the render")
-                                ->type_name("FILE.abbepart");
+  CLI::Option* checkpoint =
+      add_value(render, "--checkpoint", settings.checkpoint,
+                "File in which the finished samples are saved during the render", "FILE.abbepart");
   add_parsed(render, "--checkpoint-every", settings.checkpoint_interval_s, parse_seconds,
              "Time between checkpoints, in s or with a unit, such as 60s, 2m or 1h; longer if writing would "
              "take more than 1 % of the time (default 60s)",
@@ -87,27 +86,19 @@ void add_checkpoints(CLI::App& render, RenderOptions& settings) {
 }
 
 void add_pictures(CLI::App& render, RenderOptions& settings) {
-  render.add_option("--display", settings.display, "Also write a picture for a display")
-      ->type_name("FILE.png");
-  render
-      .add_option("--screen", settings.view.display,
-                  "Display of the OpenColorIO configuration (default: its first)")
-      ->type_name("NAME");
-  render.add_option("--view", settings.view.view, "View of that display (default: its first)")
-      ->type_name("NAME");
-  render
-      .add_option("--ocio", settings.view.config,
-                  "OpenColorIO configuration of the picture (default: $OCIO, otherwise Abbe's own)")
-      ->type_name("FILE.ocio");
-  render
-      .add_option("--exposure-of", settings.exposure_of,
-                  "Film of the same sensor whose display exposure the picture uses, such as the first of "
-                  "several frames")
-      ->type_name("FILE.exr");
-  render
-      .add_option("--gamut", settings.gamut,
-                  "Also write a picture that shows in white the pixels outside the gamut of the display")
-      ->type_name("FILE.png");
+  add_value(render, "--display", settings.display, "Also write a picture for a display", "FILE.png");
+  add_value(render, "--screen", settings.view.display,
+            "Display of the OpenColorIO configuration (default: its first)", "NAME");
+  add_value(render, "--view", settings.view.view, "View of that display (default: its first)", "NAME");
+  add_value(render, "--ocio", settings.view.config,
+            "OpenColorIO configuration of the picture (default: $OCIO, otherwise Abbe's own)", "FILE.ocio");
+  add_value(render, "--exposure-of", settings.exposure_of,
+            "Film of the same sensor whose display exposure the picture uses, such as the first of "
+            "several frames",
+            "FILE.exr");
+  add_value(render, "--gamut", settings.gamut,
+            "Also write a picture that shows in white the pixels outside the gamut of the display",
+            "FILE.png");
 }
 
 void add_live_viewers(CLI::App& render, RenderOptions& settings) {
@@ -126,14 +117,11 @@ void add_live_viewers(CLI::App& render, RenderOptions& settings) {
 void add_render(CLI::App& app, Command& command) {
   const Subcommand<RenderOptions> sub(app, "render", "Render a scene", command, render);
   CLI::App& render = *sub.app;
-  render.add_option("scene", sub->scene, "Scene file, or - for standard input")
-      ->required()
-      ->type_name("SCENE");
-  render
-      .add_option("-o,--output", sub->output,
-                  "Film (.exr) or partial film with exact sums (.abbepart) to write (default: that of the "
-                  "scene, otherwise SCENE.exr)")
-      ->type_name("FILE.exr|FILE.abbepart");
+  add_scene(render, sub->scene);
+  add_value(render, "-o,--output", sub->output,
+            "Film (.exr) or partial film with exact sums (.abbepart) to write (default: that of the "
+            "scene, otherwise SCENE.exr)",
+            "FILE.exr|FILE.abbepart");
   const StopOptions stop_options =
       add_samples(render, *sub.options, "Samples per pixel (default: the scene's)",
                   "the median relative error of illuminated pixel values", "");
@@ -143,8 +131,8 @@ void add_render(CLI::App& app, Command& command) {
   add_overrides(render, sub.options);
   add_checkpoints(render, *sub.options);
   add_pictures(render, *sub.options);
-  render.add_option("--stats", sub->stats, "Write statistics of the render as JSON; - for standard output")
-      ->type_name("FILE.json");
+  add_value(render, "--stats", sub->stats, "Write statistics of the render as JSON; - for standard output",
+            "FILE.json");
   add_live_viewers(render, *sub.options);
   add_max_memory(render, sub.options);
   render.add_flag("--explain", sub->explain, "First print which features the scene needs, and why");
@@ -161,16 +149,11 @@ void add_meter(CLI::App& app, Command& command) {
   const Subcommand<MeterOptions> sub(app, "meter", "Measure light with the meters of a scene", command,
                                      meter);
   CLI::App& options = *sub.app;
-  options.add_option("scene", sub->scene, "Scene file, or - for standard input")
-      ->required()
-      ->type_name("SCENE");
-  options.add_option("--only", sub->meters, "Name of a meter to read; may be repeated (default: all)")
-      ->allow_extra_args(false)
-      ->type_name("NAME");
-  options
-      .add_option("--spectra", sub->spectra,
-                  "Table to write with the spectra of those meters that record one")
-      ->type_name("FILE.csv");
+  add_scene(options, sub->scene);
+  add_value(options, "--only", sub->meters, "Name of a meter to read; may be repeated (default: all)", "NAME")
+      ->allow_extra_args(false);
+  add_value(options, "--spectra", sub->spectra,
+            "Table to write with the spectra of those meters that record one", "FILE.csv");
   (void)add_samples(options, *sub.options,
                     "Samples per sub-area of a meter, which has at least 1024 of them (default: the scene's)",
                     "the largest relative standard error of a meter's radiant, luminous and photon values",

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
+#include "cli/command_options.h"
 #include "cli/output_files.h"
 #include "description/load.h"
 #include "importers/importers.h"
@@ -31,6 +32,23 @@
 
 namespace abbe::cli {
 namespace {
+
+namespace fs = std::filesystem;
+
+struct InfoOptions {
+  fs::path scene;
+  std::vector<Override> overrides;
+  std::size_t max_memory_bytes = default_memory_limit();
+  bool json = false;
+};
+
+struct ConvertOptions {
+  fs::path scene;
+  fs::path output = kStandardStream;
+  std::optional<fs::path> materials;
+  std::vector<Override> overrides;
+  std::size_t max_memory_bytes = default_memory_limit();
+};
 
 // Channel names of a mosaic, rows from the top.
 std::string pattern(const Scene& scene) {
@@ -159,8 +177,6 @@ std::string lens_line(const Json& lens) {
                             number("airy_radius_um"), number("wavelength_nm"));
 }
 
-namespace fs = std::filesystem;
-
 // True if a scene in this folder names the file by a path relative to the folder.
 bool is_inside_folder(const fs::path& file, const fs::path& folder) {
   return file.is_relative() ||
@@ -256,6 +272,8 @@ void note_polarisation(const Scene& scene) {
       scene.features.reasons.at("polarisation_matters")));
 }
 
+namespace {
+
 int info(const InfoOptions& options) {
   Diagnostics diagnostics;
   Inputs inputs(options.max_memory_bytes);
@@ -291,6 +309,40 @@ int convert(const ConvertOptions& options) {
   if (is_file && !is_imported) require_same_folder(options, inputs);
   write_out(text, options);
   return 0;
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Command& command) {
+  const Subcommand<InfoOptions> sub(
+      app, "info",
+      "Report what a scene contains, which features its render needs, and which integrator it uses", command,
+      info);
+  add_scene(*sub.app, sub->scene);
+  add_overrides(*sub.app, sub.options);
+  add_max_memory(*sub.app, sub.options);
+  add_json(*sub.app, sub->json);
+}
+
+void add_convert(CLI::App& app, Command& command) {
+  const Subcommand<ConvertOptions> sub(
+      app, "convert",
+      "Write a scene file in canonical form, without comments and default values, or convert a scene of pbrt "
+      "(.pbrt), Mitsuba (.xml) or glTF (.gltf, .glb) to a scene file",
+      command, convert);
+  add_value(*sub.app, "scene", sub->scene,
+            "Scene file of Abbe or of another renderer, or - for standard input", "SCENE")
+      ->required();
+  add_value(*sub.app, "-o,--output", sub->output,
+            "File to write, in the folder of the scene if the scene names files (default: - for "
+            "standard output)",
+            "FILE.json");
+  add_value(*sub.app, "--materials", sub->materials,
+            "Materials that replace those of another renderer's scene, by name: {NAME: MATERIAL, ...} "
+            "as in scene files",
+            "FILE.json");
+  add_overrides(*sub.app, sub.options);
+  add_max_memory(*sub.app, sub.options);
 }
 
 }  // namespace abbe::cli

@@ -16,6 +16,7 @@
 #include "calibration/metrics/slanted_edge.h"
 #include "cli/answer.h"
 #include "cli/arguments.h"
+#include "cli/command_options.h"
 #include "cli/output_files.h"
 #include "io/atomic_file.h"
 #include "io/error.h"
@@ -61,7 +62,7 @@ std::string mtf_plot(const Json& answer) {
   return svg(LinePlot{"Modulation transfer", "cycles per pixel", "modulation", {curve}});
 }
 
-Json read_answer(const std::filesystem::path& path, const AnswerPlot& plot, Inputs& inputs) {
+Json read_answer(const std::filesystem::path& path, std::string (*plot)(const Json&), Inputs& inputs) {
   inputs.add_file(path);
   Diagnostics diagnostics;
   const auto source = read_text(path, diagnostics);
@@ -76,6 +77,23 @@ Json read_answer(const std::filesystem::path& path, const AnswerPlot& plot, Inpu
 }
 
 namespace {
+
+struct TransferOptions {
+  std::vector<std::filesystem::path> dark;
+  std::vector<std::filesystem::path> flat;
+  std::filesystem::path plot;
+  std::size_t max_memory_bytes = default_memory_limit();
+  bool json = false;
+};
+
+struct MtfOptions {
+  std::filesystem::path image;
+  std::optional<Crop> crop;
+  std::string channel;
+  std::filesystem::path plot;
+  std::size_t max_memory_bytes = default_memory_limit();
+  bool json = false;
+};
 
 void warn_of_missing_saturation(const std::vector<ChannelTransfer>& channels) {
   std::string unsaturated;
@@ -172,8 +190,6 @@ EdgeResponse measure_edge(const MtfOptions& options, Inputs& inputs) {
   return slanted_edge(values, crop.x1 - crop.x0, crop.y1 - crop.y0);
 }
 
-}  // namespace
-
 int transfer(const TransferOptions& options) {
   if (!options.plot.empty()) require_extension(options.plot, {".svg"});
   Inputs inputs(options.max_memory_bytes);
@@ -237,6 +253,38 @@ int mtf(const MtfOptions& options) {
   }
   print(answer, options.json);
   return 0;
+}
+
+}  // namespace
+
+void add_transfer(CLI::App& app, Command& command) {
+  const Subcommand<TransferOptions> sub(
+      app, "transfer", "Gain, noise and dynamic range of a sensor from pairs of flat and dark raw files",
+      command, transfer);
+  add_value(*sub.app, "--dark", sub->dark,
+            "Dark frames in successive pairs of equal exposure, with at least two exposure times", "FILE...")
+      ->required();
+  add_value(*sub.app, "--lit", sub->flat,
+            "Uniformly illuminated (flat) frames in successive pairs of equal exposure, from weak "
+            "light to above saturation",
+            "FILE...")
+      ->required();
+  add_value(*sub.app, "--plot", sub->plot, "Plot of the photon-transfer curves to write", "FILE.svg");
+  add_max_memory(*sub.app, sub.options);
+  add_json(*sub.app, sub->json);
+}
+
+void add_mtf(CLI::App& app, Command& command) {
+  const Subcommand<MtfOptions> sub(
+      app, "mtf", "Modulation transfer function of a slanted edge in a linear image", command, mtf);
+  add_value(*sub.app, "image", sub->image, "Film or linear picture with a slanted edge", "FILE")->required();
+  add_parsed(*sub.app, "--crop", sub->crop, parse_crop,
+             "Pixels around the edge, X0 <= x < X1 and Y0 <= y < Y1 (default: all)", "X0,Y0,X1,Y1");
+  add_value(*sub.app, "--channel", sub->channel,
+            "Channel to evaluate (default: G, otherwise Y, otherwise the first)", "NAME");
+  add_value(*sub.app, "--plot", sub->plot, "Plot of the function to write", "FILE.svg");
+  add_max_memory(*sub.app, sub.options);
+  add_json(*sub.app, sub->json);
 }
 
 }  // namespace abbe::cli

@@ -30,16 +30,18 @@ struct Margin {
 struct Figure {
   std::string what;  ///< Name of the figure within its case; empty if the case has a single one.
   double reference;
-  Estimate measured;                  ///< The standard error is 0 for a value that is not sampled.
+  Estimate measured;
   std::optional<Margin> margin = {};  ///< Margin of this figure, if it differs from the case's.
 
   /// Measured value minus reference.
   [[nodiscard]] double deviation() const { return measured.mean - reference; }
 };
 
+using Figures = std::vector<Figure>;
+
 /// Figures computed from formulas and tables, without rendering. `figures` may throw the errors of tables.
 struct Computed {
-  std::function<std::vector<Figure>()> figures;
+  std::function<Figures()> figures;
 };
 
 /// Value of a closed form, in the unit of the case. A form is evaluated at each call instead of at
@@ -125,7 +127,7 @@ struct Remark {
 struct CaseResult {
   /// Figures of the case: those of `Computed`, one for a film, the mean and then the patches for a chart.
   /// Empty if nothing was measured.
-  std::vector<Figure> figures;
+  Figures figures;
   Margin margin;      ///< Margin of this run, for figures without their own.
   Verdict verdict;    ///< `pass` if all figures pass; otherwise the verdict of one that does not pass.
   std::size_t worst;  ///< Index of the figure with the largest deviation in units of its margin.

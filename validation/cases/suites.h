@@ -49,17 +49,16 @@ namespace abbe {
 [[nodiscard]] Scene load_case_scene(const std::string& id, const std::string& file,
                                     std::span<const Override> settings);
 
-/// A figure without sampling error. `what` is its name within the case.
-[[nodiscard]] inline Figure exact_figure(std::string what, double reference, double measured) {
-  return {std::move(what), reference, {measured, 0}};
-}
+/// Makes cases of a suite that are measured by `Computed`; the arguments are the members of `Case`.
+struct ComputedCases {
+  Suite suite;
 
-/// A case measured by `Computed`; the arguments are the members of `Case`.
-[[nodiscard]] inline Case computed_case(Suite suite, std::string id, std::string title, std::string source,
-                                        std::string unit, Margin margin, std::vector<Figure> (*figures)()) {
-  return {suite,           std::move(id), std::move(title), std::move(source),
-          std::move(unit), margin,        Computed{figures}};
-}
+  [[nodiscard]] Case operator()(std::string id, std::string title, std::string source, std::string unit,
+                                Margin margin, Figures (*figures)()) const {
+    return {suite,           std::move(id), std::move(title), std::move(source),
+            std::move(unit), margin,        Computed{figures}};
+  }
+};
 
 /// Spectral lines C, d, F, g and h: wavelengths in air. `kLineD_nm` is the helium line d, not the sodium line
 /// D.

@@ -76,9 +76,8 @@ struct DrawnMaterial {
   bool needs_surface_uv = false;
 };
 
-/// A scene under construction; all lengths are in the scene's unit.
-struct Drawing {
-  Random random;
+/// A scene under construction and its random generator; all lengths are in the scene's unit.
+struct Drawing : Random {
   std::filesystem::path folder;  ///< Folder of the scene's files.
   bool closed = false;           ///< The camera is in a closed opaque box. `draw_render` may clear it.
   bool signed_response = false;  ///< A channel may have a negative response.
