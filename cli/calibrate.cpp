@@ -123,10 +123,7 @@ int calibrate_response(const CalibrateOptions& options) {
     write_atomically(written[1], text(report, true));
     remove_unless_written(earlier, written);
   }
-  if (options.json)
-    print(report, true);
-  else
-    fmt::print("{}", table_of(responses));
+  fmt::print("{}", options.json ? text(report, true) : table_of(responses));
   return 0;
 }
 
@@ -137,10 +134,7 @@ int calibrate_all(const CalibrateOptions& options) {
   const auto chart = load_chart(options.chart, {}, diagnostics);
   check(diagnostics);
   const std::vector<CameraQuality> all = all_camera_qualities(*chart, light->curve);
-  if (options.json)
-    print(json_of(all), true);
-  else
-    fmt::print("{}", table_of(all));
+  fmt::print("{}", options.json ? text(json_of(all), true) : table_of(all));
   return 0;
 }
 

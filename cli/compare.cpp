@@ -1,6 +1,7 @@
 #include "cli/compare.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 #include <system_error>
 
@@ -21,20 +22,10 @@
 namespace abbe::cli {
 namespace {
 
+// In the order of `DeltaE`.
+constexpr std::array kDeltaEKeys{"dE00", "dE94", "dE76", "dE_CAM16_UCS", "dE_ITP"};
 const char* key_of(DeltaE formula) {
-  switch (formula) {
-    case DeltaE::cie94:
-      return "dE94";
-    case DeltaE::cie76:
-      return "dE76";
-    case DeltaE::cam16_ucs:
-      return "dE_CAM16_UCS";
-    case DeltaE::itp:
-      return "dE_ITP";
-    case DeltaE::cie2000:
-      break;
-  }
-  return "dE00";
+  return kDeltaEKeys.at(static_cast<std::size_t>(formula));
 }
 
 void add_color(Json& answer, const std::string& key, const std::optional<ColorDifference>& color) {

@@ -72,12 +72,7 @@ bool is_help(const OptionUsage& option) {
 
 std::string replaced(std::string_view text, char what, std::string_view by) {
   std::string result;
-  for (const char c : text) {
-    if (c == what)
-      result += by;
-    else
-      result += c;
-  }
+  for (const char c : text) result += c == what ? by : std::string_view(&c, 1);
   return result;
 }
 
@@ -307,15 +302,8 @@ std::string bash_completion(const CommandUsage& program) {
 }  // namespace
 
 std::string reference(const CommandUsage& program, ReferenceFormat format) {
-  switch (format) {
-    case ReferenceFormat::markdown:
-      return markdown(program);
-    case ReferenceFormat::man:
-      return man(program);
-    case ReferenceFormat::bash:
-      return bash_completion(program);
-  }
-  return {};
+  if (format == ReferenceFormat::markdown) return markdown(program);
+  return format == ReferenceFormat::man ? man(program) : bash_completion(program);
 }
 
 std::string slurm_help(const std::string& name) {

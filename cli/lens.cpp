@@ -210,28 +210,21 @@ Json lens_answer(const LensFigures& figures) {
   return answer;
 }
 
-// Figures of a lens as tables, each an object with a list per column. `whole` has a single value per key.
+// Figures of a lens as tables, each an object with a list per column. Numbers are texts of seven digits,
+// except in `whole`, which has a single value per key.
 struct LensTables {
-  Json whole;        ///< The whole lens.
+  Json whole;
   Json wavelengths;  ///< First-order properties by wavelength.
   Json surfaces;     ///< Seidel sums [mm] by surface, counted from 1, and their sum.
   Json fields;       ///< Distortion, spots and modulation by field.
   Json ghosts;       ///< Up to ten ghosts, the brightest first; surfaces are counted from 1.
 };
-
-// Tables of these figures. Numbers are texts of seven digits, except in `whole`, where they are not rounded.
 LensTables lens_tables(const LensFigures& figures) {
   constexpr std::size_t kGhosts = 10;
-  LensTables tables{whole_answer(figures),
-                    {},
-                    rounded(seidel_answer(figures.seidel)),
-                    {},
-                    rounded(ghosts_answer(figures, kGhosts))};
-  const Json wavelengths = wavelength_answer(figures);
-  tables.wavelengths = rounded(wavelengths);
-  for (const LensFieldFigures& field : figures.fields) add_row(figures, field, tables.fields);
-  tables.fields = rounded(std::move(tables.fields));
-  return tables;
+  Json fields;
+  for (const LensFieldFigures& field : figures.fields) add_row(figures, field, fields);
+  return {whole_answer(figures), rounded(wavelength_answer(figures)), rounded(seidel_answer(figures.seidel)),
+          rounded(std::move(fields)), rounded(ghosts_answer(figures, kGhosts))};
 }
 
 // HTML table with a column per list.
@@ -295,11 +288,11 @@ std::string transposed(const Json& columns) {
   return lines;
 }
 
-void print_tables(const LensFigures& figures) {
+std::string tables_text(const LensFigures& figures) {
   const LensTables tables = lens_tables(figures);
-  fmt::print("{}\n{}\n{}\n{}\nbrightest ghosts\n{}", text(tables.whole, false),
-             transposed(tables.wavelengths), text(tables.surfaces, false), text(tables.fields, false),
-             text(tables.ghosts, false));
+  return fmt::format("{}\n{}\n{}\n{}\nbrightest ghosts\n{}", text(tables.whole, false),
+                     transposed(tables.wavelengths), text(tables.surfaces, false), text(tables.fields, false),
+                     text(tables.ghosts, false));
 }
 
 int lens(const LensOptions& options) {
@@ -311,10 +304,7 @@ int lens(const LensOptions& options) {
   const LensFigures figures = lens_figures(system, options.frequencies_per_mm);
   if (!options.html.empty()) write_atomically(options.html, lens_page(figures));
   if (!options.drawing.empty()) write_atomically(options.drawing, lens_drawing(figures));
-  if (options.json)
-    print(lens_answer(figures), true);
-  else
-    print_tables(figures);
+  fmt::print("{}", options.json ? text(lens_answer(figures), true) : tables_text(figures));
   return 0;
 }
 

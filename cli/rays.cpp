@@ -21,21 +21,8 @@ Json list(const Imath::V3d& v) {
   return {v.x, v.y, v.z};
 }
 
-const char* name(TraceEvent::Kind kind) {
-  switch (kind) {
-    case TraceEvent::Kind::refract:
-      return "refract";
-    case TraceEvent::Kind::reflect:
-      return "reflect";
-    case TraceEvent::Kind::total_reflection:
-      return "total_reflection";
-    case TraceEvent::Kind::hit:
-      return "hit";
-    case TraceEvent::Kind::escape:
-      break;
-  }
-  return "escape";
-}
+// In the order of `TraceEvent::Kind`.
+constexpr std::array kEventNames{"refract", "reflect", "total_reflection", "hit", "escape"};
 
 // A point of the scene [m] in the coordinates and units of its file.
 Json file_point(const Scene& scene, const Imath::V3d& point) {
@@ -55,7 +42,7 @@ void add_polarisation(const EventPolarisation& polarisation, Json& answer) {
 }
 
 Json event_answer(const Scene& scene, const TraceEvent& event) {
-  Json answer{{"kind", name(event.kind)}};
+  Json answer{{"kind", kEventNames.at(static_cast<std::size_t>(event.kind))}};
   if (event.kind == TraceEvent::Kind::escape) return answer;
   answer["point"] = file_point(scene, event.at.point);
   answer["normal"] = list(event.at.normal);

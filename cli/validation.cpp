@@ -198,8 +198,7 @@ int validate(const ValidateOptions& options) {
   const bool written = !options.output.empty();
   if (written) require_folder(options.output);
   const ValidationReport report =
-      abbe::validate({options.suites, options.quick, written && options.suites.empty(), options.threads,
-                      ABBE_VERSION, print_message});
+      abbe::validate({options.suites, options.quick, options.threads, ABBE_VERSION, print_message});
   if (written) {
     write_atomically(options.output / "report.html", html_text(report));
     write_atomically(options.output / "report.json", json_text(report));

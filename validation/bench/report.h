@@ -16,10 +16,10 @@ namespace abbe {
 struct BenchReport {
   Machine machine;
   BenchSettings settings;
-  std::vector<SuiteRun> runs;  ///< Results of the suites, in the order in which they ran.
+  std::vector<SuiteRun> runs;
   /// Results of other renderers; empty for reduced films, which they did not render.
   std::vector<OtherRendererResult> other_renderers;
-  std::vector<Change> changes;  ///< Changes from the baseline; empty without one.
+  std::vector<Change> changes;  ///< Empty without a baseline.
 };
 
 /// CSV with one line per render; the first line names the columns.

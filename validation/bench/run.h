@@ -25,13 +25,12 @@ struct BenchSettings {
   /// Integrators that render each suite, at least one. Other renderers are compared with the first.
   std::vector<Integrator> integrators{Integrator::automatic};
   std::vector<int> samples{4, 8, 16, 32, 64};  ///< Samples per pixel of the renders, ascending.
-  int seeds = 3;    ///< Renders per integrator and sample count, with seeds 1 to `seeds`.
-  int threads = 0;  ///< Number of threads; 0 for one per processor.
-  /// Samples per pixel of the reference; 0 for 64 times the largest of `samples`.
-  int reference_samples = 0;
+  int seeds = 3;                ///< Renders per integrator and sample count, with seeds 1 to `seeds`.
+  int threads = 0;              ///< 0 for one per processor.
+  int reference_samples = 0;    ///< Per pixel; 0 for 64 times the largest of `samples`.
   bool quick = false;           ///< Film edges divided by four.
   std::filesystem::path cache;  ///< Folder for reference images and generated meshes; created if needed.
-  std::string version;          ///< Version of Abbe, for reports and the keys of references.
+  std::string version;          ///< For reports and the keys of references.
   std::function<void(const std::string&)> say;  ///< Called with a message for each step, if set.
 };
 
@@ -40,13 +39,13 @@ struct BenchSettings {
 struct BenchRow {
   /// Requested integrator; `automatic` is not replaced by the one that the render chose.
   Integrator integrator = Integrator::automatic;
-  int samples = 0;  ///< Samples per pixel.
+  int samples = 0;
   std::uint64_t seed = 0;
   /// CPU time of all threads, from the loaded scene to the film; includes the choice of an integrator.
   double cpu_s = 0;
-  double wall_s = 0;        ///< Elapsed time of the same work.
-  std::uint64_t paths = 0;  ///< Number of paths, as `RenderStats` counts them.
-  std::uint64_t rays = 0;   ///< Number of rays, as `RenderStats` counts them.
+  double wall_s = 0;
+  std::uint64_t paths = 0;  ///< As `RenderStats` counts them, like `rays`.
+  std::uint64_t rays = 0;
   /// Fraction of the tracing time that Embree alone takes, as in `RenderStats`. The suite's first render
   /// measures it for all rows.
   double embree_replay_fraction = 0;
@@ -63,23 +62,22 @@ struct BenchRow {
 /// One of the integrators that render a suite.
 struct BenchIntegrator {
   Integrator integrator;
-  std::vector<PathClass> unsampled;  ///< Path classes of the suite that this integrator cannot sample.
-  std::string bias;                  ///< Bias as `bias_of` describes it; empty for an unbiased integrator.
+  std::vector<PathClass> unsampled;
+  std::string bias;  ///< As `bias_of` describes it; empty for an unbiased integrator.
 };
 
 /// Conditions that determine times and errors of a suite, besides the program, its tables and the machine.
 /// Runs with different conditions cannot be compared.
 struct BenchConditions {
-  int width, height;         ///< Size of the film in pixels.
+  int width, height;
   std::string scene_sha256;  ///< Hash of the scene with its settings and files.
-  int reference_samples;     ///< Samples per pixel of the reference.
-  int threads;               ///< Number of threads, never 0.
+  int reference_samples;
+  int threads;  ///< Never 0.
 };
 
-/// Loads the scene of a suite and returns its conditions. Throws the errors of `load_suite`.
+/// Loads the scene of a suite. Throws the errors of `load_suite`.
 [[nodiscard]] BenchConditions conditions_of(const BenchSuite& suite, const BenchSettings& settings);
 
-/// Results of one suite.
 struct SuiteRun {
   BenchSuite suite;
   BenchConditions conditions;
@@ -98,14 +96,12 @@ struct SuiteRun {
 /// Square root of an error; 0 for an error that noise has made negative.
 [[nodiscard]] double root_of(double mean_square);
 
-/// Rows of one integrator, in their order.
 [[nodiscard]] std::vector<BenchRow> rows_of(const std::vector<BenchRow>& rows, Integrator integrator);
 
 /// Means over the seeds of each integrator and sample count, in the order of their first rows. Paths and rays
 /// are those of the first seed; `seed` is 0.
 [[nodiscard]] std::vector<BenchRow> means_over_seeds(const std::vector<BenchRow>& rows);
 
-/// Cost of one integrator on a suite.
 struct RankingEntry {
   BenchIntegrator by;
   /// CPU time [s] times relMSE, both means over the seeds at the last sample count of the run. relMSE is
@@ -137,28 +133,26 @@ void expose_in_srgb(Scene& scene);
 
 /// Everything that a reference image depends on.
 struct ReferenceKey {
-  std::string scene_sha256;  ///< Hash of the scene with its settings and files.
-  int width, height;         ///< Size of the film in pixels.
-  std::string version;       ///< Version of Abbe.
-  std::string data_sha256;   ///< Hash of the shipped tables, by `data_sha256`.
+  std::string scene_sha256;
+  int width, height;
+  std::string version;
+  std::string data_sha256;
   std::uint64_t seed;
-  int samples;  ///< Samples per pixel.
+  int samples;
 
   /// SHA-256 over all members, in hexadecimal.
   [[nodiscard]] std::string text() const;
 };
 
-/// Reference image of a scene.
 struct Reference {
   Image image;      ///< Channels R, G, B, Variance.R, Variance.G and Variance.B, in linear sRGB.
   std::string key;  ///< Text of its `ReferenceKey`.
   bool cached;      ///< True if the image was read from the cache.
 };
 
-/// Reference image of the scene with `samples` per pixel and the given seed, rendered by the scene's own
-/// integrator. It is read from the file of its key in the folder `cache`, or rendered and written there. The
-/// folder is created if needed. `version` is that of Abbe; `threads` of 0 means one per processor.
-/// Throws Error{output} if the file cannot be written, and the errors of `read_exr` and `render`.
+/// Reference image of the scene by its own integrator, from the file of its key in the folder `cache`, or
+/// rendered and written there. The folder is created if needed. Throws Error{output} if the file cannot be
+/// written, and the errors of `read_exr` and `render`.
 [[nodiscard]] Reference reference_of(const Scene& scene, const std::filesystem::path& cache,
                                      const std::string& version, std::uint64_t seed, int samples,
                                      int threads);

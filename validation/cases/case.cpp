@@ -155,9 +155,8 @@ CaseResult run_case(const Case& item, const CaseSettings& settings) {
 const std::vector<Case>& all_cases() {
   static const std::vector<Case> cases = [] {
     std::vector<Case> all;
-    for (std::vector<Case> (*suite)() : {optics_cases, traced_ray_cases, radiometry_cases, enclosure_cases,
-                                         refraction_cases, scattering_cases, colour_cases, color_metric_cases,
-                                         chart_cases, rendered_chart_cases, camera_cases, sensor_cases})
+    for (std::vector<Case> (*suite)() : {optics_cases, radiometry_cases, colour_cases, color_metric_cases,
+                                         chart_cases, camera_cases, sensor_cases})
       for (Case& item : suite()) all.push_back(std::move(item));
     for (Case& cell : technique_cases(all)) all.push_back(std::move(cell));
     return all;

@@ -28,12 +28,11 @@ struct Margin {
 
 /// A measured value and its known answer, in the unit of the case.
 struct Figure {
-  std::string what;  ///< Name of the figure within its case; empty if the case has a single one.
+  std::string what;  ///< Empty if the case has a single one.
   double reference;
   Estimate measured;
   std::optional<Margin> margin = {};  ///< Margin of this figure, if it differs from the case's.
 
-  /// Measured value minus reference.
   [[nodiscard]] double deviation() const { return measured.mean - reference; }
 };
 
@@ -60,12 +59,12 @@ class Expected {
 
 /// Mean of one channel of a rendered film, compared with a closed form.
 struct FilmMean {
-  std::string scene;               ///< Path relative to `data/scenes/validation`.
-  std::vector<Override> settings;  ///< Overrides applied to the scene.
-  std::string channel;             ///< Name of the film's channel.
-  Expected expected;               ///< Mean of the channel over all pixels.
-  int samples;                     ///< Samples per pixel for the margin of the case.
-  double fine_margin;              ///< Margin of a thorough run, as a fraction of the expected mean.
+  std::string scene;  ///< Path relative to `data/scenes/validation`.
+  std::vector<Override> settings;
+  std::string channel;
+  Expected expected;   ///< Mean of the channel over all pixels.
+  int samples;         ///< Samples per pixel for the margin of the case.
+  double fine_margin;  ///< Margin of a thorough run, as a fraction of the expected mean.
   /// Path classes that contribute nothing to this film, as the expressions before the colon of
   /// `unsampled_paths`, such as "E L". An integrator may omit them.
   std::vector<std::string> absent = {};
@@ -81,7 +80,7 @@ enum class Tier {
 
 /// Mean of another case's film, rendered by one integrator: a cell of the table in `docs/techniques.md`.
 struct TechniqueMean {
-  std::string case_id;  ///< Id of the other case.
+  std::string case_id;
   Integrator integrator;
   FilmMean film;  ///< Film of the other case; `integrator` replaces the one of its settings.
   Tier tier;
@@ -95,9 +94,7 @@ struct RenderedChart {
   double mean_margin;      ///< Margin of the mean [ΔE2000]; the case's margin applies to each patch.
 };
 
-/// Part of the report.
 enum class Suite { optics, radiometry, colour, camera, sensor, techniques };
-/// Names of the suites, in the order of the enumeration.
 inline constexpr std::array kSuiteNames{"optics", "radiometry", "colour", "camera", "sensor", "techniques"};
 
 /// A quantity whose answer is known.
@@ -111,10 +108,9 @@ struct Case {
   std::variant<Computed, FilmMean, RenderedChart, TechniqueMean> method;
 };
 
-/// Accuracy and threads of a measurement.
 struct CaseSettings {
   bool thorough = false;  ///< Render films at their fine margins, with accordingly more samples.
-  int threads = 0;        ///< Number of threads; 0 for one per processor.
+  int threads = 0;        ///< 0 for one per processor.
 };
 
 /// A value that is reported without a verdict.
@@ -123,7 +119,6 @@ struct Remark {
   double value;
 };
 
-/// Result of measuring a case.
 struct CaseResult {
   /// Figures of the case: those of `Computed`, one for a film, the mean and then the patches for a chart.
   /// Empty if nothing was measured.
@@ -153,11 +148,11 @@ struct CaseResult {
   [[nodiscard]] bool passed() const { return verdict == Verdict::pass; }
 };
 
-/// Scene, channel and expected mean of a case that renders a film.
+/// Scene with the samples of a case, index and expected mean of its channel.
 struct FilmSetup {
-  Scene scene;      ///< Its samples per pixel are those of the case.
-  int channel;      ///< Index of the film's channel.
-  double expected;  ///< Expected mean of that channel.
+  Scene scene;
+  int channel;
+  double expected;
 };
 /// Scene and expected mean of a case measured by `FilmMean` or `TechniqueMean`. Throws Error{internal} for
 /// other methods, for an unknown channel, and if the scene does not load.
@@ -179,7 +174,7 @@ struct Uncovered {
   std::string what;
   std::string reason;
 };
-/// All topics that are not covered, sorted by suite.
+/// All topics, sorted by suite.
 [[nodiscard]] const std::vector<Uncovered>& uncovered();
 
 }  // namespace abbe

@@ -220,7 +220,7 @@ std::vector<Remark> editions(const std::vector<Lab>& rendered, const std::string
 
 std::vector<Case> chart_cases() {
   const ComputedCases computed{Suite::colour};
-  return {
+  std::vector<Case> cases{
       computed("chart-patches", "ColorChecker, mean of 30 charts: XYZ and L*a*b* of each patch",
                "spectra of [Pascale2012], 1 nm sums [CIE15, sec. 7.1]", "", {1e-5}, whole_range_patches),
       computed("chart-babelcolor",
@@ -235,6 +235,16 @@ std::vector<Case> chart_cases() {
       computed("chart-editions", "editions of the ColorChecker against each other, D50: ΔE2000",
                "tables of [XRite2016] and [Pascale2012]", "", {0.001}, edition_spread),
   };
+  constexpr int kSamples = 512;
+  for (const char* illuminant : {"A", "D50", "D65", "FL2", "FL11", "LED-B1"})
+    cases.push_back({Suite::colour,
+                     fmt::format("chart-{}", illuminant),
+                     fmt::format("ColorChecker rendered under {}: ΔE2000 to its own spectra", illuminant),
+                     "spectra of [Pascale2012], 1 nm sums [CIE15, sec. 7.1]",
+                     "ΔE",
+                     {0.15},
+                     RenderedChart{illuminant, kSamples, 0.05}});
+  return cases;
 }
 
 CaseResult measure(const Case& item, const RenderedChart& method, const CaseSettings& settings) {
@@ -256,20 +266,6 @@ CaseResult measure(const Case& item, const RenderedChart& method, const CaseSett
   result.remarks = editions(labs, method.illuminant);
   result.picture = make_display(scene.channels, light)(film, 1 / kWhite).image;
   return result;
-}
-
-std::vector<Case> rendered_chart_cases() {
-  constexpr int kSamples = 512;
-  std::vector<Case> cases;
-  for (const char* illuminant : {"A", "D50", "D65", "FL2", "FL11", "LED-B1"})
-    cases.push_back({Suite::colour,
-                     fmt::format("chart-{}", illuminant),
-                     fmt::format("ColorChecker rendered under {}: ΔE2000 to its own spectra", illuminant),
-                     "spectra of [Pascale2012], 1 nm sums [CIE15, sec. 7.1]",
-                     "ΔE",
-                     {0.15},
-                     RenderedChart{illuminant, kSamples, 0.05}});
-  return cases;
 }
 
 }  // namespace abbe

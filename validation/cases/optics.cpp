@@ -425,6 +425,7 @@ Figures printed_bows() {
 std::vector<Case> optics_cases() {
   const ComputedCases computed{Suite::optics};
   const Margin printed{0.5001e-8};
+  const std::string prism = "two refractions [Born1999, sec. 4.7.2]";
   return {
       computed("index-lines", "indices of all dielectrics at ten spectral lines",
                "dispersion formulas and coefficients [Polyanskiy2024]", "", {0.5001e-7}, spectral_lines),
@@ -449,13 +450,6 @@ std::vector<Case> optics_cases() {
                printed, absorption),
       computed("T16", "reflectance of glass, n = 1.5, for diffuse light",
                "Fresnel's formulas over a hemisphere [Born1999, sec. 1.5.2]", "", {1e-8}, hemispherical),
-  };
-}
-
-std::vector<Case> traced_ray_cases() {
-  const ComputedCases computed{Suite::optics};
-  const std::string prism = "two refractions [Born1999, sec. 4.7.2]";
-  return {
       computed("D1", "minimum deviation of 60° prisms, traced", prism, "°", {0.51e-6}, minimum_deviations),
       computed("D2", "N-BK7 prism, deviation at 50° of incidence, traced", prism, "°", {0.51e-5},
                deviations_at_50),

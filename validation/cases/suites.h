@@ -11,26 +11,16 @@ namespace abbe {
 
 /// Each function returns a group of cases, in the order of the report. The groups of a suite follow each
 /// other. Some read shipped tables and throw Error{input} if one is missing.
-/// Optics: refractive indices, Fresnel reflectances, critical angles and absorption.
+/// Optics: formulas of materials and surfaces, then rays traced in double precision.
 [[nodiscard]] std::vector<Case> optics_cases();
-/// Optics: rays through prisms, plates, balls and drops in double precision.
-[[nodiscard]] std::vector<Case> traced_ray_cases();
-/// Radiometry: rooms, form factors, spheres under a dome, slabs, prisms and Lambertian spheres.
+/// Radiometry: rooms, form factors, domes, slabs, enclosures, balls and panes of glass, scattering media.
 [[nodiscard]] std::vector<Case> radiometry_cases();
-/// Radiometry: integrating spheres, concentric spheres, parallel plates and furnaces.
-[[nodiscard]] std::vector<Case> enclosure_cases();
-/// Radiometry: light through balls and panes of glass.
-[[nodiscard]] std::vector<Case> refraction_cases();
-/// Radiometry: a deep scattering layer, and single scattering in fog.
-[[nodiscard]] std::vector<Case> scattering_cases();
 /// Colour: observers, white points, black bodies, daylight, colour differences and matrices of RGB spaces.
 [[nodiscard]] std::vector<Case> colour_cases();
 /// Colour: temperature, rendering and fidelity, appearance, differences for displays.
 [[nodiscard]] std::vector<Case> color_metric_cases();
-/// Colour: the ColorChecker integrated from its spectra, and its editions.
+/// Colour: the ColorChecker integrated from its spectra, its editions, and renders under several illuminants.
 [[nodiscard]] std::vector<Case> chart_cases();
-/// Colour: the ColorChecker rendered under several illuminants.
-[[nodiscard]] std::vector<Case> rendered_chart_cases();
 /// Camera: raw values and least-squares matrices of a measured camera.
 [[nodiscard]] std::vector<Case> camera_cases();
 /// Sensor: electron counts, a tilted filter and photon transfer.

@@ -16,21 +16,14 @@ struct Outcome {
   CaseResult result;
 };
 
-/// A picture for illustration, without a verdict.
-struct Specimen {
-  std::string caption;
-  Image picture;  ///< Display code values in [0, 1].
-};
-
 /// All results of a validation.
 struct ValidationReport {
   Machine machine;
-  std::string version;              ///< Version of Abbe, from the settings.
-  std::string data_sha256;          ///< Hash of the shipped tables, by `data_sha256`.
-  bool quick;                       ///< `ValidationSettings::quick` of the run.
-  std::vector<Outcome> outcomes;    ///< Outcomes of the selected cases, in the order of `all_cases`.
-  std::vector<Specimen> specimens;  ///< Empty unless the settings request them.
-  Cost cost;  ///< Cost of the whole run, including loading scenes and rendering specimens.
+  std::string version;
+  std::string data_sha256;
+  bool quick;
+  std::vector<Outcome> outcomes;  ///< In the order of `all_cases`.
+  Cost cost;                      ///< Of the whole run, including loading scenes.
 
   /// Number of outcomes that do not pass; inconclusive ones are included.
   [[nodiscard]] std::size_t failures() const;
@@ -46,15 +39,13 @@ struct ValidationSettings {
   /// Judge films by the wider margins of the tests, with accordingly fewer samples. Otherwise the fine
   /// margins apply (`CaseSettings::thorough`).
   bool quick = false;
-  bool specimens = false;                       ///< Also render some scenes as illustrations.
-  int threads = 0;                              ///< Number of threads; 0 for one per processor.
-  std::string version;                          ///< Version of Abbe that the report records.
+  int threads = 0;  ///< 0 for one per processor.
+  std::string version;
   std::function<void(const std::string&)> say;  ///< Called with the name of each case before it runs, if set.
 };
 
 /// Runs the cases of the selected suites in the order of `all_cases`, one after another. A case that fails
-/// does not end the run. Throws the errors of `all_cases`, `run_case` and `data_sha256`. With `specimens`,
-/// also throws Error{internal} if their scenes do not load.
+/// does not end the run. Throws the errors of `all_cases`, `run_case` and `data_sha256`.
 [[nodiscard]] ValidationReport validate(const ValidationSettings& settings);
 
 /// Report in plain text: a line per case with its worst figure, the matrix of `techniques`, the table of
@@ -64,10 +55,9 @@ struct ValidationSettings {
 /// One JSON object in one line, with all figures and all digits, without pictures.
 [[nodiscard]] std::string json_text(const ValidationReport& report);
 
-/// Self-contained HTML document with the figures, plots, pictures and specimens of the run.
+/// Self-contained HTML document with the figures, plots and pictures of the run.
 [[nodiscard]] std::string html_text(const ValidationReport& report);
 
-/// Name of a suite, such as "optics".
 [[nodiscard]] std::string suite_name(Suite suite);
 /// Name of a verdict: "pass", "FAIL", or "UNDECIDED" for `inconclusive`.
 [[nodiscard]] std::string verdict_name(Verdict verdict);
@@ -75,14 +65,13 @@ struct ValidationSettings {
 /// without figures, 0 if the integrator cannot sample the film.
 [[nodiscard]] double worst_margin_ratio(const CaseResult& result);
 
-/// Deviation and margin of a figure in the same unit. For a relative margin the unit is per cent of the
-/// reference, or a fraction of it if the margin is below 1e-4. For an absolute margin it is the unit of the
-/// case. The deviation is signed.
+/// Signed deviation and margin of a figure, such as "0.016" and "0.15 ΔE".
 struct DeviationText {
-  std::string deviation;  ///< For example "0.31 %", "2.1e-12" or "0.016".
-  std::string margin;     ///< For example "1 %", "1e-09 relative" or "0.15 ΔE".
+  std::string deviation;
+  std::string margin;
 };
-/// Texts for one of the figures of `outcome`.
+/// Texts for one of the figures of `outcome`. For a relative margin the unit is per cent of the reference, or
+/// a fraction of it if the margin is below 1e-4. For an absolute margin it is the unit of the case.
 [[nodiscard]] DeviationText deviation_text(const Outcome& outcome, const Figure& figure);
 
 /// Colour differences ΔE2000 of a rendered chart.
