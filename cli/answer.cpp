@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include "io/diagnostics.h"
 #include "io/error.h"
 #include "report/svg.h"
 

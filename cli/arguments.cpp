@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "io/image.h"
 #include "io/json_values.h"
 #include "io/text.h"
 #include "sensor/film/crop.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <map>
-#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>
@@ -42,19 +41,6 @@ bool is_calibration_file(const std::string& report, const std::string& name) {
   });
 }
 
-// All files that `abbe calibrate` may write to `folder` for these illuminants, which are separated by
-// commas. It writes only some of them, and they need not exist.
-std::vector<fs::path> calibration_files(const fs::path& folder, const std::string& illuminants) {
-  std::vector<fs::path> files;
-  for (const char* name : kReportFiles) files.push_back(folder / name);
-  for (const std::string& illuminant : split(illuminants, ',')) {
-    CameraProfile profile;
-    profile.light = illuminant;
-    for (const char* end : kCameraSuffixes) files.push_back(folder / camera_file(profile, end));
-  }
-  return files;
-}
-
 // Files in the folder that an earlier `abbe calibrate` wrote, as `folder` / name. They have the name of one
 // of its outputs; names with an illuminant count only if its `report.json` contains that illuminant. Empty
 // if that report cannot be read. Call it before the report is replaced.
@@ -83,9 +69,17 @@ void remove_unless_written(std::span<const fs::path> earlier, std::span<const fs
   }
 }
 
+// All files that `abbe calibrate` may write. It writes only some of them, and they need not exist.
 std::vector<fs::path> output_files(const CalibrateOptions& options) {
-  return options.output.empty() ? std::vector<fs::path>{}
-                                : calibration_files(options.output, options.illuminants);
+  std::vector<fs::path> files;
+  if (options.output.empty()) return files;
+  for (const char* name : kReportFiles) files.push_back(options.output / name);
+  for (const std::string& illuminant : split(options.illuminants, ',')) {
+    CameraProfile profile;
+    profile.light = illuminant;
+    for (const char* end : kCameraSuffixes) files.push_back(options.output / camera_file(profile, end));
+  }
+  return files;
 }
 
 // Rejects illuminants that are named twice. Written files compare the names without case, as OpenColorIO does

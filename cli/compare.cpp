@@ -14,7 +14,6 @@
 #include "io/exr.h"
 #include "io/picture.h"
 #include "report/chart_difference.h"
-#include "report/image_difference.h"
 #include "report/maps.h"
 #include "results/white.h"
 #include "sensor/film/recorded_attributes.h"

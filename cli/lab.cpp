@@ -2,9 +2,7 @@
 
 #include <array>
 #include <optional>
-#include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 

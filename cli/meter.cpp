@@ -24,10 +24,7 @@ namespace {
 
 abbe::RenderOptions render_options_of(const MeterOptions& options, const InterruptWatch& watch,
                                       ProgressDisplay& display) {
-  abbe::RenderOptions render_options;
-  render_options.threads = options.threads;
-  render_options.time_limit_s = options.time_limit_s;
-  render_options.target_error = options.target_error;
+  abbe::RenderOptions render_options = options.render;
   render_options.stop = &watch.stop();
   if (!options.quiet) render_options.progress = [&display](const Progress& progress) { display(progress); };
   return render_options;

@@ -8,7 +8,6 @@
 
 #include "cli/answer.h"
 #include "cli/output_files.h"
-#include "description/load.h"
 #include "io/atomic_file.h"
 #include "io/text.h"
 #include "report/layout.h"

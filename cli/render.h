@@ -17,12 +17,10 @@ namespace abbe::cli {
 /// Options of `render` and `meter`, which their help explains. Values that are absent are those of the scene.
 struct SamplingOptions {
   std::optional<int> samples;
-  std::optional<double> target_error;
-  std::optional<double> time_limit_s;
+  abbe::RenderOptions render;  ///< Without layers, callbacks and guiding data.
   std::optional<Integrator> integrator;
   bool consistent = false;
   std::optional<std::uint64_t> seed;
-  int threads = 0;
   std::size_t max_memory_bytes = default_memory_limit();
   std::vector<Override> overrides;
   /// Treat problems that invalidate the result as errors. Problems of the scene end the command before it
@@ -53,13 +51,9 @@ struct RenderOptions : SamplingOptions {
   std::filesystem::path exposure_of;
   std::filesystem::path gamut;
   std::filesystem::path stats;  ///< "-" is standard output.
-  std::optional<SampleRange> sample_range;
   std::filesystem::path checkpoint;
-  double checkpoint_interval_s = 60;
   bool resume = false;
-  std::optional<Crop> crop;
   std::optional<LayerChoice> layers;
-  std::vector<Feature> features;
   std::optional<ServerAddress> preview;
   std::optional<ServerAddress> tev;
   bool explain = false;

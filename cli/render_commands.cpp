@@ -24,10 +24,10 @@ StopOptions add_samples(CLI::App& app, SamplingOptions& settings, const std::str
   CLI::Option* spp =
       add_parsed(app, "--spp", settings.samples, integer_in<int>(1, kMaxSamples), spp_help, "N");
   CLI::Option* error =
-      add_parsed(app, "--error", settings.target_error, parse_fraction,
+      add_parsed(app, "--error", settings.render.target_error, parse_fraction,
                  "Stop when " + error_name + " is at most this fraction, such as 0.5% or 0.005", "FRACTION");
   CLI::Option* time = add_parsed(
-      app, "--time", settings.time_limit_s, parse_seconds,
+      app, "--time", settings.render.time_limit_s, parse_seconds,
       "Stop after this time" + time_scope +
           ", in s or with a unit, such as 60s, 2m or 1h; with --error, when the first of both is reached",
       "TIME");
@@ -37,7 +37,7 @@ StopOptions add_samples(CLI::App& app, SamplingOptions& settings, const std::str
 
 void add_range(CLI::App& render, RenderOptions& settings, const StopOptions& stop_options) {
   CLI::Option* range =
-      add_parsed(render, "--sample-range", settings.sample_range, parse_sample_range,
+      add_parsed(render, "--sample-range", settings.render.samples, parse_sample_range,
                  "Render only the samples A to B - 1 of every pixel, for parts of one render", "A:B");
   range->excludes(stop_options.error)->excludes(stop_options.time);
 }
@@ -52,20 +52,20 @@ void add_integrator(CLI::App& app, SamplingOptions& settings) {
                "integrator can sample");
   add_parsed(app, "--seed", settings.seed, integer_in<std::uint64_t>(0, kMaxSeed),
              "Seed of the random numbers (default: the scene's)", "N");
-  add_parsed(app, "--threads", settings.threads, integer_in<int>(0, kMaxThreads),
+  add_parsed(app, "--threads", settings.render.threads, integer_in<int>(0, kMaxThreads),
              "Number of threads; 0 for one per processor (default 0)", "N");
 }
 
 // Adds the options for the crop, the layers and the auxiliary channels of the film.
 void add_film(CLI::App& render, RenderOptions& settings) {
-  add_parsed(render, "--crop", settings.crop, parse_crop,
+  add_parsed(render, "--crop", settings.render.crop, parse_crop,
              "Pixels of the film to render, X0 <= x < X1 and Y0 <= y < Y1 (default: all)", "X0,Y0,X1,Y1");
   add_parsed(render, "--layers", settings.layers, parse_layer_choice,
              "Also record layers, channels that add up to the film: by light (lights, or lights:NAME,... for "
              "some lights) or by path length (bounces, or bounces:N with N or more bounces in the last "
              "layer, 1 to 64, default 8)",
              "lights|bounces");
-  add_parsed(render, "--aov", settings.features, parse_feature_list,
+  add_parsed(render, "--aov", settings.render.features, parse_feature_list,
              "Also record features of the first surface in each pixel, any of depth (channel depth.Z), "
              "position (P), normal (N), shading-normal (Ns), albedo (Albedo) and id (Id), with the fraction "
              "of samples that hit a surface (Coverage)",
@@ -76,7 +76,7 @@ void add_checkpoints(CLI::App& render, RenderOptions& settings) {
   CLI::Option* checkpoint =
       add_value(render, "--checkpoint", settings.checkpoint,
                 "File in which the finished samples are saved during the render", "FILE.abbepart");
-  add_parsed(render, "--checkpoint-every", settings.checkpoint_interval_s, parse_seconds,
+  add_parsed(render, "--checkpoint-every", settings.render.checkpoint_interval_s, parse_seconds,
              "Time between checkpoints, in s or with a unit, such as 60s, 2m or 1h; longer if writing would "
              "take more than 1 % of the time (default 60s)",
              "TIME")

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <optional>
 #include <span>
-#include <string>
 #include <vector>
 
 #include <fmt/format.h>
@@ -14,7 +13,6 @@
 #include "calibration/chart/raw_scale.h"
 #include "calibration/chart/transfer_frames.h"
 #include "calibration/metrics/slanted_edge.h"
-#include "cli/answer.h"
 #include "cli/arguments.h"
 #include "cli/command_options.h"
 #include "cli/output_files.h"

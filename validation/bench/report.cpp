@@ -1,7 +1,6 @@
 #include "validation/bench/report.h"
 
 #include <cmath>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,5 +1,4 @@
 #include <array>
-#include <cmath>
 
 #include <fmt/format.h>
 
@@ -57,19 +56,6 @@ Curve by_definition(const std::string& name) {
   if (name == "A") return planck(2848 * photon_energy(1) / kBoltzmann / 1.435e7);
   if (name[0] == 'D') return daylight(100 * std::stod(name.substr(1)) * kDaylightScale);
   return shipped_illuminant(name);
-}
-
-Figures summed_whites() {
-  return white_points("360_830", {}, shipped_illuminant);
-}
-Figures truncated_whites() {
-  return white_points("1nm", kVisibleRange, shipped_illuminant);
-}
-Figures defined_whites() {
-  return white_points("full", {}, by_definition);
-}
-Figures printed_whites() {
-  return white_points("pub", {}, shipped_illuminant);
 }
 
 // Illuminants of the tables of ASTM E308: A by definition, daylight from its table.
@@ -147,13 +133,6 @@ Figures sharma_pairs(const char* column, double (*formula)(const Lab&, const Lab
     figures.push_back({pair + " reversed", row.number(column), {formula(lab(2), lab(1))}});
   });
 }
-Figures pairs_2000() {
-  return sharma_pairs("dE00", delta_e_2000<double>);
-}
-Figures pairs_76() {
-  return sharma_pairs("dE76", delta_e_76<double>);
-}
-
 void add_matrix(Figures& figures, const ReferenceTable& table, const std::string& name, const Matrix3& m) {
   for (std::size_t row = 0; row < table.rows(); ++row) {
     if (!table.text(row, "name").starts_with(name)) continue;
@@ -207,15 +186,16 @@ std::vector<Case> colour_cases() {
       computed("observers", "column sums of the standard observers, 360-830 nm", "tables of [CIE15]", "",
                {0.51e-6}, observer_sums),
       computed("whites", "white points of 50 illuminants for both observers, 1 nm sums", "[CIE15, sec. 7.1]",
-               "", millionth, summed_whites),
+               "", millionth, [] { return white_points("360_830", {}, shipped_illuminant); }),
       computed("whites-truncated", "white points of illuminants, summed from 380 to 780 nm",
-               "[CIE15, sec. 7.1]", "", millionth, truncated_whites),
+               "[CIE15, sec. 7.1]", "", millionth,
+               [] { return white_points("1nm", kVisibleRange, shipped_illuminant); }),
       computed("astm-weights", "tristimulus weights for 10 and 20 nm as printed", "[ASTM308], [ASTM2022]", "",
                {5.01e-4}, astm_printed_weights),
       computed("whites-defined", "white points of illuminants, with A and D by definition", "[CIE15, sec. 3]",
-               "", millionth, defined_whites),
+               "", millionth, [] { return white_points("full", {}, by_definition); }),
       computed("whites-printed", "white points as printed, from rounded tables", "[CIE15, tables]", "",
-               {3.5e-4}, printed_whites),
+               {3.5e-4}, [] { return white_points("pub", {}, shipped_illuminant); }),
       computed("locus", "chromaticities of black bodies", "Planck's law [Planck1901] and [CIE15]", "",
                millionth, planckian_locus),
       computed("planck", "spectral radiance of black bodies", "Planck's law [Planck1901]", "W/(m² sr nm)",
@@ -225,9 +205,10 @@ std::vector<Case> colour_cases() {
       computed("efficacy", "luminous efficacy of illuminants, 380-780 nm by trapezoids",
                "683.002 lm/W at 540 THz [CIE15]", "lm/W", {1e-4}, luminous_efficacies),
       computed("dE00", "the 34 published pairs of CIEDE2000", "[Sharma2005, table 1]", "ΔE", {5.1e-5},
-               pairs_2000),
+               [] { return sharma_pairs("dE00", delta_e_2000<double>); }),
       computed("dE76", "the 34 pairs of CIEDE2000 by their distance in L*a*b*",
-               "[Sharma2005, table 1], [CIE15, sec. 8.2.1]", "ΔE", {5.1e-5}, pairs_76),
+               "[Sharma2005, table 1], [CIE15, sec. 8.2.1]", "ΔE", {5.1e-5},
+               [] { return sharma_pairs("dE76", delta_e_76<double>); }),
       computed("matrices", "RGB spaces and chromatic adaptation", "primaries of [BT709]; [Lam1985]", "",
                {1e-9}, colour_matrices),
       computed("cornell", "light and white wall of the Cornell box", "measured spectra [CornellBox1998]", "",

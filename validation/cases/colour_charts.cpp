@@ -114,16 +114,6 @@ Figures patches_of(const IntegratedTable& chart, SumRange range) {
     }
   });
 }
-Figures babelcolor_patches() {
-  return patches_of(kTables[0], kVisibleRange);
-}
-Figures ohta_patches() {
-  return patches_of(kTables[1], kVisibleRange);
-}
-Figures whole_range_patches() {
-  return patches_of({"colorchecker_babelcolor_360_830", kTables[0].spectra}, {});
-}
-
 // L*a*b* of every patch by the weights of ASTM E308. Another program computed the reference from the same
 // tables.
 Figures astm_patches() {
@@ -222,12 +212,17 @@ std::vector<Case> chart_cases() {
   const ComputedCases computed{Suite::colour};
   std::vector<Case> cases{
       computed("chart-patches", "ColorChecker, mean of 30 charts: XYZ and L*a*b* of each patch",
-               "spectra of [Pascale2012], 1 nm sums [CIE15, sec. 7.1]", "", {1e-5}, whole_range_patches),
+               "spectra of [Pascale2012], 1 nm sums [CIE15, sec. 7.1]", "", {1e-5},
+               [] {
+                 return patches_of({"colorchecker_babelcolor_360_830", kTables[0].spectra}, {});
+               }),
       computed("chart-babelcolor",
                "ColorChecker, mean of 30 charts, summed from 380 to 780 nm: XYZ and L*a*b* of each patch",
-               "spectra of [Pascale2012], 1 nm sums [CIE15, sec. 7.1]", "", {1e-5}, babelcolor_patches),
+               "spectra of [Pascale2012], 1 nm sums [CIE15, sec. 7.1]", "", {1e-5},
+               [] { return patches_of(kTables[0], kVisibleRange); }),
       computed("chart-ohta", "ColorChecker of Ohta, summed from 380 to 780 nm: XYZ and L*a*b* of each patch",
-               "spectra of [Ohta1997], 1 nm sums [CIE15, sec. 7.1]", "", {1e-5}, ohta_patches),
+               "spectra of [Ohta1997], 1 nm sums [CIE15, sec. 7.1]", "", {1e-5},
+               [] { return patches_of(kTables[1], kVisibleRange); }),
       computed("chart-astm", "ColorChecker by the weights of ASTM E308: L*a*b* of each patch",
                "spectra of [Pascale2012], [ASTM308]", "", {1e-5}, astm_patches),
       computed("chart-integrated", "ColorChecker integrated against the same spectra: mean ΔE2000",

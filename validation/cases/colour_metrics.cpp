@@ -19,41 +19,19 @@ ColorTemperature temperature_of(const Curve& light, SumRange range = {}) {
   return color_temperature(tristimulus(light, Curve(1), Observer::cie1931, range)).value();
 }
 
-// One figure for each illuminant that has a value in the column.
-template <typename F>
-Figures of_illuminants(const char* table_name, const char* column, F figure) {
-  return figures_of_rows(table_name, [&](Figures& figures, const ReferenceRow& row) {
-    if (!row.text(column).empty())
-      figures.push_back(
-          {row.text("illuminant"), row.number(column), {figure(shipped_illuminant(row.text("illuminant")))}});
-  });
+// Computes a figure for each illuminant that has a value in the column.
+std::function<Figures()> of_illuminants(const char* table_name, const char* column,
+                                        double (*figure)(const Curve&)) {
+  return [=] {
+    return figures_of_rows(table_name, [&](Figures& figures, const ReferenceRow& row) {
+      if (const std::string& name = row.text("illuminant"); !row.text(column).empty())
+        figures.push_back({name, row.number(column), {figure(shipped_illuminant(name))}});
+    });
+  };
 }
 
 constexpr const char* kComputed = "illuminant_cct_ler";
 constexpr const char* kPrinted = "illuminant_rendering";
-
-Figures temperatures() {
-  return of_illuminants(kComputed, "CCT_K_360_830", [](const Curve& c) { return temperature_of(c).kelvin; });
-}
-Figures truncated_temperatures() {
-  return of_illuminants(kComputed, "CCT_K",
-                        [](const Curve& c) { return temperature_of(c, kVisibleRange).kelvin; });
-}
-Figures locus_distances() {
-  return of_illuminants(kComputed, "Duv_360_830", [](const Curve& c) { return temperature_of(c).duv; });
-}
-Figures truncated_locus_distances() {
-  return of_illuminants(kComputed, "Duv",
-                        [](const Curve& c) { return temperature_of(c, kVisibleRange).duv; });
-}
-Figures scotopic_ratios() {
-  return of_illuminants(kComputed, "S_over_P_360_830",
-                        [](const Curve& c) { return scotopic_photopic_ratio(c); });
-}
-Figures truncated_scotopic_ratios() {
-  return of_illuminants(kComputed, "S_over_P",
-                        [](const Curve& c) { return scotopic_photopic_ratio(c, kVisibleRange); });
-}
 
 // Black bodies have their own temperatures.
 Figures black_body_temperatures() {
@@ -61,24 +39,6 @@ Figures black_body_temperatures() {
   for (const double kelvin : {1500.0, 2856.0, 6500.0, 20000.0, 50000.0, 99000.0})
     figures.push_back({fmt::format("{} K", kelvin), kelvin, {temperature_of(planck(kelvin)).kelvin}});
   return figures;
-}
-Figures printed_temperatures() {
-  return of_illuminants(kPrinted, "CCT_K", [](const Curve& c) { return temperature_of(c).kelvin; });
-}
-
-double general_index(const Curve& light) {
-  return color_rendering(light).value().general;
-}
-Figures rendering_indices() {
-  return of_illuminants(kComputed, "Ra",
-                        [](const Curve& c) { return color_rendering(c, kVisibleRange).value().general; });
-}
-Figures printed_indices() {
-  return of_illuminants(kPrinted, "Ra", general_index);
-}
-Figures fidelities() {
-  return of_illuminants(kComputed, "Rf",
-                        [](const Curve& c) { return color_fidelity(c, kVisibleRange).value().fidelity; });
 }
 
 // The worked example of CIE 224 and FL1 are tabulated every 5 nm. The calculator sums every 5 nm; Sprague's
@@ -153,12 +113,6 @@ Figures correlates(const char* table_name, AppearanceModel model) {
     add("M", result.colorfulness);
   });
 }
-Figures cam16_correlates() {
-  return correlates("cam16", AppearanceModel::cam16);
-}
-Figures ciecam02_correlates() {
-  return correlates("ciecam02", AppearanceModel::ciecam02);
-}
 
 Figures printed_itp() {
   return figures_of_rows("delta_e_itp", [&](Figures& figures, const ReferenceRow& row) {
@@ -188,29 +142,49 @@ std::vector<Case> color_metric_cases() {
   const ComputedCases computed{Suite::colour};
   return {
       computed("cct", "correlated colour temperature of illuminants", "nearest black body [Ohno2014]", "K",
-               {0.0051}, temperatures),
+               {0.0051},
+               of_illuminants(kComputed, "CCT_K_360_830",
+                              [](const Curve& c) { return temperature_of(c).kelvin; })),
       computed("cct-truncated", "correlated colour temperature of colours summed from 380 to 780 nm",
-               "nearest black body [Ohno2014]", "K", {0.0051}, truncated_temperatures),
+               "nearest black body [Ohno2014]", "K", {0.0051},
+               of_illuminants(kComputed, "CCT_K",
+                              [](const Curve& c) { return temperature_of(c, kVisibleRange).kelvin; })),
       computed("cct-black-body", "colour temperature of black bodies",
                "temperature of the black body itself [Planck1901]", "K", {1e-5, Margin::Kind::relative},
                black_body_temperatures),
-      computed("duv", "distance of illuminants from the Planckian locus", "nearest black body [Ohno2014]", "",
-               {5.1e-7}, locus_distances),
+      computed(
+          "duv", "distance of illuminants from the Planckian locus", "nearest black body [Ohno2014]", "",
+          {5.1e-7},
+          of_illuminants(kComputed, "Duv_360_830", [](const Curve& c) { return temperature_of(c).duv; })),
       computed("duv-truncated", "distance from the Planckian locus of colours summed from 380 to 780 nm",
-               "nearest black body [Ohno2014]", "", {5.1e-7}, truncated_locus_distances),
+               "nearest black body [Ohno2014]", "", {5.1e-7},
+               of_illuminants(kComputed, "Duv",
+                              [](const Curve& c) { return temperature_of(c, kVisibleRange).duv; })),
       computed("cct-printed", "colour temperatures as printed, to 10 K and from 5 nm sums",
-               "[CIE15, tables 10 and 12]", "K", {1.6e-3, Margin::Kind::relative}, printed_temperatures),
-      computed("scotopic", "ratio of scotopic to photopic flux", "[CIE18]", "", {6e-6}, scotopic_ratios),
+               "[CIE15, tables 10 and 12]", "K", {1.6e-3, Margin::Kind::relative},
+               of_illuminants(kPrinted, "CCT_K", [](const Curve& c) { return temperature_of(c).kelvin; })),
+      computed("scotopic", "ratio of scotopic to photopic flux", "[CIE18]", "", {6e-6},
+               of_illuminants(kComputed, "S_over_P_360_830",
+                              [](const Curve& c) { return scotopic_photopic_ratio(c); })),
       computed("scotopic-truncated", "ratio of scotopic to photopic flux, summed from 380 to 780 nm",
-               "[CIE18]", "", {6e-6}, truncated_scotopic_ratios),
-      computed("cri", "general colour rendering index; the reference interpolates spectra by Sprague's rule",
-               "[CIE13]", "", {0.1}, rendering_indices),
+               "[CIE18]", "", {6e-6},
+               of_illuminants(kComputed, "S_over_P",
+                              [](const Curve& c) { return scotopic_photopic_ratio(c, kVisibleRange); })),
+      computed(
+          "cri", "general colour rendering index; the reference interpolates spectra by Sprague's rule",
+          "[CIE13]", "", {0.1},
+          of_illuminants(kComputed, "Ra",
+                         [](const Curve& c) { return color_rendering(c, kVisibleRange).value().general; })),
       computed("cri-special", "R1 to R14 of FL1; the reference interpolates spectra by Sprague's rule",
                "[CIE13]", "", {0.3}, special_indices),
-      computed("cri-printed", "general colour rendering index as printed, in integers and from 5 nm sums",
-               "[CIE15, table T.8]", "", {0.56}, printed_indices),
-      computed("fidelity", "colour fidelity; the reference uses 5 nm sums", "[CIE224]", "", {0.17},
-               fidelities),
+      computed(
+          "cri-printed", "general colour rendering index as printed, in integers and from 5 nm sums",
+          "[CIE15, table T.8]", "", {0.56},
+          of_illuminants(kPrinted, "Ra", [](const Curve& c) { return color_rendering(c).value().general; })),
+      computed(
+          "fidelity", "colour fidelity; the reference uses 5 nm sums", "[CIE224]", "", {0.17},
+          of_illuminants(kComputed, "Rf",
+                         [](const Curve& c) { return color_fidelity(c, kVisibleRange).value().fidelity; })),
       computed("fidelity-example",
                "the worked example of CIE 224 and two fluorescent illuminants, as printed to 0.1", "[CIE224]",
                "", {0.07}, fidelity_example),
@@ -218,9 +192,10 @@ std::vector<Case> color_metric_cases() {
                printed_fidelity),
       computed("tm30-hue", "hue shifts of FL2 by that calculator", "[TM30]", "rad", {6e-3},
                printed_hue_shifts),
-      computed("cam16", "correlates of CAM16", "[Li2017]", "", {5.1e-9}, cam16_correlates),
+      computed("cam16", "correlates of CAM16", "[Li2017]", "", {5.1e-9},
+               [] { return correlates("cam16", AppearanceModel::cam16); }),
       computed("ciecam02", "correlates of CIECAM02 as printed", "[CIE159]; [Fairchild2013]", "", {0.06},
-               ciecam02_correlates),
+               [] { return correlates("ciecam02", AppearanceModel::ciecam02); }),
       computed("dE-ITP", "colour differences for displays as printed", "[BT2124]", "ΔE", {1e-7}, printed_itp),
       computed("itp", "colour differences of sRGB primaries for displays with a white of 203 cd/m²",
                "[BT2100]; [BT2124]", "ΔE", {5.1e-4}, display_itp),

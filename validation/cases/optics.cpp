@@ -24,17 +24,27 @@ double cosine(double degrees) {
   return degrees == 90 ? 0 : std::cos(degrees * kDegree);
 }
 
+struct NamedLine {
+  const char* name;
+  double wavelength_nm;  ///< In air.
+};
+constexpr NamedLine kC{"C", 656.2725};
+constexpr NamedLine kD{"d", kLineD_nm};
+constexpr NamedLine kF{"F", 486.1327};
+constexpr NamedLine kG{"g", 435.8343};
+constexpr NamedLine kH{"h", 404.6561};
+constexpr std::array<NamedLine, 10> kLines{{kH,
+                                            kG,
+                                            {"Fprime", 479.9914},
+                                            kF,
+                                            {"e", 546.0740},
+                                            kD,
+                                            {"D", 589.2938},
+                                            {"Cprime", 643.8469},
+                                            kC,
+                                            {"r", 706.5188}}};
+
 Figures spectral_lines() {
-  constexpr std::array<std::pair<const char*, double>, 10> kLines{{{"h", kLineH_nm},
-                                                                   {"g", kLineG_nm},
-                                                                   {"Fprime", 479.9914},
-                                                                   {"F", kLineF_nm},
-                                                                   {"e", 546.0740},
-                                                                   {"d", kLineD_nm},
-                                                                   {"D", 589.2938},
-                                                                   {"Cprime", 643.8469},
-                                                                   {"C", kLineC_nm},
-                                                                   {"r", 706.5188}}};
   return figures_of_rows("refractive_index_lines", [&](Figures& figures, const ReferenceRow& row) {
     const std::string& id = row.text("id");
     const RefractiveIndex index = shipped_index(id);
@@ -219,16 +229,6 @@ Figures hemispherical() {
 
 using V3d = Imath::V3d;
 constexpr double kMillimetre = 1e-3;
-
-struct NamedLine {
-  const char* name;
-  double wavelength_nm;
-};
-constexpr NamedLine kC{"C", kLineC_nm};
-constexpr NamedLine kD{"d", kLineD_nm};
-constexpr NamedLine kF{"F", kLineF_nm};
-constexpr NamedLine kG{"g", kLineG_nm};
-constexpr NamedLine kH{"h", kLineH_nm};
 
 // Shapes of one glass of index n in air.
 Scene glass_scene(double n, std::vector<Shape> shapes) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <span>
 #include <string>
 #include <utility>
@@ -44,19 +45,19 @@ struct ComputedCases {
   Suite suite;
 
   [[nodiscard]] Case operator()(std::string id, std::string title, std::string source, std::string unit,
-                                Margin margin, Figures (*figures)()) const {
-    return {suite,           std::move(id), std::move(title), std::move(source),
-            std::move(unit), margin,        Computed{figures}};
+                                Margin margin, std::function<Figures()> figures) const {
+    return {suite,
+            std::move(id),
+            std::move(title),
+            std::move(source),
+            std::move(unit),
+            margin,
+            Computed{std::move(figures)}};
   }
 };
 
-/// Spectral lines C, d, F, g and h: wavelengths in air. `kLineD_nm` is the helium line d, not the sodium line
-/// D.
-inline constexpr double kLineC_nm = 656.2725;
+/// Wavelength in air of the helium line d.
 inline constexpr double kLineD_nm = 587.5618;
-inline constexpr double kLineF_nm = 486.1327;
-inline constexpr double kLineG_nm = 435.8343;
-inline constexpr double kLineH_nm = 404.6561;
 
 /// Case of the suite radiometry: the mean of a film's channel against a closed form. By default the channel
 /// is Y, the illuminance times the exposure time [lx s]. The margin is 1 %, that of a thorough run 0.2 %.

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <vector>
 
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/poisson.hpp>
@@ -187,16 +186,6 @@ AlbedoReplicates albedo_replicates(const LobeSampler& sampler, const Imath::V3f&
       }
   }
   return sums;
-}
-
-Albedo albedo(const LobeSampler& sampler, const Imath::V3f& wo, int samples, std::uint64_t seed) {
-  const AlbedoReplicates replicates = albedo_replicates(sampler, wo, samples, seed);
-  Albedo result{};
-  for (std::size_t j = 0; j < kLanes; ++j) {
-    result.reflected[j] = estimate(replicates.reflected[j]);
-    result.transmitted[j] = estimate(replicates.transmitted[j]);
-  }
-  return result;
 }
 
 std::vector<BsdfSample> delta_events(const Bsdf& bsdf, const Imath::V3f& wo, int hero, TransportMode mode) {

@@ -41,30 +41,16 @@ using Replicates = std::array<double, kReplicates>;
 /// Mean of the replicates. The standard error follows from their scatter; it is 0 if they are equal.
 [[nodiscard]] Estimate estimate(const Replicates& replicates);
 
-/// Directional-hemispherical reflectance and transmittance, as fractions of the power, for each wavelength
-/// sample. The estimator is balanced over the wavelengths, each of which is the hero equally often. With a
-/// sampler in `TransportMode::power` a lossless material gives a sum of 1.
-struct Albedo {
-  std::array<Estimate, kLanes> reflected;    ///< Into the hemisphere of `wo`.
-  std::array<Estimate, kLanes> transmitted;  ///< Into the other hemisphere.
-
-  /// Sum of both means for a wavelength sample.
-  [[nodiscard]] double total(int lane) const {
-    const auto i = static_cast<std::size_t>(lane);
-    return reflected[i].mean + transmitted[i].mean;
-  }
+/// Directional-hemispherical reflectance and transmittance for each wavelength sample, as fractions of the
+/// power.
+struct AlbedoReplicates {
+  std::array<Replicates, kLanes> reflected;    ///< Into the hemisphere of `wo`.
+  std::array<Replicates, kLanes> transmitted;  ///< Into the other hemisphere.
 };
 /// Albedo for light from the unit direction `wo`, which points towards the source and is that of `sampler`.
-/// It uses about `samples` random numbers per hero, at least one in each of the `kReplicates` sets.
-[[nodiscard]] Albedo albedo(const LobeSampler& sampler, const Imath::V3f& wo, int samples = 4096,
-                            std::uint64_t seed = 0);
-
-/// Replicates of the results of `albedo` for each wavelength sample. Equal `samples` and `seed` give equal
-/// random numbers for every sampler.
-struct AlbedoReplicates {
-  std::array<Replicates, kLanes> reflected;
-  std::array<Replicates, kLanes> transmitted;
-};
+/// The estimator is balanced over the wavelengths, each of which is the hero equally often. With a sampler in
+/// `TransportMode::power` a lossless material gives a sum of 1. It uses about `samples` random numbers per
+/// hero, at least one in each set. Equal `samples` and `seed` give equal random numbers for every sampler.
 [[nodiscard]] AlbedoReplicates albedo_replicates(const LobeSampler& sampler, const Imath::V3f& wo,
                                                  int samples, std::uint64_t seed = 0);
 

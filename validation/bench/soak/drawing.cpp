@@ -1,11 +1,8 @@
 #include "validation/bench/soak/drawing.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cmath>
 #include <numbers>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -91,20 +88,14 @@ double keyframe_time(Drawing& drawing) {
 }  // namespace
 
 Json draw_curve(Drawing& drawing, double max_value) {
-  switch (integer(drawing, 0, 6)) {
-    case 0:
-      return table(drawing, max_value);
-    case 1:
-      return band(drawing, max_value);
-    case 2:
-      return gaussian(drawing, max_value);
-    case 3:
-      return {{"product", {band(drawing, 1), gaussian(drawing, max_value)}}};
-    case 4:
-      return {{"sum", {table(drawing, max_value / 2), {{"scale", 0.5}, {"of", band(drawing, max_value)}}}}};
-    default:
-      return uniform(drawing, 0, max_value);
-  }
+  const int kind = integer(drawing, 0, 6);
+  if (kind == 0) return table(drawing, max_value);
+  if (kind == 1) return band(drawing, max_value);
+  if (kind == 2) return gaussian(drawing, max_value);
+  if (kind == 3) return {{"product", {band(drawing, 1), gaussian(drawing, max_value)}}};
+  if (kind == 4)
+    return {{"sum", {table(drawing, max_value / 2), {{"scale", 0.5}, {"of", band(drawing, max_value)}}}}};
+  return uniform(drawing, 0, max_value);
 }
 
 Json draw_reflectance(Drawing& drawing, bool& varies) {

@@ -14,16 +14,11 @@ constexpr double kMaxLayerK = 10;
 constexpr double kMaxClearK = 1e-2;
 
 Json dielectric_index(Random& random, double max_k) {
-  switch (integer(random, 0, 7)) {
-    case 0:
-      return one_of(random, {1.0, 1.0000001, 1.000001, 1.001, 1.5, 2.417, 4.0});
-    case 1:
-      return decades(random, 0.05, 20);
-    case 2:
-      return {{"n", decades(random, 0.3, 4)}, {"k", decades(random, 1e-12, max_k)}};
-    default:
-      return one_of(random, {"N-BK7", "N-SF11", "N-SF66", "F2", "water", "ice_warren2008", "hikari/F2"});
-  }
+  const int kind = integer(random, 0, 7);
+  if (kind == 0) return one_of(random, {1.0, 1.0000001, 1.000001, 1.001, 1.5, 2.417, 4.0});
+  if (kind == 1) return decades(random, 0.05, 20);
+  if (kind == 2) return {{"n", decades(random, 0.3, 4)}, {"k", decades(random, 1e-12, max_k)}};
+  return one_of(random, {"N-BK7", "N-SF11", "N-SF66", "F2", "water", "ice_warren2008", "hikari/F2"});
 }
 
 Json metal_index(Random& random) {

@@ -35,18 +35,12 @@ Json cross(const Json& a, const Json& b) {
 Json probe(Drawing& drawing) {
   const Json at = draw_position(drawing, 0.6);
   const double radius = drawing.size * decades(drawing, 1e-4, 0.2);
-  switch (integer(drawing, 0, 4)) {
-    case 0:
-    case 1:
-      return {{"at", at}, {"normal", draw_direction(drawing)}};
-    case 2:
-      return {{"disc", {{"center", at}, {"normal", draw_direction(drawing)}, {"radius", radius}}}};
-    case 3:
-      return {{"sphere",
-               {{"center", at}, {"radius", radius}, {"facing", one_of(drawing, {"outwards", "inwards"})}}}};
-    default:
-      break;
-  }
+  const int kind = integer(drawing, 0, 4);
+  if (kind <= 1) return {{"at", at}, {"normal", draw_direction(drawing)}};
+  if (kind == 2) return {{"disc", {{"center", at}, {"normal", draw_direction(drawing)}, {"radius", radius}}}};
+  if (kind == 3)
+    return {{"sphere",
+             {{"center", at}, {"radius", radius}, {"facing", one_of(drawing, {"outwards", "inwards"})}}}};
   Json edge_u = Json::array();
   for (int axis = 0; axis < 3; ++axis) edge_u.push_back(drawing.size * signed_decades(drawing, 1e-4, 0.2));
   Json edge_v = cross(edge_u, {drawing.size, 0.3 * drawing.size, -0.1 * drawing.size});
@@ -114,16 +108,11 @@ Json spectrum(Drawing& drawing, double max_value) {
 
 Json relative_emission(Drawing& drawing) {
   if (drawing.closed) return {{"spectrum", spectrum(drawing, 1)}};
-  switch (integer(drawing, 0, 3)) {
-    case 0:
-      return {{"blackbody_K", decades(drawing, 1500, 1e6)}};
-    case 1:
-      return {{"daylight_K", uniform(drawing, 4000, 25000)}};
-    case 2:
-      return {{"spectrum", spectrum(drawing, 1)}};
-    default:
-      return {{"illuminant", one_of(drawing, {"A", "D65", "E", "FL11", "LED-B3"})}};
-  }
+  const int kind = integer(drawing, 0, 3);
+  if (kind == 0) return {{"blackbody_K", decades(drawing, 1500, 1e6)}};
+  if (kind == 1) return {{"daylight_K", uniform(drawing, 4000, 25000)}};
+  if (kind == 2) return {{"spectrum", spectrum(drawing, 1)}};
+  return {{"illuminant", one_of(drawing, {"A", "D65", "E", "FL11", "LED-B3"})}};
 }
 
 Json unpolarised_emission(Drawing& drawing, const std::string& kind) {
