@@ -40,11 +40,10 @@ struct Baseline {
 [[nodiscard]] std::optional<Baseline> load_baseline(const std::filesystem::path& path,
                                                     Diagnostics& diagnostics);
 
-/// Reports an error with ErrorCode::input if the suite was measured under conditions that differ from `now`,
-/// and names each difference.
+/// Reports an error with ErrorCode::input that names each condition in which the suite differs from `now`.
 void require_comparable(const BaselineSuite& then, const BenchConditions& now, Diagnostics& diagnostics);
 
-/// Rows of this program's runs in the form of a stored run, in their order.
+/// Rows of this program's runs, in their order.
 [[nodiscard]] std::vector<BaselineRow> baseline_rows(std::span<const SuiteRun> runs);
 
 /// Ratio of the new to the old value: the geometric mean over the renders that both runs contain. It is 1

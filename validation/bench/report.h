@@ -12,7 +12,6 @@
 
 namespace abbe {
 
-/// All results of a benchmark.
 struct BenchReport {
   Machine machine;
   BenchSettings settings;
@@ -28,13 +27,10 @@ struct BenchReport {
 /// One JSON object in one line with all digits of every number, as `load_baseline` reads it.
 [[nodiscard]] std::string json_text(const BenchReport& report);
 
-/// Report in plain text. Each suite lists its means over seeds, the ranking of its integrators and the times
-/// at the errors of other renderers. The changes from the baseline follow.
 [[nodiscard]] std::string readable_text(const BenchReport& report);
 
-/// Plot of relRMSE against CPU time [s] of one suite, with a curve per integrator and per other renderer.
-/// Errors with `kLowFloor` have dashed curves of their own, if another renderer has such a result for the
-/// suite.
+/// Plot of relRMSE against CPU time [s] with a curve per integrator and per other renderer. Errors with
+/// `kLowFloor` have dashed curves of their own, if another renderer has such a result for the suite.
 [[nodiscard]] LogPlot error_plot(const SuiteRun& run, std::span<const OtherRendererResult> other_renderers);
 
 /// Paths of the files that `write_report` would write for these suites: `bench.csv`, `bench.json`, then one

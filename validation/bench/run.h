@@ -35,7 +35,7 @@ struct BenchSettings {
 };
 
 /// One render, compared with its reference. Errors are over linear sRGB with the reference's variance
-/// subtracted. They may be negative if the reference is not much better than the render.
+/// subtracted, and may be negative if the reference is not much better than the render.
 struct BenchRow {
   /// Requested integrator; `automatic` is not replaced by the one that the render chose.
   Integrator integrator = Integrator::automatic;
@@ -88,12 +88,12 @@ struct SuiteRun {
   std::vector<BenchRow> rows;
 };
 
-/// Renders a suite with every integrator at every sample count and seed. All renders are compared with one
-/// reference, which the suite's own integrator renders. Throws the errors of `load_suite`, `reference_of` and
+/// Renders a suite with every integrator at every sample count and seed, and compares with one reference,
+/// which the suite's own integrator renders. Throws the errors of `load_suite`, `reference_of` and
 /// `render`. Throws Error{internal} if the sensor has neither X, Y, Z nor R, G, B.
 [[nodiscard]] SuiteRun run_suite(const BenchSuite& suite, const BenchSettings& settings);
 
-/// Square root of an error; 0 for an error that noise has made negative.
+/// Square root; 0 for an error that noise has made negative.
 [[nodiscard]] double root_of(double mean_square);
 
 [[nodiscard]] std::vector<BenchRow> rows_of(const std::vector<BenchRow>& rows, Integrator integrator);
@@ -111,20 +111,19 @@ struct RankingEntry {
   double cost_trimmed;  ///< Cost with `rel_mse_trimmed` instead of relMSE.
 
   /// True for an unbiased integrator other than `automatic` that can sample all light paths of the suite.
-  /// Only such integrators can be the best of a ranking.
   [[nodiscard]] bool is_eligible() const;
 };
 
 /// Costs of a run's integrators, in the order of the run; integrators without rows are omitted.
 [[nodiscard]] std::vector<RankingEntry> ranking(const SuiteRun& run);
 
-/// Eligible entry of `all` with the smallest positive cost. `cost` selects `RankingEntry::cost` or
-/// `RankingEntry::cost_trimmed`. Null if there is none.
+/// Eligible entry with the smallest positive `cost`, one of the costs of `RankingEntry`; null if there is
+/// none.
 [[nodiscard]] const RankingEntry* best_single(std::span<const RankingEntry> all, double RankingEntry::*cost);
 
-/// Converts a film with channels X, Y, Z to linear sRGB (R, G, B) in the same scale, without chromatic
-/// adaptation. The channels R, G, B of a film that has R are copied. Other channels and metadata are omitted.
-/// Throws Error{internal} if neither set of channels is complete.
+/// Converts channels X, Y, Z to linear sRGB (R, G, B) in the same scale, without chromatic adaptation, or
+/// copies R, G, B. Other channels and metadata are omitted. Throws Error{internal} if neither set of
+/// channels is complete.
 [[nodiscard]] Image linear_srgb(const Image& film);
 
 /// Replaces the sensor's channels X, Y, Z by R, G, B of linear sRGB, so that the film records their
@@ -140,7 +139,6 @@ struct ReferenceKey {
   std::uint64_t seed;
   int samples;
 
-  /// SHA-256 over all members, in hexadecimal.
   [[nodiscard]] std::string text() const;
 };
 

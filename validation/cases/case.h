@@ -43,8 +43,8 @@ struct Computed {
   std::function<Figures()> figures;
 };
 
-/// Value of a closed form, in the unit of the case. A form is evaluated at each call instead of at
-/// construction, since some take a tenth of a second. Numbers and functions without arguments convert to it.
+/// Value of a closed form, evaluated at each call, since some forms take a tenth of a second. Numbers and
+/// functions without arguments convert to it.
 class Expected {
  public:
   Expected(double value) : compute_([value] { return value; }) {}
@@ -134,8 +134,8 @@ struct CaseResult {
   std::vector<PathClass> unsampled = {};
   /// Path classes that each technique of a `TechniqueMean` samples, one text per technique.
   std::vector<std::string> owned = {};
-  /// Picture with code values in [0, 1]. For a chart it is the developed film. For a film that is not uniform
-  /// it is a false-colour map from 0 to twice the expected mean.
+  /// Picture with code values in [0, 1]: the developed chart, or for a film that is not uniform a false-
+  /// colour map from 0 to twice the expected mean.
   std::optional<Image> picture = {};
 
   /// Largest absolute deviation with which this figure passes, in the unit of the case.
@@ -143,7 +143,6 @@ struct CaseResult {
     return figure.margin.value_or(margin).of(figure.reference);
   }
 
-  /// False if the integrator cannot sample the film's light.
   [[nodiscard]] bool measured() const { return unsampled.empty(); }
   [[nodiscard]] bool passed() const { return verdict == Verdict::pass; }
 };
@@ -159,13 +158,12 @@ struct FilmSetup {
 [[nodiscard]] FilmSetup film_of(const Case& item);
 
 /// Measures one case. A `TechniqueMean` whose integrator cannot sample the film's light passes without a
-/// measurement. The samples of a film are doubled up to 4 times while the verdict is inconclusive.
-/// Throws Error{internal} if a scene does not load. Also throws Error{input} for a missing table, and the
-/// errors of `render`.
+/// measurement. The samples of a film are doubled up to 4 times while the verdict is inconclusive. Throws
+/// Error{internal} if a scene does not load, Error{input} for a missing table, and the errors of `render`.
 [[nodiscard]] CaseResult run_case(const Case& item, const CaseSettings& settings = {});
 
-/// All cases, sorted by suite. The first call builds them from shipped tables and throws Error{input} if one
-/// is missing.
+/// All cases, sorted by suite. The first call builds them and throws Error{input} if a shipped table is
+/// missing.
 [[nodiscard]] const std::vector<Case>& all_cases();
 
 /// A topic that a validation should cover and Abbe's does not.

@@ -28,9 +28,8 @@ class ChandrasekharH {
   std::vector<double> h_;
 };
 
-/// Homogeneous medium: scattering and extinction coefficients [1/m], and the phase function [1/sr]. The
-/// argument of `phase` is the cosine between the directions of travel before and after scattering: 1 for
-/// forward scattering.
+/// Homogeneous medium with coefficients [1/m]. The argument of the phase function [1/sr] is the cosine
+/// between the directions of travel before and after scattering: 1 for forward scattering.
 struct HomogeneousMedium {
   double scattering;
   double extinction;

@@ -31,12 +31,12 @@ namespace abbe {
 /// of the flat fields is included.
 [[nodiscard]] std::vector<Case> technique_cases(const std::vector<Case>& films);
 
-/// Measures a rendered chart: figures, margin, samples, remarks and picture. `run_case` adds the verdict, the
-/// worst figure and the cost. Throws the errors of `run_case`.
+/// Measures a rendered chart. `run_case` adds the verdict, the worst figure and the cost. Throws the errors
+/// of `run_case`.
 [[nodiscard]] CaseResult measure(const Case& item, const RenderedChart& method, const CaseSettings& settings);
 
-/// Loads a scene `file` of `data/scenes/validation` with overrides. Throws Error{internal}, which names the
-/// case `id`, if it does not load.
+/// Loads a scene of `data/scenes/validation` with overrides. Throws Error{internal}, which names the case
+/// `id`, if it does not load.
 [[nodiscard]] Scene load_case_scene(const std::string& id, const std::string& file,
                                     std::span<const Override> settings);
 
@@ -80,12 +80,11 @@ inline constexpr double kLineD_nm = 587.5618;
 /// film.
 [[nodiscard]] double pinhole_exposure(double fov_deg);
 
-/// Override that replaces the camera by an irradiance probe at `point`. The probe receives light from the
-/// side to which `normal` points. Both are JSON arrays of three numbers, such as "[0, 0, 1]".
+/// Override that replaces the camera by an irradiance probe. It receives light from the side to which
+/// `normal` points. Both are JSON arrays such as "[0, 0, 1]".
 [[nodiscard]] Override probe_at(const std::string& point, const std::string& normal);
 
-/// Integral of f from a to b by the midpoint rule with `steps` >= 1 intervals. Swapping a and b changes its
-/// sign.
+/// Integral by the midpoint rule with `steps` >= 1 intervals. Swapping a and b changes its sign.
 template <typename Function>
 [[nodiscard]] double midpoint_integral(const Function& f, double a, double b, int steps) {
   const double step = (b - a) / steps;

@@ -48,23 +48,20 @@ template <typename T>
   return degrees == "2" ? Observer::cie1931 : Observer::cie1964;
 }
 
-/// Shipped data by name. This function and those below throw Error{input} if the name is unknown or the table
-/// is malformed. Names are those of `load_index`.
+/// Shipped data by name. These functions throw Error{input} if the name is unknown or the table is
+/// malformed.
 [[nodiscard]] inline RefractiveIndex shipped_index(const std::string& name) {
   Diagnostics diagnostics;
   return shipped(load_index(name, {}, diagnostics), diagnostics).index;
 }
-/// Relative spectral power of an illuminant, by the names of `load_illuminant`.
 [[nodiscard]] inline Curve shipped_illuminant(const std::string& name) {
   Diagnostics diagnostics;
   return shipped(load_illuminant(name, {}, diagnostics), diagnostics).curve;
 }
-/// Curve of a folder of `data`, such as "filter", by the names of `load_curve`.
 [[nodiscard]] inline Curve shipped_curve(const std::string& folder, const std::string& name) {
   Diagnostics diagnostics;
   return shipped(load_curve(folder, name, {}, diagnostics), diagnostics).curve;
 }
-/// Channels of a measured camera, by the names of `load_camera`.
 [[nodiscard]] inline std::vector<Channel> shipped_camera(const std::string& name) {
   Diagnostics diagnostics;
   return shipped(load_camera(name, {}, diagnostics), diagnostics);

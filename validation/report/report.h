@@ -10,7 +10,6 @@
 
 namespace abbe {
 
-/// A case and its result.
 struct Outcome {
   const Case* item;  ///< Element of `all_cases`.
   CaseResult result;
@@ -33,8 +32,7 @@ struct ValidationReport {
 
 /// Settings of a validation.
 struct ValidationSettings {
-  /// Suites to run. If empty, all run, but a quick run then includes only the cells of `techniques` in
-  /// `Tier::quick`.
+  /// Suites to run. If empty, all run, a quick run only with the cells of `techniques` in `Tier::quick`.
   std::vector<Suite> suites;
   /// Judge films by the wider margins of the tests, with accordingly fewer samples. Otherwise the fine
   /// margins apply (`CaseSettings::thorough`).
@@ -44,15 +42,14 @@ struct ValidationSettings {
   std::function<void(const std::string&)> say;  ///< Called with the name of each case before it runs, if set.
 };
 
-/// Runs the cases of the selected suites in the order of `all_cases`, one after another. A case that fails
-/// does not end the run. Throws the errors of `all_cases`, `run_case` and `data_sha256`.
+/// Runs the cases of the selected suites in the order of `all_cases`. Throws the errors of `all_cases`,
+/// `run_case` and `data_sha256`.
 [[nodiscard]] ValidationReport validate(const ValidationSettings& settings);
 
-/// Report in plain text: a line per case with its worst figure, the matrix of `techniques`, the table of
-/// charts, and the topics that are not covered. The last line counts the cases that pass.
+/// Report in plain text. The last line counts the cases that pass.
 [[nodiscard]] std::string readable_text(const ValidationReport& report);
 
-/// One JSON object in one line, with all figures and all digits, without pictures.
+/// One JSON object in one line with all digits.
 [[nodiscard]] std::string json_text(const ValidationReport& report);
 
 /// Self-contained HTML document with the figures, plots and pictures of the run.
@@ -79,14 +76,11 @@ struct ChartSummary {
   double mean;   ///< Mean over the patches.
   double worst;  ///< Largest value of a patch.
 };
-/// Summary of a case measured by `RenderedChart`, whose first figure is the mean of the others.
 [[nodiscard]] ChartSummary chart_summary(const CaseResult& result);
-/// Table of all rendered charts in Markdown, as README.md contains it, with a column per illuminant. Empty
-/// without charts.
+/// Table of all rendered charts in Markdown, as README.md contains it; empty without charts.
 [[nodiscard]] std::string chart_table(const std::vector<Outcome>& outcomes);
 
-/// Outcomes of `TechniqueMean` cases as an HTML table, with a row for each film and a column for each of
-/// `kIntegratorNames`, notes and failures. Empty without such outcomes.
+/// HTML table of `TechniqueMean` cases with notes and failures; empty without such outcomes.
 [[nodiscard]] std::string technique_table_html(const std::vector<Outcome>& outcomes);
 
 }  // namespace abbe

@@ -66,7 +66,6 @@ inline constexpr const char* kOutsideChannel = "outside";
 /// channel's own exposure multiplies the scene's.
 inline constexpr double kMaxExposure_s = 10;
 
-/// A drawn material and the conditions on shapes made of it.
 struct DrawnMaterial {
   std::string name;
   bool can_be_mixed = false;  ///< Allowed as a component of a mixture.
