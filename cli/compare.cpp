@@ -21,7 +21,7 @@
 namespace abbe::cli {
 namespace {
 
-// In the order of `DeltaE`.
+// Keys of the formulas, in the order of `DeltaE`.
 constexpr std::array kDeltaEKeys{"dE00", "dE94", "dE76", "dE_CAM16_UCS", "dE_ITP"};
 const char* key_of(DeltaE formula) {
   return kDeltaEKeys.at(static_cast<std::size_t>(formula));
@@ -105,11 +105,6 @@ Json write_maps(const std::filesystem::path& folder, const std::vector<Differenc
   return written;
 }
 
-Scene load_chart_scene(const std::filesystem::path& path, Inputs& inputs) {
-  Diagnostics diagnostics;
-  return accepted(load_scene(path, {}, diagnostics, &inputs), diagnostics);
-}
-
 // Adds the figures of two images and writes their maps if requested.
 void compare_pixels(const CompareOptions& options, const Image& image, const Image& reference, Json& answer) {
   std::optional<Chromaticity> white;
@@ -171,7 +166,10 @@ int compare(const CompareOptions& options) {
   Inputs inputs(options.max_memory_bytes);
   for (const std::filesystem::path& file : {options.image, options.reference}) inputs.add_file(file);
   std::optional<Scene> scene;
-  if (!options.chart.empty()) scene = load_chart_scene(options.chart, inputs);
+  if (!options.chart.empty()) {
+    Diagnostics diagnostics;
+    scene = accepted(load_scene(options.chart, {}, diagnostics, &inputs), diagnostics);
+  }
   require_distinct(map_files(options.maps), inputs.files());
   const Image image = read_exr(options.image, &inputs);
   std::optional<Image> reference;

@@ -54,15 +54,9 @@ void check_material(const Material& material, const std::vector<double>& at_nm) 
   if (at_requested && at_requested != at_visible) warn(at_requested);
 }
 
-Json means(const std::vector<Estimate>& estimates) {
+Json figures(const std::vector<Estimate>& estimates, double Estimate::*figure) {
   Json list = Json::array();
-  for (const Estimate& e : estimates) list.push_back(e.mean);
-  return list;
-}
-
-Json errors(const std::vector<Estimate>& estimates) {
-  Json list = Json::array();
-  for (const Estimate& e : estimates) list.push_back(e.standard_error);
+  for (const Estimate& e : estimates) list.push_back(e.*figure);
   return list;
 }
 
@@ -71,10 +65,10 @@ Json rows_of(const GoniometerReport& report) {
   Json rows = Json::array();
   for (const GoniometerAngle& at : report.angles)
     rows.push_back({{"angle_deg", at.angle_deg},
-                    {"R", means(at.reflected)},
-                    {"R_error", errors(at.reflected)},
-                    {"T", means(at.transmitted)},
-                    {"T_error", errors(at.transmitted)},
+                    {"R", figures(at.reflected, &Estimate::mean)},
+                    {"R_error", figures(at.reflected, &Estimate::standard_error)},
+                    {"T", figures(at.transmitted, &Estimate::mean)},
+                    {"T_error", figures(at.transmitted, &Estimate::standard_error)},
                     {"reflected_XYZ", at.reflected_color.xyz},
                     {"reflected_Y_error", at.reflected_color.Y_error},
                     {"reflected_Lab", at.reflected_color.lab},

@@ -31,13 +31,8 @@ struct LensOptions {
 constexpr double kUmPerMm = 1000;
 
 // Null if the value is missing or not finite.
-Json optional(const std::optional<double>& value, double factor = 1) {
+Json finite(const std::optional<double>& value, double factor = 1) {
   return value && std::isfinite(*value) ? Json(factor * *value) : Json();
-}
-
-// Null if the value is not finite.
-Json finite(double value) {
-  return std::isfinite(value) ? Json(value) : Json();
 }
 
 Json first_order_answer(const LensFigures& figures) {
@@ -103,8 +98,8 @@ Json fans_answer(const LensFigures& figures, const LensFieldFigures& field) {
     Json one{{"wavelength_nm", figures.system.wavelengths_nm[w]}, {"pupil", fan.pupil}};
     one["tangential_um"] = one["sagittal_um"] = Json::array();
     for (std::size_t i = 0; i < fan.pupil.size(); ++i) {
-      one["tangential_um"].push_back(optional(fan.tangential[i], kUmPerMm));
-      one["sagittal_um"].push_back(optional(fan.sagittal[i], kUmPerMm));
+      one["tangential_um"].push_back(finite(fan.tangential[i], kUmPerMm));
+      one["sagittal_um"].push_back(finite(fan.sagittal[i], kUmPerMm));
     }
     fans.push_back(std::move(one));
   }
@@ -119,11 +114,11 @@ Json spots_answer(const LensFieldFigures& field) {
     const auto& chief = field.chiefs[w];
     Json one{{"wavelength_nm", spot.wavelength_nm}, {"rays", spot.rays.size()}};
     one["chief_mm"] = chief ? Json(chief->height_mm) : Json();
-    one["distortion_percent"] = chief ? optional(chief->distortion, 100) : Json();
+    one["distortion_percent"] = chief ? finite(chief->distortion, 100) : Json();
     one["centroid_mm"] = size ? Json{size->centroid.x, size->centroid.y} : Json();
     one["rms_um"] = size ? Json(kUmPerMm * size->rms_mm) : Json();
     one["largest_um"] = size ? Json(kUmPerMm * size->largest_mm) : Json();
-    one["vignetting_percent"] = optional(spot.vignetting(), 100);
+    one["vignetting_percent"] = finite(spot.vignetting(), 100);
     spots.push_back(std::move(one));
   }
   return spots;
@@ -133,8 +128,8 @@ Json field_answer(const LensFigures& figures, const LensFieldFigures& field) {
   const auto size = lens::size_of(field.spots);
   Json answer{{figures.system.object_distance_mm ? "object_height_mm" : "field_deg", field.field}};
   answer["rms_um"] = size ? Json(kUmPerMm * size->rms_mm) : Json();
-  answer["lateral_color_um"] = optional(field.lateral_color_mm(), kUmPerMm);
-  answer["relative_illumination"] = optional(field.relative_illumination);
+  answer["lateral_color_um"] = finite(field.lateral_color_mm(), kUmPerMm);
+  answer["relative_illumination"] = finite(field.relative_illumination);
   answer["mtf"] = {{"per_mm", figures.frequencies_per_mm},
                    {"tangential", field.tangential_mtf},
                    {"sagittal", field.sagittal_mtf}};
@@ -150,7 +145,7 @@ Json whole_answer(const LensFigures& figures) {
   answer["stop_surface"] = figures.system.stop + 1;
   answer["stop_radius_mm"] = figures.stop_radius_mm;
   answer["image_mm"] = figures.system.surfaces.back().thickness_mm;
-  answer["best_focus_shift_mm"] = optional(figures.best_focus_mm);
+  answer["best_focus_shift_mm"] = finite(figures.best_focus_mm);
   return answer;
 }
 
@@ -161,10 +156,10 @@ void add_row(const LensFigures& figures, const LensFieldFigures& field, Json& ta
   const auto& chief = field.chiefs[primary];
   table[figures.system.object_distance_mm ? "object_height_mm" : "field_deg"].push_back(field.field);
   table["image_mm"].push_back(chief ? Json(chief->height_mm) : Json());
-  table["distortion_%"].push_back(chief ? optional(chief->distortion, 100) : Json());
-  table["lateral_color_um"].push_back(optional(field.lateral_color_mm(), kUmPerMm));
-  table["vignetting_%"].push_back(optional(field.spots[primary].vignetting(), 100));
-  table["relative_illumination"].push_back(optional(field.relative_illumination));
+  table["distortion_%"].push_back(chief ? finite(chief->distortion, 100) : Json());
+  table["lateral_color_um"].push_back(finite(field.lateral_color_mm(), kUmPerMm));
+  table["vignetting_%"].push_back(finite(field.spots[primary].vignetting(), 100));
+  table["relative_illumination"].push_back(finite(field.relative_illumination));
   table["rms_um"].push_back(size ? Json(kUmPerMm * size->rms_mm) : Json());
   for (std::size_t i = 0; i < figures.frequencies_per_mm.size(); ++i) {
     table[fmt::format("T{:g}", figures.frequencies_per_mm[i])].push_back(field.tangential_mtf[i]);
@@ -269,11 +264,6 @@ std::string lens_page(const LensFigures& figures) {
   return html + kPageEnd;
 }
 
-lens::System load(const LensOptions& options, Inputs& inputs) {
-  Diagnostics diagnostics;
-  return accepted(load_lens(options.lens, diagnostics, &inputs, {}, options.wavelengths_nm), diagnostics);
-}
-
 // Transposed table with a line per column.
 std::string transposed(const Json& columns) {
   std::string lines;
@@ -299,7 +289,9 @@ int lens(const LensOptions& options) {
   if (!options.html.empty()) require_extension(options.html, {".html"});
   if (!options.drawing.empty()) require_extension(options.drawing, {".svg"});
   Inputs inputs;
-  const lens::System system = load(options, inputs);
+  Diagnostics diagnostics;
+  const lens::System system =
+      accepted(load_lens(options.lens, diagnostics, &inputs, {}, options.wavelengths_nm), diagnostics);
   require_distinct(std::array{options.html, options.drawing}, inputs.files());
   const LensFigures figures = lens_figures(system, options.frequencies_per_mm);
   if (!options.html.empty()) write_atomically(options.html, lens_page(figures));

@@ -1,5 +1,6 @@
 #include <array>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -68,29 +69,15 @@ SurfaceColor color_by_astm(const ColorOptions& options, Diagnostics& diagnostics
   return {astm_tristimulus(weights, *samples), astm_white(weights)};
 }
 
-struct TableKind {
-  const char* name;
-  std::vector<std::string> (*names)();
-};
+constexpr const char* kMaterial = "material";
+constexpr const char* kGlass = "glass";  // too many to list by default
+constexpr std::array kTableKinds{kMaterial, kGlass,   "illuminant", "reflectance",
+                                 "camera",  "filter", "observer"};
 
-template <const char* folder>
-std::vector<std::string> names_in() {
-  return table_names(folder);
+std::vector<std::string> names_of_kind(std::string_view kind) {
+  if (kind == kMaterial) return index_names();
+  return kind == kGlass ? glass_names() : table_names(std::string(kind));
 }
-constexpr char kIlluminant[] = "illuminant";
-constexpr char kReflectance[] = "reflectance";
-constexpr char kCamera[] = "camera";
-constexpr char kFilter[] = "filter";
-constexpr char kObserver[] = "observer";
-constexpr char kMaterial[] = "material";
-constexpr char kGlass[] = "glass";  // too many to list by default
-constexpr std::array<TableKind, 7> kTableKinds{{{kMaterial, index_names},
-                                                {kGlass, glass_names},
-                                                {kIlluminant, names_in<kIlluminant>},
-                                                {kReflectance, names_in<kReflectance>},
-                                                {kCamera, names_in<kCamera>},
-                                                {kFilter, names_in<kFilter>},
-                                                {kObserver, names_in<kObserver>}}};
 
 // Adds the ranges of n and k of each listed material and its source, as lists parallel to the names. The
 // range of k is null if k is not measured.
@@ -175,15 +162,13 @@ int query_camera(const CameraOptions& options) {
 }
 
 std::vector<std::string> table_kinds() {
-  std::vector<std::string> kinds;
-  for (const TableKind& kind : kTableKinds) kinds.emplace_back(kind.name);
-  return kinds;
+  return {kTableKinds.begin(), kTableKinds.end()};
 }
 
 int query_list(const ListOptions& options) {
   Json answer = Json::object();
-  for (const TableKind& kind : kTableKinds)
-    if (options.kind.empty() || options.kind == kind.name) answer[kind.name] = kind.names();
+  for (const char* kind : kTableKinds)
+    if (options.kind.empty() || options.kind == kind) answer[kind] = names_of_kind(kind);
   if (answer.empty())
     throw Error(ErrorCode::usage, "--list", unknown_name("kind", options.kind, table_kinds()));
   const bool has_index = options.kind == kMaterial || options.kind == kGlass;

@@ -45,11 +45,6 @@ int print_material_answer(const Json& answer, const Options& options) {
   return 0;
 }
 
-// Medium to which the catalogued index of a material is relative.
-const char* medium_of(const NamedIndex& material) {
-  return material.index.medium() == IndexMedium::vacuum ? "vacuum" : "air";
-}
-
 // Medium that surrounds every surface in the answers, as in scenes.
 constexpr const char* kAmbientMedium = "air";
 
@@ -65,16 +60,13 @@ Json angles(const NamedIndex& material, const IndexOptions& options, F angle) {
   return answer;
 }
 
-// R_p of light from outside at an angle of incidence in degrees.
-long double reflected_p(double n, double k, long double degrees) {
-  const long double cos_i = std::cos(degrees * static_cast<long double>(kDegree));
-  return fresnel_conductor<long double>(cos_i, n, k).Rp;
-}
-
 // Angle in degrees of minimum R_p, by a golden-section search between the neighbours of the best whole
 // degree.
 double min_p_angle_deg(double n, double k) {
-  const auto reflected = [n, k](long double degrees) { return reflected_p(n, k, degrees); };
+  const auto reflected = [n, k](long double degrees) {
+    const long double cos_i = std::cos(degrees * static_cast<long double>(kDegree));
+    return fresnel_conductor<long double>(cos_i, n, k).Rp;
+  };
   long double low = 0;
   for (int degrees = 1; degrees < 90; ++degrees)
     if (reflected(degrees) < reflected(low)) low = degrees;
@@ -137,7 +129,7 @@ int query_ior(const IndexOptions& options) {
   Json answer;
   answer["name"] = material.name;
   answer["source"] = material.source;
-  answer["medium"] = medium_of(material);
+  answer["medium"] = material.index.medium() == IndexMedium::vacuum ? "vacuum" : "air";
   answer["wavelength_nm"] = options.at_nm;
   answer["n"] = per_wavelength(options.at_nm, [&](double nm) { return material.index.catalogued_n(nm); });
   const auto if_k_measured = [&](auto quantity) {

@@ -20,7 +20,7 @@ Json list(const Imath::V3d& v) {
   return {v.x, v.y, v.z};
 }
 
-// In the order of `TraceEvent::Kind`.
+// Names in the order of `TraceEvent::Kind`.
 constexpr std::array kEventNames{"refract", "reflect", "total_reflection", "hit", "escape"};
 
 // A point of the scene [m] in the coordinates and units of its file.
@@ -34,19 +34,17 @@ Json matrix(const FullMueller& mueller) {
   return rows;
 }
 
-void add_polarisation(const EventPolarisation& polarisation, Json& answer) {
-  answer["axis"] = list(polarisation.axis);
-  answer["mueller"] = matrix(polarisation.mueller);
-  answer["stokes"] = polarisation.stokes;
-}
-
 Json event_answer(const Scene& scene, const TraceEvent& event) {
   Json answer{{"kind", kEventNames.at(static_cast<std::size_t>(event.kind))}};
   if (event.kind == TraceEvent::Kind::escape) return answer;
   answer["point"] = file_point(scene, event.at.point);
   answer["normal"] = list(event.at.normal);
   answer["shape"] = scene.shapes[event.shape].name;
-  if (event.polarisation) add_polarisation(*event.polarisation, answer);
+  if (const auto& polarisation = event.polarisation) {
+    answer["axis"] = list(polarisation->axis);
+    answer["mueller"] = matrix(polarisation->mueller);
+    answer["stokes"] = polarisation->stokes;
+  }
   if (!event.passage) return answer;
   const Passage& passage = *event.passage;
   answer["n_from"] = passage.n_from;

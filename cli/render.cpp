@@ -399,14 +399,6 @@ void open_viewers(LiveViewers& viewers, const Scene& scene, const RenderOptions&
   }
 }
 
-// Writes the statistics to a file, or to standard output without a path.
-void write_stats(const fs::path& path, const std::string& stats) {
-  if (path.empty())
-    fmt::print("{}", stats);
-  else
-    write_atomically(path, stats);
-}
-
 /// Settings of pictures: the display, and the film value shown as white. Without a value it is chosen from
 /// the film.
 struct PictureSettings {
@@ -468,8 +460,13 @@ void write_results(const RenderOptions& options, const Outputs& outputs,
   writers.emplace_back(metered(costs.write, [&] { write_film(outputs.film, part); }));
   if (picture_settings) writers.emplace_back(metered(costs.display, write_display));
   if (!options.stats.empty())
-    writers.emplace_back(
-        [&] { write_stats(outputs.stats, stats_text(scene, part.result, costs, display_white)); });
+    writers.emplace_back([&] {
+      const std::string stats = stats_text(scene, part.result, costs, display_white);
+      if (outputs.stats.empty())
+        fmt::print("{}", stats);
+      else
+        write_atomically(outputs.stats, stats);
+    });
   write_all(writers);
 }
 

@@ -198,13 +198,6 @@ void require_same_folder(const ConvertOptions& options, const Inputs& inputs) {
                               file.string(), real(folder).string()));
 }
 
-void write_out(const std::string& text, const ConvertOptions& options) {
-  if (options.output == kStandardStream)
-    fmt::print("{}", text);
-  else
-    write_atomically(options.output, text);
-}
-
 // Converts a scene of another renderer. File names become relative to the folder of the output.
 std::string converted(const ConvertOptions& options, Inputs& inputs) {
   if (!options.overrides.empty())
@@ -307,7 +300,10 @@ int convert(const ConvertOptions& options) {
   const std::string text = is_imported ? converted(options, inputs) : canonical(options, inputs);
   if (is_file) require_distinct(std::array{options.output}, inputs.files());
   if (is_file && !is_imported) require_same_folder(options, inputs);
-  write_out(text, options);
+  if (is_file)
+    write_atomically(options.output, text);
+  else
+    fmt::print("{}", text);
   return 0;
 }
 

@@ -213,23 +213,22 @@ int transfer(const TransferOptions& options) {
     answer["snr10_e"].push_back(one.snr10_e);
     answer["linearity_error_percent"].push_back(or_null(transfer.linearity_error_percent));
     answer["snr10_lx_s"].push_back(or_null(one.snr10_lx_s));
-  }
-  Json with_curves = answer;
-  for (const ChannelTransfer& one : channels) {
     Json signals = Json::array();
     Json variances = Json::array();
-    for (const TransferPoint& point : one.transfer.points) {
+    for (const TransferPoint& point : transfer.points) {
       signals.push_back(point.signal_dn);
       variances.push_back(point.variance_dn2);
     }
-    with_curves["signal_dn"].push_back(std::move(signals));
-    with_curves["variance_dn2"].push_back(std::move(variances));
+    answer["signal_dn"].push_back(std::move(signals));
+    answer["variance_dn2"].push_back(std::move(variances));
   }
   if (!options.plot.empty()) {
     require_distinct(std::array{options.plot}, inputs.files());
-    write_atomically(options.plot, transfer_plot(with_curves));
+    write_atomically(options.plot, transfer_plot(answer));
   }
-  print(options.json ? with_curves : answer, options.json);
+  if (!options.json)
+    for (const char* curve : {"signal_dn", "variance_dn2"}) answer.erase(curve);
+  print(answer, options.json);
   return 0;
 }
 

@@ -24,7 +24,7 @@ namespace abbe {
 void write_ply(const std::filesystem::path& path, const Mesh& mesh);
 
 /// JSON array of `rows`^2 panels, balls and spots (`rows` >= 1) of 1 to 30 lm below the ceiling of the hall
-/// in `data/bench/hall.json`, each in its own cell of a grid. Positions and fluxes follow low-discrepancy
+/// in `data/bench/hall.json`. Each is in its own cell of a grid. Positions and fluxes follow low-discrepancy
 /// sequences, so the result is the same on every platform.
 [[nodiscard]] std::string make_lights(int rows);
 

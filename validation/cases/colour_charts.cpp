@@ -22,7 +22,6 @@ namespace abbe {
 namespace {
 
 // Colours of a chart's patches for the CIE 1931 observer, with Y = 100 for the perfect diffuser.
-// All three lists have one entry per patch, in the order of the chart.
 struct ChartColors {
   std::vector<std::string> names;
   std::vector<XYZ> xyz;
@@ -36,9 +35,7 @@ struct ChartDifference {
   double max = 0;
 };
 
-// Integrates the colours of a chart in steps of 1 nm over a range, by default 360 to 830 nm. `spectra` names
-// a shipped chart of reflectances, `illuminant` a shipped illuminant. Throws Error{input} for an unknown
-// name.
+// Sums over a shipped chart and illuminant in steps of 1 nm, by default from 360 to 830 nm.
 ChartColors chart_colors(const std::string& spectra, const std::string& illuminant, SumRange range = {}) {
   const Curve light = shipped_illuminant(illuminant);
   const XYZ white = tristimulus(light, Curve(1), Observer::cie1931, range);
@@ -66,10 +63,8 @@ ChartDifference difference_of(const std::vector<Lab>& reference, const std::vect
   return difference;
 }
 
-// L*a*b* of the patches of an edition of the ColorChecker under D50, in the order of its table. `edition` is
-// the name of a table in `data/reflectance` without "colorchecker24_", such as "after_nov2014". The values
-// are integrated if the edition has spectra, and as published otherwise. Throws Error{input} for an unknown
-// edition.
+// L*a*b* of the patches under D50. `edition` is the name of a table without "colorchecker24_", such as
+// "after_nov2014". Editions without spectra have their published values.
 std::vector<Lab> edition_lab(const std::string& edition) {
   const std::string stem = "colorchecker24_" + edition;
   Diagnostics diagnostics;

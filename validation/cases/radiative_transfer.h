@@ -18,8 +18,6 @@ class ChandrasekharH {
 
   /// H at a cosine `mu` in [0, 1]; at least 1.
   [[nodiscard]] double operator()(double mu) const;
-  /// Mean over mu from 0 to 1. The closed form 2/albedo (1 - sqrt(1 - albedo)) differs only by rounding.
-  [[nodiscard]] double mean() const;
 
  private:
   [[nodiscard]] double node(std::size_t i) const;

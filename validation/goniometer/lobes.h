@@ -27,10 +27,10 @@ struct DensityCheck {
   double integral;  ///< Integral of the pdf over the sphere: the probability of an event that is not delta.
 };
 /// Chi-square test of the non-delta events of `sampler` against `density` [1/sr], at the wavelength sample
-/// `hero`, by the frequencies of `samples` events in cells that half as many others define. Cells with
-/// fewer than 5 expected samples are pooled. Samples without an event and delta events count as one cell.
-/// If the pool itself expects fewer than 5, a Poisson test replaces its term; it allows a millionth of all
-/// samples in excess.
+/// `hero`. It counts `samples` events in cells that half as many others define. Cells with fewer than 5
+/// expected samples are pooled. Samples without an event and delta events count as one cell. If the pool
+/// itself expects fewer than 5, a Poisson test replaces its term; it allows a millionth of all samples in
+/// excess.
 [[nodiscard]] DensityCheck check_density(const LobeSampler& sampler, const SphereDensity& density, int hero,
                                          int samples = 200000, std::uint64_t seed = 0);
 

@@ -135,19 +135,16 @@ Json unpolarised_emission(Drawing& drawing, const std::string& kind) {
 Json area_light(Drawing& drawing) {
   const double r = drawing.size * decades(drawing, 1e-5, 0.2);
   Json light;
-  switch (integer(drawing, 0, 2)) {
-    case 0:
-      light["sphere"] = {{"center", draw_position(drawing, 0.7)}, {"radius", r}};
-      break;
-    case 1:
-      light["disc"] = {
-          {"center", draw_position(drawing, 0.7)}, {"normal", draw_direction(drawing)}, {"radius", r}};
-      break;
-    default:
-      light["quad"] = {{"corner", draw_position(drawing, 0.7)},
-                       {"edge_u", {0, r, 0}},
-                       {"edge_v", {r * decades(drawing, 1e-3, 1), r * uniform(drawing, -1, 1), 0}}};
-  }
+  const int kind = integer(drawing, 0, 2);
+  if (kind == 0)
+    light["sphere"] = {{"center", draw_position(drawing, 0.7)}, {"radius", r}};
+  else if (kind == 1)
+    light["disc"] = {
+        {"center", draw_position(drawing, 0.7)}, {"normal", draw_direction(drawing)}, {"radius", r}};
+  else
+    light["quad"] = {{"corner", draw_position(drawing, 0.7)},
+                     {"edge_u", {0, r, 0}},
+                     {"edge_v", {r * decades(drawing, 1e-3, 1), r * uniform(drawing, -1, 1), 0}}};
   light["emission"] = draw_emission(drawing, "area");
   maybe_animate(drawing, light);
   if (!light.contains("sphere") && chance(drawing, 0.5)) light["two_sided"] = true;
