@@ -31,7 +31,7 @@ constexpr std::array kCameraSuffixes{".spi1d", ".cube", ".clf", "_to_aces.clf"};
 
 // True if the calibration with this report can have written a file of this name.
 bool is_calibration_file(const std::string& report, const std::string& name) {
-  if (std::find(kReportFiles.begin(), kReportFiles.end(), name) != kReportFiles.end()) return true;
+  if (std::ranges::find(kReportFiles, name) != kReportFiles.end()) return true;
   const std::string begin = camera_file({}, "");
   return std::ranges::any_of(kCameraSuffixes, [&](std::string_view end) {
     if (!name.starts_with(begin) || !name.ends_with(end) || name.size() < begin.size() + end.size())
@@ -62,7 +62,7 @@ std::vector<fs::path> earlier_files(const fs::path& folder) {
 void remove_unless_written(std::span<const fs::path> earlier, std::span<const fs::path> written) {
   for (const fs::path& file : earlier) {
     std::error_code failure;
-    if (std::find(written.begin(), written.end(), file) == written.end()) fs::remove(file, failure);
+    if (std::ranges::find(written, file) == written.end()) fs::remove(file, failure);
     if (failure)
       throw Error(ErrorCode::output, file.string(),
                   "cannot remove a file of an earlier calibration: " + failure.message());
@@ -152,7 +152,7 @@ void write_calibrations(const CalibrateOptions& options, const std::vector<Calib
     written.files.push_back(options.output / name);
     write_atomically(written.files.back(), content);
   };
-  if (std::any_of(profiles.begin(), profiles.end(), [](const CameraProfile& profile) {
+  if (std::ranges::any_of(profiles, [](const CameraProfile& profile) {
         return profile.correction.model != CorrectionModel::linear;
       }))
     report["bake_dE00_max"] = written.bake_error;

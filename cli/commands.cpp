@@ -36,7 +36,7 @@ void check_option(const CLI::App& app, const std::string& argument) {
       if (names.back() == name && equals + 1 == argument.size() && option->get_items_expected_max() > 0)
         throw Error(ErrorCode::usage, name, no_value(*option));
     }
-  if (std::find(names.begin(), names.end(), name) == names.end())
+  if (std::ranges::find(names, name) == names.end())
     throw Error(ErrorCode::usage, "", unknown_name("option", name, names));
 }
 
@@ -44,7 +44,7 @@ std::string names_of(const std::set<CLI::Option*>& options) {
   std::vector<std::string> names;
   for (const CLI::Option* option : options)
     names.push_back(option->nonpositional() ? option->get_name() : option->get_type_name());
-  std::sort(names.begin(), names.end());  // the set is in the order of addresses
+  std::ranges::sort(names);  // the set is in the order of addresses
   return fmt::format("{}", fmt::join(names, ", "));
 }
 
@@ -149,15 +149,14 @@ void exclude_ineffective_options(CLI::App& calibrate) {
   const auto option = [&calibrate](const std::string& name) { return calibrate.get_option(name); };
   CLI::Option* const measured = option("--measured");
   CLI::Option* const series = option("--series");
-  CLI::Option* const all_cameras = option("--all-cameras");
   // Only a simulated camera can use another chart or a chosen response.
   for (const char* simulated : {"--test", "--response", "--bits"})
-    option(simulated)->excludes(measured)->excludes(series)->excludes(all_cameras);
+    option(simulated)->excludes(measured)->excludes(series)->excludes("--all-cameras");
   std::vector<CLI::Option*> color_options;
   for (const char* name :
        {"--training", "--correction", "--objective", "--adaptation", "--folds", "--transfer", "--mtf"})
-    color_options.push_back(option(name)->excludes(all_cameras));
-  option("--output")->excludes(all_cameras);
+    color_options.push_back(option(name)->excludes("--all-cameras"));
+  option("--output")->excludes("--all-cameras");
   for (const char* name : {"--illuminant", "--chart"}) color_options.push_back(option(name));
   // A series without values of a chart gives responses only, no colours.
   calibrate.parse_complete_callback([series, measured, color_options] {
@@ -171,12 +170,11 @@ void add_calibrate(CLI::App& app, Command& command) {
   const Subcommand<CalibrateOptions> calibration(app, "calibrate", "Calibrate a camera with a colour chart",
                                                  command, calibrate);
   CLI::App& options = *calibration.app;
-  CLI::Option* const camera =
-      add_value(options, "--camera", calibration->camera,
-                "Camera to simulate: a name, FILE.csv, FILE.json, box:LOW-HIGH,LOW-HIGH,LOW-HIGH in "
-                "nm, observer:1931 or observer:1964",
-                "CAMERA");
-  add_response(options, "--camera-response", calibration->camera_response)->needs(camera);
+  add_value(options, "--camera", calibration->camera,
+            "Camera to simulate: a name, FILE.csv, FILE.json, box:LOW-HIGH,LOW-HIGH,LOW-HIGH in "
+            "nm, observer:1931 or observer:1964",
+            "CAMERA");
+  add_response(options, "--camera-response", calibration->camera_response)->needs("--camera");
   add_value(options, "--measured", calibration->measured,
             "Values that a real camera gave for the chart: linear ones, or code values that --series "
             "linearises",
@@ -234,17 +232,16 @@ void add_help(CLI::App& app, Command& command) {
   CLI::App* help =
       app.add_subcommand("help", "Show the help of Abbe, of one command, or of a key of scene files");
   auto options = std::make_shared<Options>();
-  CLI::Option* name =
-      add_value(*help, "command", options->command,
-                "Command, or scene for the keys of scene files, or slurm for the jobs of a render in parts",
-                "COMMAND|scene|slurm");
+  add_value(*help, "command", options->command,
+            "Command, or scene for the keys of scene files, or slurm for the jobs of a render in parts",
+            "COMMAND|scene|slurm");
   add_value(*help, "key", options->key,
             "With scene: a key at any level, or a path of keys such as sensor/readout; with slurm: "
             "the one file to print",
             "KEY");
   add_parsed(*help, "--format", options->format, one_of<ReferenceFormat>({"markdown", "man", "bash"}),
              "Print the reference of all commands in this format", "markdown|man|bash")
-      ->excludes(name);
+      ->excludes("command");
   help->callback([&app, &command, options] {
     command = [&app, options] {
       fmt::print("{}", options->format ? reference(usage_of(app, "abbe"), *options->format)

@@ -82,8 +82,8 @@ std::vector<fs::path> polarisation_files(const DevelopOptions& options) {
 }
 
 bool overrides_pointer(const DevelopOptions& options, std::string_view pointer) {
-  return std::any_of(options.overrides.begin(), options.overrides.end(),
-                     [pointer](const Override& o) { return o.pointer == pointer; });
+  return std::ranges::any_of(options.overrides,
+                             [pointer](const Override& o) { return o.pointer == pointer; });
 }
 
 // Rejects options that have no effect because of others.
@@ -308,7 +308,7 @@ void set_field(FilmSensor& sensor, const DevelopOptions& options) {
 void add_profile(FilmSensor& sensor, const DevelopOptions& options, Inputs& inputs) {
   if (options.profile.empty()) return;
   const auto is_dng = [](const fs::path& path) { return extension_of(path) == ".dng"; };
-  if (std::none_of(options.outputs.begin(), options.outputs.end(), is_dng))
+  if (std::ranges::none_of(options.outputs, is_dng))
     throw Error(ErrorCode::usage, "--profile", "applies to .dng files only (allowed with -o FILE.dng)");
   if (sensor.channels.size() != 3)
     throw Error(ErrorCode::usage, "--profile",
@@ -398,7 +398,7 @@ int develop(const DevelopOptions& options) {
   require_distinct(outputs, inputs.files());
   const FilmSensor& sensor = exposed.sensor;
   if (sensor.display) require_distinct(outputs, sensor.display->files());
-  const bool wants_raw = std::any_of(options.outputs.begin(), options.outputs.end(), is_raw_file);
+  const bool wants_raw = std::ranges::any_of(options.outputs, is_raw_file);
   if (wants_raw && !sensor.readout)
     throw Error(
         ErrorCode::usage, "-o",

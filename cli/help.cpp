@@ -216,7 +216,7 @@ std::string without(std::string text, std::string_view characters) {
 
 // True for placeholders of files, such as "FILE.exr|FILE.abbepart".
 bool names_files(const std::vector<std::string>& words) {
-  return std::all_of(words.begin(), words.end(), [](const std::string& word) {
+  return std::ranges::all_of(words, [](const std::string& word) {
     const std::size_t dot = word.find('.');
     return dot != std::string::npos && dot + 1 < word.size() && word[dot + 1] != '.';
   });
@@ -240,7 +240,7 @@ std::string kind_of(const std::string& value, const CommandUsage& program) {
   if (word == "KEY")
     return fmt::format("words {}", fmt::join(schema::all_keys(schema::fields_of<spec::Scene>()), " "));
   const std::string kind = lower_case(word);
-  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end() ? "names " + kind : "none";
+  return std::ranges::find(kinds, kind) != kinds.end() ? "names " + kind : "none";
 }
 
 // Patterns of `_abbe_kind` for one option: all its names, or the position of an argument. A repeated argument

@@ -30,7 +30,7 @@ void add_at(CLI::App& app, std::vector<double>& at_nm) {
 void add_json_with_arrays(CLI::App& app, bool& json, bool& arrays) {
   add_json(app, json);
   app.add_flag("--arrays", arrays, "Print lists in JSON even for a single wavelength or angle")
-      ->needs(app.get_option("--json"));
+      ->needs("--json");
 }
 
 constexpr const char* kMaterialHelp = "Name of a material, FILE.csv, or FILE.yml of refractiveindex.info";
@@ -134,17 +134,16 @@ void add_color_queries(CLI::App& query, Command& command) {
   add_value(*camera.app, "name", camera->name, "Name of a camera, or FILE.csv of spectral responses",
             "CAMERA")
       ->required();
-  CLI::Option* illuminant =
-      add_value(*camera.app, "--illuminant", camera->illuminant,
-                "Name of an illuminant, blackbody:K or daylight:K with a temperature in K", "ILLUMINANT");
+  add_value(*camera.app, "--illuminant", camera->illuminant,
+            "Name of an illuminant, blackbody:K or daylight:K with a temperature in K", "ILLUMINANT");
   add_value(*camera.app, "--reflectance", camera->reflectance,
             "Name of a reflectance, or FILE.csv:COLUMN (default: perfect diffuser)", "REFLECTANCE")
-      ->needs(illuminant);
+      ->needs("--illuminant");
   camera.app
       ->add_flag("--judge", camera->metrics,
                  "Print metrics of colour accuracy instead: Vora value, residuals of Luther's condition, "
                  "sensitivity metamerism index")
-      ->excludes(illuminant);
+      ->excludes("--illuminant");
   add_response(*camera.app, "--response", camera->response);
   add_json(*camera.app, camera->json);
 }

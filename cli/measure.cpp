@@ -118,8 +118,7 @@ void measure_planes(const LinearImage& linear, const std::vector<PatchOutline>& 
   measured.patches = measure_patches(linear.image, planes, outlines);
   if (!planes.saturation) return;
   measured.clipped_at = planes.clipped_at = clipping_levels(linear.image, planes, measured.patches);
-  if (std::any_of(planes.clipped_at.begin(), planes.clipped_at.end(),
-                  [](const auto& level) { return level; }))
+  if (std::ranges::any_of(planes.clipped_at, [](const auto& level) { return level.has_value(); }))
     measured.patches = measure_patches(linear.image, planes, outlines);
 }
 
@@ -196,8 +195,8 @@ void warn_of_low_saturation(const Measurement& measured) {
 void warn_of_saturation(const Measurement& measured) {
   std::vector<std::string> names;
   for (const PatchValues& patch : measured.patches)
-    if (std::any_of(patch.channels.begin(), patch.channels.end(),
-                    [](const PatchChannel& channel) { return channel.is_saturated(); }))
+    if (std::ranges::any_of(patch.channels,
+                            [](const PatchChannel& channel) { return channel.is_saturated(); }))
       names.push_back(patch.name);
   if (names.empty()) return;
   print_message(
@@ -336,13 +335,13 @@ void add_measure(CLI::App& app, Command& command) {
             "of its patches",
             "SCENE|TABLE")
       ->required();
-  CLI::Option* corners = add_parsed(options, "--corners", sub->corners, parse_corners,
-                                    "Top left, top right, bottom right and bottom left corner of the chart "
-                                    "in pixels; find detects a ColorChecker in each image",
-                                    "X,Y,X,Y,X,Y,X,Y|find");
+  add_parsed(options, "--corners", sub->corners, parse_corners,
+             "Top left, top right, bottom right and bottom left corner of the chart "
+             "in pixels; find detects a ColorChecker in each image",
+             "X,Y,X,Y,X,Y,X,Y|find");
   add_parsed(options, "--columns", sub->columns, integer_in<std::size_t>(1, 1000),
              "Patches per row of the chart (default 6)", "N")
-      ->needs(corners);
+      ->needs("--corners");
   add_value(options, "--flat", sub->flat,
             "Picture of a uniform surface for flat-fielding, by which each pixel is divided", "FILE");
   add_value(options, "-o,--output", sub->output,

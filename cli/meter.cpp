@@ -129,7 +129,7 @@ void print_text(const MeterMeasurement& measured) {
   if (cells.empty()) return;
   std::vector<double> cell_values;
   for (const LightReading& cell : cells) cell_values.push_back(cell.luminous.mean);
-  const auto [min_value, max_value] = std::minmax_element(cell_values.begin(), cell_values.end());
+  const auto [min_value, max_value] = std::ranges::minmax_element(cell_values);
   const double sum = std::accumulate(cell_values.begin(), cell_values.end(), 0.0);
   fmt::print("  {} x {} cells from {:.6g} to {:.6g} {}{}\n", measured.meter.cells[0], measured.meter.cells[1],
              *min_value, *max_value, units.luminous,
@@ -157,7 +157,7 @@ std::string spectra_table(const std::vector<MeterMeasurement>& all) {
 void check_spectra(const MeterOptions& options, const std::vector<const Meter*>& meters) {
   if (options.spectra.empty()) return;
   require_extension(options.spectra, {".csv"});
-  if (std::none_of(meters.begin(), meters.end(), [](const Meter* m) { return m->spectrum.has_value(); }))
+  if (std::ranges::none_of(meters, [](const Meter* m) { return m->spectrum.has_value(); }))
     throw Error(ErrorCode::usage, "--spectra", "none of these meters has a spectrum");
   require_writable(options.spectra);
 }
@@ -205,13 +205,13 @@ int meter(const MeterOptions& options) {
   const auto has_spectrum = [](const MeterMeasurement& measured) {
     return !measured.reading.spectrum.empty();
   };
-  if (!options.spectra.empty() && std::any_of(all.begin(), all.end(), has_spectrum))
+  if (!options.spectra.empty() && std::ranges::any_of(all, has_spectrum))
     write_atomically(options.spectra, spectra_table(all));
   if (watch.stop()) return kSignalExit + watch.signal();
   const auto has_dropped_samples = [](const MeterMeasurement& measured) {
     return measured.stats.nonfinite_samples > 0;
   };
-  return options.strict && std::any_of(all.begin(), all.end(), has_dropped_samples)
+  return options.strict && std::ranges::any_of(all, has_dropped_samples)
              ? static_cast<int>(ErrorCode::internal)
              : 0;
 }

@@ -11,16 +11,10 @@
 namespace abbe::cli {
 namespace {
 
-/// Options that end a render by its error or time.
-struct StopOptions {
-  CLI::Option* error;
-  CLI::Option* time;
-};
-
 // Adds --spp with the help `spp_help`, and --error and --time, which end the render instead. `error_name`
 // names the error, `time_scope` the object of the time.
-StopOptions add_samples(CLI::App& app, SamplingOptions& settings, const std::string& spp_help,
-                        const std::string& error_name, const std::string& time_scope) {
+void add_samples(CLI::App& app, SamplingOptions& settings, const std::string& spp_help,
+                 const std::string& error_name, const std::string& time_scope) {
   CLI::Option* spp =
       add_parsed(app, "--spp", settings.samples, integer_in<int>(1, kMaxSamples), spp_help, "N");
   CLI::Option* error =
@@ -32,14 +26,6 @@ StopOptions add_samples(CLI::App& app, SamplingOptions& settings, const std::str
           ", in s or with a unit, such as 60s, 2m or 1h; with --error, when the first of both is reached",
       "TIME");
   spp->excludes(error)->excludes(time);
-  return {error, time};
-}
-
-void add_range(CLI::App& render, RenderOptions& settings, const StopOptions& stop_options) {
-  CLI::Option* range =
-      add_parsed(render, "--sample-range", settings.render.samples, parse_sample_range,
-                 "Render only the samples A to B - 1 of every pixel, for parts of one render", "A:B");
-  range->excludes(stop_options.error)->excludes(stop_options.time);
 }
 
 // Adds the options for the integrator, the seed and the threads.
@@ -73,16 +59,15 @@ void add_film(CLI::App& render, RenderOptions& settings) {
 }
 
 void add_checkpoints(CLI::App& render, RenderOptions& settings) {
-  CLI::Option* checkpoint =
-      add_value(render, "--checkpoint", settings.checkpoint,
-                "File in which the finished samples are saved during the render", "FILE.abbepart");
+  add_value(render, "--checkpoint", settings.checkpoint,
+            "File in which the finished samples are saved during the render", "FILE.abbepart");
   add_parsed(render, "--checkpoint-every", settings.render.checkpoint_interval_s, parse_seconds,
              "Time between checkpoints, in s or with a unit, such as 60s, 2m or 1h; longer if writing would "
              "take more than 1 % of the time (default 60s)",
              "TIME")
-      ->needs(checkpoint);
+      ->needs("--checkpoint");
   render.add_flag("--resume", settings.resume, "Continue from the checkpoint if it exists")
-      ->needs(checkpoint);
+      ->needs("--checkpoint");
 }
 
 void add_pictures(CLI::App& render, RenderOptions& settings) {
@@ -122,10 +107,12 @@ void add_render(CLI::App& app, Command& command) {
             "Film (.exr) or partial film with exact sums (.abbepart) to write (default: that of the "
             "scene, otherwise SCENE.exr)",
             "FILE.exr|FILE.abbepart");
-  const StopOptions stop_options =
-      add_samples(render, *sub.options, "Samples per pixel (default: the scene's)",
-                  "the median relative error of illuminated pixel values", "");
-  add_range(render, *sub.options, stop_options);
+  add_samples(render, *sub.options, "Samples per pixel (default: the scene's)",
+              "the median relative error of illuminated pixel values", "");
+  add_parsed(render, "--sample-range", sub->render.samples, parse_sample_range,
+             "Render only the samples A to B - 1 of every pixel, for parts of one render", "A:B")
+      ->excludes("--error")
+      ->excludes("--time");
   add_integrator(render, *sub.options);
   add_film(render, *sub.options);
   add_overrides(render, sub.options);
@@ -154,10 +141,10 @@ void add_meter(CLI::App& app, Command& command) {
       ->allow_extra_args(false);
   add_value(options, "--spectra", sub->spectra,
             "Table to write with the spectra of those meters that record one", "FILE.csv");
-  (void)add_samples(options, *sub.options,
-                    "Samples per sub-area of a meter, which has at least 1024 of them (default: the scene's)",
-                    "the largest relative standard error of a meter's radiant, luminous and photon values",
-                    " for each meter");
+  add_samples(options, *sub.options,
+              "Samples per sub-area of a meter, which has at least 1024 of them (default: the scene's)",
+              "the largest relative standard error of a meter's radiant, luminous and photon values",
+              " for each meter");
   add_integrator(options, *sub.options);
   add_overrides(options, sub.options);
   add_max_memory(options, sub.options);

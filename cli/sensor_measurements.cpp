@@ -155,9 +155,8 @@ void warn_of_saturated_edge(const RawImage& read, std::span<const double> values
   const std::optional<ClippingLevel> end = clipping_level(read);
   if (!end) return;
   const auto pixels = static_cast<double>(values.size());
-  const auto saturated = static_cast<double>(std::count_if(values.begin(), values.end(), [&](double value) {
-    return code_of(static_cast<float>(value)) >= end->dn;
-  }));
+  const auto saturated = static_cast<double>(std::ranges::count_if(
+      values, [&](double value) { return code_of(static_cast<float>(value)) >= end->dn; }));
   if (exceeds_defects(saturated, pixels))
     print_message(fmt::format(
         "warning: {}: the bright side of the edge {} saturated, which distorts the MTF (got "

@@ -123,7 +123,7 @@ void require_comparable_suites(const Baseline& before, const std::vector<BenchSu
 // Values in ascending order without duplicates.
 template <typename T>
 std::vector<T> sorted_unique(std::vector<T> values) {
-  std::sort(values.begin(), values.end());
+  std::ranges::sort(values);
   values.erase(std::unique(values.begin(), values.end()), values.end());
   return values;
 }
@@ -179,7 +179,7 @@ int bench(const BenchOptions& options) {
         "count and seed");
   if (!options.output.empty()) write_report(options.output, report);
   fmt::print("{}", options.json ? json_text(report) : readable_text(report));
-  const bool regressed = std::any_of(report.changes.begin(), report.changes.end(), is_regression);
+  const bool regressed = std::ranges::any_of(report.changes, is_regression);
   return options.strict && regressed ? 1 : 0;
 }
 
@@ -187,7 +187,7 @@ std::vector<Suite> parse_suites(const std::string& option, const std::string& te
   const std::vector<std::string> names(kSuiteNames.begin(), kSuiteNames.end());
   std::vector<Suite> suites;
   for (const std::string& piece : split(text, ',')) {
-    const auto name = std::find(names.begin(), names.end(), piece);
+    const auto name = std::ranges::find(names, piece);
     if (name == names.end()) throw Error(ErrorCode::usage, option, unknown_name("suite", piece, names));
     suites.push_back(static_cast<Suite>(name - names.begin()));
   }
@@ -210,18 +210,15 @@ int validate(const ValidateOptions& options) {
 // Excludes options that have no effect on --list, --scale and --soak, the other modes of `bench`.
 void exclude_from_other_modes(CLI::App& bench) {
   const auto option = [&bench](const std::string& name) { return bench.get_option(name); };
-  CLI::Option* const list = option("--list");
-  CLI::Option* const scale = option("--scale");
-  CLI::Option* const soak = option("--soak");
   for (const char* name : {"suite", "--integrator", "--spp", "--seeds", "--reference-spp", "--baseline"})
-    option(name)->excludes(list)->excludes(scale)->excludes(soak);
-  for (const char* name : {"--threads", "--quick"}) option(name)->excludes(list)->excludes(soak);
-  option("--output")->excludes(list)->excludes(scale);
-  option("--cache")->excludes(list);
-  scale->excludes(list)->excludes(soak);
-  soak->excludes(list);
-  option("--strict")->needs(option("--baseline"));
-  option("--seed")->needs(soak);
+    option(name)->excludes("--list")->excludes("--scale")->excludes("--soak");
+  for (const char* name : {"--threads", "--quick"}) option(name)->excludes("--list")->excludes("--soak");
+  option("--output")->excludes("--list")->excludes("--scale");
+  option("--cache")->excludes("--list");
+  option("--scale")->excludes("--list")->excludes("--soak");
+  option("--soak")->excludes("--list");
+  option("--strict")->needs("--baseline");
+  option("--seed")->needs("--soak");
 }
 
 }  // namespace

@@ -59,7 +59,7 @@ ChartDifference difference_of(const std::vector<Lab>& reference, const std::vect
     difference.patches.push_back(delta_e_2000(reference[i], sample[i]));
   difference.mean = std::accumulate(difference.patches.begin(), difference.patches.end(), 0.0) /
                     static_cast<double>(sample.size());
-  difference.max = *std::max_element(difference.patches.begin(), difference.patches.end());
+  difference.max = *std::ranges::max_element(difference.patches);
   return difference;
 }
 

@@ -196,9 +196,8 @@ std::vector<BsdfSample> delta_events(const Bsdf& bsdf, const Imath::V3f& wo, int
     const float lobe = std::min(static_cast<float>(i) / kChoices, kLast);
     const auto s = sample(bsdf, wo, {lobe, {0.5F, 0.5F}}, hero, mode);
     if (!s || !s->delta) continue;
-    const bool known = std::any_of(events.begin(), events.end(), [&](const BsdfSample& event) {
-      return event.wi == s->wi && event.pdf == s->pdf;
-    });
+    const bool known = std::ranges::any_of(
+        events, [&](const BsdfSample& event) { return event.wi == s->wi && event.pdf == s->pdf; });
     if (!known) events.push_back(*s);
   }
   return events;

@@ -111,7 +111,7 @@ std::string figure_details(const Outcome& outcome) {
   if (result.figures.size() < 2) return "";
   std::vector<const Figure*> figures;
   for (const Figure& figure : result.figures) figures.push_back(&figure);
-  std::stable_sort(figures.begin(), figures.end(), [&](const Figure* a, const Figure* b) {
+  std::ranges::stable_sort(figures, [&](const Figure* a, const Figure* b) {
     return std::abs(a->deviation()) / result.allowed(*a) > std::abs(b->deviation()) / result.allowed(*b);
   });
   const std::size_t listed = std::min(kMaxFigures, figures.size());

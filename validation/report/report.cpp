@@ -28,7 +28,7 @@ struct TechniqueMatrix {
 
 // Number of a note, counted from 1.
 std::size_t number_of(const TechniqueMatrix& matrix, const PathClass& path_class) {
-  const auto found = std::find(matrix.unsampled.begin(), matrix.unsampled.end(), path_class);
+  const auto found = std::ranges::find(matrix.unsampled, path_class);
   return static_cast<std::size_t>(found - matrix.unsampled.begin()) + 1;
 }
 
@@ -110,7 +110,7 @@ std::string matrix_text(const TechniqueMatrix& matrix) {
 // True if the settings select the case. A quick run of all suites includes only a few cells of the matrix.
 bool is_selected(const Case& item, const ValidationSettings& settings) {
   const std::vector<Suite>& suites = settings.suites;
-  if (!suites.empty() && std::find(suites.begin(), suites.end(), item.suite) == suites.end()) return false;
+  if (!suites.empty() && std::ranges::find(suites, item.suite) == suites.end()) return false;
   const auto* cell = std::get_if<TechniqueMean>(&item.method);
   if (cell == nullptr || cell->tier == Tier::quick) return true;
   return cell->tier != Tier::never && (!settings.quick || !suites.empty());
@@ -222,12 +222,12 @@ std::string chart_table(const std::vector<Outcome>& outcomes) {
 
 std::size_t ValidationReport::failures() const {
   return static_cast<std::size_t>(
-      std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return !o.result.passed(); }));
+      std::ranges::count_if(outcomes, [](const Outcome& o) { return !o.result.passed(); }));
 }
 
 std::size_t ValidationReport::unsampled() const {
   return static_cast<std::size_t>(
-      std::count_if(outcomes.begin(), outcomes.end(), [](const Outcome& o) { return !o.result.measured(); }));
+      std::ranges::count_if(outcomes, [](const Outcome& o) { return !o.result.measured(); }));
 }
 
 ValidationReport validate(const ValidationSettings& settings) {

@@ -182,7 +182,7 @@ void maybe_animate(Drawing& drawing, Json& object) {
   if (!drawing.moves || !chance(drawing, 0.4)) return;
   std::vector<double> times;
   for (int i = integer(drawing, 1, 3); i > 0; --i) times.push_back(keyframe_time(drawing));
-  std::sort(times.begin(), times.end());
+  std::ranges::sort(times);
   // Rotations are about the origin. Only a box around the origin stays near its position.
   const bool turns = drawing.center == std::array<double, 3>{0, 0, 0} && chance(drawing, 0.5);
   const Json axis = draw_direction(drawing);
