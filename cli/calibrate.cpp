@@ -100,7 +100,7 @@ void require_named_once(const std::string& illuminants, bool are_written) {
 }
 
 // Recovers the response of a series without measured values, and writes its curves.
-int calibrate_response(const CalibrateOptions& options) {
+void calibrate_response(const CalibrateOptions& options) {
   Inputs inputs(options.max_memory_bytes);
   Diagnostics diagnostics;
   const std::vector<ChannelResponse> responses =
@@ -118,18 +118,16 @@ int calibrate_response(const CalibrateOptions& options) {
     remove_unless_written(earlier, written);
   }
   fmt::print("{}", options.json ? text(report, true) : table_of(responses));
-  return 0;
 }
 
 // Prints the quality of every shipped camera.
-int calibrate_all(const CalibrateOptions& options) {
+void calibrate_all(const CalibrateOptions& options) {
   Diagnostics diagnostics;
   const auto light = load_illuminant(options.illuminants, {}, diagnostics);
   const auto chart = load_chart(options.chart, {}, diagnostics);
   check(diagnostics);
   const std::vector<CameraQuality> all = all_camera_qualities(*chart, light->curve);
   fmt::print("{}", options.json ? text(json_of(all), true) : table_of(all));
-  return 0;
 }
 
 MeasurementAnswers read_measurements(const CalibrateOptions& options) {
@@ -175,7 +173,7 @@ void write_calibrations(const CalibrateOptions& options, const std::vector<Calib
 
 }  // namespace
 
-int calibrate(const CalibrateOptions& options) {
+void calibrate(const CalibrateOptions& options) {
   const bool is_real = !options.measured.empty() || !options.series.empty();
   // The raw values of the training reflectances are computed with the spectral responses of the photographed
   // camera.
@@ -222,7 +220,6 @@ int calibrate(const CalibrateOptions& options) {
     print(one_or_all(report["calibrations"]), true);
   else
     for (const CalibrationCase& one : cases) fmt::print("{}", table_of(one));
-  return 0;
 }
 
 }  // namespace abbe::cli

@@ -22,10 +22,10 @@ struct CalibrateOptions : CalibrationSource {
 
 /// Calibrates a camera on a colour chart, prints CIEDE2000 per patch and writes the configuration. Several
 /// illuminants also give the matrices of DNG. A series without measured values only recovers the response of
-/// a real camera. Returns 0.
+/// a real camera.
 /// Throws Error{usage} unless exactly one kind of camera is given: `camera`, `all_cameras`, or `measured` and
 /// `series`. Throws it also for options without effect, for an illuminant named twice, and for an output that
 /// is an input. Throws otherwise as `simulated_calibration`, `measured_calibration` and `write_ocio_config`.
-int calibrate(const CalibrateOptions& options);
+void calibrate(const CalibrateOptions& options);
 
 }  // namespace abbe::cli

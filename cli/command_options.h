@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -29,11 +30,19 @@ struct Subcommand {
   std::shared_ptr<Options> options = std::make_shared<Options>();
 
   /// Adds the subcommand `name` to `parent`. If the command line selects it, parsing sets `command` to `run`
-  /// with the parsed options. `command` must outlive the parsing.
+  /// with the parsed options, which returns the exit code or nothing for 0. `command` must outlive the
+  /// parsing.
+  template <typename Result>
   Subcommand(CLI::App& parent, const std::string& name, const std::string& help, Command& command,
-             int (*run)(const Options&))
+             Result (*run)(const Options&))
       : app(parent.add_subcommand(name, help)) {
-    app->callback([&command, run, owned = options] { command = [run, owned] { return run(*owned); }; });
+    app->callback([&command, run, owned = options] {
+      command = [run, owned] {
+        if constexpr (std::is_same_v<Result, int>) return run(*owned);
+        run(*owned);
+        return 0;
+      };
+    });
   }
   Options* operator->() const { return options.get(); }
 };

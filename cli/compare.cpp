@@ -150,7 +150,7 @@ void compare_films(const CompareOptions& options, const Image& image, const Imag
 
 }  // namespace
 
-int compare(const CompareOptions& options) {
+void compare(const CompareOptions& options) {
   if (options.reference.empty() && options.chart.empty())
     throw Error(ErrorCode::usage, options.image.string(), "needs a reference or --chart to compare with");
   if (options.reference.empty() && !options.maps.empty())
@@ -187,7 +187,6 @@ int compare(const CompareOptions& options) {
       print_patches(patches, key);
   }
   print(answer, options.json);
-  return 0;
 }
 
 }  // namespace abbe::cli

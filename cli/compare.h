@@ -20,10 +20,9 @@ struct CompareOptions {
   bool json = false;
 };
 
-/// Compares two EXR files, or one with the chart in it, and prints the figures. Returns 0, however large the
-/// differences are. Throws Error{usage} if there is nothing to compare with, and for maps or a white without
-/// a reference. Throws Error{input} for files that cannot be read or compared, Error{output} if a map cannot
-/// be written.
-int compare(const CompareOptions& options);
+/// Compares two EXR files, or one with the chart in it, and prints the figures. Throws Error{usage} if there
+/// is nothing to compare with, and for maps or a white without a reference. Throws Error{input} for files
+/// that cannot be read or compared, Error{output} if a map cannot be written.
+void compare(const CompareOptions& options);
 
 }  // namespace abbe::cli

@@ -387,7 +387,7 @@ double exposure_of_film(const DevelopOptions& options, Inputs& inputs) {
 // Converts a film to digital numbers, files and pictures without rendering. Prints the sensor's noise and the
 // error of the render for the first exposure. All outputs are tried, even if one fails; the first failure is
 // thrown then.
-int develop(const DevelopOptions& options) {
+void develop(const DevelopOptions& options) {
   const std::vector<fs::path> outputs = check_outputs(options);
   std::deque<FileLock> locks;
   for (const fs::path& file : writable_among(outputs)) locks.emplace_back(file);
@@ -414,7 +414,6 @@ int develop(const DevelopOptions& options) {
   // At most three further planes exist for each plane of the film and of its variance.
   inputs.reserve_memory("developing", 3 * exposed.film.memory_bytes());
   print(json_of(sensor, develop_frames(exposed, options)), options.json);
-  return 0;
 }
 
 // Adds the options of `develop` for the exposure and for calibration frames.

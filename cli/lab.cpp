@@ -124,7 +124,7 @@ void print_table(const Json& answer, const LabOptions& options, const Goniometer
 
 }  // namespace
 
-int lab(const LabOptions& options) {
+void lab(const LabOptions& options) {
   for (const std::filesystem::path& output : {options.plot, options.map})
     if (!output.empty()) require_writable(output);
   Diagnostics diagnostics;
@@ -144,7 +144,6 @@ int lab(const LabOptions& options) {
     print(answer, true);
   else
     print_table(answer, options, report);
-  return 0;
 }
 
 }  // namespace abbe::cli

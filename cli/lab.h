@@ -24,11 +24,11 @@ struct LabOptions {
   bool json = false;
 };
 
-/// Measures a material on the BSDF bench; prints the results, and writes `plot` and `map`. Returns 0. Throws
+/// Measures a material on the BSDF bench; prints the results, and writes `plot` and `map`. Throws
 /// InvalidInput for an invalid material or illuminant. Throws Error{scene} if the formulas of a transparent
 /// material do not hold at a wavelength of `at_nm`. Throws Error{usage} if `plot` does not end in .svg, or if
 /// an output is the same file as an input or the other output. Throws Error{output} for outputs that cannot
 /// be written, and for a `map` of unknown format.
-int lab(const LabOptions& options);
+void lab(const LabOptions& options);
 
 }  // namespace abbe::cli

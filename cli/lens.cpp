@@ -285,7 +285,7 @@ std::string tables_text(const LensFigures& figures) {
                      text(tables.ghosts, false));
 }
 
-int lens(const LensOptions& options) {
+void lens(const LensOptions& options) {
   if (!options.html.empty()) require_extension(options.html, {".html"});
   if (!options.drawing.empty()) require_extension(options.drawing, {".svg"});
   Inputs inputs;
@@ -297,7 +297,6 @@ int lens(const LensOptions& options) {
   if (!options.html.empty()) write_atomically(options.html, lens_page(figures));
   if (!options.drawing.empty()) write_atomically(options.drawing, lens_drawing(figures));
   fmt::print("{}", options.json ? text(lens_answer(figures), true) : tables_text(figures));
-  return 0;
 }
 
 }  // namespace

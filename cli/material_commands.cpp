@@ -36,7 +36,7 @@ void add_json_with_arrays(CLI::App& app, bool& json, bool& arrays) {
 constexpr const char* kMaterialHelp = "Name of a material, FILE.csv, or FILE.yml of refractiveindex.info";
 
 Subcommand<IndexOptions> add_index_query(CLI::App& query, const std::string& name, const std::string& help,
-                                         Command& command, int (*run)(const IndexOptions&)) {
+                                         Command& command, void (*run)(const IndexOptions&)) {
   Subcommand<IndexOptions> sub(query, name, help, command, run);
   add_value(*sub.app, "name", sub->name, kMaterialHelp, "MATERIAL")->required();
   add_at(*sub.app, sub->at_nm);
@@ -208,7 +208,10 @@ void add_query(CLI::App& app, Command& command) {
                               questions.front()->get_name()));
     }
     if (list->count() == 0) throw CLI::RequiredError("query: the name of a query, or --list,");
-    command = [options] { return query_list(*options); };
+    command = [options] {
+      query_list(*options);
+      return 0;
+    };
   });
 }
 

@@ -273,7 +273,7 @@ void require_one_table(const std::vector<Measurement>& all) {
               fmt::join(measured.channels, ", "), measured.file.string()));
 }
 
-int measure(const MeasureOptions& options) {
+void measure(const MeasureOptions& options) {
   Inputs inputs(options.max_memory_bytes);
   for (const fs::path& image : options.images) inputs.add_file(image);
   if (!options.flat.empty()) inputs.add_file(options.flat);
@@ -308,7 +308,6 @@ int measure(const MeasureOptions& options) {
     print(one_or_all(std::move(list)), true);
   else
     for (const Measurement& measured : all) print_table(measured);
-  return 0;
 }
 
 ChartCorners parse_corners(const std::string& option, const std::string& text) {

@@ -107,7 +107,7 @@ std::vector<fs::path> check_outputs(const MergeOptions& options) {
 }
 
 // Adds parts of one render, which are ranges of samples and crops, and writes their film.
-int merge(const MergeOptions& options) {
+void merge(const MergeOptions& options) {
   std::deque<FileLock> locks;
   for (const fs::path& file : check_outputs(options)) locks.emplace_back(file);
   const Headers headers = read_headers(options);
@@ -132,7 +132,6 @@ int merge(const MergeOptions& options) {
                   describe_samples(all.areas, all.shape, " of every pixel"),
                   missing.empty() ? "" : fmt::format("; missing: {}", describe_samples(missing, all.shape)),
                   error_text({.frame_mean = error, .few_samples = few_samples(sum)}, ", ")));
-  return 0;
 }
 
 }  // namespace

@@ -13,7 +13,7 @@
 
 namespace abbe::cli {
 
-/// Queries about data and closed forms. Each prints its answer, as JSON or as plain text, and returns 0.
+/// Queries about data and closed forms. Each prints its answer, as JSON or as plain text.
 /// Wavelengths are in standard air. `query ior` prints indices as catalogued. All answers about surfaces are
 /// for a surface in air, as in scenes, with indices relative to air. An unknown name or an invalid table
 /// throws InvalidInput with the code `input`, and the nearest name. A wavelength outside the table of a
@@ -30,13 +30,13 @@ struct IndexOptions {
 };
 /// Prints n + ik as catalogued, the medium to which it is relative, and for a thickness d the internal
 /// transmittance exp(-4 pi k d/lambda). k and the transmittance are null if k is not measured.
-int query_ior(const IndexOptions& options);
+void query_ior(const IndexOptions& options);
 /// Prints the critical angle of total reflection inside the material, against air. It is null for n <= 1 and
 /// for 4 pi k >= 1, as in metals, where no wave propagates for a wavelength.
-int query_critical(const IndexOptions& options);
+void query_critical(const IndexOptions& options);
 /// Prints the angle of minimum R_p for light from outside, and R_p there. It is Brewster's angle atan(n) with
 /// R_p = 0, or the pseudo-Brewster angle of an absorbing material.
-int query_brewster(const IndexOptions& options);
+void query_brewster(const IndexOptions& options);
 
 struct ReflectanceOptions {
   std::string name;
@@ -50,7 +50,7 @@ struct ReflectanceOptions {
 /// wavelength and angle, and under a coating the transmittance T. The phases follow exp(-i omega t); the sign
 /// of the field in the plane of incidence is that of `FresnelAmplitudes`. Throws Error{usage} for an invalid
 /// coating.
-int query_reflectance(const ReflectanceOptions& options);
+void query_reflectance(const ReflectanceOptions& options);
 
 struct PrismOptions {
   std::string name;
@@ -63,7 +63,7 @@ struct PrismOptions {
 };
 /// Prints deviation, incidence and transmittances. They are null if no ray passes, and for a material that
 /// absorbs too much to be a glass.
-int query_prism(const PrismOptions& options);
+void query_prism(const PrismOptions& options);
 
 /// Integration of colours: in steps of 1 nm, or by the weights of ASTM E308 at the measured wavelengths.
 enum class ColorMethod { one_nm, astm_e308 };
@@ -79,7 +79,7 @@ struct ColorOptions {
 /// Prints X, Y, Z (Y = 100 for the perfect diffuser), x, y and L*, a*, b* relative to that diffuser. Throws
 /// Error{usage} for a range with `ColorMethod::astm_e308`, Error{input} for an illuminant without visible
 /// light.
-int query_color(const ColorOptions& options);
+void query_color(const ColorOptions& options);
 
 struct DeltaEOptions {
   std::array<double, 3> lab1{};  ///< L*, a*, b* of the standard.
@@ -88,7 +88,7 @@ struct DeltaEOptions {
 };
 /// Prints the differences by CIEDE2000, CIE 1976 and CIE 1994. It also prints CAM16-UCS and ITP, which take
 /// both colours as relative to a D65 white, ITP with a white of 203 cd/m^2.
-int query_delta_e(const DeltaEOptions& options);
+void query_delta_e(const DeltaEOptions& options);
 
 struct LightOptions {
   std::string name;
@@ -105,7 +105,7 @@ struct LightOptions {
 /// rendering and fidelity. The colour temperature and what depends on it are null if there is none. Throws
 /// Error{input} for a light without visible light, and for a plot without a colour temperature up to 25 000
 /// K. Throws Error{usage} for a crop of a light that is not an image.
-int query_light(const LightOptions& options);
+void query_light(const LightOptions& options);
 
 struct MetamerismOptions {
   std::string first;
@@ -116,7 +116,7 @@ struct MetamerismOptions {
   SumRange range = {};
 };
 /// Prints the figures of `Metamerism`, and throws its Error{input}.
-int query_metamerism(const MetamerismOptions& options);
+void query_metamerism(const MetamerismOptions& options);
 
 struct CameraOptions {
   std::string name;
@@ -129,7 +129,7 @@ struct CameraOptions {
 /// Prints raw values, which are 1 for the perfect diffuser in the channel G, or the metrics. Throws
 /// Error{usage} if the illuminant is missing, unless the metrics are requested, and for metrics of fewer than
 /// three channels.
-int query_camera(const CameraOptions& options);
+void query_camera(const CameraOptions& options);
 
 struct ListOptions {
   std::string kind;  ///< One of `table_kinds`; empty for every kind.
@@ -137,7 +137,7 @@ struct ListOptions {
 };
 /// Prints the names of every kind, or of one. A list of materials or glasses also has their wavelength ranges
 /// and sources. Throws Error{usage} for an unknown kind.
-int query_list(const ListOptions& options);
+void query_list(const ListOptions& options);
 /// The kinds that `query --list` knows, in the order in which it prints them.
 [[nodiscard]] std::vector<std::string> table_kinds();
 

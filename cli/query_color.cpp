@@ -106,19 +106,18 @@ std::string index_description(const Json& answer, std::size_t i) {
                      answer["source"][i].get_ref<const std::string&>());
 }
 
-int print_camera_metrics(const std::vector<Channel>& channels, bool json) {
+void print_camera_metrics(const std::vector<Channel>& channels, bool json) {
   const CameraSpace space = camera_space(channels);
   Json answer;
   answer["vora"] = space.vora;
   answer["luther_residual"] = {{"x", space.luther[0]}, {"y", space.luther[1]}, {"z", space.luther[2]}};
   answer["sensitivity_index"] = channels.size() == 3 ? Json(sensitivity_index(channels)) : Json();
   print(answer, json);
-  return 0;
 }
 
 }  // namespace
 
-int query_color(const ColorOptions& options) {
+void query_color(const ColorOptions& options) {
   Diagnostics diagnostics;
   const auto [xyz, white] = options.method == ColorMethod::astm_e308 ? color_by_astm(options, diagnostics)
                                                                      : color_every_nm(options, diagnostics);
@@ -130,10 +129,9 @@ int query_color(const ColorOptions& options) {
   answer["xy"] = chromaticity(xyz);
   answer["Lab"] = xyz_to_lab(xyz, white);
   print(answer, options.json);
-  return 0;
 }
 
-int query_delta_e(const DeltaEOptions& options) {
+void query_delta_e(const DeltaEOptions& options) {
   Json answer;
   answer["dE00"] = delta_e_2000(options.lab1, options.lab2);
   answer["dE76"] = delta_e_76(options.lab1, options.lab2);
@@ -142,10 +140,9 @@ int query_delta_e(const DeltaEOptions& options) {
        {std::pair{"dE_CAM16_UCS", DeltaE::cam16_ucs}, std::pair{"dE_ITP", DeltaE::itp}})
     answer[key] = delta_e(formula, options.lab1, options.lab2);
   print(answer, options.json);
-  return 0;
 }
 
-int query_camera(const CameraOptions& options) {
+void query_camera(const CameraOptions& options) {
   Diagnostics diagnostics;
   if (options.illuminant.empty() && !options.metrics)
     throw Error(ErrorCode::usage, "query camera", "needs --illuminant or --judge");
@@ -158,14 +155,13 @@ int query_camera(const CameraOptions& options) {
   Json answer;
   for (std::size_t i = 0; i < raw.size(); ++i) answer["raw"][(*channels)[i].name] = raw[i];
   print(answer, options.json);
-  return 0;
 }
 
 std::vector<std::string> table_kinds() {
   return {kTableKinds.begin(), kTableKinds.end()};
 }
 
-int query_list(const ListOptions& options) {
+void query_list(const ListOptions& options) {
   Json answer = Json::object();
   for (const char* kind : kTableKinds)
     if (options.kind.empty() || options.kind == kind) answer[kind] = names_of_kind(kind);
@@ -173,10 +169,7 @@ int query_list(const ListOptions& options) {
     throw Error(ErrorCode::usage, "--list", unknown_name("kind", options.kind, table_kinds()));
   const bool has_index = options.kind == kMaterial || options.kind == kGlass;
   if (has_index) add_index_ranges(answer, options.kind);
-  if (options.json) {
-    print(answer, true);
-    return 0;
-  }
+  if (options.json) return print(answer, true);
   for (const auto& [kind, names] : answer.items()) {
     if (has_index && kind != options.kind) continue;
     if (options.kind.empty()) fmt::print("{}\n", kind);
@@ -188,7 +181,6 @@ int query_list(const ListOptions& options) {
       fmt::print("{}{}{}\n", options.kind.empty() ? "  " : "", names[i].get_ref<const std::string&>(),
                  has_index ? index_description(answer, i) : "");
   }
-  return 0;
 }
 
 }  // namespace abbe::cli

@@ -193,7 +193,7 @@ std::optional<std::string> extrapolated_index_warning(const Material& material, 
   return std::nullopt;
 }
 
-int trace(const TraceOptions& options) {
+void trace(const TraceOptions& options) {
   Diagnostics diagnostics;
   Inputs inputs(options.max_memory_bytes);
   const Scene scene =
@@ -208,10 +208,9 @@ int trace(const TraceOptions& options) {
     print_readable(answer);
   warn(first_extrapolation(scene, tree, options.wavelength_nm));
   warn_cut(tree, options, limits);
-  return 0;
 }
 
-int draw(const DrawOptions& options) {
+void draw(const DrawOptions& options) {
   require_extension(options.output, {".svg"});
   require_writable(options.output);
   if (options.origin && !(options.direction.length() > 0))
@@ -233,7 +232,6 @@ int draw(const DrawOptions& options) {
   const std::string name = options.scene == kStandardStream ? "stdin" : options.scene.filename().string();
   write_atomically(options.output, layout_drawing(scene, drawn, name));
   warn(warning);
-  return 0;
 }
 
 }  // namespace abbe::cli

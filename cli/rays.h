@@ -33,10 +33,10 @@ struct TraceOptions {
   std::vector<Override> overrides = {};
 };
 
-/// Traces one ray through a scene and prints its events. Returns 0. Throws Error{usage} without a start of
+/// Traces one ray through a scene and prints its events. Throws Error{usage} without a start of
 /// the ray, for a zero direction, and for a light that is unknown or has no central ray. Throws InvalidInput
 /// for an invalid scene.
-int trace(const TraceOptions& options);
+void trace(const TraceOptions& options);
 
 /// Options of `abbe draw`; lengths are in the units of the scene file. The help of the command explains them.
 struct DrawOptions {
@@ -52,10 +52,10 @@ struct DrawOptions {
   std::vector<Override> overrides = {};
 };
 
-/// Draws the plan and elevation of a scene with rays through it, as SVG. Returns 0. Throws Error{usage} for
+/// Draws the plan and elevation of a scene with rays through it, as SVG. Throws Error{usage} for
 /// another extension than .svg and for a zero direction, InvalidInput for an invalid scene, Error{output} if
 /// the drawing cannot be written.
-int draw(const DrawOptions& options);
+void draw(const DrawOptions& options);
 
 /// Warning for a material whose index or extinction is extrapolated at a wavelength [nm]; empty if neither
 /// is.

@@ -267,7 +267,7 @@ void note_polarisation(const Scene& scene) {
 
 namespace {
 
-int info(const InfoOptions& options) {
+void info(const InfoOptions& options) {
   Diagnostics diagnostics;
   Inputs inputs(options.max_memory_bytes);
   Scene scene = accepted(load_scene(options.scene, options.overrides, diagnostics, &inputs), diagnostics);
@@ -286,10 +286,9 @@ int info(const InfoOptions& options) {
   warn(coincidence_warning(scene));
   warn(unused_settings_warning(scene));
   note_polarisation(scene);
-  return 0;
 }
 
-int convert(const ConvertOptions& options) {
+void convert(const ConvertOptions& options) {
   const bool is_file = options.output != kStandardStream;
   if (is_file) {
     require_extension(options.output, {".json"});
@@ -304,7 +303,6 @@ int convert(const ConvertOptions& options) {
     write_atomically(options.output, text);
   else
     fmt::print("{}", text);
-  return 0;
 }
 
 }  // namespace

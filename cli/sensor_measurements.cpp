@@ -187,7 +187,7 @@ EdgeResponse measure_edge(const MtfOptions& options, Inputs& inputs) {
   return slanted_edge(values, crop.x1 - crop.x0, crop.y1 - crop.y0);
 }
 
-int transfer(const TransferOptions& options) {
+void transfer(const TransferOptions& options) {
   if (!options.plot.empty()) require_extension(options.plot, {".svg"});
   Inputs inputs(options.max_memory_bytes);
   std::vector<std::string> warnings;
@@ -228,10 +228,9 @@ int transfer(const TransferOptions& options) {
   if (!options.json)
     for (const char* curve : {"signal_dn", "variance_dn2"}) answer.erase(curve);
   print(answer, options.json);
-  return 0;
 }
 
-int mtf(const MtfOptions& options) {
+void mtf(const MtfOptions& options) {
   if (!options.plot.empty()) require_extension(options.plot, {".svg"});
   Inputs inputs(options.max_memory_bytes);
   const EdgeResponse edge = measure_edge(options, inputs);
@@ -248,7 +247,6 @@ int mtf(const MtfOptions& options) {
     write_atomically(options.plot, mtf_plot(answer));
   }
   print(answer, options.json);
-  return 0;
 }
 
 }  // namespace
