@@ -147,6 +147,13 @@ void add_overrides(CLI::App& app, const std::shared_ptr<Options>& options,
       ->type_name("/POINTER=VALUE");
 }
 
+/// Adds --spp with the help `spp_help`, and --error and --time, which end the render instead. `error_name`
+/// names the error, `time_scope` the object of the time.
+void add_samples(CLI::App& app, SamplingOptions& settings, const std::string& spp_help,
+                 const std::string& error_name, const std::string& time_scope);
+/// Adds the options for the integrator, the seed and the threads.
+void add_integrator(CLI::App& app, SamplingOptions& settings);
+
 // The commands that are defined outside `commands.cpp`, in the order of the help.
 void add_render(CLI::App& app, Command& command);
 void add_meter(CLI::App& app, Command& command);

@@ -1,5 +1,3 @@
-#include "cli/meter.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "cli/answer.h"
+#include "cli/command_options.h"
 #include "cli/output_files.h"
 #include "cli/progress.h"
 #include "io/atomic_file.h"
@@ -21,6 +20,13 @@
 
 namespace abbe::cli {
 namespace {
+
+struct MeterOptions : SamplingOptions {
+  std::filesystem::path scene;
+  std::vector<std::string> meters;
+  std::filesystem::path spectra;
+  bool json = false;
+};
 
 abbe::RenderOptions render_options_of(const MeterOptions& options, const InterruptWatch& watch,
                                       ProgressDisplay& display) {
@@ -184,8 +190,6 @@ std::vector<MeterMeasurement> measure_all(const MeteredScene& metered,
   return all;
 }
 
-}  // namespace
-
 int meter(const MeterOptions& options) {
   Inputs inputs(options.max_memory_bytes);
   Diagnostics diagnostics(options.strict ? Strictness::strict : Strictness::lenient);
@@ -214,6 +218,31 @@ int meter(const MeterOptions& options) {
   return options.strict && std::ranges::any_of(all, has_dropped_samples)
              ? static_cast<int>(ErrorCode::internal)
              : 0;
+}
+
+}  // namespace
+
+void add_meter(CLI::App& app, Command& command) {
+  const Subcommand<MeterOptions> sub(app, "meter", "Measure light with the meters of a scene", command,
+                                     meter);
+  CLI::App& options = *sub.app;
+  add_scene(options, sub->scene);
+  add_value(options, "--only", sub->meters, "Name of a meter to read; may be repeated (default: all)", "NAME")
+      ->allow_extra_args(false);
+  add_value(options, "--spectra", sub->spectra,
+            "Table to write with the spectra of those meters that record one", "FILE.csv");
+  add_samples(options, *sub.options,
+              "Samples per sub-area of a meter, which has at least 1024 of them (default: the scene's)",
+              "the largest relative standard error of a meter's radiant, luminous and photon values",
+              " for each meter");
+  add_integrator(options, *sub.options);
+  add_overrides(options, sub.options);
+  add_max_memory(options, sub.options);
+  options.add_flag("--strict", sub->strict,
+                   "Reject a scene with a warning that means a wrong reading (exit code 3); exit with 70 if "
+                   "any sample was discarded");
+  options.add_flag("--quiet", sub->quiet, "Print warnings and errors only, no progress and no notes");
+  add_json(options, sub->json);
 }
 
 }  // namespace abbe::cli

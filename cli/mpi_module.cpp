@@ -48,7 +48,7 @@ void reduce_to_root(std::span<Int128> numbers, int rank) {
     else
       MPI_Reduce(chunk.data(), nullptr, count, kSum.type, kSum.op, 0, MPI_COMM_WORLD);
   }
-  if (rank != 0) std::ranges::fill(numbers, Int128{0});
+  if (rank != 0) std::fill(numbers.begin(), numbers.end(), Int128{0});
 }
 
 std::uint64_t broadcast_from_root(std::uint64_t value) {

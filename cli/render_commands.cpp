@@ -5,14 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "cli/meter.h"
 #include "cli/render.h"
 
 namespace abbe::cli {
-namespace {
 
-// Adds --spp with the help `spp_help`, and --error and --time, which end the render instead. `error_name`
-// names the error, `time_scope` the object of the time.
 void add_samples(CLI::App& app, SamplingOptions& settings, const std::string& spp_help,
                  const std::string& error_name, const std::string& time_scope) {
   CLI::Option* spp =
@@ -28,7 +24,6 @@ void add_samples(CLI::App& app, SamplingOptions& settings, const std::string& sp
   spp->excludes(error)->excludes(time);
 }
 
-// Adds the options for the integrator, the seed and the threads.
 void add_integrator(CLI::App& app, SamplingOptions& settings) {
   add_parsed(app, "--integrator", settings.integrator,
              one_of<Integrator>({kIntegratorNames.begin(), kIntegratorNames.end()}),
@@ -41,6 +36,8 @@ void add_integrator(CLI::App& app, SamplingOptions& settings) {
   add_parsed(app, "--threads", settings.render.threads, integer_in<int>(0, kMaxThreads),
              "Number of threads; 0 for one per processor (default 0)", "N");
 }
+
+namespace {
 
 // Adds the options for the crop, the layers and the auxiliary channels of the film.
 void add_film(CLI::App& render, RenderOptions& settings) {
@@ -130,29 +127,6 @@ void add_render(CLI::App& app, Command& command) {
       "sheet or a light that coincides with a surface, or light paths that the chosen integrator cannot "
       "sample (with auto these remain a warning); exit with 70 if any sample was discarded");
   render.add_flag("--quiet", sub->quiet, "Print warnings and errors only, no progress and no notes");
-}
-
-void add_meter(CLI::App& app, Command& command) {
-  const Subcommand<MeterOptions> sub(app, "meter", "Measure light with the meters of a scene", command,
-                                     meter);
-  CLI::App& options = *sub.app;
-  add_scene(options, sub->scene);
-  add_value(options, "--only", sub->meters, "Name of a meter to read; may be repeated (default: all)", "NAME")
-      ->allow_extra_args(false);
-  add_value(options, "--spectra", sub->spectra,
-            "Table to write with the spectra of those meters that record one", "FILE.csv");
-  add_samples(options, *sub.options,
-              "Samples per sub-area of a meter, which has at least 1024 of them (default: the scene's)",
-              "the largest relative standard error of a meter's radiant, luminous and photon values",
-              " for each meter");
-  add_integrator(options, *sub.options);
-  add_overrides(options, sub.options);
-  add_max_memory(options, sub.options);
-  options.add_flag("--strict", sub->strict,
-                   "Reject a scene with a warning that means a wrong reading (exit code 3); exit with 70 if "
-                   "any sample was discarded");
-  options.add_flag("--quiet", sub->quiet, "Print warnings and errors only, no progress and no notes");
-  add_json(options, sub->json);
 }
 
 }  // namespace abbe::cli
