@@ -22,8 +22,8 @@ struct PupilBound {
   [[nodiscard]] bool contains(const Imath::V2d& point) const;
 };
 
-/// Disc in front of a lens through which all its light enters, centered on the axis and normal to it [mm]. z
-/// is measured from the first vertex, as in `system.h`.
+/// A disc in front of a lens through which all its light enters, centered on the axis and normal to it [mm].
+/// z is measured from the first vertex, as in `system.h`.
 struct EntranceDisc {
   double z;
   double radius;

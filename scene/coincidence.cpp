@@ -70,7 +70,10 @@ struct FaceCollector {
   }
   template <typename S>
   void operator()(const S& shape) const {
-    if (const std::optional<FlatFace> flat = flat_face(shape)) add(flat->corners, flat->round);
+    const std::optional<FlatFace> flat = flat_face(shape);
+    if (!flat) return;
+    const auto& [at, u, v, center, normal, round] = *flat;
+    add({at, at + u, at + v, at + u + v}, round);
   }
   void operator()(const PlacedShape& placed) const {
     const M44d& at = placed.at->to_world;
@@ -103,13 +106,11 @@ struct Ellipsoid {
 };
 
 std::optional<Ellipsoid> ellipsoid_of(const Shape& shape) {
-  if (const auto* sphere = std::get_if<Sphere>(&shape))
-    return Ellipsoid{sphere->center, sphere->radius, M44d()};
+  const std::optional<Ball> ball = ball_of(shape);
+  if (!ball) return std::nullopt;
   const auto* placed = std::get_if<PlacedShape>(&shape);
-  const auto* sphere = placed == nullptr ? nullptr : std::get_if<Sphere>(&placed->of->shape);
-  if (sphere == nullptr) return std::nullopt;
-  const M44d& to_world = placed->at->to_world;
-  return Ellipsoid{sphere->center * to_world, sphere->radius, to_world};
+  const M44d to_world = placed != nullptr ? placed->at->to_world : M44d();
+  return Ellipsoid{ball->center * to_world, ball->radius, to_world};
 }
 
 bool has_corner_in_plane(const Face& of, const Face& plane, double tolerance) {

@@ -104,6 +104,14 @@ bool needs_double_precision(const TriangleSet& set, std::size_t shape,
   });
 }
 
+template <Triangulated S>
+TriangleSet with_normals(const S& shape) {
+  TriangleSet set = triangles_of(shape);
+  set.normals.reserve(set.triangles.size());
+  for (std::size_t i = 0; i < set.triangles.size(); ++i) set.normals.emplace_back(normal_at(shape, i));
+  return set;
+}
+
 BasicRay<double> exact(const Ray& ray) {
   return {Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max), ray.time};
 }

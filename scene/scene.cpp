@@ -163,7 +163,7 @@ void Scene::measure_media() {
 }
 
 bool Scene::is_distant(const Light& light) const {
-  if (const auto* emitter = std::get_if<AreaLight>(&light.kind)) return shapes[emitter->shape].distant;
+  if (const auto surface = surface_of(light)) return shapes[*surface].distant;
   const Imath::V3f* at = light_position(light);
   return at != nullptr && (Imath::V3d(*at) - position(camera)).length() > far_threshold_m;
 }
@@ -176,11 +176,8 @@ void Scene::commit() {
   for (std::size_t i = 0; i < lights.size(); ++i) {
     if (lights[i].at_infinity() && !lights[i].is_delta())
       background_.push_back(static_cast<std::uint32_t>(i));
-    auto* emitter = std::get_if<AreaLight>(&lights[i].kind);
-    if (emitter == nullptr) continue;
-    ShapeInstance& instance = shapes[emitter->shape];
-    instance.light = static_cast<std::int32_t>(i);
-    emitter->measure(instance.shape);
+    if (const auto surface = surface_of(lights[i])) shapes[*surface].light = static_cast<std::int32_t>(i);
+    measure(lights[i], shapes);
   }
   std::vector<NearWalls> walls = walls_near_shapes(*this);
   for (std::size_t i = 0; i < shapes.size(); ++i) {

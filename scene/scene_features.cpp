@@ -197,10 +197,6 @@ double fall_distance(std::span<const Knot> knots, std::size_t i, std::ptrdiff_t 
   return std::numeric_limits<double>::infinity();
 }
 
-bool holds_camera(const Sphere& sphere, const Scene& scene) {
-  return (center(scene.camera) - sphere.center).length() <= sphere.radius;
-}
-
 // Number of consecutive events at the shape that a path may have, with 2 for any larger number, if nothing
 // else returns light to it. Light meets the outside of an opaque sphere once, but its inside repeatedly.
 int events_in_a_row(const Scene& scene, const ShapeInstance& instance) {
@@ -211,8 +207,10 @@ int events_in_a_row(const Scene& scene, const ShapeInstance& instance) {
   if (!polarises(material)) return 0;
   if (plain<Mesh>(instance.shape) != nullptr) return 2;
   if (is_flat(instance.shape)) return 1;
-  const auto* plain_sphere = std::get_if<Sphere>(&instance.shape);
-  return opaque(material) && plain_sphere != nullptr && !holds_camera(*plain_sphere, scene) ? 1 : 2;
+  const auto ball = ball_of(instance.shape);
+  const bool views_outside = ball && !std::holds_alternative<PlacedShape>(instance.shape) &&
+                             (center(scene.camera) - ball->center).length() > ball->radius;
+  return opaque(material) && views_outside ? 1 : 2;
 }
 
 }  // namespace

@@ -18,7 +18,7 @@ struct ProbePoint {
 /// irradiance is that by the accepted light. Divided by the projected solid angle pi `acceptance`^2 it is the
 /// mean radiance, multiplied by the area it is the flux.
 struct IrradianceProbe {
-  std::variant<ProbePoint, Quad, Disc, SphereSide> surface;
+  Joined<std::variant<ProbePoint, SphereSide>, FlatShape>::type surface;
   double acceptance = 1;  ///< Sine of the maximum angle with the normal, in (0, 1].
 
   // Functions without a comment are those of `CameraModel`.

@@ -180,7 +180,8 @@ Imath::V2d SphericalRectangle::sample(Imath::V2f u) const {
   return {(x - x0_) / (x1_ - x0_), (y - y0_) / (y1_ - y0_)};
 }
 
-void AreaLight::measure(const Shape& of) {
+void AreaLight::measure(const Shapes& shapes) {
+  const Shape& of = shapes[shape].shape;
   area = abbe::area(of);
   triangle_cdf = abbe::triangle_cdf(of);
   if (const auto* quad = plain<Quad>(of))

@@ -20,7 +20,7 @@ namespace abbe {
 struct Rectangle {
   Imath::V3d corner;
   Imath::V3d center;
-  Imath::V3d x, y;        ///< Unit vectors along `Quad::edge_u` and `Quad::edge_v`.
+  Imath::V3d x, y;        ///< Unit vectors along the quad's edges.
   double size_u, size_v;  ///< Lengths of these edges [m].
 
   /// The rectangle of a quad; nothing for a parallelogram without right angles.
@@ -78,9 +78,8 @@ struct AreaLight {
   /// The quad, for lights that are quads. Other lights do not spend memory on it.
   std::shared_ptr<const EmittingQuad> flat = nullptr;
 
-  /// Computes `area`, `triangle_cdf` and `flat` from the light's shape. Throws Error{internal} for a static
-  /// instance. `Scene::commit` calls it.
-  void measure(const Shape& of);
+  /// Computes `area`, `triangle_cdf` and `flat` from the light's shape, as `abbe::measure`.
+  void measure(const Shapes& shapes);
 
   // Functions of `LightModel`. `bounds` has the intensity of the projected area along the axis: constant for
   // a sphere; for a closed mesh, a quarter of its area.

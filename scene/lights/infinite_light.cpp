@@ -49,7 +49,7 @@ LightBounds bounds_at_infinity(const Imath::V3f& towards, double cap, double fac
 }
 
 // Through the center of the scene, from 1.5 times its radius before it.
-BasicRay<double> central_ray_from(const Imath::V3d& towards, const SceneSphere& sphere) {
+BasicRay<double> central_ray_from(const Imath::V3d& towards, const Ball& sphere) {
   return {sphere.center + 1.5 * sphere.radius * towards, -towards};
 }
 
@@ -209,7 +209,7 @@ LightBounds DirectionalLight::bounds(const Shapes& /*shapes*/, double emission) 
   return bounds_at_infinity(towards, 0, emission, emission);
 }
 
-std::optional<BasicRay<double>> DirectionalLight::central_ray(const SceneSphere& sphere) const {
+std::optional<BasicRay<double>> DirectionalLight::central_ray(const Ball& sphere) const {
   return central_ray_from(Imath::V3d(towards), sphere);
 }
 
@@ -238,7 +238,7 @@ LightBounds SunLight::bounds(const Shapes& /*shapes*/, double emission) const {
   return bounds_at_infinity(towards, static_cast<double>(cap), irradiance, irradiance);
 }
 
-std::optional<BasicRay<double>> SunLight::central_ray(const SceneSphere& sphere) const {
+std::optional<BasicRay<double>> SunLight::central_ray(const Ball& sphere) const {
   return central_ray_from(Imath::V3d(towards), sphere);
 }
 

@@ -115,7 +115,7 @@ struct DirectionalLight {
   [[nodiscard]] double etendue(double across) const { return across; }
   [[nodiscard]] LightBounds bounds(const Shapes& shapes, double emission) const;
   [[nodiscard]] std::optional<DirectionCone> beam() const { return DirectionCone{towards, 0}; }
-  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const SceneSphere& sphere) const;
+  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const Ball& sphere) const;
 };
 
 /// A disc at infinity around the unit direction `towards`, with uniform radiance and visible to cameras. It
@@ -143,7 +143,7 @@ struct SunLight {
   [[nodiscard]] std::optional<DirectionCone> beam() const { return DirectionCone{towards, cap}; }
   [[nodiscard]] bool is_visible_along(const Imath::V3f& wi) const { return contains(wi); }
   [[nodiscard]] double solid_angle() const { return 2 * std::numbers::pi * static_cast<double>(cap); }
-  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const SceneSphere& sphere) const;
+  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const Ball& sphere) const;
 };
 
 }  // namespace abbe

@@ -17,6 +17,14 @@ std::optional<PolarisationState> polarised(const LightPolarisation& of, const Im
   return PolarisationState{across.normalized(), of.degree, 0, 0};
 }
 
+void measure(Light& light, const Shapes& shapes) {
+  std::visit(
+      [&shapes](auto& model) {
+        if constexpr (requires { model.measure(shapes); }) model.measure(shapes);
+      },
+      light.kind);
+}
+
 const Imath::V3f* light_position(const Light& light) {
   return std::visit(
       []<LightModel Model>(const Model& model) -> const Imath::V3f* {
@@ -235,7 +243,7 @@ std::size_t memory_bytes(const Light& light) {
                      light.kind);
 }
 
-std::optional<BasicRay<double>> central_ray(const Light& light, const SceneSphere& sphere) {
+std::optional<BasicRay<double>> central_ray(const Light& light, const Ball& sphere) {
   return std::visit(
       [&](const auto& model) -> std::optional<BasicRay<double>> {
         if constexpr (requires { model.central_ray(sphere); })

@@ -103,12 +103,6 @@ struct LightBounds {
   bool ambient = false;  ///< True for light that is equal from all directions.
 };
 
-/// Sphere around the nearby shapes of a scene.
-struct SceneSphere {
-  Imath::V3d center;
-  double radius;  ///< [m]
-};
-
 /// A light at a point, which may move.
 template <typename Model>
 concept PointLightModel = requires(const Model& light) {

@@ -92,7 +92,7 @@ struct PhotometricLight {
                                                  float scene_radius_m, float time) const;
   [[nodiscard]] double etendue(double /*across*/) const { return 4 * std::numbers::pi; }
   [[nodiscard]] LightBounds bounds(const Shapes& shapes, double emission) const;
-  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const SceneSphere& /*sphere*/) const {
+  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const Ball& /*sphere*/) const {
     return BasicRay<double>{position, axis};
   }
   [[nodiscard]] double fan() const { return distribution->max_gamma(); }

@@ -55,7 +55,7 @@ EmissionDensity PointLight::emission_density(const Imath::V3f& /*normal*/, const
   return {1, 1 / (4 * std::numbers::pi_v<float>)};
 }
 
-std::optional<BasicRay<double>> PointLight::central_ray(const SceneSphere& sphere) const {
+std::optional<BasicRay<double>> PointLight::central_ray(const Ball& sphere) const {
   const Imath::V3d towards = sphere.center - position;
   return BasicRay<double>{position, towards.length() > 0 ? towards.normalized() : Imath::V3d(1, 0, 0)};
 }

@@ -42,7 +42,7 @@ struct PointLight {
   [[nodiscard]] LightBounds bounds(const Shapes& /*shapes*/, double emission) const {
     return bounds_of_point(position, motion.get(), kEverywhere, emission);
   }
-  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const SceneSphere& sphere) const;
+  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const Ball& sphere) const;
   [[nodiscard]] double fan() const { return std::numbers::pi; }
 };
 
@@ -80,7 +80,7 @@ struct SpotLight {
   [[nodiscard]] std::optional<DirectionCone> cone_at(float time) const {
     return DirectionCone{time > 0 ? axis_at(time) : axis, cap};
   }
-  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const SceneSphere& /*sphere*/) const {
+  [[nodiscard]] std::optional<BasicRay<double>> central_ray(const Ball& /*sphere*/) const {
     return BasicRay<double>{position, axis};
   }
   [[nodiscard]] double fan() const;

@@ -94,8 +94,14 @@ OuterSide outer_side(const Shape& shape) {
 }
 
 Imath::V3d triangle_normal(const PlainShape& shape, std::size_t triangle) {
-  if (const auto* mesh = std::get_if<Mesh>(&shape)) return normal_at(*mesh, triangle);
-  return normal_at(std::get<Quad>(shape), triangle);
+  return std::visit(
+      [triangle]<typename S>(const S& s) -> Imath::V3d {
+        if constexpr (Triangulated<S>)
+          return normal_at(s, triangle);
+        else
+          throw Error(ErrorCode::internal, "shape", "a curved shape has no triangles");
+      },
+      shape);
 }
 
 Outline outline(const Shape& shape, const DrawingPlane& plane) {

@@ -34,11 +34,13 @@ struct Joined<std::variant<First...>, std::variant<Second...>> {
   using type = std::variant<First..., Second...>;
 };
 
-/// Shapes that are rendered as triangles with float vertices.
+/// Shapes that are rendered as triangles with float vertices: `triangles_of` without their normals.
+/// `normal_at` is the outward unit normal of one triangle, from the unrounded vertices.
 using TriangulatedShape = std::variant<Mesh, Quad>;
 template <typename S>
 concept Triangulated = requires(const S& shape) {
   triangles_of(shape);
+  normal_at(shape, std::size_t{});
 };
 /// Shapes whose own formula in double precision decides where a ray hits them.
 using CurvedShape = std::variant<Sphere, Disc, Quadric>;
@@ -66,6 +68,7 @@ concept ShapeModel = SampledByArea<S> && requires(const S& shape) {
   { enclosed_volume(shape) } -> std::same_as<double>;
   { may_intersect(shape, Imath::Box3d()) } -> std::same_as<bool>;
   { flat_face(shape) } -> std::same_as<std::optional<FlatFace>>;
+  { ball_of(shape) } -> std::same_as<std::optional<Ball>>;
   { thickness(shape) } -> std::same_as<double>;
   { outer_side(shape) } -> std::same_as<OuterSide>;
 };
@@ -125,9 +128,16 @@ auto visit_plain(const Visitor& visitor, const Shape& shape) {
   return visit_plain([](const auto& s) { return Triangulated<std::decay_t<decltype(s)>>; }, shape);
 }
 
-/// True if the shape, or the prototype of an instance, is one flat face: a quad or disc.
+/// The face of a flat shape, or of the prototype of an instance in its own coordinates; nothing for others.
+[[nodiscard]] inline std::optional<FlatFace> flat_face(const Shape& shape) {
+  return visit_plain([](const auto& s) { return flat_face(s); }, shape);
+}
 [[nodiscard]] inline bool is_flat(const Shape& shape) {
-  return visit_plain([](const auto& s) { return flat_face(s).has_value(); }, shape);
+  return flat_face(shape).has_value();
+}
+/// The ball of a sphere, or of the prototype of an instance in its own coordinates; nothing for others.
+[[nodiscard]] inline std::optional<Ball> ball_of(const Shape& shape) {
+  return visit_plain([](const auto& s) { return ball_of(s); }, shape);
 }
 /// True if the shape, or the prototype of an instance, consists of flat faces, as meshes do too.
 [[nodiscard]] inline bool has_faces(const Shape& shape) {
