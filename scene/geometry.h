@@ -28,8 +28,7 @@ struct SceneInstance {
   std::shared_ptr<const Placement> at;
 };
 /// Embree's representation of any shape of the scene.
-using AttachedGeometry =
-    Joined<Joined<std::variant<TriangleSet>, CurvedShape>::type, std::variant<SceneInstance>>::type;
+using AttachedGeometry = Joined<std::variant<TriangleSet>, CurvedShape, std::variant<SceneInstance>>::type;
 /// Embree scene with the one geometry of a prototype, in its coordinates; instances of it refer to it.
 struct InstancedScene {
   std::shared_ptr<const Prototype> prototype;

@@ -124,6 +124,7 @@ concept PointLightModel = requires(const Model& light) {
 /// - `is_visible_along(wi)`: true if that direction points to a light at infinity [true].
 /// - `solid_angle()`: solid angle [sr] of a light without a shape [0].
 /// - `central_ray(sphere)`, `fan()`: see light.h [none, 60 degrees].
+/// - `measure(shapes)`: as in light.h [nothing to do].
 /// - `memory_bytes()`: memory of its own data, in addition to the size of the struct [0].
 template <typename Model>
 concept LightModel = requires(const Model& light, const Shapes& shapes, const LightSampleContext& context,

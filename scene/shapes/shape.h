@@ -26,13 +26,16 @@
 
 namespace abbe {
 
-/// A variant with the alternatives of two others.
-template <typename First, typename Second>
+/// A variant with the alternatives of several others.
+template <typename... Variants>
 struct Joined;
-template <typename... First, typename... Second>
-struct Joined<std::variant<First...>, std::variant<Second...>> {
-  using type = std::variant<First..., Second...>;
+template <typename... All>
+struct Joined<std::variant<All...>> {
+  using type = std::variant<All...>;
 };
+template <typename... First, typename... Second, typename... Others>
+struct Joined<std::variant<First...>, std::variant<Second...>, Others...>
+    : Joined<std::variant<First..., Second...>, Others...> {};
 
 /// Shapes that are rendered as triangles with float vertices: `triangles_of` without their normals.
 /// `normal_at` is the outward unit normal of one triangle, from the unrounded vertices.
