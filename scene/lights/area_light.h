@@ -83,8 +83,7 @@ struct AreaLight {
 
   // Functions of `LightModel`. `bounds` has the intensity of the projected area along the axis: constant for
   // a sphere; for a closed mesh, a quarter of its area.
-  [[nodiscard]] std::optional<LightSample> sample(const Shapes& shapes, const LightSampleContext& context,
-                                                  Imath::V2f u, float time) const;
+  [[nodiscard]] std::optional<LightSample> sample(const LightQuery& query) const;
   [[nodiscard]] float pdf(const Shapes& shapes, const LightHit& at) const;
   [[nodiscard]] bool emits_towards(const Imath::V3f& normal, const Imath::V3f& wo) const {
     return two_sided || normal.dot(wo) > 0;
@@ -94,8 +93,7 @@ struct AreaLight {
   }
   [[nodiscard]] EmissionPoint sample_emission_point(const Shapes& shapes, Imath::V2f u, float time) const;
   [[nodiscard]] Imath::V3f emission_direction(const Imath::V3f& normal, Imath::V2f u, float time) const;
-  [[nodiscard]] EmissionDensity emission_density(const Imath::V3f& normal, const Imath::V3f& wo,
-                                                 float scene_radius_m, float time) const;
+  [[nodiscard]] EmissionDensity emission_density(const EmissionQuery& query) const;
   [[nodiscard]] double etendue(double /*across*/) const {
     return std::numbers::pi * area * (two_sided ? 2 : 1);
   }

@@ -165,15 +165,13 @@ float EnvironmentLight::pdf(const Shapes& /*shapes*/, const LightHit& at) const 
   return pdf(at.context, at.wi);
 }
 
-std::optional<LightSample> EnvironmentLight::sample(const Shapes& /*shapes*/,
-                                                    const LightSampleContext& context, Imath::V2f u,
-                                                    float /*time*/) const {
-  const auto wi = sample_direction(*this, context, u);
+std::optional<LightSample> EnvironmentLight::sample(const LightQuery& query) const {
+  const auto wi = sample_direction(*this, query.context, query.u);
   if (!wi) return std::nullopt;
   // The rounded direction may fall into the next texel. Density and radiance then both belong to that texel.
-  const float density = pdf(context, *wi);
+  const float density = pdf(query.context, *wi);
   if (!(density > 0)) return std::nullopt;
-  return LightSample{*wi, kInfinity, 1, density, context.point};
+  return LightSample{*wi, kInfinity, 1, density, query.context.point};
 }
 
 SampledSpectrum EnvironmentLight::emission_from(const ScaledCurve& emission, const Imath::V3f& wi,
@@ -181,9 +179,8 @@ SampledSpectrum EnvironmentLight::emission_from(const ScaledCurve& emission, con
   return image ? image->radiance(wi, wavelengths_nm) : emission(wavelengths_nm);
 }
 
-EmissionDensity EnvironmentLight::emission_density(const Imath::V3f& /*normal*/, const Imath::V3f& wo,
-                                                   float scene_radius_m, float /*time*/) const {
-  return {disc_pdf(scene_radius_m), pdf({}, -wo)};
+EmissionDensity EnvironmentLight::emission_density(const EmissionQuery& query) const {
+  return {disc_pdf(query.scene_radius_m), pdf({}, -query.wo)};
 }
 
 LightBounds EnvironmentLight::bounds(const Shapes& /*shapes*/, double emission) const {
@@ -194,15 +191,12 @@ LightBounds EnvironmentLight::bounds(const Shapes& /*shapes*/, double emission) 
   return bounds;
 }
 
-std::optional<LightSample> DirectionalLight::sample(const Shapes& /*shapes*/,
-                                                    const LightSampleContext& context, Imath::V2f /*u*/,
-                                                    float /*time*/) const {
-  return LightSample{towards, kInfinity, 1, 1, context.point};
+std::optional<LightSample> DirectionalLight::sample(const LightQuery& query) const {
+  return LightSample{towards, kInfinity, 1, 1, query.context.point};
 }
 
-EmissionDensity DirectionalLight::emission_density(const Imath::V3f& /*normal*/, const Imath::V3f& /*wo*/,
-                                                   float scene_radius_m, float /*time*/) const {
-  return {disc_pdf(scene_radius_m), 1};
+EmissionDensity DirectionalLight::emission_density(const EmissionQuery& query) const {
+  return {disc_pdf(query.scene_radius_m), 1};
 }
 
 LightBounds DirectionalLight::bounds(const Shapes& /*shapes*/, double emission) const {
@@ -218,19 +212,18 @@ double SunLight::projected_solid_angle() const {
   return std::numbers::pi * height * (2 - height);
 }
 
-std::optional<LightSample> SunLight::sample(const Shapes& /*shapes*/, const LightSampleContext& context,
-                                            Imath::V2f u, float /*time*/) const {
-  const float phi = 2 * std::numbers::pi_v<float> * u.y;
-  return LightSample{direction_about(towards, u.x * cap, phi), kInfinity, 1, cone_pdf(cap), context.point};
+std::optional<LightSample> SunLight::sample(const LightQuery& query) const {
+  const float phi = 2 * std::numbers::pi_v<float> * query.u.y;
+  return LightSample{direction_about(towards, query.u.x * cap, phi), kInfinity, 1, cone_pdf(cap),
+                     query.context.point};
 }
 
 float SunLight::pdf(const Shapes& /*shapes*/, const LightHit& at) const {
   return contains(at.wi) ? cone_pdf(cap) : 0.0F;
 }
 
-EmissionDensity SunLight::emission_density(const Imath::V3f& /*normal*/, const Imath::V3f& wo,
-                                           float scene_radius_m, float /*time*/) const {
-  return {disc_pdf(scene_radius_m), contains(-wo) ? cone_pdf(cap) : 0.0F};
+EmissionDensity SunLight::emission_density(const EmissionQuery& query) const {
+  return {disc_pdf(query.scene_radius_m), contains(-query.wo) ? cone_pdf(cap) : 0.0F};
 }
 
 LightBounds SunLight::bounds(const Shapes& /*shapes*/, double emission) const {

@@ -84,16 +84,14 @@ struct EnvironmentLight {
   [[nodiscard]] float pdf(const LightSampleContext& context, const Imath::V3f& wi) const;
 
   // Functions of `LightModel`.
-  [[nodiscard]] std::optional<LightSample> sample(const Shapes& shapes, const LightSampleContext& context,
-                                                  Imath::V2f u, float time) const;
+  [[nodiscard]] std::optional<LightSample> sample(const LightQuery& query) const;
   [[nodiscard]] float pdf(const Shapes& shapes, const LightHit& at) const;
   [[nodiscard]] SampledSpectrum emission_from(const ScaledCurve& emission, const Imath::V3f& wi,
                                               const SampledSpectrum& wavelengths_nm) const;
   [[nodiscard]] ScaledCurve mean_emission(const ScaledCurve& emission) const {
     return image ? ScaledCurve(image->mean_radiance()) : emission;
   }
-  [[nodiscard]] EmissionDensity emission_density(const Imath::V3f& normal, const Imath::V3f& wo,
-                                                 float scene_radius_m, float time) const;
+  [[nodiscard]] EmissionDensity emission_density(const EmissionQuery& query) const;
   [[nodiscard]] double etendue(double across) const { return 4 * std::numbers::pi * across; }
   [[nodiscard]] LightBounds bounds(const Shapes& shapes, double emission) const;
   [[nodiscard]] double solid_angle() const { return 4 * std::numbers::pi; }
@@ -108,10 +106,8 @@ struct DirectionalLight {
   Imath::V3f towards{0, 0, 1};
 
   // Functions of `LightModel`.
-  [[nodiscard]] std::optional<LightSample> sample(const Shapes& shapes, const LightSampleContext& context,
-                                                  Imath::V2f u, float time) const;
-  [[nodiscard]] EmissionDensity emission_density(const Imath::V3f& normal, const Imath::V3f& wo,
-                                                 float scene_radius_m, float time) const;
+  [[nodiscard]] std::optional<LightSample> sample(const LightQuery& query) const;
+  [[nodiscard]] EmissionDensity emission_density(const EmissionQuery& query) const;
   [[nodiscard]] double etendue(double across) const { return across; }
   [[nodiscard]] LightBounds bounds(const Shapes& shapes, double emission) const;
   [[nodiscard]] std::optional<DirectionCone> beam() const { return DirectionCone{towards, 0}; }
@@ -133,11 +129,9 @@ struct SunLight {
   [[nodiscard]] double projected_solid_angle() const;
 
   // Functions of `LightModel`.
-  [[nodiscard]] std::optional<LightSample> sample(const Shapes& shapes, const LightSampleContext& context,
-                                                  Imath::V2f u, float time) const;
+  [[nodiscard]] std::optional<LightSample> sample(const LightQuery& query) const;
   [[nodiscard]] float pdf(const Shapes& shapes, const LightHit& at) const;
-  [[nodiscard]] EmissionDensity emission_density(const Imath::V3f& normal, const Imath::V3f& wo,
-                                                 float scene_radius_m, float time) const;
+  [[nodiscard]] EmissionDensity emission_density(const EmissionQuery& query) const;
   [[nodiscard]] double etendue(double across) const { return projected_solid_angle() * across; }
   [[nodiscard]] LightBounds bounds(const Shapes& shapes, double emission) const;
   [[nodiscard]] std::optional<DirectionCone> beam() const { return DirectionCone{towards, cap}; }
