@@ -105,11 +105,9 @@ std::vector<WeightedAngle> angles_over_lens(const Camera& camera, Imath::V2f fil
 
 CameraRay sample_ray(const Camera& camera, Imath::V2f film, Imath::V2f lens,
                      const SampledSpectrum& wavelengths_nm, int hero, float time) {
-  CameraRay ray = std::visit(
-      [&](const auto& kind) {
-        return kind.sample_ray(camera.film(), film, lens, wavelengths_nm, hero, time);
-      },
-      camera.kind);
+  const CameraSample sample{film, lens, wavelengths_nm, hero, time};
+  CameraRay ray =
+      std::visit([&](const auto& kind) { return kind.sample_ray(camera.film(), sample); }, camera.kind);
   if (camera.motion) move(ray, camera, time);
   return ray;
 }
@@ -130,12 +128,10 @@ void sample_rays(const Camera& camera, std::span<const CameraSample> samples, st
 
 std::optional<CameraConnection> sample_towards(const Camera& camera, const Imath::V3f& point, Imath::V2f lens,
                                                const SampledSpectrum& wavelengths_nm, float time) {
+  const CameraSample sample{{0, 0}, lens, wavelengths_nm, 0, time};
   const auto connect = [&](const Imath::V3f& at_rest) {
-    return std::visit(
-        [&](const auto& kind) {
-          return kind.sample_towards(camera.film(), at_rest, lens, wavelengths_nm, time);
-        },
-        camera.kind);
+    return std::visit([&](const auto& kind) { return kind.sample_towards(camera.film(), at_rest, sample); },
+                      camera.kind);
   };
   if (!camera.motion) return connect(point);
   const Imath::M44d since_opening = motion_until(camera, time);
@@ -235,7 +231,7 @@ Imath::Box3d bounds(const Camera& camera) {
 Imath::V3f probe_point(const Camera& probe, Imath::V2f uv) {
   const FilmGrid film = probe.film();
   const Imath::V2f at(uv.x * static_cast<float>(film.width), uv.y * static_cast<float>(film.height));
-  return std::get<IrradianceProbe>(probe.kind).sample_ray(film, at, {0.5F, 0.5F}, {}, 0, 0).ray.origin;
+  return std::get<IrradianceProbe>(probe.kind).sample_ray(film, {at, {0.5F, 0.5F}, {}}).ray.origin;
 }
 
 std::optional<Imath::V3f> film_right(const Camera& camera, float time) {

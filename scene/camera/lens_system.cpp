@@ -350,16 +350,15 @@ CameraRay dark_ray(const LensSystem& camera, const FilmGrid& grid, const CameraS
 
 }  // namespace
 
-CameraRay LensSystem::sample_ray(const FilmGrid& grid, V2f film, V2f lens,
-                                 const SampledSpectrum& wavelengths_nm, int hero, float time) const {
-  const CameraSample sample{film, lens, wavelengths_nm, hero, time};
-  const auto [route, u] = draw_route(*this, lens);
-  const auto out =
-      optics->system.to_object(from_film(*this, image_of_film(grid, film), V2d(concentric_disc(u)), route),
-                               static_cast<double>(wavelengths_nm[hero]), optics->routes[route]);
+CameraRay LensSystem::sample_ray(const FilmGrid& grid, const CameraSample& sample) const {
+  const auto [route, u] = draw_route(*this, sample.lens);
+  const auto out = optics->system.to_object(
+      from_film(*this, image_of_film(grid, sample.film), V2d(concentric_disc(u)), route),
+      static_cast<double>(sample.wavelengths_nm[sample.hero]), optics->routes[route]);
   if (!out) return dark_ray(*this, grid, sample);
-  const Ray ray = in_scene(*this, *out, route, time);
-  const auto drawn = camera_ray(sample, route, ray, trace_to_film(*this, grid, {ray, wavelengths_nm}, route));
+  const Ray ray = in_scene(*this, *out, route, sample.time);
+  const auto drawn =
+      camera_ray(sample, route, ray, trace_to_film(*this, grid, {ray, sample.wavelengths_nm}, route));
   return drawn ? *drawn : dark_ray(*this, grid, sample);
 }
 
@@ -369,12 +368,12 @@ void sample_rays(const LensSystem& camera, const FilmGrid& grid, std::span<const
   std::vector<lens::ColouredRay> of_image;
   std::vector<std::size_t> sample_of;
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    const auto& [film, lens, wavelengths_nm, hero, time] = samples[i];
-    const auto [route, u] = draw_route(camera, lens);
-    rays[i] = route > 0 ? camera.sample_ray(grid, film, lens, wavelengths_nm, hero, time) : dark;
+    const CameraSample& sample = samples[i];
+    const auto [route, u] = draw_route(camera, sample.lens);
+    rays[i] = route > 0 ? camera.sample_ray(grid, sample) : dark;
     if (route > 0) continue;
-    of_image.push_back({from_film(camera, image_of_film(grid, film), V2d(concentric_disc(u)), route),
-                        static_cast<double>(wavelengths_nm[hero])});
+    of_image.push_back({from_film(camera, image_of_film(grid, sample.film), V2d(concentric_disc(u)), route),
+                        static_cast<double>(sample.wavelengths_nm[sample.hero])});
     sample_of.push_back(i);
   }
   std::vector<std::size_t> sample_of_ray;  // index of the sample of each ray in `out`
@@ -394,10 +393,9 @@ void sample_rays(const LensSystem& camera, const FilmGrid& grid, std::span<const
   }
 }
 
-std::optional<CameraConnection> LensSystem::sample_towards(const FilmGrid& grid, const V3f& point, V2f lens,
-                                                           const SampledSpectrum& wavelengths_nm,
-                                                           float time) const {
-  const auto [route, u] = draw_route(*this, lens);
+std::optional<CameraConnection> LensSystem::sample_towards(const FilmGrid& grid, const V3f& point,
+                                                           const CameraSample& sample) const {
+  const auto [route, u] = draw_route(*this, sample.lens);
   const EntrancePoint entrance = draw_entrance(*this, u, route);
   const V3d to_point = V3d(point) - entrance.point;
   const double distance = to_point.length();
@@ -407,8 +405,8 @@ std::optional<CameraConnection> LensSystem::sample_towards(const FilmGrid& grid,
   const double from_disc = behind / cos_theta;  // from the disc to the lens point, along the ray
   const V3f lens_point(entrance.point + to_point / distance * from_disc);
   const double farther = distance / (distance - from_disc);
-  const auto lanes =
-      trace_to_film(*this, grid, {ray_at(lens_point, V3f(to_point / distance), time), wavelengths_nm}, route);
+  const auto lanes = trace_to_film(
+      *this, grid, {ray_at(lens_point, V3f(to_point / distance), sample.time), sample.wavelengths_nm}, route);
   if (!lanes) return std::nullopt;
   const double weight =
       cos_theta / (entrance.pdf * distance * distance * grid.pixel_pitch * grid.pixel_pitch);

@@ -91,24 +91,15 @@ std::optional<Opening> opening_of(const Flat& flat) {
 
 }  // namespace
 
-CameraRay IrradianceProbe::sample_ray(const FilmGrid& grid, Imath::V2f film, Imath::V2f direction,
-                                      const SampledSpectrum& /*wavelengths_nm*/, int /*hero*/,
-                                      float time) const {
-  const Imath::V2d uv(static_cast<double>(film.x) / grid.width, static_cast<double>(film.y) / grid.height);
+CameraRay IrradianceProbe::sample_ray(const FilmGrid& grid, const CameraSample& sample) const {
+  const Imath::V2d uv(static_cast<double>(sample.film.x) / grid.width,
+                      static_cast<double>(sample.film.y) / grid.height);
   const Imath::V3f point(std::visit([&](const auto& of) { return point_at(of, uv); }, surface));
   const Imath::V3f normal = normal_at(point);
-  const Imath::V3f local = cosine_cone(direction, static_cast<float>(acceptance));
+  const Imath::V3f local = cosine_cone(sample.lens, static_cast<float>(acceptance));
   // Starts on the side of its normal even at grazing directions.
-  return {ray_at(offset_point(point, normal, normal), Basis<float>(normal).to_world(local), time),
+  return {ray_at(offset_point(point, normal, normal), Basis<float>(normal).to_world(local), sample.time),
           SampledSpectrum(static_cast<float>(disc_area(acceptance))), local.z};
-}
-
-std::optional<CameraConnection> IrradianceProbe::sample_towards(const FilmGrid& /*grid*/,
-                                                                const Imath::V3f& /*point*/,
-                                                                Imath::V2f /*lens*/,
-                                                                const SampledSpectrum& /*wavelengths_nm*/,
-                                                                float /*time*/) const {
-  return std::nullopt;
 }
 
 std::optional<CameraDensity> IrradianceProbe::density(const FilmGrid& grid, const Ray& ray,
