@@ -368,7 +368,7 @@ class RegionFinder {
 
 }  // namespace
 
-std::optional<CoincidentPair> find_coincident_pair(const Scene& scene) {
+std::optional<std::uint32_t> find_coincident_shape(const Scene& scene) {
   const std::vector<BoxedShape> on =
       shapes_of(scene, [](const Material& material) { return !opaque(material); });
   if (on.empty()) return std::nullopt;
@@ -385,7 +385,7 @@ std::optional<CoincidentPair> find_coincident_pair(const Scene& scene) {
       if (++pairs > kMaxPairs ||
           (near.intersects(other.box) &&
            may_coincide(scene.shapes[one.shape].shape, scene.shapes[other.shape].shape, tolerance, faces)))
-        return CoincidentPair{one.shape, other.shape};
+        return one.shape;
     }
   }
   return std::nullopt;

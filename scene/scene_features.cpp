@@ -120,6 +120,55 @@ bool varies(const ShapeInstance& instance, const Material& material) {
   return needs_coordinates(material) || (mesh != nullptr && !mesh->normals.empty());
 }
 
+// Number of consecutive events at the shape that a path may have, with 2 for any larger number, if nothing
+// else returns light to it. Light meets the outside of an opaque sphere once, but its inside repeatedly.
+int events_in_a_row(const Scene& scene, const ShapeInstance& instance) {
+  const Material& material = scene.materials[instance.material];
+  const Medium* contents = medium(material);
+  if (contents != nullptr && contents->scatters() && std::holds_alternative<RayleighPhase>(contents->phase))
+    return 2;
+  if (!polarises(material)) return 0;
+  if (plain<Mesh>(instance.shape) != nullptr) return 2;
+  if (is_flat(instance.shape)) return 1;
+  const auto ball = ball_of(instance.shape);
+  const bool views_outside = ball && !std::holds_alternative<PlacedShape>(instance.shape) &&
+                             (center(scene.camera) - ball->center).length() > ball->radius;
+  return opaque(material) && views_outside ? 1 : 2;
+}
+
+// The object that makes polarisation relevant: its kind and its name.
+struct PolarisationCause {
+  const char* kind;
+  std::string name;
+};
+
+// Finds the first object that makes polarisation affect what the film records: a channel with an analyser,
+// otherwise the light or shape at which two events suffice. The first event polarises the light: at a shape,
+// or the emission of a polarised light. The second, at a shape or in the lens, depends on the polarisation.
+// The result is conservative, because paths are not traced. Nothing if unpolarised transport is exact.
+std::optional<PolarisationCause> polarisation_cause(const Scene& scene) {
+  const auto analysing = std::find_if(scene.channels.begin(), scene.channels.end(),
+                                      [](const Channel& channel) { return channel.analyser.has_value(); });
+  if (analysing != scene.channels.end()) return PolarisationCause{"channel", analysing->name};
+  const auto polarised_light = std::find_if(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
+    return light.polarisation.has_value();
+  });
+  const bool has_polarised_light = polarised_light != scene.lights.end();
+  const bool polarising_lens = traits(scene.camera).polarises;
+  if (has_polarised_light && polarising_lens) return PolarisationCause{"light", polarised_light->name};
+  const bool returns_light =
+      std::any_of(scene.shapes.begin(), scene.shapes.end(), [&scene](const ShapeInstance& instance) {
+        return preserves_polarisation(scene.materials[instance.material]);
+      });
+  int events = has_polarised_light || polarising_lens ? 1 : 0;
+  for (const ShapeInstance& instance : scene.shapes) {
+    const int here = events_in_a_row(scene, instance);
+    events += here;
+    if (events >= 2 || (here > 0 && returns_light)) return PolarisationCause{"shape", instance.name};
+  }
+  return std::nullopt;
+}
+
 void analyse_media(const Scene& scene, SceneFeatures& features) {
   const ShapeInstance* specular = nullptr;
   bool scattering = false;
@@ -146,7 +195,7 @@ void analyse_media(const Scene& scene, SceneFeatures& features) {
     require(features, &SceneFeatures::caustics, scattering && has_local_light, "shape", specular->name);
   const ShapeInstance* nested = nested_shape(scene);
   if (nested == nullptr)
-    if (const auto contact = find_coincident_pair(scene)) nested = &scene.shapes[contact->shape];
+    if (const auto contact = find_coincident_shape(scene)) nested = &scene.shapes[*contact];
   if (nested != nullptr) require(features, &SceneFeatures::nesting, true, "shape", nested->name);
   if (const auto polarising = polarisation_cause(scene))
     require(features, &SceneFeatures::polarisation_relevant, true, polarising->kind, polarising->name);
@@ -197,22 +246,6 @@ double fall_distance(std::span<const Knot> knots, std::size_t i, std::ptrdiff_t 
   return std::numeric_limits<double>::infinity();
 }
 
-// Number of consecutive events at the shape that a path may have, with 2 for any larger number, if nothing
-// else returns light to it. Light meets the outside of an opaque sphere once, but its inside repeatedly.
-int events_in_a_row(const Scene& scene, const ShapeInstance& instance) {
-  const Material& material = scene.materials[instance.material];
-  const Medium* contents = medium(material);
-  if (contents != nullptr && contents->scatters() && std::holds_alternative<RayleighPhase>(contents->phase))
-    return 2;
-  if (!polarises(material)) return 0;
-  if (plain<Mesh>(instance.shape) != nullptr) return 2;
-  if (is_flat(instance.shape)) return 1;
-  const auto ball = ball_of(instance.shape);
-  const bool views_outside = ball && !std::holds_alternative<PlacedShape>(instance.shape) &&
-                             (center(scene.camera) - ball->center).length() > ball->radius;
-  return opaque(material) && views_outside ? 1 : 2;
-}
-
 }  // namespace
 
 bool has_narrow_feature(const Curve& curve, double width_nm) {
@@ -244,31 +277,6 @@ SceneFeatures analyse(const Scene& scene) {
   analyse_motion(scene, features);
   require(features, &SceneFeatures::depth_of_field, traits(scene.camera).depth_of_field, "camera", "");
   return features;
-}
-
-// A sensor that measures polarisation always needs it. A polarised light counts as a first event and a
-// polarising lens as a last one.
-std::optional<PolarisationCause> polarisation_cause(const Scene& scene) {
-  const auto analysing = std::find_if(scene.channels.begin(), scene.channels.end(),
-                                      [](const Channel& channel) { return channel.analyser.has_value(); });
-  if (analysing != scene.channels.end()) return PolarisationCause{"channel", analysing->name};
-  const auto polarised_light = std::find_if(scene.lights.begin(), scene.lights.end(), [](const Light& light) {
-    return light.polarisation.has_value();
-  });
-  const bool has_polarised_light = polarised_light != scene.lights.end();
-  const bool polarising_lens = traits(scene.camera).polarises;
-  if (has_polarised_light && polarising_lens) return PolarisationCause{"light", polarised_light->name};
-  const bool returns_light =
-      std::any_of(scene.shapes.begin(), scene.shapes.end(), [&scene](const ShapeInstance& instance) {
-        return preserves_polarisation(scene.materials[instance.material]);
-      });
-  int events = has_polarised_light || polarising_lens ? 1 : 0;
-  for (const ShapeInstance& instance : scene.shapes) {
-    const int here = events_in_a_row(scene, instance);
-    events += here;
-    if (events >= 2 || (here > 0 && returns_light)) return PolarisationCause{"shape", instance.name};
-  }
-  return std::nullopt;
 }
 
 bool carries_polarisation(const Scene& scene) {
