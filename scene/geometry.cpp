@@ -224,7 +224,7 @@ std::optional<SurfaceHit> Geometry::intersect(const Ray& ray) const {
   ExactContext context(attached_);
   context.rays[0] = exact(ray);
   while (true) {
-    RTCRayHit query = embree_query(context.rays[0]);
+    RTCRayHit query = without_hit(embree_ray(context.rays[0]));
     rtcIntersect1(scene_.get(), &context, &query);
     if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     if (auto hit = resolve_nearest(query.hit, query.ray.tfar, context, 0)) return hit;
@@ -257,7 +257,7 @@ std::vector<SurfaceHit> Geometry::all_hits(const BasicRay<double>& ray, unsigned
   context.rays[0] = ray;
   context.all = &all;
   context.filter = collect_hits;
-  RTCRayHit query = embree_query(ray);
+  RTCRayHit query = without_hit(embree_ray(ray));
   query.ray.mask = mask;
   rtcIntersect1(scene_.get(), &context, &query);
   return all;
@@ -372,7 +372,7 @@ void Geometry::replay(std::span<const LoggedRay> rays) const {
   for (const LoggedRay& logged : rays) {
     ExactContext context(attached_);
     context.rays[0] = exact(logged.ray);
-    RTCRayHit query = embree_query(context.rays[0]);
+    RTCRayHit query = without_hit(embree_ray(context.rays[0]));
     if (logged.shadow)
       rtcOccluded1(scene_.get(), &context, &query.ray);
     else

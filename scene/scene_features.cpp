@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
-#include <limits>
-#include <set>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -25,7 +23,7 @@ namespace {
 // fewer than one in 250 directions.
 constexpr double kSmallLight_sr = 0.05;
 
-constexpr std::array<FeatureName, 15> kFeatures{{
+constexpr std::array<FeatureName, 14> kFeatures{{
     {"dispersion", &SceneFeatures::dispersion, "a refractive index varies with wavelength"},
     {"media", &SceneFeatures::media, "a medium absorbs light"},
     {"scattering", &SceneFeatures::scattering, "a medium scatters light"},
@@ -41,8 +39,6 @@ constexpr std::array<FeatureName, 15> kFeatures{{
     {"textures", &SceneFeatures::textures,
      "a material, its relief or vertex normals vary over the surface, or the material is anisotropic"},
     {"delta_lights", &SceneFeatures::delta_lights, "point, spot or directional lights"},
-    {"narrow_bands", &SceneFeatures::narrow_bands,
-     "an emission or a response has features narrower than 10 nm"},
     {"polarisation_matters", &SceneFeatures::polarisation_relevant,
      "light polarised by one event may meet another that depends on polarisation"},
     {"depth_of_field", &SceneFeatures::depth_of_field, "a lens of finite aperture"},
@@ -207,13 +203,9 @@ void analyse_lights(const Scene& scene, SceneFeatures& features) {
   const Viewpoints viewpoints = probe ? probe_viewpoints(scene) : centers;
   const bool photons_arrive =
       probe ? traits(scene.camera).opening && !centers.points.empty() : features.caustics;
-  std::set<const Curve*> examined;  // lights may share spectra
   for (const Light& light : scene.lights) {
     require(features, &SceneFeatures::environment, light.is_environment(), "light", light.name);
     require(features, &SceneFeatures::delta_lights, light.is_delta(), "light", light.name);
-    const Curve& emission = light.emission.base();
-    if (emits(light) && examined.insert(&emission).second)
-      require(features, &SceneFeatures::narrow_bands, has_narrow_feature(emission), "light", light.name);
     features.light_is_traced.push_back(photons_arrive && !light.is_environment() && emits(light) &&
                                        subtends_less(scene, light, viewpoints, kSmallLight_sr));
     require(features, &SceneFeatures::light_tracing, features.light_is_traced.back(), "light", light.name);
@@ -228,38 +220,7 @@ void analyse_motion(const Scene& scene, SceneFeatures& features) {
   require(features, &SceneFeatures::motion, scene.camera.motion != nullptr, "camera", "");
 }
 
-// Distance from the peak at knot `i` to the first fall to `level`, in steps of `step`; infinite if it exceeds
-// `max_distance`.
-double fall_distance(std::span<const Knot> knots, std::size_t i, std::ptrdiff_t step, double level,
-                     double max_distance) {
-  const auto count = static_cast<std::ptrdiff_t>(knots.size());
-  for (auto j = static_cast<std::ptrdiff_t>(i) + step; j >= 0 && j < count; j += step) {
-    const Knot& knot = knots[static_cast<std::size_t>(j)];
-    const Knot& before = knots[static_cast<std::size_t>(j - step)];
-    const double value = std::abs(knot.value);
-    if (std::abs(before.wavelength_nm - knots[i].wavelength_nm) > max_distance) break;
-    if (value >= level) continue;
-    const double fraction = (std::abs(before.value) - level) / (std::abs(before.value) - value);
-    return std::abs(before.wavelength_nm + fraction * (knot.wavelength_nm - before.wavelength_nm) -
-                    knots[i].wavelength_nm);
-  }
-  return std::numeric_limits<double>::infinity();
-}
-
 }  // namespace
-
-bool has_narrow_feature(const Curve& curve, double width_nm) {
-  const std::span<const Knot> knots = curve.knots();
-  const double significant = 0.1 * std::max(std::abs(curve.max()), std::abs(curve.min()));
-  for (std::size_t i = 0; i < knots.size(); ++i) {
-    const double peak = std::abs(knots[i].value);
-    if (!(peak > 0 && peak >= significant)) continue;
-    if (fall_distance(knots, i, -1, peak / 2, width_nm) + fall_distance(knots, i, 1, peak / 2, width_nm) <
-        width_nm)
-      return true;
-  }
-  return false;
-}
 
 std::span<const FeatureName> feature_names() {
   return kFeatures;
@@ -269,11 +230,8 @@ SceneFeatures analyse(const Scene& scene) {
   SceneFeatures features;
   analyse_media(scene, features);
   analyse_lights(scene, features);
-  for (const Channel& channel : scene.channels) {
-    require(features, &SceneFeatures::narrow_bands, has_narrow_feature(channel.weight), "channel",
-            channel.name);
+  for (const Channel& channel : scene.channels)
     require(features, &SceneFeatures::angular_response, channel.angular.has_value(), "channel", channel.name);
-  }
   analyse_motion(scene, features);
   require(features, &SceneFeatures::depth_of_field, traits(scene.camera).depth_of_field, "camera", "");
   return features;

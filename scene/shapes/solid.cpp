@@ -149,6 +149,7 @@ class Windings {
 /// Triangles connected by edges of two triangles, without an open edge.
 struct Component {
   std::vector<std::uint32_t> triangles;
+  std::vector<std::uint32_t> against = {};  ///< Those that wind against the first one.
   Imath::Box3d box = {};
   double volume = 0;  ///< Negative when it faces inward.
   bool turned = false;
@@ -226,13 +227,7 @@ std::vector<bool> flawed_sets(const EdgeTable& edges, Windings& sets, std::size_
   return flawed;
 }
 
-/// The closed components, and for each the triangles that wind against its first triangle.
-struct ClosedComponents {
-  std::vector<Component> all;
-  std::vector<std::vector<std::uint32_t>> against;
-};
-
-ClosedComponents closed_components(const EdgeTable& edges, std::uint32_t count) {
+std::vector<Component> closed_components(const EdgeTable& edges, std::uint32_t count) {
   Windings sets(count);
   edges.for_each([&sets](std::span<const EdgeSide> sides) {
     if (sides.size() == 2)
@@ -241,40 +236,35 @@ ClosedComponents closed_components(const EdgeTable& edges, std::uint32_t count) 
   const std::vector<bool> flawed = flawed_sets(edges, sets, count);
   // index of the component, by the first triangle of its set
   std::vector<std::uint32_t> number(count, count);
-  ClosedComponents found;
+  std::vector<Component> found;
   for (std::uint32_t i = 0; i < count; ++i) {
     const auto [first, opposed] = sets.find(i);
     if (flawed[first]) continue;
     if (number[first] == count) {
-      number[first] = static_cast<std::uint32_t>(found.all.size());
-      found.all.emplace_back();
-      found.against.emplace_back();
+      number[first] = static_cast<std::uint32_t>(found.size());
+      found.emplace_back();
     }
-    found.all[number[first]].triangles.push_back(i);
-    if (opposed) found.against[number[first]].push_back(i);
+    found[number[first]].triangles.push_back(i);
+    if (opposed) found[number[first]].against.push_back(i);
   }
   return found;
 }
 
-// Flips triangles until each closed component is consistent. Returns the components and the number of flipped
-// triangles.
-std::pair<std::vector<Component>, std::size_t> rewound_components(const EdgeTable& edges, Turning& turning) {
-  auto [components, against] = closed_components(edges, static_cast<std::uint32_t>(turning.turned.size()));
+// Flips triangles until each component is consistent. Returns the number of flipped triangles.
+std::size_t rewind(const std::vector<Component>& components, Turning& turning) {
   std::size_t rewound = 0;
-  for (std::size_t i = 0; i < components.size(); ++i) {
-    std::vector<std::uint32_t>& fewer = against[i];
-    if (2 * fewer.size() > components[i].triangles.size()) {
-      std::vector<std::uint32_t> others;
-      std::set_difference(components[i].triangles.begin(), components[i].triangles.end(), fewer.begin(),
-                          fewer.end(), std::back_inserter(others));
-      fewer = std::move(others);
+  for (const Component& component : components) {
+    std::vector<std::uint32_t> fewer = component.against;
+    if (2 * fewer.size() > component.triangles.size()) {
+      fewer.clear();
+      std::ranges::set_difference(component.triangles, component.against, std::back_inserter(fewer));
     }
     for (const std::uint32_t triangle : fewer) {
       turning.turn(triangle);
       rewound += triangle < turning.mesh.triangles.size() ? 1 : 0;
     }
   }
-  return {std::move(components), rewound};
+  return rewound;
 }
 
 void measure(const Mesh& mesh, Component& component) {
@@ -406,8 +396,9 @@ SolidReport make_solid(Mesh& mesh) {
   report.repeated = remove_triangles(mesh, repeated_triangles(mesh, *edges));
   if (report.repeated > 0) edges.emplace(mesh);
   Turning turning(mesh);
-  auto [components, rewound] = rewound_components(*edges, turning);
-  report.rewound = rewound;
+  std::vector<Component> components =
+      closed_components(*edges, static_cast<std::uint32_t>(turning.turned.size()));
+  report.rewound = rewind(components, turning);
   for (Component& component : components) measure(mesh, component);
   turn_outward(components, turning, report);
   count_faults(*edges, turning, report);
@@ -417,7 +408,7 @@ SolidReport make_solid(Mesh& mesh) {
 double enclosed_volume(const Mesh& mesh) {
   const auto count = static_cast<std::uint32_t>(mesh.triangles.size() + mesh.slivers.size());
   double largest = 0;
-  for (Component& component : closed_components(EdgeTable(mesh), count).all) {
+  for (Component& component : closed_components(EdgeTable(mesh), count)) {
     measure(mesh, component);
     largest = std::max(largest, std::abs(component.volume));
   }
