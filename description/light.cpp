@@ -222,8 +222,7 @@ struct LightBuilder {
     // The cap of the cone is 1 - cos a = 2 sin^2(a/2) for the half-angle a. This form has no cancellation.
     const double sine = std::sin(spec.source.half_angle_deg * std::numbers::pi / 360);
     const PoseAndMotion moving = point_motion();
-    Imath::V3d axis;
-    moving.pose_at_opening.multDirMatrix(spec.source.direction.normalized(), axis);
+    const Imath::V3d axis = moved_direction(spec.source.direction.normalized(), moving.pose_at_opening);
     const SpotLight spot{position(spec.source.at, moving), Imath::V3f(axis),
                          static_cast<float>(2 * sine * sine), moving.motion};
     const double solid_angle = 2 * std::numbers::pi * static_cast<double>(spot.cap);
@@ -250,9 +249,7 @@ struct LightBuilder {
       emission.scale = spec::Amount<luminous_flux>{{distribution->luminous_flux()}};
     const PoseAndMotion moving = point_motion();
     const auto posed = [&moving](const Imath::V3d& direction) {
-      Imath::V3d rotated;
-      moving.pose_at_opening.multDirMatrix(direction, rotated);
-      return Imath::V3f(rotated);
+      return Imath::V3f(moved_direction(direction, moving.pose_at_opening));
     };
     add(PhotometricLight{position(spec.source.at, moving), posed(axis), posed(c0.normalized()), distribution,
                          moving.motion},

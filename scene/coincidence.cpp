@@ -90,11 +90,7 @@ struct Ellipsoid {
 
   // Vector from the center to the surface point with that outward normal.
   [[nodiscard]] V3d surface_offset(const V3d& normal) const {
-    V3d own;
-    to_world.transposed().multDirMatrix(normal, own);
-    V3d side;
-    to_world.multDirMatrix(own.normalized() * radius, side);
-    return side;
+    return moved_direction(moved_direction(normal, to_world.transposed()).normalized() * radius, to_world);
   }
   // Radius if the ellipsoid is a sphere to within `tolerance`.
   [[nodiscard]] std::optional<double> radius_of_ball(double tolerance) const {

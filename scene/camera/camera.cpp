@@ -14,19 +14,13 @@ Imath::V3f moved_point(const Imath::V3f& point, const Imath::M44d& by) {
   return Imath::V3f(Imath::V3d(point) * by);
 }
 
-Imath::V3d turned_direction(const Imath::V3d& direction, const Imath::M44d& by) {
-  Imath::V3d moved;
-  by.multDirMatrix(direction, moved);
-  return moved;
-}
-
 Ray moved_ray(const Ray& ray, const Imath::M44d& by) {
-  return {moved_point(ray.origin, by), Imath::V3f(turned_direction(Imath::V3d(ray.direction), by)), ray.t_max,
+  return {moved_point(ray.origin, by), Imath::V3f(moved_direction(Imath::V3d(ray.direction), by)), ray.t_max,
           ray.time};
 }
 
 void turn(std::optional<WavelengthImages>& images, const Imath::M44d& by) {
-  if (images) images->jones.axis = Imath::V3f(turned_direction(Imath::V3d(images->jones.axis), by));
+  if (images) images->jones.axis = Imath::V3f(moved_direction(Imath::V3d(images->jones.axis), by));
 }
 
 Imath::M44d motion_until(const Camera& camera, float time) {
@@ -172,7 +166,7 @@ std::optional<GhostEntrance> sample_ghost(const Camera& camera, Imath::V2f lens,
   if (!camera.motion || !entrance) return entrance;
   const Imath::M44d since_opening = motion_until(camera, time);
   entrance->point = moved_point(entrance->point, since_opening);
-  entrance->normal = Imath::V3f(turned_direction(Imath::V3d(entrance->normal), since_opening));
+  entrance->normal = Imath::V3f(moved_direction(Imath::V3d(entrance->normal), since_opening));
   return entrance;
 }
 
@@ -186,7 +180,7 @@ Ray ray_in_rest_frame(const Camera& camera, const Ray& ray) {
 }
 
 Imath::V3d direction_at(const Camera& camera, const Imath::V3d& direction, float time) {
-  return camera.motion ? turned_direction(direction, motion_until(camera, time)) : direction;
+  return camera.motion ? moved_direction(direction, motion_until(camera, time)) : direction;
 }
 
 double min_film_cosine(const Camera& camera) {

@@ -254,14 +254,18 @@ EntrancePoint first_surface_point(const LensSystem& camera, const V2d& local, Le
           -from_lens(camera.frame, at.normal), route_probability(camera, route) * at.cos_axis / area};
 }
 
+// A point of the entrance pupil, on the route of the image.
+EntrancePoint pupil_point(const LensSystem& camera, const V3d& point) {
+  const double radius = camera.optics->pupil.entrance().radius / kMmPerM;
+  return {point, camera.frame.forward, route_probability(camera, 0) / disc_area(radius)};
+}
+
 EntrancePoint draw_entrance(const LensSystem& camera, const V2f& u, LensRoute route) {
   const V2d disc(concentric_disc(u));
   if (route > 0) return first_surface_point(camera, disc * camera.optics->semi_aperture_mm(0), route);
-  const double radius = camera.optics->pupil.entrance().radius / kMmPerM;
-  const V2d on_disc = disc * radius;
-  return {on_axis(camera, camera.optics->pupil.entrance().z) + camera.frame.right * on_disc.x +
-              camera.frame.up * on_disc.y,
-          camera.frame.forward, route_probability(camera, route) / disc_area(radius)};
+  const V2d on_disc = disc * (camera.optics->pupil.entrance().radius / kMmPerM);
+  const V3d center = on_axis(camera, camera.optics->pupil.entrance().z);
+  return pupil_point(camera, center + camera.frame.right * on_disc.x + camera.frame.up * on_disc.y);
 }
 
 // The entrance for a point that has been sampled in this way.
@@ -270,8 +274,7 @@ EntrancePoint entrance_at(const LensSystem& camera, const V3d& point, LensRoute 
     const V3d in_lens = to_lens(camera.frame, point - camera.frame.position) * kMmPerM;
     return first_surface_point(camera, camera.optics->system.local_of(0, in_lens), route);
   }
-  const double radius = camera.optics->pupil.entrance().radius / kMmPerM;
-  return {point, camera.frame.forward, route_probability(camera, route) / disc_area(radius)};
+  return pupil_point(camera, point);
 }
 
 // A route, sampled by one of the random numbers for a point, and the number rescaled for reuse. The image

@@ -38,6 +38,13 @@ std::optional<Imath::V3f> sample_direction(const EnvironmentLight& environment,
   return Basis<float>(*context.side).to_world(cosine_hemisphere(u));
 }
 
+float direction_pdf(const EnvironmentLight& environment, const LightSampleContext& context,
+                    const Imath::V3f& wi) {
+  if (environment.image) return environment.image->pdf(wi);
+  return context.side ? std::max(0.0F, context.side->dot(wi)) / std::numbers::pi_v<float>
+                      : 1 / (4 * std::numbers::pi_v<float>);
+}
+
 // Density on the disc of the scene's radius that is perpendicular to the direction.
 float disc_pdf(float scene_radius_m) {
   return 1 / (std::numbers::pi_v<float> * scene_radius_m * scene_radius_m);
@@ -155,21 +162,15 @@ std::size_t EnvironmentImage::memory_bytes() const {
   return texels_.size() * sizeof(texels_[0]) + (row_cdf_.size() + column_cdf_.size()) * sizeof(double);
 }
 
-float EnvironmentLight::pdf(const LightSampleContext& context, const Imath::V3f& wi) const {
-  if (image) return image->pdf(wi);
-  return context.side ? std::max(0.0F, context.side->dot(wi)) / std::numbers::pi_v<float>
-                      : 1 / (4 * std::numbers::pi_v<float>);
-}
-
 float EnvironmentLight::pdf(const Shapes& /*shapes*/, const LightHit& at) const {
-  return pdf(at.context, at.wi);
+  return direction_pdf(*this, at.context, at.wi);
 }
 
 std::optional<LightSample> EnvironmentLight::sample(const LightQuery& query) const {
   const auto wi = sample_direction(*this, query.context, query.u);
   if (!wi) return std::nullopt;
   // The rounded direction may fall into the next texel. Density and radiance then both belong to that texel.
-  const float density = pdf(query.context, *wi);
+  const float density = direction_pdf(*this, query.context, *wi);
   if (!(density > 0)) return std::nullopt;
   return LightSample{*wi, kInfinity, 1, density, query.context.point};
 }
@@ -180,7 +181,7 @@ SampledSpectrum EnvironmentLight::emission_from(const ScaledCurve& emission, con
 }
 
 EmissionDensity EnvironmentLight::emission_density(const EmissionQuery& query) const {
-  return {disc_pdf(query.scene_radius_m), pdf({}, -query.wo)};
+  return {disc_pdf(query.scene_radius_m), direction_pdf(*this, {}, -query.wo)};
 }
 
 LightBounds EnvironmentLight::bounds(const Shapes& /*shapes*/, double emission) const {

@@ -78,12 +78,8 @@ struct EnvironmentLight {
 
   std::shared_ptr<const EnvironmentImage> image = nullptr;
 
-  /// Density [1/sr] of the unit direction `wi`, from the point towards the light, as sampled for that point.
-  /// With an image it follows the image. Otherwise it is proportional to the cosine on the receiving side, or
-  /// uniform if there is no such side.
-  [[nodiscard]] float pdf(const LightSampleContext& context, const Imath::V3f& wi) const;
-
-  // Functions of `LightModel`.
+  // Functions of `LightModel`. With an image, directions are sampled in proportion to it. Otherwise they are
+  // in proportion to the cosine on the receiving side, or uniform if there is no such side.
   [[nodiscard]] std::optional<LightSample> sample(const LightQuery& query) const;
   [[nodiscard]] float pdf(const Shapes& shapes, const LightHit& at) const;
   [[nodiscard]] SampledSpectrum emission_from(const ScaledCurve& emission, const Imath::V3f& wi,

@@ -15,9 +15,7 @@ Imath::V3f moved_position(const Imath::V3f& position, const Motion* motion, floa
 
 Imath::V3f moved_direction(const Imath::V3f& direction, const Motion* motion, float time) {
   if (motion == nullptr) return direction;
-  Imath::V3d rotated;
-  motion->since_opening(static_cast<double>(time)).multDirMatrix(Imath::V3d(direction), rotated);
-  return Imath::V3f(rotated);
+  return Imath::V3f(moved_direction(Imath::V3d(direction), motion->since_opening(static_cast<double>(time))));
 }
 
 // Inverse-square falloff, computed in double because the light may be very close.

@@ -51,9 +51,8 @@ Outline outline(const Sphere& sphere, const Imath::M44d& to_world, const Drawing
   std::vector<Imath::V3d> points;
   for (int i = 0; i <= kOutlineCorners; ++i) {
     const Imath::V3d u = std::cos(outline_angle(i)) * plane.right + std::sin(outline_angle(i)) * plane.up;
-    Imath::V3d local;
-    to_world.transposed().multDirMatrix(u, local);
-    points.push_back((sphere.center + sphere.radius * local.normalized()) * to_world);
+    const Imath::V3d local = moved_direction(u, to_world.transposed()).normalized();
+    points.push_back((sphere.center + sphere.radius * local) * to_world);
   }
   return {points};
 }
@@ -113,7 +112,7 @@ OuterSide outer_side(const Disc& disc) {
 }
 
 Outline outline(const Disc& disc, const Imath::M44d& to_world, const DrawingPlane& /*plane*/) {
-  Imath::V3d side =
+  const Imath::V3d side =
       disc.normal.cross(std::abs(disc.normal.x) < 0.5 ? Imath::V3d(1, 0, 0) : Imath::V3d(0, 1, 0))
           .normalized();
   const Imath::V3d other = disc.normal.cross(side);

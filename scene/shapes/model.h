@@ -89,8 +89,9 @@ struct PlaneCoordinates {
   }
 };
 /// A direction under the linear part of a matrix for row vectors.
-[[nodiscard]] inline Imath::V3d moved_direction(const Imath::V3d& v, const Imath::M44d& by) {
-  Imath::V3d result;
+template <typename T>
+[[nodiscard]] Imath::Vec3<T> moved_direction(const Imath::Vec3<T>& v, const Imath::Matrix44<T>& by) {
+  Imath::Vec3<T> result;
   by.multDirMatrix(v, result);
   return result;
 }

@@ -165,9 +165,7 @@ auto visit_plain(const Visitor& visitor, const Shape& shape) {
 template <typename T>
 [[nodiscard]] BasicRay<T> to_prototype(const Placement& placement, const BasicRay<T>& ray) {
   const Imath::Matrix44<T> map(placement.to_prototype);
-  BasicRay<T> moved{ray.origin * map, {}, ray.t_max};
-  map.multDirMatrix(ray.direction, moved.direction);
-  return moved;
+  return {ray.origin * map, moved_direction(ray.direction, map), ray.t_max};
 }
 
 /// The ray, at its time, in the coordinates in which the scene file describes the shape, minus
@@ -186,9 +184,7 @@ template <typename T>
 /// the handedness of the map. Unit length.
 template <typename T>
 [[nodiscard]] Imath::Vec3<T> normal_to_world(const Placement& placement, const Imath::Vec3<T>& normal) {
-  Imath::Vec3<T> moved;
-  Imath::Matrix44<T>(placement.to_prototype).transposed().multDirMatrix(normal, moved);
-  return moved.normalized();
+  return moved_direction(normal, Imath::Matrix44<T>(placement.to_prototype).transposed()).normalized();
 }
 
 /// Nearest hit with an instance of a shape at t in (`t_min`, ray.t_max), in world coordinates. The placement
