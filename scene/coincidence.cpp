@@ -109,10 +109,14 @@ std::optional<Ellipsoid> ellipsoid_of(const Shape& shape) {
   return Ellipsoid{ball->center * to_world, ball->radius, to_world};
 }
 
+// Distance of a point from the plane of a face.
+double distance_off(const Face& plane, const V3d& point) {
+  return std::abs((point - plane.corners[0]).dot(plane.normal));
+}
+
 bool has_corner_in_plane(const Face& of, const Face& plane, double tolerance) {
-  return std::any_of(of.corners.begin(), of.corners.end(), [&](const V3d& corner) {
-    return std::abs((corner - plane.corners[0]).dot(plane.normal)) <= tolerance;
-  });
+  return std::ranges::any_of(of.corners,
+                             [&](const V3d& corner) { return distance_off(plane, corner) <= tolerance; });
 }
 
 // True if two parallel faces overlap by more than `min_overlap`: no line in their plane separates them.
@@ -144,9 +148,8 @@ bool coincide(const Face& a, const Face& b, double tolerance, double min_overlap
 
 // A triangle lies in the plane if all its corners do, a parallelogram if three corners do.
 bool is_in_plane(const Face& face, const Face& plane, double tolerance) {
-  return std::all_of(face.corners.begin(), face.corners.begin() + 3, [&](const V3d& corner) {
-    return std::abs((corner - plane.corners[0]).dot(plane.normal)) <= tolerance;
-  });
+  return std::all_of(face.corners.begin(), face.corners.begin() + 3,
+                     [&](const V3d& corner) { return distance_off(plane, corner) <= tolerance; });
 }
 
 bool lies_in(const Face& a, const Face& b, double tolerance) {
@@ -176,7 +179,7 @@ bool tangent(const Ellipsoid& ball, const Face& face, double tolerance) {
   const V3d side = ball.surface_offset(face.normal);
   const Box3d near = grown(face.box, std::sqrt(2 * side.length() * tolerance));
   return std::ranges::any_of(std::array{ball.center + side, ball.center - side}, [&](const V3d& point) {
-    return std::abs((point - face.corners[0]).dot(face.normal)) <= tolerance && near.intersects(point);
+    return distance_off(face, point) <= tolerance && near.intersects(point);
   });
 }
 

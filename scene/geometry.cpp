@@ -104,13 +104,23 @@ bool needs_double_precision(const TriangleSet& set, std::size_t shape,
   });
 }
 
-template <Triangulated S>
-TriangleSet with_normals(const S& shape) {
-  TriangleSet set = triangles_of(shape);
-  set.normals.reserve(set.triangles.size());
-  for (std::size_t i = 0; i < set.triangles.size(); ++i) set.normals.emplace_back(normal_at(shape, i));
-  return set;
-}
+// Makes Embree's representation of a shape that is no instance.
+struct Attacher {
+  bool with_normals;
+
+  template <typename S>
+  AttachedGeometry operator()(const S& shape) const {
+    if constexpr (Triangulated<S>) {
+      TriangleSet set = triangles_of(shape);
+      if (with_normals) set.normals.reserve(set.triangles.size());
+      if (with_normals)
+        for (std::size_t i = 0; i < set.triangles.size(); ++i) set.normals.emplace_back(normal_at(shape, i));
+      return set;
+    } else {
+      return shape;
+    }
+  }
+};
 
 BasicRay<double> exact(const Ray& ray) {
   return {Imath::V3d(ray.origin), Imath::V3d(ray.direction), static_cast<double>(ray.t_max), ray.time};
@@ -127,14 +137,7 @@ Geometry::Geometry(const std::vector<ShapeInstance>& shapes, const std::vector<M
     if (const auto* placed = std::get_if<PlacedShape>(&instance.shape))
       attached_.emplace_back(SceneInstance{build_prototype(placed->of), placed->at});
     else
-      visit_plain(
-          [this](const auto& s) {
-            if constexpr (Triangulated<std::decay_t<decltype(s)>>)
-              attached_.emplace_back(with_normals(s));
-            else
-              attached_.emplace_back(s);
-          },
-          instance.shape);
+      attached_.push_back(visit_plain(Attacher{true}, instance.shape));
   }
   FaceFinder faces;
   scene_ = new_scene();
@@ -197,14 +200,8 @@ void Geometry::attach(RTCSceneTy* scene, std::uint32_t index, RTCGeometryTy* geo
 const InstancedScene* Geometry::build_prototype(const std::shared_ptr<const Prototype>& prototype) {
   std::unique_ptr<InstancedScene>& built = prototypes_[prototype.get()];
   if (built) return built.get();
-  const auto without_normals = [](const auto& s) -> AttachedGeometry {
-    if constexpr (Triangulated<std::decay_t<decltype(s)>>)
-      return triangles_of(s);
-    else
-      return s;
-  };
   built = std::make_unique<InstancedScene>(
-      InstancedScene{prototype, std::visit(without_normals, prototype->shape), new_scene()});
+      InstancedScene{prototype, std::visit(Attacher{false}, prototype->shape), new_scene()});
   attach(built->scene.get(), 0, geometry_of(device_.get(), built->geometry));
   commit(built->scene.get());
   return built.get();

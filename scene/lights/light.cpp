@@ -24,16 +24,6 @@ Result answer(const Light& light, const Result& otherwise, const Question& quest
 
 }  // namespace
 
-std::optional<PolarisationState> polarised(const LightPolarisation& of, const Imath::V3f& travels) {
-  if (const auto* circular = std::get_if<CircularPolarisation>(&of.kind))
-    return PolarisationState{Basis<float>(travels).x, 0, 0, circular->right ? of.degree : -of.degree};
-  constexpr float kAlong = 1e-6F;  // below this length, the perpendicular component of the axis is rounding
-  const Imath::V3f& axis = std::get<LinearPolarisation>(of.kind).axis;
-  const Imath::V3f across = axis - travels * axis.dot(travels);
-  if (!(across.length() > kAlong)) return std::nullopt;
-  return PolarisationState{across.normalized(), of.degree, 0, 0};
-}
-
 void measure(Light& light, const Shapes& shapes) {
   std::visit(
       [&shapes](auto& model) {
@@ -129,7 +119,15 @@ bool emits_towards(const Light& light, const Imath::V3f& normal, const Imath::V3
 }
 
 std::optional<PolarisationState> polarisation_of(const Light& light, const Imath::V3f& travels) {
-  return light.polarisation ? polarised(*light.polarisation, travels) : std::nullopt;
+  if (!light.polarisation) return std::nullopt;
+  const auto& [degree, kind] = *light.polarisation;
+  if (const auto* circular = std::get_if<CircularPolarisation>(&kind))
+    return PolarisationState{Basis<float>(travels).x, 0, 0, circular->right ? degree : -degree};
+  constexpr float kAlong = 1e-6F;  // below this length, the perpendicular component of the axis is rounding
+  const Imath::V3f& axis = std::get<LinearPolarisation>(kind).axis;
+  const Imath::V3f across = axis - travels * axis.dot(travels);
+  if (!(across.length() > kAlong)) return std::nullopt;
+  return PolarisationState{across.normalized(), degree, 0, 0};
 }
 
 std::optional<LightSample> sample_light(const Light& light, const Shapes& shapes,

@@ -48,11 +48,6 @@ struct PolarisationState {
   float v = 0;
 };
 
-/// Polarisation state of light that propagates along the unit direction `travels`. Nothing if it is linear
-/// and its axis is parallel to that direction, where the state is undefined.
-[[nodiscard]] std::optional<PolarisationState> polarised(const LightPolarisation& of,
-                                                         const Imath::V3f& travels);
-
 /// A light: its model with its position, and its emission spectrum. The emission is
 /// - spectral radiance [W m^-2 sr^-1 nm^-1] for an area light, environment light or sun. For an environment
 ///   image it is the radiance of a texel (1, 1, 1);

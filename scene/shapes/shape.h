@@ -86,7 +86,6 @@ struct Prototype {
   PlainShape shape;
   Imath::Box3d bounds;
 };
-/// The prototype of a shape, with its bounding box.
 [[nodiscard]] std::shared_ptr<const Prototype> make_prototype(PlainShape shape);
 /// An invertible affine map between a prototype's coordinates and the world, for row vectors. It may mirror;
 /// normals stay outward. The maps of a moving shape are those of time 0, and `placement_at` gives the others.
