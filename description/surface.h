@@ -97,7 +97,7 @@ struct SurfaceMap {
   bool textured = false;        ///< True if texture coordinates must be preserved.
   bool emits = false;           ///< True if the front emits.
 };
-/// The surface at its new place, or its triangles there. After a reflection the front is the reflected front.
+/// The surface as mapped, or its triangles. After a reflection the front is the reflected front.
 /// Spheres stay as they are if reversed. Nothing if the map does not preserve the form, a texture or the
 /// emitting side.
 [[nodiscard]] std::optional<MovableSurface> moved(const Quad& quad, const SurfaceMap& by);

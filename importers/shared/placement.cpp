@@ -88,12 +88,12 @@ struct ShapeAppender {
 
   template <typename Surface>
   bool operator()(const Surface& surface) const {
-    const auto placed = spec::moved(
+    const auto result = spec::moved(
         surface, {m, uniform_scale(m), mirrors(m), shape.reversed, textured, shape.emission.has_value()});
-    if (!placed) return false;
+    if (!result) return false;
     if (std::is_same_v<Surface, spec::Sphere> && shape.reversed && shape.emission)
       importer.note(shape.where, "a sphere emits outwards: in the source renderer it emits inwards");
-    std::visit([this](const auto& at_place) { append(at_place); }, *placed);
+    std::visit([this](const auto& as_moved) { append(as_moved); }, *result);
     return true;
   }
   bool operator()(const MeshFileSurface& mesh) const {
