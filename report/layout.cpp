@@ -122,7 +122,7 @@ std::string shape_elements(const Scene& scene, const Projection& to) {
 std::string light_elements(const Scene& scene, const Projection& to) {
   std::string elements;
   for (const Light& light : scene.lights) {
-    if (light.is<AreaLight>() || light.at_infinity() || is_omitted(scene, light)) continue;
+    if (surface_of(light) || light.at_infinity() || is_omitted(scene, light)) continue;
     const V3d at = central_ray(scene, light)->origin;
     elements += svg_circle(to.x(at), to.y(at), 4, "class=\"lamp\" fill=\"#ffd040\" stroke=\"#b08000\"");
     elements += svg_text(to.x(at) + 7, to.y(at) - 5, light.name, "fill=\"#b08000\" font-size=\"10\"");

@@ -36,8 +36,7 @@ struct MeshFileSurface {
 /// A shape of the source scene.
 struct ImportedShape {
   /// The surface in its own coordinates, before `to_world`.
-  std::variant<spec::Sphere, spec::Disc, spec::Quad, spec::Cylinder, spec::InlineMesh, MeshFileSurface>
-      surface;
+  Joined<spec::MovableSurface, std::variant<MeshFileSurface>>::type surface;
   Imath::M44d to_world;   ///< Matrix to the written scene, or to the object that contains it.
   bool reversed = false;  ///< True if its front is the back of `surface`.
   /// Texture coordinates of a disc that is replaced by triangles. True: u is the distance from the center as
@@ -73,13 +72,7 @@ void append_shape(ImportedShape shape, ShapeOwner owner, std::vector<spec::Shape
 void append_instance(const std::string& object, const Imath::M44d& to_world, const SourcePosition& where,
                      SceneImporter& importer);
 
-/// The surface of revolution about z of a polyline of two or more points (r, z), r >= 0. The azimuth runs
-/// from 0 at +x over +y to `azimuth_deg`, in (0, 360], in facets of at most 5.625 degrees. Its front is along
-/// (increasing azimuth) x (along the line). Texture coordinates run from 0 to 1: u with the azimuth, v from
-/// point to point.
-[[nodiscard]] spec::InlineMesh swept(const std::vector<Imath::V2d>& line, double azimuth_deg);
-/// The part of a sphere around the origin with z between `low` and `high`, as triangles. The heights are
-/// clamped to [-radius, radius]. The azimuth is that of `swept`. The front is outside; v increases with z.
-[[nodiscard]] spec::InlineMesh swept_sphere(double radius, double low, double high, double azimuth_deg);
+using spec::swept;
+using spec::swept_sphere;
 
 }  // namespace abbe::importers
